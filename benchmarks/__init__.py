@@ -1,0 +1,1 @@
+"""Side-by-side timings, and the plain reference implementation that they are measured against."""

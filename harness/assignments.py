@@ -1,0 +1,112 @@
+"""Settings as a user writes them: `name=value unit`."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+
+from .description import Description, Value, Variable
+from .errors import UsageError
+from .units import UnitMismatchError
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
+_INTEGER_LIMIT = 2**31
+
+
+def start_values(assignments: Iterable[str], description: Description) -> dict[str, Value]:
+    """Values by name from assignments such as "tooth_slope_angle=95deg" or "drive_torque=2 N.mm".
+
+    A number without a unit is in the unit of the variable.
+
+    Raises:
+        UsageError: no `=`, unknown or unsettable variable, set twice, or a value that does not fit.
+    """
+    values: dict[str, Value] = {}
+    for assignment in assignments:
+        name, equals, text = assignment.partition("=")
+        name = name.strip()
+        if not equals:
+            raise UsageError(f"'{assignment}' is not a setting; write name=value, e.g. drive_torque='2 N.mm'.")
+        if name in values:
+            raise UsageError(f"'{name}' is set twice; set it once.")
+        values[name] = parse_value(text, settable_variable(name, description), description)
+    return values
+
+
+def settable_variable(name: str, description: Description) -> Variable:
+    """The input or parameter with this name.
+
+    Raises:
+        UsageError: unknown, or neither input nor parameter.
+    """
+    variable = description.variable(name)
+    if not variable.settable:
+        raise UsageError(
+            f"'{name}' is a variable of causality {variable.causality} and cannot be set; "
+            f"inputs and parameters can: {', '.join(v.name for v in description.of('input', 'parameter'))}."
+        )
+    return variable
+
+
+def parse_value(text: str, variable: Variable, description: Description) -> Value:
+    """The value that `text` gives to `variable`, in its unit.
+
+    Raises:
+        UsageError: wrong type, wrong unit, not finite, or outside the limits.
+    """
+    if variable.type == "String":
+        return text
+    value = _PARSERS[variable.type](text.strip(), variable, description)
+    _check_limits(value, text.strip(), variable)
+    return value
+
+
+def _real(text: str, variable: Variable, description: Description) -> float:
+    match = _NUMBER.fullmatch(text)
+    if match is None:
+        raise UsageError(f"{variable.name} = '{text}' is not a number{_with_unit(variable)}.")
+    value, unit = float(match[1]), match[2]
+    if unit and not variable.unit:
+        raise UsageError(f"{variable.name} = '{text}': the variable has no unit; give the number alone.")
+    if unit:
+        try:
+            value = description.units.convert(value, unit, variable.unit)
+        except UnitMismatchError as mismatch:
+            raise UsageError(f"{variable.name} = '{text}': {mismatch}.") from None
+    if not math.isfinite(value):
+        raise UsageError(f"{variable.name} = '{text}' is too large for a number; give a smaller one.")
+    return value
+
+
+def _integer(text: str, variable: Variable, _description: Description) -> int:
+    if not re.fullmatch(r"[+-]?\d+", text):
+        raise UsageError(f"{variable.name} = '{text}' is not a whole number; give one without point or unit.")
+    value = int(text)
+    if abs(value) >= _INTEGER_LIMIT:
+        raise UsageError(f"{variable.name} = '{text}' does not fit in 32 bits; give a smaller number.")
+    return value
+
+
+def _boolean(text: str, variable: Variable, _description: Description) -> bool:
+    if text.lower() not in _BOOLEANS:
+        raise UsageError(f"{variable.name} = '{text}' is not a Boolean; give true or false.")
+    return _BOOLEANS[text.lower()]
+
+
+_PARSERS = {"Real": _real, "Integer": _integer, "Boolean": _boolean}
+
+
+def _check_limits(value: Value, text: str, variable: Variable) -> None:
+    if isinstance(value, str | bool):
+        return
+    unit = f" {variable.unit}" if variable.unit else ""
+    if variable.minimum is not None and value < variable.minimum:
+        raise UsageError(f"{variable.name} = '{text}' is below its limit; give at least {variable.minimum:g}{unit}.")
+    if variable.maximum is not None and value > variable.maximum:
+        raise UsageError(f"{variable.name} = '{text}' is above its limit; give at most {variable.maximum:g}{unit}.")
+
+
+def _with_unit(variable: Variable) -> str:
+    return f", with or without a unit (e.g. '1.5 {variable.unit}')" if variable.unit else ""

@@ -1,0 +1,71 @@
+"""Verdicts: what should hold, whether it does, and the numbers behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import pandas as pd
+
+from .master import Ending, Outcome
+
+#: Largest accepted residual of the energy balance, relative to the energy that was in play.
+_ENERGY_TOLERANCE = 1e-6
+
+_ENERGIES = ("kinetic_energy", "spring_energy", "work_done", "energy_lost")
+
+
+@dataclass(frozen=True)
+class Check:
+    """One verdict.
+
+    Attributes:
+        claim: what should hold.
+        passed: whether it does.
+        evidence: the numbers behind it.
+    """
+
+    claim: str
+    passed: bool
+    evidence: str
+
+
+def all_passed(checks: Iterable[Check]) -> bool:
+    """Whether every check holds."""
+    return all(check.passed for check in checks)
+
+
+def energy_residual(results: pd.DataFrame) -> pd.Series[float] | None:
+    """Kinetic + spring - their initial sum - work done + energy lost [J]: zero but for rounding and tolerance.
+
+    None when the FMU does not report all four energies.
+    """
+    if results.empty or not set(_ENERGIES) <= set(results.columns):
+        return None
+    stored = results["kinetic_energy"] + results["spring_energy"]
+    residual: pd.Series[float] = stored - stored.iloc[0] - results["work_done"] + results["energy_lost"]
+    return residual
+
+
+def run_checks(
+    outcome: Outcome, stop_time: float, results: pd.DataFrame, impacts: pd.DataFrame, lost: int
+) -> tuple[Check, ...]:
+    """What every run is checked for."""
+    checks = [
+        Check(
+            "The run reaches its stop time",
+            outcome.ending is Ending.COMPLETED,
+            f"{outcome.final_time:.9g} of {stop_time:.9g} s in {outcome.steps} steps",
+        )
+    ]
+    if "impact_count" in results.columns and not results.empty:
+        counted = int(results["impact_count"].iloc[-1])
+        evidence = f"{len(impacts)} collected, {counted} counted by the FMU, {lost} lost"
+        checks.append(Check("Every impact is collected", lost == 0 and counted == len(impacts), evidence))
+    residual = energy_residual(results)
+    if residual is not None:
+        scale = float(results[list(_ENERGIES)].abs().max().max())
+        worst = float(residual.abs().max())
+        evidence = f"largest residual {worst:.2e} J of {scale:.3g} J in play; limit {_ENERGY_TOLERANCE:g} of it"
+        checks.append(Check("The energy balance closes", worst <= _ENERGY_TOLERANCE * scale, evidence))
+    return tuple(checks)

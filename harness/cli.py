@@ -1,0 +1,172 @@
+"""The command `mechanism-fmu`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+# Everything else is imported inside the commands: --help must not wait for pandas and fmpy.
+main = typer.Typer(
+    name="mechanism-fmu",
+    help="Build planar mechanisms with impacts as FMUs, run them, and see the stress that every impact leaves.",
+    epilog="Start with: mechanism-fmu demo",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="markdown",
+    pretty_exceptions_enable=False,
+)
+
+FmuPath = Annotated[Path, typer.Argument(metavar="FMU", help="FMU file, e.g. build/Ratchet.fmu", show_default=False)]
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from mechanism_fmu import __version__
+
+        typer.echo(f"mechanism-fmu {__version__}")
+        raise typer.Exit
+
+
+@main.callback()
+def common(
+    version: Annotated[
+        bool, typer.Option("--version", help="Show the version and exit.", callback=_show_version, is_eager=True)
+    ] = False,
+) -> None:
+    """Options of all commands."""
+
+
+@main.command()
+def demo(
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for FMU, results and report.")] = Path("demo"),
+) -> None:
+    """Build the ratchet of the paper, run its base case, and write results and a report.
+
+    The closing lines compare the first impact with reference values. The first run compiles the engine and takes
+    some seconds longer.
+    """
+    from .commands import run_demo
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_demo(output))
+
+
+@main.command()
+def run(
+    fmu: FmuPath,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE[UNIT]",
+            help="Set an input or parameter, with a unit if you like; repeat it for more.",
+        ),
+    ] = None,
+    stop_time: Annotated[
+        float | None, typer.Option(metavar="S", help="End of the run [s].", show_default="the FMU's default")
+    ] = None,
+    step: Annotated[
+        float | None, typer.Option(metavar="S", help="Communication step [s].", show_default="the FMU's default")
+    ] = None,
+    input_file: Annotated[
+        Path | None,
+        typer.Option(
+            "--input",
+            metavar="FILE.csv",
+            help="Input signals: a column `time [s]`, then one for each input, e.g. `drive_torque [N.mm]`; "
+            "interpolated linearly, constant within a step.",
+        ),
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.")] = Path(
+        "results"
+    ),
+) -> None:
+    """Run an FMU and write results.csv, impacts.csv, summary.json and report.html.
+
+    Try:
+
+        mechanism-fmu run build/Ratchet.fmu -o results
+
+        mechanism-fmu run build/Ratchet.fmu --set tooth_slope_angle=95deg --set tooth_count=20
+
+        mechanism-fmu run build/Ratchet.fmu --set "drive_torque=2 N.mm" --stop-time 3 --step 1e-4
+
+        mechanism-fmu run build/Ratchet.fmu --input torque.csv
+
+    Ctrl-C ends the run early and keeps what was recorded.
+
+    Exit code: 0 all well, 1 the run or a verdict failed, 2 wrong use, 130 interrupted.
+    """
+    from .commands import run_fmu
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_fmu(fmu, settings or [], stop_time, step, input_file, output))
+
+
+@main.command()
+def validate(fmu: FmuPath) -> None:
+    """Check an FMU: the file, its default values, a run, saving and restoring of its state, reset.
+
+    Exit code: 0 all well, 1 problems found, 2 wrong use.
+    """
+    from .commands import validate_fmu
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(validate_fmu(fmu))
+
+
+study = typer.Typer(help="Parameter studies with one FMU.", no_args_is_help=True, rich_markup_mode="markdown")
+main.add_typer(study, name="study")
+
+
+@study.command("ratchet")
+def study_ratchet(
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the files.")] = Path(
+        "study"
+    ),
+    fmu: Annotated[
+        Path | None,
+        typer.Option(metavar="FMU", help="Ratchet FMU to use.", show_default="one is built in the folder"),
+    ] = None,
+) -> None:
+    """The paper's table: 10 to 25 teeth, slope angle 85 to 105 deg, all through the same FMU.
+
+    Prints impact time, wheel speed and largest stress of every wheel, checks the paper's claims about them, and
+    writes study.csv, study.json and study.html with two charts.
+
+    Exit code: 0 all claims hold, 1 one does not, 2 wrong use.
+    """
+    from .commands import run_study
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_study(output, fmu))
+
+
+@study.callback()
+def studies() -> None:
+    """Parameter studies with one FMU."""
+
+
+@main.command()
+def build(
+    model: Annotated[str | None, typer.Argument(help="Name of a model, e.g. ratchet.", show_default=False)] = None,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the FMU.", file_okay=False)
+    ] = Path("build"),
+    show_list: Annotated[bool, typer.Option("--list", help="List the models and stop.")] = False,
+) -> None:
+    """Build the FMU of a model.
+
+    Try:
+
+        mechanism-fmu build ratchet -o build
+    """
+    import build_fmu
+
+    build_fmu.build(model, output, show_list)

@@ -1,0 +1,65 @@
+"""What is said at the end of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from .checks import Check, all_passed
+from .experiment import Run
+from .master import Ending
+from .numbers import shown
+from .results import final_values
+from .terminal import FAILED, INTERRUPTED, console, show_checks, show_error, show_files, show_table
+
+#: Columns of the impacts that fit a terminal, with their headings; the file has all.
+_IMPACT_COLUMNS = {
+    "time": "t [s]",
+    "velocity": "v_I [m/s]",
+    "closing_speed": "closing speed [m/s]",
+    "impulse": "impulse [N.s]",
+    "wheel_speed": "omega [rad/s]",
+    "stress_max": "sigma_max [Pa]",
+}
+_MOST_IMPACTS = 20
+
+
+def close_run(run: Run, files: Sequence[Path], more_checks: Sequence[Check] = ()) -> int:
+    """Show how a run ended, and return the exit code."""
+    _show_final_values(run)
+    _show_impacts(run)
+    checks = [*run.checks, *more_checks]
+    show_checks(checks)
+    show_files(files)
+    reached = f"{run.outcome.final_time:.9g} s of {run.experiment.stop_time:.9g} s"
+    if run.outcome.ending is Ending.FAILED:
+        show_error(f"{run.outcome.error} The files hold what was recorded up to {reached}.")
+        return FAILED
+    if run.outcome.ending is Ending.INTERRUPTED:
+        console.print(f"[yellow]Interrupted[/]: the files hold what was recorded up to {reached}.")
+        return INTERRUPTED
+    return 0 if all_passed(checks) else FAILED
+
+
+def _show_final_values(run: Run) -> None:
+    values = {name: v for name, v in final_values(run).items() if name != "time" and not name.startswith("impact")}
+    if values:
+        rows = [(name, shown(value, name, run.description)) for name, value in values.items()]
+        show_table(f"Values at t = {run.outcome.final_time:.9g} s", ["variable", "value"], rows)
+
+
+def _show_impacts(run: Run) -> None:
+    if run.impacts.empty:
+        console.print("No impacts.")
+        return
+    columns = [name for name in _IMPACT_COLUMNS if name in run.impacts.columns]
+    shown_impacts = run.impacts[columns].head(_MOST_IMPACTS)
+    rows = [
+        [f"{time:.9g}", *(f"{value:.6g}" for value in rest)] for time, *rest in shown_impacts.itertuples(index=False)
+    ]
+    title = f"Impacts: {len(run.impacts)}" + (
+        f", the first {_MOST_IMPACTS}" if len(run.impacts) > _MOST_IMPACTS else ""
+    )
+    show_table(title, [_IMPACT_COLUMNS[name] for name in columns], rows, numeric=range(len(columns)))
+    if run.tooth is None:
+        console.print("[dim]No stress: the FMU does not describe a tooth (tooth_length, tooth_apex_angle).[/]")

@@ -1,0 +1,124 @@
+"""What the commands do; each returns its exit code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.markup import escape
+
+from .assignments import start_values
+from .checks import Check, all_passed
+from .closing import close_run
+from .experiment import Experiment, Run, default_times, perform
+from .fmu import Fmu, open_fmu
+from .interrupt import interruption
+from .paper import base_case_checks
+from .results import prepare_folder, write_run
+from .terminal import FAILED, RunDisplay, console, show_checks, show_files, show_table, show_warning
+
+#: The base case of the paper is the FMU's default; the pawl strikes at 0.94 s and swings back at 4.9 s.
+_DEMO = Experiment(stop_time=6.0, step=1e-3)
+
+
+def run_demo(folder: Path) -> int:
+    """Build the ratchet, run the paper's base case, compare it with reference values, write everything."""
+    prepare_folder(folder)
+    path = _built_ratchet(folder)
+    with open_fmu(path) as fmu:
+        run = _performed(fmu, _DEMO)
+    return _written(run, folder, base_case_checks(run.impacts))
+
+
+def run_fmu(
+    path: Path,
+    settings: Sequence[str],
+    stop_time: float | None,
+    step: float | None,
+    input_file: Path | None,
+    folder: Path,
+) -> int:
+    """Run an FMU and write what comes of it."""
+    with open_fmu(path) as fmu:
+        values = start_values(settings, fmu.description)
+        experiment = Experiment(*default_times(fmu.description, stop_time, step), values, input_file)
+        prepare_folder(folder)
+        run = _performed(fmu, experiment)
+    return _written(run, folder)
+
+
+def validate_fmu(path: Path) -> int:
+    """Show one verdict after the other."""
+    from .validate import validate
+
+    passed = True
+    with open_fmu(path) as fmu:
+        for check in validate(fmu):
+            show_checks([check])
+            passed = passed and check.passed
+    console.print(
+        "The FMU keeps what it promises." if passed else "[bold red]The FMU has the problems marked above.[/]"
+    )
+    return 0 if passed else FAILED
+
+
+def run_study(folder: Path, path: Path | None) -> int:
+    """Run the paper's study and write it."""
+    from .report.study_report import write_study_report
+    from .study import ratchet_study, write_study
+
+    prepare_folder(folder)
+    path = _built_ratchet(folder) if path is None else path
+    with open_fmu(path) as fmu, console.status(f"Loading {path.name} ...") as status:
+        study = ratchet_study(fmu, lambda number, of: status.update(f"{number} of {of} wheels"))
+    rows = [
+        [
+            str(wheel.tooth_count),
+            str(wheel.slope_angle_deg),
+            f"{wheel.impact_time:.10f}",
+            f"{wheel.wheel_speed:.10f}",
+            f"{wheel.impact_velocity:.6e}",
+            f"{wheel.stress_max:.1f}",
+        ]
+        for wheel in study.wheels
+    ]
+    headings = ["nt", "beta_0 [deg]", "t_I [s]", "omega(t_I+) [rad/s]", "v_I [m/s]", "sigma_max [Pa]"]
+    show_table("First impact of each wheel", headings, rows, numeric=range(len(headings)))
+    for warning in study.warnings:
+        console.print(f"[yellow]Warning[/]: {escape(warning)}", soft_wrap=True)
+    show_checks(study.checks)
+    show_files([*write_study(study, folder), write_study_report(study, folder / "study.html")])
+    return 0 if all_passed(study.checks) else FAILED
+
+
+def _built_ratchet(folder: Path) -> Path:
+    """Build the ratchet into `folder`."""
+    import build_fmu
+
+    build_fmu.build("ratchet", folder)
+    return folder / "Ratchet.fmu"
+
+
+def _performed(fmu: Fmu, experiment: Experiment) -> Run:
+    """Perform an experiment under the eyes of the user.
+
+    Raises:
+        FmuError: the FMU failed before there was anything to record.
+    """
+    loading = f"Loading {fmu.path.name} (its first start compiles the engine) ..."
+    with (
+        RunDisplay(experiment.stop_time, loading) as display,
+        interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop_requested,
+    ):
+        run = perform(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop_requested)
+    if run.outcome.error is not None and run.results.empty:
+        raise run.outcome.error
+    return run
+
+
+def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
+    """Write the files of a run and close it in the terminal."""
+    from .report.run_report import write_report
+
+    files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]
+    return close_run(run, files, more_checks)

@@ -1,0 +1,168 @@
+"""One experiment with one FMU: settings in, a run with tables and verdicts out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pandas as pd
+
+from mechanism_fmu.stress import WedgeTooth
+
+from .checks import Check, run_checks
+from .clock import TimeGrid, seconds
+from .description import Description, Value
+from .errors import UsageError
+from .fmu import Fmu, MessageHandler, discard_message
+from .impacts import ImpactCollector
+from .inputs import check_no_overlap, read_inputs
+from .master import Outcome, never, run_fixed_step
+from .messages import LogMessage
+from .observers import Observer
+from .recorder import Recorder, recorded_variables
+from .slave import Slave
+from .tooth_stress import STRESS_UNITS, tooth_of, with_stress
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What to do with an FMU.
+
+    Attributes:
+        stop_time: [s].
+        step: communication step [s].
+        start_values: of inputs and parameters by name, in the units of the variables.
+        input_file: table of input signals (`inputs.read_inputs`); None leaves inputs at their start values.
+    """
+
+    stop_time: float
+    step: float
+    start_values: Mapping[str, Value] = field(default_factory=dict)
+    input_file: Path | None = None
+
+
+@dataclass(frozen=True)
+class Run:
+    """What came of an experiment.
+
+    Attributes:
+        fmu: path of the FMU file.
+        description: of the FMU.
+        experiment: what was asked.
+        outcome: how far it came.
+        results: recorded variables, a row for each communication point (`recorder.Recorder`).
+        impacts: a row for each impact, with the stress it leaves when the FMU describes a tooth.
+        impacts_lost: impacts that the FMU could not report.
+        parameters: parameters and calculated parameters after the initialization.
+        messages: everything the FMU said.
+        tooth: what the impacts strike; None when the FMU does not describe one.
+        units: by name, for "results", "impacts" and "parameters" each ("1" when dimensionless).
+        checks: verdicts.
+        wall_time: of the simulation [s].
+    """
+
+    fmu: Path
+    description: Description
+    experiment: Experiment
+    outcome: Outcome
+    results: pd.DataFrame
+    impacts: pd.DataFrame
+    impacts_lost: int
+    parameters: Mapping[str, Value]
+    messages: Sequence[LogMessage]
+    tooth: WedgeTooth | None
+    units: Mapping[str, Mapping[str, str]]
+    checks: Sequence[Check]
+    wall_time: float
+
+
+class _ParameterReader:
+    """An observer that reads parameters and calculated parameters once."""
+
+    def __init__(self, description: Description) -> None:
+        self.names = [variable.name for variable in description.of("parameter", "calculatedParameter")]
+        self.values: dict[str, Value] = {}
+
+    def started(self, slave: Slave, time: float) -> None:
+        self.values = dict(zip(self.names, slave.get(self.names), strict=True))
+
+    def stepped(self, slave: Slave, time: float) -> None:
+        pass
+
+
+def perform(
+    fmu: Fmu,
+    experiment: Experiment,
+    *,
+    on_message: MessageHandler = discard_message,
+    observers: Sequence[Observer] = (),
+    stop_requested: Callable[[], bool] = never,
+) -> Run:
+    """Perform an experiment with a new instance of `fmu`.
+
+    An FMU that fails on the way gives a run whose outcome says so, with everything up to there.
+
+    Raises:
+        UsageError: a setting that cannot be used.
+        FmuError: the FMU cannot even be instantiated.
+    """
+    grid = TimeGrid.of(experiment.stop_time, experiment.step)
+    inputs = None
+    if experiment.input_file is not None:
+        inputs = read_inputs(experiment.input_file, fmu.description, seconds(grid.start), seconds(grid.stop))
+        check_no_overlap(inputs, experiment.start_values)
+    recorder = Recorder(recorded_variables(fmu.description))
+    collector = ImpactCollector(fmu.description)
+    reader = _ParameterReader(fmu.description)
+    with fmu.instantiate(fmu.description.model, on_message) as slave:
+        began = time.perf_counter()
+        outcome = run_fixed_step(
+            slave, grid, experiment.start_values, [reader, recorder, collector, *observers], inputs, stop_requested
+        )
+        wall_time = time.perf_counter() - began
+        messages = tuple(slave.messages)
+    tooth = tooth_of(reader.values)
+    impacts = collector.table() if tooth is None else with_stress(collector.table(), tooth)
+    results = recorder.table()
+    return Run(
+        fmu=fmu.path,
+        description=fmu.description,
+        experiment=experiment,
+        outcome=outcome,
+        results=results,
+        impacts=impacts,
+        impacts_lost=collector.lost,
+        parameters=reader.values,
+        messages=messages,
+        tooth=tooth,
+        units=_units(fmu.description, collector, list(impacts.columns)),
+        checks=run_checks(outcome, seconds(grid.stop), results, impacts, collector.lost),
+        wall_time=wall_time,
+    )
+
+
+def default_times(description: Description, stop_time: float | None, step: float | None) -> tuple[float, float]:
+    """Stop time and step [s], from the FMU's default experiment where they are None.
+
+    Raises:
+        UsageError: the FMU gives no default.
+    """
+    stop_time = description.stop_time if stop_time is None else stop_time
+    step = description.step if step is None else step
+    if stop_time is None or step is None:
+        missing = "--stop-time" if stop_time is None else "--step"
+        raise UsageError(f"{description.model} has no default experiment to take it from; give {missing}.")
+    return stop_time, step
+
+
+def _units(
+    description: Description, collector: ImpactCollector, impact_columns: list[str]
+) -> dict[str, dict[str, str]]:
+    impact_units = {name: variable.unit or "1" for name, variable in collector.fields.items()} | STRESS_UNITS
+    return {
+        "results": {"time": "s"} | {v.name: v.unit or "1" for v in recorded_variables(description)},
+        "impacts": {name: impact_units[name] for name in impact_columns},
+        "parameters": {v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter")},
+    }

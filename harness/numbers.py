@@ -1,0 +1,32 @@
+"""Numbers as an engineer reads them."""
+
+from __future__ import annotations
+
+import math
+
+from .description import Description, Value
+
+_PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+
+
+def engineering(value: float, unit: str, digits: int = 4) -> str:
+    """A number with its unit and an SI prefix: 15547 and "Pa" give "15.55 kPa"."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g} {unit}"
+    rounded = float(f"{value:.{digits - 1}e}")
+    power = min(max(3 * math.floor(math.log10(abs(rounded)) / 3), min(_PREFIXES)), max(_PREFIXES))
+    scaled = rounded / 10.0**power
+    decimals = max(digits - 1 - math.floor(math.log10(abs(scaled))), 0)
+    return f"{scaled:.{decimals}f} {_PREFIXES[power]}{unit}"
+
+
+def shown(value: Value, name: str, description: Description) -> str:
+    """The value of a variable in its unit, and in its display unit when it has one."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if not isinstance(value, float):
+        return str(value)
+    variable = description.variable(name)
+    text = f"{value:.9g}" if variable.unit in ("", "1") else f"{value:.9g} {variable.unit}"
+    displayed = description.units.to_display(value, variable.unit, variable.display_unit)
+    return text if displayed is None else f"{text} ({displayed:.6g} {variable.display_unit})"

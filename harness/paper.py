@@ -1,0 +1,84 @@
+"""The ratchet of the paper: its base case, its parameter study, and what it claims.
+
+Source: Pennestrì, Valentini, Vita, "Dynamic Analysis of Intermittent-Motion Mechanisms Through the Combined Use of
+Gauss Principle and Logical Functions", section 5.1. Its figures with numbers are lost; the reference numbers are what
+two independent implementations of its text and tables agree on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+import pandas as pd
+
+from .checks import Check
+from .wheels import Wheel
+
+TOOTH_COUNTS = (10, 15, 20, 25)
+SLOPE_ANGLES_DEG = (85, 90, 95, 100, 105)
+
+#: First impact of the base case: quantity, column of the impacts, unit, reference, relative tolerance.
+_BASE_CASE = (
+    ("t_I", "time", "s", 0.9399211769, 1e-7),
+    ("omega(t_I+)", "wheel_speed", "rad/s", 0.0227388573, 1e-7),
+    ("sigma_max", "stress_max", "Pa", 15547.0, 1e-4),
+)
+
+#: "About 40 % of the length of the tooth from the fixed end."
+_PLACE_OF_MAXIMUM = 0.40
+_PLACE_TOLERANCE = 0.02
+
+
+def base_case_checks(impacts: pd.DataFrame) -> tuple[Check, ...]:
+    """Whether the first impact of the base case has the reference values."""
+    if impacts.empty:
+        return (Check("The pawl strikes the tooth face", False, "no impact"),)
+    return tuple(
+        _agreement(name, unit, float(impacts[column].iloc[0]), reference, tolerance)
+        for name, column, unit, reference, tolerance in _BASE_CASE
+    )
+
+
+def _agreement(name: str, unit: str, value: float, reference: float, tolerance: float) -> Check:
+    deviation = abs(value - reference) / reference
+    evidence = f"{value:.10g} {unit}, reference {reference:.10g} {unit}, relative deviation {deviation:.1e}"
+    return Check(f"{name} agrees with the reference", deviation <= tolerance, f"{evidence}; limit {tolerance:g}")
+
+
+def study_checks(wheels: Sequence[Wheel]) -> tuple[Check, ...]:
+    """The three claims of the paper about its table."""
+    farthest = max(wheels, key=lambda wheel: abs(wheel.stress_position - _PLACE_OF_MAXIMUM))
+    falls = _steps(wheels, same=lambda wheel: wheel.slope_angle_deg, along=lambda wheel: wheel.tooth_count)
+    rises = _steps(wheels, same=lambda wheel: wheel.tooth_count, along=lambda wheel: wheel.slope_angle_deg)
+    least_fall, after_fall = max(falls, key=lambda step: step[0])
+    least_rise, after_rise = min(rises, key=lambda step: step[0])
+    return (
+        Check(
+            "The maximum stress lies near 40 % of the length of the tooth",
+            abs(farthest.stress_position - _PLACE_OF_MAXIMUM) <= _PLACE_TOLERANCE,
+            f"farthest at x/l = {farthest.stress_position:.4f} ({farthest}); "
+            f"limit {_PLACE_OF_MAXIMUM:g} ± {_PLACE_TOLERANCE:g}",
+        ),
+        Check(
+            "The maximum stress falls with the number of teeth",
+            least_fall < 0.0,
+            f"smallest fall from one number to the next {-least_fall:.1%} (to {after_fall})",
+        ),
+        Check(
+            "The maximum stress rises with the slope angle",
+            least_rise > 0.0,
+            f"smallest rise from one angle to the next {least_rise:.1%} (to {after_rise})",
+        ),
+    )
+
+
+def _steps(
+    wheels: Sequence[Wheel], same: Callable[[Wheel], int], along: Callable[[Wheel], int]
+) -> list[tuple[float, Wheel]]:
+    """Relative change of the stress from one wheel to the next, and that next one, for each group of `same`."""
+    return [
+        (after.stress_max / before.stress_max - 1.0, after)
+        for group in sorted({same(wheel) for wheel in wheels})
+        for before, after in pairwise(sorted((w for w in wheels if same(w) == group), key=along))
+    ]

@@ -1,0 +1,46 @@
+"""Recording of variables at every communication point."""
+
+from __future__ import annotations
+
+from array import array
+
+import numpy as np
+import pandas as pd
+
+from .description import Description, Variable
+from .slave import Slave
+
+_DTYPES = {"Real": "float64", "Integer": "int64", "Boolean": "bool"}
+
+
+def recorded_variables(description: Description) -> list[Variable]:
+    """All inputs and outputs that are numbers, without arrays: the buffered impacts have their own table."""
+    return [
+        variable
+        for variable in description.of("input", "output")
+        if variable.type in _DTYPES and "[" not in variable.name
+    ]
+
+
+class Recorder:
+    """An observer that keeps variables at every communication point, 8 bytes each."""
+
+    def __init__(self, variables: list[Variable]) -> None:
+        self._variables = variables
+        self._names = [variable.name for variable in variables]
+        self._numbers = array("d")
+
+    def started(self, slave: Slave, time: float) -> None:
+        """Keep the initial values."""
+        self.stepped(slave, time)
+
+    def stepped(self, slave: Slave, time: float) -> None:
+        """Keep the values at the end of a step."""
+        self._numbers.append(time)
+        self._numbers.extend(float(value) for value in slave.get(self._names))
+
+    def table(self) -> pd.DataFrame:
+        """One row for each communication point: `time` [s], then the variables by name, in their units."""
+        numbers = np.array(self._numbers).reshape(-1, 1 + len(self._names))
+        table = pd.DataFrame(numbers, columns=["time", *self._names])
+        return table.astype({variable.name: _DTYPES[variable.type] for variable in self._variables})

@@ -1,0 +1,116 @@
+"""Charts of a run over time: one row for each quantity, with a common time axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+import plotly.graph_objects as go
+from plotly.subplots import make_subplots
+
+from ..checks import energy_residual
+from ..description import Variable
+from ..experiment import Run
+from .style import COLOURS, IMPACT_COLOUR, layout
+from .thin import thin
+
+_QUANTITIES = {
+    "rad": "Angles",
+    "rad/s": "Speeds",
+    "m": "Lengths",
+    "m/s": "Speeds",
+    "N": "Forces",
+    "N.m": "Torques",
+    "J": "Energies",
+}
+
+_ROW_HEIGHT = 215
+#: More vertical lines than this hide the curves.
+_MOST_MARKS = 150
+
+
+@dataclass(frozen=True)
+class _Row:
+    """Curves of one quantity: (name, values)."""
+
+    title: str
+    curves: list[tuple[str, pd.Series[float]]]
+
+
+def motion_chart(run: Run) -> go.Figure:
+    """All continuous outputs, the energy balance, and the inputs that vary, with every impact marked."""
+    rows = _rows(run)
+    figure = make_subplots(rows=len(rows), shared_xaxes=True, vertical_spacing=0.035)
+    time = run.results["time"].to_numpy()
+    for number, row in enumerate(rows, start=1):
+        legend = "legend" if number == 1 else f"legend{number}"
+        for i, (name, values) in enumerate(row.curves):
+            x, y = thin(time, values.to_numpy(dtype=np.float64))
+            line = {"width": 1.8, "color": COLOURS[i % len(COLOURS)]}
+            figure.add_trace(go.Scatter(x=x, y=y, name=name, mode="lines", line=line, legend=legend), row=number, col=1)
+        top = figure.layout[f"yaxis{number if number > 1 else ''}"].domain[1]
+        figure.update_layout({legend: {"x": 1.01, "y": top, "yanchor": "top", "xanchor": "left"}})
+        figure.update_yaxes(title_text=row.title, exponentformat="power", title_standoff=8, row=number, col=1)
+    _mark_impacts(figure, run)
+    figure.update_xaxes(title_text="time [s]", row=len(rows), col=1)
+    figure.update_layout(layout(height=_ROW_HEIGHT * len(rows) + 90, hovermode="x unified"))
+    return figure
+
+
+def _rows(run: Run) -> list[_Row]:
+    outputs = [v for v in run.description.of("output") if v.continuous and _is_motion(v, run)]
+    rows = [
+        _quantity(unit, [v for v in outputs if v.unit == unit], run) for unit in dict.fromkeys(v.unit for v in outputs)
+    ]
+    residual = energy_residual(run.results)
+    if residual is not None:
+        rows.append(_Row("Energy balance [J]", [("kinetic + spring<br>− initial − work<br>+ lost", residual)]))
+    varying = [v for v in run.description.of("input") if v.name in run.results and run.results[v.name].nunique() > 1]
+    for unit in dict.fromkeys(v.unit for v in varying):
+        row = _quantity(unit, [v for v in varying if v.unit == unit], run)
+        rows.append(_Row(f"Input {row.title[0].lower()}{row.title[1:]}", row.curves))
+    return rows
+
+
+def _is_motion(variable: Variable, run: Run) -> bool:
+    """Whether it belongs in the chart: fields of the last impact have their own table."""
+    return variable.name in run.results and not variable.name.startswith("impact")
+
+
+def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
+    """The curves of a quantity, in the display unit of its first variable.
+
+    Angles count from their start: bodies that point in different directions would leave each other no room.
+    """
+    known = run.description.units.displayed.get(unit, {})
+    shown = variables[0].display_unit if variables[0].display_unit in known else ""
+    factor, offset = known.get(shown, (1.0, 0.0))
+    curves = [(variable.name, factor * run.results[variable.name] + offset) for variable in variables]
+    title = f"{_QUANTITIES.get(unit, 'Values')} [{shown or unit or '1'}]"
+    if unit == "rad":
+        curves = [(f"{name} − {values.iloc[0]:.5g}", values - values.iloc[0]) for name, values in curves]
+        title = title.replace("Angles", "Angles from start")
+    return _Row(title, curves)
+
+
+def _mark_impacts(figure: go.Figure, run: Run) -> None:
+    if run.impacts.empty:
+        return
+    times = run.impacts["time"]
+    if len(times) > _MOST_MARKS and "velocity" in run.impacts:
+        times = times[run.impacts["velocity"].abs().nlargest(_MOST_MARKS).index]
+    lines = [
+        {
+            "type": "line",
+            "x0": instant,
+            "x1": instant,
+            "xref": "x",
+            "y0": 0,
+            "y1": 1,
+            "yref": "paper",
+            "line": {"color": IMPACT_COLOUR, "width": 1, "dash": "dot"},
+        }
+        for instant in times
+    ]
+    figure.update_layout(shapes=lines)

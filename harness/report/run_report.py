@@ -1,0 +1,125 @@
+"""report.html of one run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..checks import Check
+from ..description import Value
+from ..experiment import Run
+from ..master import Ending
+from ..numbers import engineering, shown
+from ..results import write_text
+from ..tooth_stress import stress_field
+from .motion import motion_chart
+from .page import cards, chart, checks_list, page, section, table
+from .stress import stress_chart
+
+#: A longer table is in impacts.csv.
+_MOST_IMPACTS = 100
+
+
+def write_report(run: Run, path: Path, more_checks: Sequence[Check] = ()) -> Path:
+    """Write the report of a run as one file that works offline.
+
+    Raises:
+        UsageError: the disk refuses.
+    """
+    return write_text(path, lambda file: file.write(run_report(run, more_checks)))
+
+
+def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
+    """The report as HTML; `more_checks` join those of the run."""
+    description, experiment = run.description, run.experiment
+    subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
+    body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
+    if not run.results.empty:
+        note = "Dotted red lines mark impacts. Drag to zoom, double-click to return."
+        body.append(section("Motion", chart(motion_chart(run)), note=note))
+    body += [_stress(run), _impacts(run), _parameters(run), _messages(run)]
+    return page(description.model, subtitle, [part for part in body if part])
+
+
+def _banner(run: Run) -> str:
+    if run.outcome.ending is Ending.COMPLETED:
+        return ""
+    reason = str(run.outcome.error) if run.outcome.error else "It was interrupted by the user."
+    heading = f"This run ended early, at {run.outcome.final_time:.9g} s"
+    return section(heading, note=reason, css_class="banner")
+
+
+def _key_figures(run: Run) -> list[tuple[str, str]]:
+    figures = [("impacts", str(len(run.impacts)))]
+    if run.impacts.empty:
+        return figures
+    figures.append(("first impact", f"{run.impacts['time'].iloc[0]:.7g} s"))
+    if "velocity" in run.impacts:
+        figures.append(("largest impact velocity", engineering(float(run.impacts["velocity"].abs().max()), "m/s")))
+    if "stress_max" in run.impacts:
+        figures.append(("largest bending stress", engineering(float(run.impacts["stress_max"].max()), "Pa")))
+    return figures
+
+
+def _stress(run: Run) -> str:
+    if run.tooth is None or run.impacts.empty:
+        return ""
+    worst = run.impacts.iloc[int(run.impacts["stress_max"].to_numpy().argmax())]
+    note = (
+        f"The worst impact: t = {worst['time']:.9g} s, v_I = {engineering(float(worst['velocity']), 'm/s')}; wedge of "
+        f"length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad, steel, two Ritz modes."
+    )
+    return section(
+        "Bending stress in the tooth", chart(stress_chart(stress_field(run.tooth, worst["velocity"]))), note=note
+    )
+
+
+def _impacts(run: Run) -> str:
+    if run.impacts.empty:
+        return ""
+    shown_rows = run.impacts.head(_MOST_IMPACTS)
+    headings = [f"{name.replace('_', ' ')} [{run.units['impacts'][name]}]" for name in run.impacts.columns]
+    rows = [[_cell(value) for value in row] for row in shown_rows.itertuples(index=False)]
+    note = (
+        f"The first {_MOST_IMPACTS} of {len(run.impacts)}; all are in impacts.csv."
+        if len(run.impacts) > _MOST_IMPACTS
+        else ""
+    )
+    return section(
+        "Impacts",
+        table(["#", *headings], [[str(i), *row] for i, row in enumerate(rows, 1)], numeric=range(len(headings) + 1)),
+        note=note,
+    )
+
+
+def _cell(value: Value) -> str:
+    return f"{value:.7g}" if isinstance(value, float) else str(value)
+
+
+def _parameters(run: Run) -> str:
+    names = list(run.parameters)
+    rows = [
+        [name, shown(run.parameters[name], name, run.description), run.description.variable(name).description]
+        for name in names
+    ]
+    changed = [i for i, name in enumerate(names) if name in run.experiment.start_values]
+    inputs = [
+        [
+            v.name,
+            shown(run.results[v.name].iloc[0].item(), v.name, run.description),
+            f"input, start value: {v.description}",
+        ]
+        for v in run.description.of("input")
+        if v.name in run.results and not run.results.empty
+    ]
+    changed += [len(rows) + i for i, row in enumerate(inputs) if row[0] in run.experiment.start_values]
+    note = "Values set for this run are marked." if changed else "All values are the FMU's defaults."
+    return section("Parameters", table(["name", "value", "meaning"], rows + inputs, changed=changed), note=note)
+
+
+def _messages(run: Run) -> str:
+    said = [m for m in run.messages if m.needs_attention]
+    if not said:
+        return ""
+    rows = [[f"{m.time:.9g}", m.status.name.lower(), m.text] for m in said]
+    return section("Warnings of the FMU", table(["t [s]", "status", "message"], rows, numeric=[0]))

@@ -1,0 +1,63 @@
+"""The look of the reports."""
+
+from __future__ import annotations
+
+from typing import Any
+
+#: Colours that stay apart for colour-blind eyes (Okabe and Ito, "Color Universal Design", 2008).
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#444444")
+
+#: Marks impacts in every chart.
+IMPACT_COLOUR = "#B3261E"
+
+FONT = "Inter, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
+
+CSS = f"""
+:root {{ color-scheme: light; --ink: #1c2733; --soft: #5b6875; --line: #dfe5ea; --ground: #f5f7f9; }}
+* {{ box-sizing: border-box; }}
+body {{ margin: 0; font: 15px/1.5 {FONT}; color: var(--ink); background: var(--ground); }}
+main {{ max-width: 1180px; margin: 0 auto; padding: 28px 24px 60px; }}
+header h1 {{ margin: 0; font-size: 28px; letter-spacing: -0.01em; }}
+header p {{ margin: 4px 0 0; color: var(--soft); overflow-wrap: anywhere; }}
+section {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 18px 20px;
+  margin-top: 18px; }}
+h2 {{ margin: 0 0 4px; font-size: 18px; }}
+section > p {{ margin: 0 0 10px; color: var(--soft); }}
+.cards {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 14px; margin-top: 18px; }}
+.card {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 12px 16px; }}
+.card b {{ display: block; font-size: 22px; font-weight: 650; letter-spacing: -0.01em; white-space: nowrap; }}
+.card span {{ color: var(--soft); font-size: 13px; }}
+ul.checks {{ list-style: none; margin: 0; padding: 0; }}
+ul.checks li {{ padding: 5px 0 5px 30px; position: relative; }}
+ul.checks li::before {{ position: absolute; left: 0; width: 20px; height: 20px; border-radius: 50%; color: #fff;
+  font-size: 13px; line-height: 20px; text-align: center; top: 7px; }}
+ul.checks li.good::before {{ content: "✓"; background: #1b7f4b; }}
+ul.checks li.bad::before {{ content: "✕"; background: {IMPACT_COLOUR}; }}
+ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
+.scroll {{ overflow-x: auto; }}
+table {{ border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }}
+th, td {{ padding: 6px 12px 6px 0; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }}
+th {{ color: var(--soft); font-weight: 600; border-bottom-width: 2px; }}
+td.number, th.number {{ text-align: right; padding-right: 14px; }}
+td.number {{ white-space: nowrap; }}
+th.number {{ vertical-align: bottom; }}
+tr.changed td {{ background: #fff8e6; }}
+code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
+.banner {{ background: #fdecea; border-color: {IMPACT_COLOUR}; }}
+@media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }} }}
+"""
+
+
+#: Margins of a figure whose charts have titles: the tool buttons stand above them.
+WIDE_TOP = {"l": 70, "r": 20, "t": 64, "b": 50}
+
+
+def layout(**more: Any) -> dict[str, Any]:
+    """Common layout of all figures."""
+    return {
+        "template": "plotly_white",
+        "colorway": COLOURS,
+        "font": {"family": FONT, "size": 13, "color": "#1c2733"},
+        "margin": {"l": 70, "r": 20, "t": 34, "b": 50},
+        "hoverlabel": {"font": {"family": FONT}},
+    } | more

@@ -1,0 +1,109 @@
+"""The files of a run: results.csv, impacts.csv, summary.json."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, TextIO
+
+from mechanism_fmu import __version__
+
+from .description import Value
+from .errors import UsageError
+from .experiment import Run
+
+
+def prepare_folder(folder: Path) -> None:
+    """Make the folder for the files, before any work is spent on them.
+
+    Raises:
+        UsageError: it cannot be made or written to.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"The folder '{folder}' cannot be made: {error}.") from error
+    if not os.access(folder, os.W_OK):
+        raise UsageError(f"The folder '{folder}' cannot be written to; choose another one with -o.")
+
+
+def write_text(path: Path, write: Callable[[TextIO], object]) -> Path:
+    """Write a whole file or nothing: a reader never sees half of it, and an old one survives a failure.
+
+    Raises:
+        UsageError: the disk refuses.
+    """
+    try:
+        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
+                write(file)
+            os.chmod(temporary, 0o644)  # mkstemp makes files for the owner only
+            os.replace(temporary, path)
+        except BaseException:
+            os.unlink(temporary)
+            raise
+    except OSError as error:
+        raise UsageError(f"'{path}' cannot be written: {error}.") from error
+    return path
+
+
+def write_json(path: Path, data: Any) -> Path:
+    """Write a JSON file, whole or not at all; see `write_text`."""
+    return write_text(path, lambda file: file.write(json.dumps(data, indent=2, ensure_ascii=False) + "\n"))
+
+
+def write_run(run: Run, folder: Path) -> list[Path]:
+    """Write the files of a run; the summary comes last.
+
+    The tables have plain variable names as headings; their units are in the summary. Every number is the shortest
+    text that reads back as the same double.
+
+    Raises:
+        UsageError: the disk refuses.
+    """
+    return [
+        write_text(folder / "results.csv", lambda file: run.results.to_csv(file, index=False, lineterminator="\n")),
+        write_text(folder / "impacts.csv", lambda file: run.impacts.to_csv(file, index=False, lineterminator="\n")),
+        write_json(folder / "summary.json", summary(run)),
+    ]
+
+
+def summary(run: Run) -> dict[str, Any]:
+    """What the tables do not say, ready for JSON."""
+    experiment, outcome = run.experiment, run.outcome
+    return {
+        "harness_version": __version__,
+        "fmu": {
+            "file": str(run.fmu),
+            "model": run.description.model,
+            "guid": run.description.guid,
+            "generation_tool": run.description.generation_tool,
+        },
+        "experiment": {
+            "stop_time": experiment.stop_time,
+            "step": experiment.step,
+            "start_values": dict(experiment.start_values),
+            "input_file": None if experiment.input_file is None else str(experiment.input_file),
+        },
+        "ending": outcome.ending.value,
+        "error": None if outcome.error is None else str(outcome.error),
+        "final_time": outcome.final_time,
+        "steps": outcome.steps,
+        "wall_time": run.wall_time,
+        "final_values": final_values(run),
+        "parameters": dict(run.parameters),
+        "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost},
+        "units": run.units,
+        "checks": [asdict(check) for check in run.checks],
+        "messages": [asdict(m) | {"status": m.status.name.lower()} for m in run.messages],
+    }
+
+
+def final_values(run: Run) -> dict[str, Value]:
+    """The recorded variables at the last communication point; none when the run did not start."""
+    return {} if run.results.empty else {str(name): column.iloc[-1].item() for name, column in run.results.items()}

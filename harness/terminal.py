@@ -1,0 +1,111 @@
+"""What the user sees in the terminal."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from .checks import Check
+from .errors import HarnessError, UsageError
+from .messages import LogMessage, Status
+from .slave import Slave
+
+#: Exit codes of the command line; Ctrl-C has the shell's own.
+FAILED, USAGE, INTERRUPTED = 1, 2, 130
+
+#: A bar for less than this [s] would only flicker.
+_PATIENCE = 2.0
+
+console = Console(highlight=False)
+error_console = Console(stderr=True, highlight=False)
+
+
+@contextmanager
+def user_errors() -> Iterator[None]:
+    """Show what the user can put right as a message, and leave with the right exit code."""
+    try:
+        yield
+    except HarnessError as error:
+        show_error(str(error))
+        raise typer.Exit(USAGE if isinstance(error, UsageError) else FAILED) from None
+
+
+def show_error(text: str) -> None:
+    """An error on stderr."""
+    error_console.print(f"[bold red]Error:[/] {escape(text)}", soft_wrap=True)
+
+
+def show_warning(message: LogMessage) -> None:
+    """A warning of an FMU on stderr, at once; its errors come with the failure they cause."""
+    if message.status is Status.WARNING:
+        where = f"{message.instance}, t = {message.time:.6g} s"
+        error_console.print(f"[yellow]Warning[/] ({escape(where)}): {escape(message.text)}", soft_wrap=True)
+
+
+def show_checks(checks: Iterable[Check]) -> None:
+    """Verdicts, one line each."""
+    for check in checks:
+        mark = "[green]✓[/]" if check.passed else "[bold red]✗[/]"
+        console.print(f"{mark} {escape(check.claim)}  [dim]{escape(check.evidence)}[/]", soft_wrap=True)
+
+
+def show_files(files: Sequence[Path]) -> None:
+    """Where the results are."""
+    names = ", ".join(path.name for path in files)
+    console.print(f"Written to [bold]{escape(str(files[0].parent))}[/]: {escape(names)}", soft_wrap=True)
+
+
+def show_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]], numeric: Sequence[int] = ()) -> None:
+    """A table; `numeric` columns stand right, and the unit of a heading stands below its name."""
+    table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="dim")
+    for i, heading in enumerate(headings):
+        table.add_column(
+            escape(heading.replace(" [", "\n[")), justify="right" if i in numeric else "left", no_wrap=True
+        )
+    for row in rows:
+        table.add_row(*map(escape, row))
+    console.print(table)
+
+
+class RunDisplay:
+    """An observer that says what is going on: a spinner until the first step, a bar when the steps take long."""
+
+    def __init__(self, stop_time: float, loading: str, now: Callable[[], float] = clock.monotonic) -> None:
+        self._stop_time = stop_time
+        self._now = now
+        self._began = now()
+        self._spinner = console.status(loading)
+        columns = TextColumn("t = {task.completed:.4g} s"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn()
+        self._bar = Progress(*columns, console=console, transient=True)
+        self._task = self._bar.add_task("", total=stop_time)
+        self._bar_shown = False
+
+    def __enter__(self) -> RunDisplay:
+        self._spinner.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._spinner.stop()
+        self._bar.stop()
+
+    def started(self, slave: Slave, time: float) -> None:
+        """The FMU is ready."""
+        self._spinner.stop()
+        self._began = self._now()
+
+    def stepped(self, slave: Slave, time: float) -> None:
+        """Move the bar."""
+        if not self._bar_shown:
+            if self._now() - self._began < _PATIENCE:
+                return
+            self._bar_shown = True
+            self._bar.start()
+        self._bar.update(self._task, completed=time)

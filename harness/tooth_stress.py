@@ -1,0 +1,88 @@
+"""From the impacts of a run to the stress they leave in the tooth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from mechanism_fmu.stress import STEEL, MaximumStress, WedgeTooth, bending_stress, maximum_stress
+
+from .description import Value
+
+#: Units of the columns that `with_stress` adds to the table of impacts.
+STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
+
+_TIMES = 600
+_PLACES = 201
+#: The shown time span reaches this many times the delay of the maximum.
+_SPAN = 12.0
+
+
+def tooth_of(parameters: Mapping[str, Value]) -> WedgeTooth | None:
+    """The tooth that the FMU's calculated parameters describe; None when the FMU has no such parameters.
+
+    Its thickness is the default: the stress does not depend on it.
+
+    Raises:
+        ValueError: the FMU reports a tooth that cannot be.
+    """
+    length, apex_angle = parameters.get("tooth_length"), parameters.get("tooth_apex_angle")
+    if length is None or apex_angle is None:
+        return None
+    return WedgeTooth(length=float(length), apex_angle=float(apex_angle))
+
+
+def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth) -> pd.DataFrame:
+    """The table of impacts with the largest bending stress of steel after each.
+
+    Adds `stress_max` [Pa], `stress_position` (x / length, from the root) and `stress_delay` [s] after the impact.
+    """
+    found = [maximum_stress(tooth, STEEL, abs(velocity)) for velocity in impacts["velocity"]]
+    return impacts.assign(
+        stress_max=[maximum.stress for maximum in found],
+        stress_position=[maximum.position for maximum in found],
+        stress_delay=[maximum.time for maximum in found],
+    )
+
+
+@dataclass(frozen=True)
+class StressField:
+    """Bending stress after one impact, signed so that the largest one is positive.
+
+    Attributes:
+        position: x / length from the root, shape (places,).
+        delay: time since the impact [s], shape (times,).
+        stress: [Pa], shape (places, times).
+        along: stress along the tooth when it is largest [Pa], shape (places,).
+        in_time: stress in time where it is largest [Pa], shape (times,).
+        maximum: value, position and delay of the largest.
+    """
+
+    position: npt.NDArray[np.float64]
+    delay: npt.NDArray[np.float64]
+    stress: npt.NDArray[np.float64]
+    along: npt.NDArray[np.float64]
+    in_time: npt.NDArray[np.float64]
+    maximum: MaximumStress
+
+
+def stress_field(tooth: WedgeTooth, velocity: float) -> StressField:
+    """Bending stress of a steel tooth along its length and in time, after an impact with `velocity` [m/s]."""
+    speed = abs(velocity)
+    maximum = maximum_stress(tooth, STEEL, speed)
+    position = np.linspace(0.0, 1.0, _PLACES)
+    delay = np.linspace(0.0, _SPAN * maximum.time, _TIMES)
+    place = maximum.position * tooth.length
+    sign = float(np.sign(bending_stress(tooth, STEEL, speed, [place], [maximum.time])[0, 0]))
+    return StressField(
+        position=position,
+        delay=delay,
+        stress=sign * bending_stress(tooth, STEEL, speed, position * tooth.length, delay),
+        along=sign * bending_stress(tooth, STEEL, speed, position * tooth.length, [maximum.time])[:, 0],
+        in_time=sign * bending_stress(tooth, STEEL, speed, [place], delay)[0],
+        maximum=maximum,
+    )

@@ -1,0 +1,136 @@
+"""Does an FMU keep what it promises? A check of the file, then a short life of two instances."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+
+import fmpy.validation
+
+from .checks import Check
+from .clock import TimeGrid, seconds
+from .description import Description, Value
+from .errors import FmuError, HarnessError
+from .fmu import Fmu, FmuSlave
+
+#: The run takes this many steps through the default experiment, and branches off after some of them.
+_STEPS = 100
+_BRANCH = 10
+
+#: Row of output values for each communication point.
+Trajectory = list[list[Value]]
+
+
+def validate(fmu: Fmu) -> Iterator[Check]:
+    """Verdicts on an FMU, each as soon as it is known."""
+    problems = fmpy.validation.validate_fmu(str(fmu.path))
+    yield Check("fmpy finds no problem in the file", not problems, " ".join(problems) or "schema, units, structure")
+    conformance = _Conformance(fmu)
+    steps: list[tuple[str, Callable[[], str]]] = [
+        ("An instance starts with the values of modelDescription.xml", conformance.defaults),
+        ("It runs through its default experiment with finite outputs", conformance.run),
+        ("After a reset it repeats the run exactly", conformance.reset),
+    ]
+    if fmu.description.saves_state:
+        steps.append(("Going back to a saved state repeats the run exactly", conformance.rollback))
+    if fmu.description.serializes_state:
+        steps.append(("So does another instance with the serialized state", conformance.transfer))
+    for claim, step in steps:
+        try:
+            yield Check(claim, True, step())
+        except HarnessError as error:
+            yield Check(claim, False, str(error))
+
+
+class _Conformance:
+    """Each method lets one promise come true or raises `HarnessError`, and says what it saw."""
+
+    def __init__(self, fmu: Fmu) -> None:
+        self._fmu = fmu
+        self._outputs = [v.name for v in fmu.description.of("output")]
+        self._grid = conformance_grid(fmu.description)
+
+    def defaults(self) -> str:
+        with self._fmu.instantiate("defaults") as slave:
+            variables = [v for v in self._fmu.description.of("input", "parameter") if v.start is not None]
+            for variable, value in zip(variables, slave.get([v.name for v in variables]), strict=True):
+                if not _same_value(variable.start or "", value):
+                    raise FmuError(f"{variable.name} is {value}, but its start value is {variable.start}.")
+        return f"{len(variables)} inputs and parameters"
+
+    def run(self) -> str:
+        with self._fmu.instantiate("run") as slave:
+            self._start(slave)
+            trajectory = self._through(slave, list(self._grid))
+        return f"{len(trajectory)} steps to {seconds(self._grid.stop):g} s"
+
+    def reset(self) -> str:
+        with self._fmu.instantiate("reset") as slave:
+            self._start(slave)
+            first = self._through(slave, list(self._grid))
+            slave.reset()
+            self._start(slave)
+            return self._same(first, self._through(slave, list(self._grid)))
+
+    def rollback(self) -> str:
+        with self._fmu.instantiate("rollback") as slave:
+            self._start(slave)
+            steps = list(self._grid)
+            self._through(slave, steps[:_BRANCH])
+            state = slave.save()
+            first = self._through(slave, steps[_BRANCH:])
+            slave.restore(state)
+            slave.free_state(state)
+            return self._same(first, self._through(slave, steps[_BRANCH:]))
+
+    def transfer(self) -> str:
+        steps = list(self._grid)
+        with self._fmu.instantiate("source") as source, self._fmu.instantiate("target") as target:
+            self._start(source)
+            self._through(source, steps[:_BRANCH])
+            state = source.save()
+            data = source.serialize(state)
+            source.free_state(state)
+            self._start(target)
+            state = target.deserialize(data)
+            target.restore(state)
+            target.free_state(state)
+            first = self._through(source, steps[_BRANCH:])
+            return self._same(first, self._through(target, steps[_BRANCH:])) + f", state of {len(data)} bytes"
+
+    def _start(self, slave: FmuSlave) -> None:
+        slave.initialize(seconds(self._grid.start), seconds(self._grid.stop))
+
+    def _through(self, slave: FmuSlave, steps: Sequence[tuple[int, int]]) -> Trajectory:
+        trajectory = []
+        for begin, end in steps:
+            slave.step(seconds(begin), seconds(end) - seconds(begin))
+            values = slave.get(self._outputs)
+            for name, value in zip(self._outputs, values, strict=True):
+                if isinstance(value, float) and not math.isfinite(value):
+                    raise FmuError(f"{name} is {value} at t = {seconds(end):.9g} s.")
+            trajectory.append(values)
+        return trajectory
+
+    def _same(self, first: Trajectory, second: Trajectory) -> str:
+        for (_, end), before, after in zip(list(self._grid)[-len(first) :], first, second, strict=True):
+            for name, one, other in zip(self._outputs, before, after, strict=True):
+                if one != other:
+                    raise FmuError(f"{name} was {one!r} at t = {seconds(end):.9g} s and is {other!r} now.")
+        return f"{len(self._outputs)} outputs equal to the last bit at {len(first)} points"
+
+
+def conformance_grid(description: Description) -> TimeGrid:
+    """About a hundred steps through the default experiment, each a multiple of its step size."""
+    stop = 1.0 if description.stop_time is None else description.stop_time
+    smallest = stop / _STEPS if description.step is None else description.step
+    return TimeGrid.of(stop, smallest * max(math.ceil(stop / smallest / _STEPS - 1e-9), 1))
+
+
+def _same_value(start: str, value: Value) -> bool:
+    """Whether the text of a start value means `value`; the text may be rounded in its last digit."""
+    if isinstance(value, bool):
+        return (start in ("true", "1")) == value
+    if isinstance(value, str):
+        return start == value
+    return math.isclose(float(start), value, rel_tol=1e-15)

@@ -1,0 +1,57 @@
+"""The first impact of a ratchet wheel: a row of the paper's table."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+#: Units of the fields of `Wheel`.
+WHEEL_UNITS = {
+    "tooth_count": "1",
+    "tooth_slope_angle": "rad",
+    "impact_time": "s",
+    "wheel_speed": "rad/s",
+    "impact_velocity": "m/s",
+    "stress_max": "Pa",
+    "stress_position": "1",
+    "stress_delay": "s",
+    "tooth_length": "m",
+    "tooth_apex_angle": "rad",
+}
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel and its first impact, SI units.
+
+    Attributes:
+        tooth_count: nt.
+        tooth_slope_angle: beta_0 [rad].
+        impact_time: t_I [s].
+        wheel_speed: omega(t_I+), of the wheel just after the impact [rad/s].
+        impact_velocity: v_I [m/s].
+        stress_max: sigma_max, largest bending stress of the tooth [Pa].
+        stress_position: where it is, x / length from the root.
+        stress_delay: when it is, after the impact [s].
+        tooth_length: l [m].
+        tooth_apex_angle: alpha [rad].
+    """
+
+    tooth_count: int
+    tooth_slope_angle: float
+    impact_time: float
+    wheel_speed: float
+    impact_velocity: float
+    stress_max: float
+    stress_position: float
+    stress_delay: float
+    tooth_length: float
+    tooth_apex_angle: float
+
+    @property
+    def slope_angle_deg(self) -> int:
+        """beta_0 in whole degrees."""
+        return round(math.degrees(self.tooth_slope_angle))
+
+    def __str__(self) -> str:
+        return f"nt = {self.tooth_count}, beta_0 = {self.slope_angle_deg} deg"

@@ -1,0 +1,64 @@
+"""Acceleration by Gauss / Udwadia-Kalaba (Pennestrì et al., eqs (2) and (3)), and the multipliers of the same solve."""
+
+from __future__ import annotations
+
+from .forces import apply_forces
+from .kinematics import place_bodies
+from .minimum_norm import minimum_norm
+from .room import Array
+from .rows import active_rows, stabilise
+from .subset import jit
+from .views import bodies, linear_system, loads, rows, sizes
+
+
+@jit
+def derivative(block: Array, y: Array, dy: Array) -> None:
+    """Derivative of y = (q, qd, work done): dy = (qd, qdd, power), all of shape (2 coordinates + 1,).
+
+    qdd = qdd_f + M^-1/2 D^+ (gamma - Phi_q qdd_f), eq (3). `linear_system.multiplier` afterwards holds the force along
+    each active row (M qdd = F + Phi_q^T multiplier; for a contact, positive when it pushes).
+    """
+    n = sizes(block).coordinates
+    place_bodies(block, y)
+    count = active_rows(block)
+    stabilise(block, count)
+    power = apply_forces(block, y)
+    accelerate(block, count)
+    free = loads(block).free_acceleration
+    root = bodies(block).inverse_root_mass
+    correction = linear_system(block).solution
+    for k in range(n):
+        dy[k] = y[n + k]
+        dy[n + k] = free[k] + root[k] * correction[k]
+    dy[2 * n] = power
+
+
+@jit
+def accelerate(block: Array, count: int) -> None:
+    """Solve D z = gamma - Phi_q qdd_f with D = Phi_q M^-1/2 and qdd_f = M^-1 F, eq (2)."""
+    n = sizes(block).coordinates
+    mass = bodies(block)
+    load = loads(block)
+    for k in range(n):
+        load.free_acceleration[k] = mass.inverse_mass[k] * load.force[k]
+    scale_rows(block, count)
+    row = rows(block)
+    system = linear_system(block)
+    for r in range(count):
+        right = row.gamma[r]
+        for k in range(n):
+            right -= row.jacobian[r, k] * load.free_acceleration[k]
+        system.right_side[r] = right
+    minimum_norm(block, count, n)
+
+
+@jit
+def scale_rows(block: Array, count: int) -> None:
+    """D = Phi_q M^-1/2, eq (2)."""
+    n = sizes(block).coordinates
+    root = bodies(block).inverse_root_mass
+    row = rows(block)
+    system = linear_system(block)
+    for r in range(count):
+        for k in range(n):
+            system.scaled[r, k] = row.jacobian[r, k] * root[k]

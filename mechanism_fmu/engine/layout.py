@@ -1,0 +1,203 @@
+"""What stands where in an instance's block: header, tables, state, work.
+
+`FIELDS` is the only place where a field is declared. The tables describe the mechanism and change only with its
+parameters (an input's value is written into `force_data`); the state is everything that a saved state must restore,
+in one piece; work is scratch that no result depends on.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import codes
+
+Array = np.ndarray[Any, np.dtype[Any]]
+
+#: Names of the sizes, in header order.
+SIZES = (
+    "bodies",
+    "coordinates",  # 3 a body
+    "columns",  # coordinates, and 3 more for the ground
+    "frames",  # bodies, and the ground
+    "joints",
+    "forces",
+    "contacts",
+    "held",
+    "inputs",
+    "outputs",
+    "joint_rows",
+    "rows",  # joint rows, and one a contact
+    "unknowns",  # positions, rates, work done
+    "record",  # columns of an impact record
+    "buffer",  # impacts that are kept of one communication step
+)
+
+
+class Field(NamedTuple):
+    """A field: its room ("tables", "state" or "work"), name, shape (names of sizes, or numbers) and type."""
+
+    room: str
+    name: str
+    shape: tuple[str | int, ...]
+    integer: bool = False
+
+
+FIELDS = (
+    Field("tables", "inverse_mass", ("columns",)),
+    Field("tables", "inverse_root_mass", ("columns",)),
+    Field("tables", "body_start", ("bodies", 3)),
+    Field("tables", "body_start_rate", ("bodies", 3)),
+    Field("tables", "joint_kind", ("joints",), True),
+    Field("tables", "joint_body_i", ("joints",), True),
+    Field("tables", "joint_body_j", ("joints",), True),
+    Field("tables", "joint_row", ("joints",), True),
+    Field("tables", "joint_data", ("joints", 8)),
+    Field("tables", "force_kind", ("forces",), True),
+    Field("tables", "force_body", ("forces",), True),
+    Field("tables", "force_reaction", ("forces",), True),
+    Field("tables", "force_data", ("forces", 3)),
+    Field("tables", "contact_body_i", ("contacts",), True),
+    Field("tables", "contact_body_j", ("contacts",), True),
+    Field("tables", "contact_start_mode", ("contacts",), True),
+    Field("tables", "contact_tooth", ("contacts",), True),
+    Field("tables", "contact_data", ("contacts", 6)),
+    Field("tables", "contact_restitution", ("contacts",)),
+    Field("tables", "contact_beam_length", ("contacts",)),
+    Field("tables", "held", ("held",), True),
+    Field("tables", "input_force", ("inputs",), True),
+    Field("tables", "input_column", ("inputs",), True),
+    Field("tables", "input_start", ("inputs",)),
+    Field("tables", "output_kind", ("outputs",), True),
+    Field("tables", "output_index", ("outputs",), True),
+    Field("tables", "output_slot", ("outputs",), True),
+    Field("tables", "output_value", ("outputs",)),
+    Field("tables", "settings", (3,)),
+    Field("state", "clock", (codes.CLOCK_LENGTH,)),
+    Field("state", "counters", (codes.COUNTERS_LENGTH,), True),
+    Field("state", "ledger", (codes.LEDGER_LENGTH,)),
+    Field("state", "inputs", ("inputs",)),
+    Field("state", "held_inputs", ("inputs",)),
+    Field("state", "y_end", ("unknowns",)),
+    Field("state", "dy_end", ("unknowns",)),
+    Field("state", "dense", (5, "unknowns")),
+    Field("state", "contact_mode", ("contacts",), True),
+    Field("state", "contact_touching", ("contacts",), True),
+    Field("state", "pull_time", ("contacts",)),
+    Field("state", "last_impact", ("record",)),
+    Field("state", "impacts", ("buffer", "record")),
+    Field("work", "x", ("frames",)),
+    Field("work", "y", ("frames",)),
+    Field("work", "cosine", ("frames",)),
+    Field("work", "sine", ("frames",)),
+    Field("work", "x_rate", ("frames",)),
+    Field("work", "y_rate", ("frames",)),
+    Field("work", "phi_rate", ("frames",)),
+    Field("work", "contact_row", ("contacts",), True),
+    Field("work", "residual", ("rows",)),
+    Field("work", "residual_rate", ("rows",)),
+    Field("work", "gamma", ("rows",)),
+    Field("work", "jacobian", ("rows", "columns")),
+    Field("work", "scaled", ("rows", "columns")),
+    Field("work", "right_side", ("rows",)),
+    Field("work", "solution", ("columns",)),
+    Field("work", "multiplier", ("rows",)),
+    Field("work", "basis", ("rows", "columns")),
+    Field("work", "triangle", ("rows", "rows")),
+    Field("work", "column_basis", ("rows", "rows")),
+    Field("work", "column_triangle", ("rows", "rows")),
+    Field("work", "order", ("rows",), True),
+    Field("work", "row_norm", ("rows", 2)),
+    Field("work", "coefficient", ("rows",)),
+    Field("work", "dual", ("rows",)),
+    Field("work", "force", ("columns",)),
+    Field("work", "weight", ("columns",)),
+    Field("work", "free_acceleration", ("columns",)),
+    Field("work", "stages", (7, "unknowns")),
+    Field("work", "y_start", ("unknowns",)),
+    Field("work", "y_stage", ("unknowns",)),
+    Field("work", "y_new", ("unknowns",)),
+    Field("work", "y_at", ("unknowns",)),
+    Field("work", "dy_at", ("unknowns",)),
+    Field("work", "new_dense", (5, "unknowns")),
+    Field("work", "outputs", ("outputs",)),
+)
+
+_FIRST_OFFSET = len(SIZES)
+_HEADER = _FIRST_OFFSET + len(FIELDS)
+_SLOTS = {field.name: _FIRST_OFFSET + i for i, field in enumerate(FIELDS)}
+
+
+def size_slot(name: str) -> int:
+    """The header word that holds the size `name`."""
+    return SIZES.index(name)
+
+
+def slot(name: str) -> int:
+    """The header word that holds the offset of the field `name`."""
+    return _SLOTS[name]
+
+
+def allocate(sizes: dict[str, int]) -> Array:
+    """A zeroed block with its header filled in.
+
+    Args:
+        sizes: bodies, joints, forces, contacts, held, inputs, outputs and joint_rows; the others follow.
+
+    Returns:
+        The block, float64 of shape (words,).
+
+    """
+    complete = _complete(sizes)
+    offsets = [_HEADER]
+    for field in FIELDS:
+        offsets.append(offsets[-1] + int(np.prod(shape_of(field, complete))))
+    block = np.zeros(offsets[-1])
+    block[:_HEADER].view(np.int64)[:] = [*(complete[name] for name in SIZES), *offsets[:-1]]
+    return block
+
+
+def field_named(name: str) -> Field:
+    """The declaration of the field `name`."""
+    return FIELDS[_SLOTS[name] - _FIRST_OFFSET]
+
+
+def sizes_of(block: Array) -> dict[str, int]:
+    """The sizes in a block's header, by name, in the order of `SIZES`."""
+    return dict(zip(SIZES, block[:_FIRST_OFFSET].view(np.int64).tolist(), strict=True))
+
+
+def field_of(block: Array, name: str) -> Array:
+    """A view of the field `name`, in its own shape and type."""
+    field = field_named(name)
+    shape = shape_of(field, sizes_of(block))
+    start = int(block[:_HEADER].view(np.int64)[_SLOTS[name]])
+    flat = block[start : start + int(np.prod(shape))]
+    return (flat.view(np.int64) if field.integer else flat).reshape(shape)
+
+
+def state_of(block: Array) -> Array:
+    """A view of the whole state, shape (words,): copy it to save, write it to restore."""
+    header = block[:_HEADER].view(np.int64)
+    first = next(f.name for f in FIELDS if f.room == "state")
+    after = next(f.name for f in FIELDS if f.room == "work")
+    return block[int(header[_SLOTS[first]]) : int(header[_SLOTS[after]])]
+
+
+def shape_of(field: Field, sizes: dict[str, int]) -> tuple[int, ...]:
+    """The shape of a field for given sizes."""
+    return tuple(sizes[n] if isinstance(n, str) else n for n in field.shape)
+
+
+def _complete(sizes: dict[str, int]) -> dict[str, int]:
+    coordinates = 3 * sizes["bodies"]
+    return sizes | {
+        "coordinates": coordinates,
+        "columns": coordinates + 3,
+        "frames": sizes["bodies"] + 1,
+        "rows": sizes["joint_rows"] + sizes["contacts"],
+        "unknowns": 2 * coordinates + 1,
+        "record": codes.RECORD_CONTACT_IMPULSES + sizes["contacts"] + 2 * coordinates,
+        "buffer": codes.IMPACT_BUFFER_LENGTH,
+    }

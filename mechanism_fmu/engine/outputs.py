@@ -1,0 +1,83 @@
+"""Outputs at the current time."""
+
+from __future__ import annotations
+
+from .. import codes
+from .acceleration import derivative
+from .events import gap
+from .forces import kinetic_energy, spring_energy
+from .room import Array
+from .stepper import state_at_time
+from .subset import jit
+from .views import bodies, contacts, course, forces, linear_system, ports, sizes, stages
+
+
+@jit
+def read_outputs(block: Array) -> None:
+    """Write all output values, shape (outputs,), to the work field `outputs`; the motion is not touched."""
+    n = sizes(block).coordinates
+    table = ports(block)
+    now = course(block)
+    s = stages(block)
+    contact = contacts(block)
+    state_at_time(block, s.y_at)
+    if _needs_multipliers(block):
+        _evaluate_with_present_inputs(block)
+    for o in range(table.outputs.shape[0]):
+        kind = table.output_kind[o]
+        index = table.output_index[o]
+        value = table.output_value[o]
+        if kind == codes.COORDINATE:
+            value = s.y_at[index]
+        elif kind == codes.RATE:
+            value = s.y_at[n + index]
+        elif kind == codes.CONTACT_FORCE:
+            if contact.mode[index] == codes.CLOSED:
+                value = linear_system(block).multiplier[contact.row[index]]
+        elif kind == codes.CONTACT_GAP:
+            if contact.mode[index] == codes.OPEN:
+                value, _ = gap(block, index, s.y_at)
+        elif kind == codes.KINETIC_ENERGY:
+            value = kinetic_energy(bodies(block).inverse_mass, s.y_at[n:], n)
+        elif kind == codes.SPRING_ENERGY:
+            value = spring_energy(block, s.y_at)
+        elif kind == codes.WORK_DONE:
+            value = s.y_at[2 * n]
+        elif kind == codes.ENERGY_LOST:
+            value = now.ledger[codes.LEDGER_LOST]
+        elif kind == codes.IMPACT_COUNT:
+            value = float(now.counters[codes.COUNT_IMPACTS])
+        elif kind == codes.IMPACTS_IN_STEP:
+            value = float(now.counters[codes.COUNT_IN_STEP])
+        elif kind == codes.IMPACTS_LOST:
+            value = float(now.counters[codes.COUNT_LOST])
+        elif kind == codes.IMPACT_FLAG:
+            value = float(min(now.counters[codes.COUNT_IN_STEP], 1))
+        elif kind == codes.LAST_IMPACT:
+            value = now.last_impact[index]
+        elif kind == codes.BUFFERED_IMPACT:
+            value = now.impacts[table.output_slot[o], index]
+        table.outputs[o] = value
+
+
+@jit
+def _needs_multipliers(block: Array) -> bool:
+    table = ports(block)
+    contact = contacts(block)
+    for o in range(table.outputs.shape[0]):
+        if table.output_kind[o] == codes.CONTACT_FORCE and contact.mode[table.output_index[o]] == codes.CLOSED:
+            return True
+    return False
+
+
+@jit
+def _evaluate_with_present_inputs(block: Array) -> None:
+    """Multipliers at the current time; an input that was set after the last step acts on them already."""
+    table = ports(block)
+    data = forces(block).data
+    s = stages(block)
+    for k in range(table.inputs.shape[0]):
+        data[table.input_force[k], table.input_column[k]] = table.inputs[k]
+    derivative(block, s.y_at, s.dy_at)
+    for k in range(table.inputs.shape[0]):
+        data[table.input_force[k], table.input_column[k]] = table.held_inputs[k]

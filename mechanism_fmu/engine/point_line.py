@@ -1,0 +1,38 @@
+"""A point of one body against a line fixed in another: the gap s, one row (Pennestrì et al., Fig. 1)."""
+
+from __future__ import annotations
+
+from .room import Array
+from .subset import jit
+from .views import Pose, Rows
+
+
+@jit
+def point_line(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array) -> None:
+    """Write the row s = n.(r_i^P - r_j) - n'.p' of `data` = (point_i, line_point p', normal n' in body j).
+
+    With n = A_j n', a = A_i s_i, e = r_i + a - r_j, u = phi_j':
+    s_q = [n, n.Ra, -n, (R n).e], s' = n.e' + u (R n).e, gamma = n.a phi_i'^2 + n.e u^2 - 2 u (R n).e', with e' the rate of e.
+    """
+    ax = at.cosine[i] * data[0] - at.sine[i] * data[1]
+    ay = at.sine[i] * data[0] + at.cosine[i] * data[1]
+    nx = at.cosine[j] * data[4] - at.sine[j] * data[5]
+    ny = at.sine[j] * data[4] + at.cosine[j] * data[5]
+    ui, uj = at.phi_rate[i], at.phi_rate[j]
+    ex = at.x[i] + ax - at.x[j]
+    ey = at.y[i] + ay - at.y[j]
+    ex_rate = at.x_rate[i] - ay * ui - at.x_rate[j]
+    ey_rate = at.y_rate[i] + ax * ui - at.y_rate[j]
+    along = nx * ey - ny * ex
+    rows.residual[row] = nx * ex + ny * ey - data[4] * data[2] - data[5] * data[3]
+    rows.residual_rate[row] = nx * ex_rate + ny * ey_rate + uj * along
+    rows.gamma[row] = (
+        (nx * ax + ny * ay) * ui * ui + (nx * ex + ny * ey) * uj * uj - 2.0 * uj * (nx * ey_rate - ny * ex_rate)
+    )
+    entry = rows.jacobian[row]
+    entry[3 * i] = nx
+    entry[3 * i + 1] = ny
+    entry[3 * i + 2] = ny * ax - nx * ay
+    entry[3 * j] = -nx
+    entry[3 * j + 1] = -ny
+    entry[3 * j + 2] = along

@@ -1,0 +1,57 @@
+"""When a closed contact first pulls: legal in the paper's guided model, impossible in a real one, so worth knowing."""
+
+from __future__ import annotations
+
+import math
+
+from .. import codes
+from .acceleration import derivative
+from .dormand_prince import interpolate
+from .room import Array
+from .subset import jit
+from .views import contacts, course, linear_system, stages
+
+#: A contact force below this pulls [N]; rounding leaves about 1e-13.
+_PULLS_BELOW = -1e-9
+_BISECTIONS = 50
+
+
+@jit
+def watch_at(block: Array, time: float) -> None:
+    """Note `time` for every contact that pulls for the first time, by the multipliers of the last acceleration."""
+    table = contacts(block)
+    system = linear_system(block)
+    for c in range(table.mode.shape[0]):
+        pulls = table.mode[c] == codes.CLOSED and system.multiplier[table.row[c]] < _PULLS_BELOW
+        if pulls and table.pull_time[c] == math.inf:
+            table.pull_time[c] = time
+
+
+@jit
+def watch_step(block: Array) -> None:
+    """After a step: note when contacts began to pull, located inside the step by bisection."""
+    table = contacts(block)
+    now = course(block)
+    end = now.clock[codes.STEP_END]
+    watch_at(block, end)
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED and table.pull_time[c] == end:
+            table.pull_time[c] = _locate(block, c)
+
+
+@jit
+def _locate(block: Array, contact: int) -> float:
+    table = contacts(block)
+    now = course(block)
+    s = stages(block)
+    before = 0.0
+    after = 1.0
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (before + after)
+        interpolate(now.dense, middle, s.y_at)
+        derivative(block, s.y_at, s.dy_at)
+        if linear_system(block).multiplier[table.row[contact]] < _PULLS_BELOW:
+            after = middle
+        else:
+            before = middle
+    return now.clock[codes.STEP_START] + after * now.clock[codes.STEP_SIZE]

@@ -1,0 +1,75 @@
+"""All constraint rows of the mechanism at one instant."""
+
+from __future__ import annotations
+
+from .. import codes
+from .joints.revolute import revolute
+from .joints.translational import translational
+from .point_line import point_line
+from .room import Array
+from .subset import jit
+from .views import contacts, joints, options, pose, rows, sizes
+
+
+@jit
+def joint_rows(block: Array) -> None:
+    """Write the rows of all joints from the bodies' poses and rates (see `place_bodies`)."""
+    at = pose(block)
+    table = joints(block)
+    out = rows(block)
+    for k in range(table.kind.shape[0]):
+        row = table.row[k]
+        i = table.body_i[k]
+        j = table.body_j[k]
+        for r in range(row, row + 2):
+            clear(out.jacobian[r])
+        if table.kind[k] == codes.REVOLUTE:
+            revolute(at, out, row, i, j, table.data[k])
+        else:
+            translational(at, out, row, i, j, table.data[k])
+
+
+@jit
+def contact_row(block: Array, contact: int, row: int) -> None:
+    """Write the row of one contact: its gap, gap rate, gamma and Jacobian."""
+    table = contacts(block)
+    out = rows(block)
+    clear(out.jacobian[row])
+    point_line(pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact])
+
+
+@jit
+def active_rows(block: Array) -> int:
+    """Write the rows of all joints and closed contacts; return their number.
+
+    `contacts.row` afterwards holds each closed contact's row, and -1 for an open one.
+    """
+    joint_rows(block)
+    table = contacts(block)
+    count = sizes(block).joint_rows
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED:
+            contact_row(block, c, count)
+            table.row[c] = count
+            count += 1
+        else:
+            table.row[c] = -1
+    return count
+
+
+@jit
+def stabilise(block: Array, count: int) -> None:
+    """Baumgarte: gamma becomes gamma - 2 alpha Phi' - beta^2 Phi (Pennestrì et al., section 5)."""
+    settings = options(block).settings
+    alpha = settings[codes.BAUMGARTE_ALPHA]
+    beta = settings[codes.BAUMGARTE_BETA]
+    out = rows(block)
+    for r in range(count):
+        out.gamma[r] -= 2.0 * alpha * out.residual_rate[r] + beta * beta * out.residual[r]
+
+
+@jit
+def clear(vector: Array) -> None:
+    """Set all entries to zero."""
+    for k in range(vector.shape[0]):
+        vector[k] = 0.0

@@ -1,0 +1,162 @@
+"""Time stepping: where integration, contact geometry and the impact law meet.
+
+The engine takes steps of its own, with dense output, and may be ahead of the time that the outside has reached
+(TIME <= STEP_END): the trajectory then does not depend on the communication step at all. When an input changes, what
+lies ahead is dropped and the motion goes on from TIME.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .. import codes
+from . import status
+from .acceleration import derivative
+from .dormand_prince import initial_step_size, interpolate, try_step
+from .events import first_impact, gap, refine
+from .impact import strike
+from .ports import clear_impacts, write_inputs
+from .pulling import watch_at, watch_step
+from .room import Array
+from .subset import jit
+from .views import contacts, course, stages
+
+#: Smallest step as a fraction of max(1 s, |t|).
+_SMALLEST_STEP = 1e-15
+#: Most internal steps of one communication step.
+MOST_STEPS = 1_000_000
+_SAFETY = 0.9
+_SHRINK_MOST = 0.2
+_GROW_MOST = 5.0
+
+
+@jit
+def advance(block: Array, target: float) -> int:
+    """Bring TIME to `target` [s]; return a status. On failure TIME and all outputs stay at the last good instant."""
+    now = course(block)
+    clear_impacts(block)
+    if write_inputs(block):
+        resume(block)
+    for _ in range(MOST_STEPS):
+        if now.clock[codes.TIME] >= now.clock[codes.STEP_END]:
+            if now.clock[codes.TIME] >= target:
+                return status.OK
+            outcome = take_step(block)
+            if outcome != status.OK:
+                return outcome
+        if now.clock[codes.STEP_END] > target:
+            now.clock[codes.TIME] = target
+            return status.OK
+        now.clock[codes.TIME] = now.clock[codes.STEP_END]
+        contact = now.counters[codes.PENDING_CONTACT]
+        if contact != codes.NO_CONTACT:
+            strike(block, contact)
+            restart(block)
+            now.clock[codes.NEXT_STEP] = initial_step_size(block)
+    return status.TOO_MANY_STEPS
+
+
+@jit
+def restart(block: Array) -> None:
+    """Begin anew from y_end at STEP_END: nothing lies ahead."""
+    now = course(block)
+    now.clock[codes.STEP_START] = now.clock[codes.STEP_END]
+    now.clock[codes.STEP_SIZE] = 0.0
+    now.counters[codes.PENDING_CONTACT] = codes.NO_CONTACT
+    derivative(block, now.y_end, now.dy_end)
+    watch_at(block, now.clock[codes.STEP_END])
+
+
+@jit
+def resume(block: Array) -> None:
+    """Drop what lies ahead of TIME, because the inputs have changed."""
+    now = course(block)
+    table = contacts(block)
+    time = now.clock[codes.TIME]
+    state_at_time(block, now.y_end)
+    now.clock[codes.STEP_END] = time
+    for c in range(table.mode.shape[0]):
+        if table.pull_time[c] > time:
+            table.pull_time[c] = math.inf
+    restart(block)
+
+
+@jit
+def state_at_time(block: Array, y: Array) -> None:
+    """Y at TIME, shape (unknowns,); `y` may be `y_end` itself."""
+    now = course(block)
+    if now.clock[codes.TIME] < now.clock[codes.STEP_END]:
+        fraction = (now.clock[codes.TIME] - now.clock[codes.STEP_START]) / now.clock[codes.STEP_SIZE]
+        interpolate(now.dense, fraction, y)
+    else:
+        copy(now.y_end, y)
+
+
+@jit
+def take_step(block: Array) -> int:
+    """One accepted step from STEP_END on, cut at the first impact, which then waits as PENDING_CONTACT."""
+    now = course(block)
+    s = stages(block)
+    start = now.clock[codes.STEP_END]
+    copy(now.y_end, s.y_start)
+    copy(now.dy_end, s.derivatives[0])
+    step = now.clock[codes.NEXT_STEP]
+    smallest = _SMALLEST_STEP * max(1.0, abs(start))
+    error = try_step(block, step)
+    grow_most = _GROW_MOST
+    while not error <= 1.0:
+        step *= _scale(error, 1.0)
+        grow_most = 1.0
+        if not step > smallest:
+            return status.STEP_TOO_SMALL
+        error = try_step(block, step)
+    now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
+
+    contact, fraction = first_impact(block)
+    if contact != codes.NO_CONTACT:
+        step *= fraction
+        if not step > smallest:
+            now.counters[codes.PENDING_CONTACT] = contact
+            return status.OK
+        step = refine(block, contact, step)
+    now.counters[codes.PENDING_CONTACT] = contact
+    now.counters[codes.COUNT_STEPS] += 1
+    now.clock[codes.STEP_START] = start
+    now.clock[codes.STEP_SIZE] = step
+    now.clock[codes.STEP_END] = start + step
+    copy(s.y_new, now.y_end)
+    copy(s.derivatives[6], now.dy_end)
+    for r in range(5):
+        copy(s.new_dense[r], now.dense[r])
+    watch_step(block)
+    release(block, contact)
+    return status.OK
+
+
+@jit
+def release(block: Array, struck: int) -> None:
+    """Open contacts that touched at the step's start have come off by its end, but for the one that strikes."""
+    table = contacts(block)
+    now = course(block)
+    for c in range(table.mode.shape[0]):
+        if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
+            distance, _ = gap(block, c, now.y_end)
+            if distance > 0.0:
+                table.touching[c] = 0
+
+
+@jit
+def _scale(error: float, most: float) -> float:
+    """Factor for the next step size (order 5)."""
+    if error == 0.0:
+        return most
+    if not error < math.inf:
+        return _SHRINK_MOST
+    return min(most, max(_SHRINK_MOST, _SAFETY * error**-0.2))
+
+
+@jit
+def copy(source: Array, target: Array) -> None:
+    """Target = source."""
+    for k in range(source.shape[0]):
+        target[k] = source[k]

@@ -1,0 +1,63 @@
+"""An FMU file whose bytes depend on its contents alone."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import uuid
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from xml.etree import ElementTree
+
+from .model_description import to_bytes
+
+#: Name of the description within the archive.
+DESCRIPTION = "modelDescription.xml"
+
+#: The first moment that a zip archive can write down.
+_TIME = (1980, 1, 1, 0, 0, 0)
+
+_FILE, _PROGRAM = 0o100644, 0o100755
+
+
+def content_hash(files: Mapping[str, bytes]) -> str:
+    """SHA-256 of named contents, as 64 hexadecimal digits; the order of the names does not matter."""
+    digest = hashlib.sha256()
+    for name, contents in sorted(files.items()):
+        digest.update(f"{name}\0{len(contents)}\0".encode())
+        digest.update(contents)
+    return digest.hexdigest()
+
+
+def read_entries(path: Path) -> dict[str, bytes]:
+    """Contents of all files of a zip archive, by name."""
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def with_guid(entries: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The entries of an FMU with a GUID that is a fingerprint of all of them, whatever GUID they had."""
+    root = ElementTree.fromstring(entries[DESCRIPTION])
+    root.set("guid", "")
+    digest = content_hash({**entries, DESCRIPTION: to_bytes(root)})
+    root.set("guid", f"{{{uuid.UUID(digest[:32])}}}")
+    return {**entries, DESCRIPTION: to_bytes(root)}
+
+
+def write_archive(entries: Mapping[str, bytes], path: Path) -> None:
+    """Write an FMU: sorted, with fixed times and permissions, and never half of it.
+
+    Nothing is compressed, because the bytes would then depend on the version of zlib.
+    """
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        with zipfile.ZipFile(temporary, "w", zipfile.ZIP_STORED) as archive:
+            for name, contents in sorted(entries.items()):
+                info = zipfile.ZipInfo(name, _TIME)
+                info.create_system = 3  # Unix, on every system
+                info.external_attr = (_PROGRAM if name.startswith("binaries/") else _FILE) << 16
+                archive.writestr(info, contents)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)

@@ -1,0 +1,149 @@
+"""Which source files an FMU needs: what is reachable by imports, and nothing else."""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..model import MechanismError
+
+
+@dataclass(frozen=True)
+class Home:
+    """A source folder and the place of its files in the package that travels.
+
+    Attributes:
+        name: absolute name by which others import it, e.g. "mechanism_fmu" or "models.ratchet".
+        folder: the source folder.
+        place: dotted path within the package that travels; "" is its root.
+    """
+
+    name: str
+    folder: Path
+    place: str
+
+
+@dataclass
+class Closure:
+    """What is reachable.
+
+    Attributes:
+        files: source text of each file, by its path in the package that travels ("model/body.py").
+        external: top-level packages that must be installed.
+    """
+
+    files: dict[str, str] = field(default_factory=dict)
+    external: set[str] = field(default_factory=set)
+
+
+def closure(homes: tuple[Home, ...], modules: tuple[str, ...]) -> Closure:
+    """Collect the files that `modules` need, with imports of the homes made relative.
+
+    Imports inside functions count; those under `if TYPE_CHECKING:` do not, because they never run.
+
+    Args:
+        homes: the source folders.
+        modules: dotted paths within the package that travels, e.g. "fmu.slave".
+
+    Raises:
+        MechanismError: a home is imported in a way that cannot be made relative.
+    """
+    found = Closure()
+    waiting = list(modules)
+    seen: set[str] = set()
+    while waiting:
+        module = waiting.pop()
+        if module in seen:
+            continue
+        seen.add(module)
+        # Python runs the __init__ of every package on the way.
+        if module:
+            waiting.append(module.rpartition(".")[0])
+        path = _locate(homes, module)
+        if path is None:
+            continue
+        source = path.read_text(encoding="utf-8")
+        package = module if path.name == "__init__.py" else module.rpartition(".")[0]
+        relative = "/".join(filter(None, (*package.split("."), path.name)))
+        found.files[relative] = _with_relative_imports(source, path, package, homes)
+        for imported in _imports(ast.parse(source, str(path))):
+            inside = _inside(imported, package, homes)
+            if inside is None:
+                found.external.add(imported.module.partition(".")[0])
+            else:
+                waiting += [inside, *(f"{inside}.{name}".lstrip(".") for name in imported.names)]
+    found.external -= sys.stdlib_module_names
+    return found
+
+
+@dataclass(frozen=True)
+class _Import:
+    """`from <level dots><module> import <names>`; `import <module>` has no names."""
+
+    module: str
+    level: int
+    names: tuple[str, ...]
+    line: int
+
+
+def _imports(node: ast.AST) -> Iterator[_Import]:
+    """Imports of a tree that can run."""
+    yield from _imports_of(node)
+    children: Iterable[ast.AST] = ast.iter_child_nodes(node)
+    if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
+        children = node.orelse
+    for child in children:
+        yield from _imports(child)
+
+
+def _imports_of(statement: ast.AST) -> Iterator[_Import]:
+    if isinstance(statement, ast.Import):
+        yield from (_Import(alias.name, 0, (), statement.lineno) for alias in statement.names)
+    elif isinstance(statement, ast.ImportFrom):
+        names = tuple(alias.name for alias in statement.names)
+        yield _Import(statement.module or "", statement.level, names, statement.lineno)
+
+
+def _inside(imported: _Import, package: str, homes: tuple[Home, ...]) -> str | None:
+    """Dotted path of an imported module within the package that travels; None if it is not in there."""
+    if imported.level:
+        parents = package.split(".") if package else []
+        base = parents[: len(parents) + 1 - imported.level]
+        return ".".join([*base, *filter(None, [imported.module])])
+    for home in homes:
+        if imported.module == home.name or imported.module.startswith(f"{home.name}."):
+            return (home.place + imported.module[len(home.name) :]).lstrip(".")
+    return None
+
+
+def _locate(homes: tuple[Home, ...], module: str) -> Path | None:
+    for home in sorted(homes, key=lambda home: len(home.place), reverse=True):
+        if home.place in ("", module) or module.startswith(f"{home.place}."):
+            inner = module[len(home.place) :].strip(".").replace(".", "/")
+            for path in (home.folder / inner / "__init__.py", home.folder / f"{inner}.py"):
+                if path.is_file():
+                    return path
+    return None
+
+
+def _with_relative_imports(source: str, path: Path, package: str, homes: tuple[Home, ...]) -> str:
+    """The source with absolute imports of the homes written relative: the package travels under another name."""
+    lines = source.splitlines(keepends=True)
+    to_root = "." * (len(package.split(".")) + 1 if package else 1)
+    for imported in (i for node in ast.walk(ast.parse(source)) for i in _imports_of(node)):
+        inside = None if imported.level else _inside(imported, package, homes)
+        if inside is None:
+            continue
+        pattern = rf"\bfrom\s+{re.escape(imported.module)}(?=\s+import\b)"
+        line, changes = re.subn(pattern, f"from {to_root}{inside}", lines[imported.line - 1], count=1)
+        if not changes:
+            raise MechanismError(
+                f"{path}, line {imported.line}: write 'from {imported.module} import ...' on one line, because the "
+                "file travels in an FMU under another package name."
+            )
+        lines[imported.line - 1] = line
+    return "".join(lines)

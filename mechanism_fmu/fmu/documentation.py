@@ -1,0 +1,142 @@
+"""The documentation that travels in an FMU: one page that needs nothing else, and the licences."""
+
+from __future__ import annotations
+
+import base64
+import mimetypes
+from collections.abc import Iterable, Sequence
+from html import escape
+from pathlib import Path
+
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+
+from ..model import Model
+from .project import licence_text
+from .units import display_factor
+from .variables import Variable, variables_of
+
+_STYLE = """
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+table { border-collapse: collapse; margin: 1rem 0; font-size: .9rem; }
+th, td { border-bottom: 1px solid #ddd; padding: .25rem .6rem; text-align: left; vertical-align: top; }
+code, pre { font-family: ui-monospace, monospace; font-size: .9em; }
+pre { background: #f6f6f6; padding: .8rem; overflow-x: auto; }
+img { max-width: 100%; }
+"""
+
+#: What pythonfmu's wrapper decides by itself, whatever the model does.
+_WRAPPER = (
+    "The FMU needs a 64-bit Python 3.11 or later with the packages of <code>resources/requirements.txt</code>; "
+    "binaries for Linux and Windows are inside.",
+    "A host that is not itself Python must load the Python library first, on Linux with "
+    "<code>LD_PRELOAD</code> and the full path of, for example, <code>libpython3.11.so</code>. Hosts that refuse "
+    "<code>needsExecutionTool</code> cannot run it.",
+    "A value or a call that is refused gives a message in the log and the status <em>fatal</em>, because the wrapper "
+    "knows no milder one. Messages arrive only if the host switched logging on.",
+    "Any GUID is accepted at instantiation.",
+    "Unzip the FMU to a path of ASCII letters without <code># % + ? &amp;</code>; other paths crash the host.",
+    "The first start compiles the engine (some seconds) and keeps the result in the user's cache directory, in a "
+    "folder <code>mechanism_fmu</code>; the environment variable <code>MECHANISM_FMU_CACHE</code> chooses another. "
+    "The folder may be deleted at any time.",
+)
+
+
+def documentation(model: Model, folder: Path) -> dict[str, bytes]:
+    """Files of the FMU's folder `documentation`, by their path within the FMU.
+
+    Args:
+        model: what the FMU simulates.
+        folder: of the model; its README.md, if there, becomes part of the page, with its pictures.
+    """
+    licences = {
+        f"documentation/licenses/{name}.txt": licence_text(name).encode() for name in ("mechanism_fmu", "pythonfmu")
+    }
+    return {"documentation/index.html": page(model, folder).encode(), **licences}
+
+
+def page(model: Model, folder: Path) -> str:
+    """The page of a model as HTML; see `documentation`."""
+    variables = variables_of(model)
+    readme = folder / "README.md"
+    tables = "".join(
+        _table(title, [v for v in variables if v.causality == causality])
+        for title, causality in (
+            ("Inputs", "input"),
+            ("Outputs", "output"),
+            ("Parameters", "parameter"),
+            ("Calculated parameters", "calculatedParameter"),
+        )
+    )
+    return (
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(model.name)}</title>'
+        f"<style>{_STYLE}</style></head><body>\n"
+        f"<h1>{escape(model.name)}</h1>\n<p>{escape(model.description)}</p>\n"
+        f"{_markdown(readme.read_text(encoding='utf-8'), folder) if readme.is_file() else ''}"
+        f"<h2>Variables</h2>\n{tables}"
+        f"<h2>Running this FMU</h2>\n<ul>\n{''.join(f'<li>{fact}</li>{chr(10)}' for fact in _WRAPPER)}</ul>\n"
+        "</body></html>\n"
+    )
+
+
+def _table(title: str, variables: Sequence[Variable]) -> str:
+    if not variables:
+        return ""
+    head = ("Name", "Type", "Unit", "Start", "Limits", "Meaning")
+    rows = (
+        (
+            f"<code>{escape(v.name)}</code>",
+            v.type,
+            escape(v.unit or ""),
+            _quantity(v, v.start),
+            _limits(v),
+            escape(v.description),
+        )
+        for v in variables
+    )
+    return f"<h3>{title}</h3>\n<table>\n<tr>{_cells('th', head)}</tr>\n" + (
+        "".join(f"<tr>{_cells('td', row)}</tr>\n" for row in rows) + "</table>\n"
+    )
+
+
+def _cells(tag: str, cells: Iterable[str]) -> str:
+    return "".join(f"<{tag}>{cell}</{tag}>" for cell in cells)
+
+
+def _quantity(variable: Variable, value: float | None) -> str:
+    """A value in the variable's unit and, where it has one, in its display unit."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    shown = f"{value:g}"
+    if variable.unit is not None and variable.display_unit is not None:
+        shown += f" ({value * display_factor(variable.unit, variable.display_unit):g} {variable.display_unit})"
+    return escape(shown)
+
+
+def _limits(variable: Variable) -> str:
+    low, high = _quantity(variable, variable.minimum), _quantity(variable, variable.maximum)
+    return f"{low} … {high}" if low or high else ""
+
+
+def _markdown(text: str, folder: Path) -> str:
+    """Markdown as HTML that needs no other file."""
+    converter = MarkdownIt("commonmark", {"html": False}).enable("table")
+    tokens = converter.parse(text)
+    for token in (t for block in tokens for t in (block, *(block.children or ()))):
+        _make_self_contained(token, folder)
+    html: str = converter.renderer.render(tokens, converter.options, {})
+    return html
+
+
+def _make_self_contained(token: Token, folder: Path) -> None:
+    """Inline pictures, drop links to files that stay behind, and leave the first heading level to the page."""
+    if token.type in ("heading_open", "heading_close"):
+        token.tag = f"h{min(int(token.tag[1]) + 1, 6)}"
+    elif token.type == "image":
+        path = folder / str(token.attrs["src"])
+        kind = mimetypes.guess_type(path.name)[0]
+        token.attrs["src"] = f"data:{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"
+    elif token.type == "link_open" and not str(token.attrs["href"]).startswith(("https://", "http://", "#")):
+        del token.attrs["href"]

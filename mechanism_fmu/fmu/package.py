@@ -1,0 +1,150 @@
+"""From a model to an FMU file, by way of pythonfmu's builder."""
+
+from __future__ import annotations
+
+import keyword
+import re
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+
+from pythonfmu.builder import FmuBuilder
+
+from ..model import MechanismError, Model
+from .archive import content_hash, read_entries, with_guid, write_archive
+from .closure import Home, closure
+from .documentation import documentation
+from .project import dependencies
+
+_LIBRARY = Path(__file__).parents[1]
+
+#: Imports that ask for nothing: pythonfmu travels in the FMU, and numba brings llvmlite.
+_BROUGHT_ALONG = {"pythonfmu", "llvmlite"}
+
+#: The slave file: it only imports, because a class defined here would leak at every instantiation.
+_SLAVE = '''"""What pythonfmu's wrapper runs first; the code is in the package beside this file."""
+
+from {start} import slave_class, tidy_up
+
+{model} = slave_class("{package}", "{module}")
+tidy_up(globals())
+'''
+
+
+def build_fmu(module: ModuleType, destination: Path) -> Path:
+    """Build the FMU of a model: the same bytes from the same sources, wherever it is built.
+
+    The engine is compiled on the way, into the user's cache, so that the FMU starts fast here.
+
+    Args:
+        module: what holds `MODEL`, e.g. `models.ratchet.model`; it may import its neighbours and `mechanism_fmu`.
+        destination: folder, made if need be, for "<model name>.fmu".
+
+    Returns:
+        Path of the FMU.
+
+    Raises:
+        MechanismError: the module has no model, or a model that cannot travel.
+        OSError: the destination cannot be written.
+    """
+    model, folder = _model_of(module)
+    if destination.suffix == ".fmu" or destination.is_file():
+        raise MechanismError(
+            f"{destination} is not a folder; give the folder for {model.name}.fmu (tools expect that file name)."
+        )
+    destination.mkdir(parents=True, exist_ok=True)
+    place = f"models.{model.name.lower()}"
+    homes = (Home("mechanism_fmu", _LIBRARY, ""), Home(module.__name__.rpartition(".")[0], folder, place))
+    main = f"{place}.{module.__name__.rpartition('.')[2]}"
+    sources = closure(homes, ("fmu.slave", main))
+    code = {name: text.encode() for name, text in sources.files.items()}
+    start = (_LIBRARY / "fmu" / "start.py").read_text(encoding="utf-8")
+
+    # One name for one content: a process that loads several FMUs then never runs the code of the wrong one.
+    digest = content_hash({**code, "start": start.encode(), "slave": f"{_SLAVE}{model.name}{main}".encode()})[:12]
+    package, starter = f"mechanism_fmu_{digest}", f"start_{digest}"
+    slave = _SLAVE.format(start=starter, model=model.name, package=package, module=main)
+    entries = _built_by_pythonfmu(
+        f"{model.name}_{digest}",
+        {
+            f"{model.name}_{digest}.py": slave.encode(),
+            f"{starter}.py": start.encode(),
+            "requirements.txt": "".join(f"{r}\n" for r in _requirements(sources.external)).encode(),
+            **{f"{package}/{name}": contents for name, contents in code.items()},
+        },
+    )
+    entries |= documentation(model, folder)
+    entries["model.png"] = _icon(folder)
+    path = destination / f"{model.name}.fmu"
+    write_archive(with_guid(entries), path)
+    return path
+
+
+def _model_of(module: ModuleType) -> tuple[Model, Path]:
+    model = getattr(module, "MODEL", None)
+    if not isinstance(model, Model) or module.__file__ is None:
+        raise MechanismError(f"{module.__name__} holds no model; it must set MODEL = Model(...).")
+    if not re.fullmatch(r"[A-Za-z_]\w*", model.name, re.ASCII) or keyword.iskeyword(model.name):
+        raise MechanismError(
+            f"The model name {model.name!r} cannot name an FMU; use letters, digits and '_', and no Python keyword."
+        )
+    return model, Path(module.__file__).parent
+
+
+def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Entries of the FMU that pythonfmu makes of a slave module and other files beside it."""
+    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary, _imports_left_alone(slave):
+        staged = Path(temporary, "staged")
+        for name, contents in resources.items():
+            path = staged / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(contents)
+        script = staged / f"{slave}.py"
+        others = set(staged.iterdir()) - {script}
+        try:
+            return read_entries(FmuBuilder.build_FMU(script, dest=Path(temporary, "built"), project_files=others))
+        except ValueError as error:
+            # pythonfmu makes an instance; the copy of the library in it has an error class of its own.
+            if type(error).__name__ == MechanismError.__name__:
+                raise MechanismError(str(error)) from error
+            raise
+
+
+@contextmanager
+def _imports_left_alone(slave: str) -> Iterator[None]:
+    """Restore `sys.path`, and forget the FMU's modules; what they import from elsewhere stays."""
+    digest = slave.rpartition("_")[2]
+    path, modules = sys.path[:], set(sys.modules)
+    try:
+        yield
+    finally:
+        sys.path[:] = path
+        for name in set(sys.modules) - modules:
+            if digest in name.partition(".")[0]:
+                del sys.modules[name]
+
+
+def _requirements(packages: set[str]) -> list[str]:
+    """What the target must install, with the pins of the project.
+
+    Raises:
+        MechanismError: a package that is no dependency of the project.
+    """
+    pins = {re.split(r"[^\w.-]", pin, maxsplit=1)[0]: pin for pin in dependencies()}
+    needed = packages - _BROUGHT_ALONG
+    unknown = needed - pins.keys()
+    if unknown:
+        raise MechanismError(
+            f"The model imports {', '.join(sorted(unknown))}, which mechanism_fmu does not depend on; "
+            "an FMU can ask for nothing else. Remove the import."
+        )
+    return [pins[name] for name in sorted(needed)]
+
+
+def _icon(folder: Path) -> bytes:
+    """The model's own icon, or the library's."""
+    own = folder / "model.png"
+    return (own if own.is_file() else _LIBRARY / "fmu" / "model.png").read_bytes()

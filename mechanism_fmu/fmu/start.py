@@ -1,0 +1,168 @@
+"""Starts the slave of an FMU: this file travels in the FMU and is the first of it to run.
+
+It stands alone (standard library only), because it decides from where everything else is imported. The package
+beside it is not imported in place: an FMU is unzipped to a new folder each time, and compiled code is cached by
+path. Instead its files are copied to a folder of the user's cache directory that is named after their contents, so
+that the second start finds what the first one compiled.
+"""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import importlib
+import importlib.util
+import os
+import pickle
+import shutil
+import sys
+import tempfile
+import warnings
+from functools import cache
+from pathlib import Path
+
+#: Environment variable with the folder to use instead of the user's cache directory.
+CACHE_VARIABLE = "MECHANISM_FMU_CACHE"
+
+_RESOURCES = Path(__file__).parent
+
+#: Oldest Python that the package runs on.
+_PYTHON = (3, 11)
+
+#: The wrapper's entry on `sys.path`.
+_entry: str | None = None
+
+
+@cache
+def slave_class(package: str, model: str) -> type:
+    """The slave class of the FMU.
+
+    Args:
+        package: name of the package beside this file, which no other contents have.
+        model: module of the package, relative to it, that holds `MODEL`.
+
+    Raises:
+        ImportError: Python is too old, or a package is missing; the message says what to install.
+    """
+    if sys.version_info < _PYTHON:
+        needed = ".".join(map(str, _PYTHON))
+        raise _refusal(f"it needs Python {needed} or later; this is {sys.version.split()[0]}.")
+    try:
+        _import_package(package, _cached(_RESOURCES / package))
+        slave = importlib.import_module(f"{package}.fmu.slave")
+        made: type = slave.make_slave_class(importlib.import_module(f"{package}.{model}").MODEL)
+    except ModuleNotFoundError as error:
+        requirements = (_RESOURCES / "requirements.txt").read_text(encoding="utf-8").split()
+        install = f"python -m pip install {' '.join(map(repr, requirements))}"
+        raise _refusal(f"there is no {error.name}. Install what it needs with: {install}") from error
+    return made
+
+
+def _refusal(reason: str) -> ImportError:
+    message = f"The FMU cannot run in the Python of {sys.prefix}: {reason}"
+    # The wrapper passes the error on to the host's log only if the host has asked for one.
+    print(message, file=sys.stderr)
+    return ImportError(message)
+
+
+def tidy_up(slave_globals: dict[str, object]) -> None:
+    """Undo what pythonfmu's wrapper leaves behind; to be called at the end of the slave file.
+
+    The wrapper (PySlaveInstance.cpp of pythonfmu 0.7.0) runs the slave file at every instantiation. Each time it
+    releases a reference to the module's globals that it does not own, which would free them while in use, and puts
+    the FMU's resources at the front of `sys.path` once more.
+
+    Args:
+        slave_globals: `globals()` of the slave file.
+    """
+    global _entry
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(slave_globals))
+    newest = sys.path[0]
+    if os.path.isfile(os.path.join(newest, f"{slave_globals['__name__']}.py")):
+        # The newest entry stays: pythonfmu's builder removes the one that it has put there, and fails if it is gone.
+        sys.path[1:] = [entry for entry in sys.path[1:] if entry not in (newest, _entry)]
+        _entry = newest
+
+
+def _cached(source: Path) -> Path:
+    """A folder outside the FMU with the files of `source`."""
+    try:
+        folder = _cache_directory() / "mechanism_fmu" / source.name
+        _synchronize(source, folder)
+        if not os.access(folder, os.W_OK):
+            raise PermissionError(f"{folder} is read-only")
+        _drop_broken_compilations(folder)
+    except (OSError, RuntimeError) as error:
+        folder = Path(tempfile.mkdtemp(prefix="mechanism_fmu_")) / source.name
+        atexit.register(shutil.rmtree, folder.parent, ignore_errors=True)
+        _synchronize(source, folder)
+        warnings.warn(
+            f"The cache directory cannot be used ({error}), so the engine is compiled again in every process. "
+            f"Set the environment variable {CACHE_VARIABLE} to a folder that can be written.",
+            RuntimeWarning,
+            stacklevel=3,
+        )
+    return folder
+
+
+def _cache_directory() -> Path:
+    """Where the operating system wants caches of the user (XDG Base Directory Specification on Linux)."""
+    if chosen := os.environ.get(CACHE_VARIABLE):
+        return Path(chosen).absolute()
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache").absolute()
+
+
+def _synchronize(source: Path, folder: Path) -> None:
+    """Make every file of `source` stand in `folder` with the same bytes.
+
+    Whatever is missing or damaged is written anew. Each file appears by one atomic rename and is only ever given the
+    same contents, so that any number of processes may do this at once.
+    """
+    for original in sorted(source.rglob("*.py")):
+        contents = original.read_bytes()
+        copy = folder / original.relative_to(source)
+        try:
+            if copy.read_bytes() == contents:
+                continue
+        except OSError:
+            copy.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=copy.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(contents)
+            os.chmod(temporary, 0o644)
+            # The same time stamp for all writers: compiled code is cached by the time stamp of its source.
+            os.utime(temporary, (0, 0))
+            os.replace(temporary, copy)
+        except BaseException:
+            os.unlink(temporary)
+            raise
+
+
+def _drop_broken_compilations(folder: Path) -> None:
+    """Delete what numba has kept and a crash or a full disk has cut off: numba would stop at it, not compile again."""
+    for compiled in folder.rglob("*.nb[ci]"):
+        if not compiled.read_bytes().endswith(pickle.STOP):
+            compiled.unlink(missing_ok=True)
+
+
+def _import_package(name: str, folder: Path) -> None:
+    """Import a package from a folder that need not be on `sys.path`."""
+    if name in sys.modules:
+        return
+    spec = importlib.util.spec_from_file_location(
+        name, folder / "__init__.py", submodule_search_locations=[str(folder)]
+    )
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{folder} holds no package")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise

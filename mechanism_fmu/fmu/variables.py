@@ -1,0 +1,150 @@
+"""The variables of an FMU: the ports of a model, numbered."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from ..model import Calculated, Input, Model, Output, Parameter
+from ..model.ports import VariableType
+
+Causality = Literal["input", "output", "parameter", "calculatedParameter"]
+Variability = Literal["fixed", "discrete", "continuous"]
+Initial = Literal["exact", "calculated"]
+
+#: An output source that changes at impacts only (see `mechanism_fmu.model.Output`).
+_OF_IMPACT = re.compile(r"impacts?(\[\d+\])?\.")
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A scalar variable of FMI 2.0 (specification 2.0.4, section 2.2.7).
+
+    Attributes:
+        name, description: of the port.
+        value_reference: position among all variables, from 0.
+        type, causality, variability: as in the specification.
+        initial: None for inputs, for which the specification forbids it.
+        unit: SI unit of a Real, None for the other types.
+        display_unit: unit in which a tool should show a Real; None for `unit` itself.
+        start: value before initialization, None for what is calculated.
+        minimum, maximum: inclusive limits, in `unit`.
+        nominal: typical magnitude, in `unit`.
+        dependencies: value references of the inputs on which an output depends at the same communication point.
+        initial_dependencies: value references of the inputs and parameters on which a calculated variable depends
+            in initialization mode.
+    """
+
+    name: str
+    value_reference: int
+    type: VariableType
+    causality: Causality
+    variability: Variability
+    initial: Initial | None
+    description: str
+    unit: str | None = None
+    display_unit: str | None = None
+    start: float | int | bool | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    nominal: float | None = None
+    dependencies: tuple[int, ...] = ()
+    initial_dependencies: tuple[int, ...] = ()
+
+
+def variables_of(model: Model) -> tuple[Variable, ...]:
+    """All variables of a model's FMU: inputs, outputs, parameters, calculated parameters.
+
+    The value reference of a variable is its position in the tuple.
+    """
+    mechanism = model.mechanism(model.values())
+    inputs, outputs = mechanism.inputs, mechanism.outputs
+    first_parameter = len(inputs) + len(outputs)
+    parameters = tuple(range(first_parameter, first_parameter + len(model.parameters)))
+    input_references = {port.name: reference for reference, port in enumerate(inputs)}
+
+    def variables() -> Iterator[Variable]:
+        for reference, port in enumerate(inputs):
+            yield _input(port, reference)
+        for reference, output in enumerate(outputs, len(inputs)):
+            feedthrough = tuple(sorted(input_references[name] for name in output.feedthrough))
+            yield _output(output, reference, feedthrough, parameters)
+        for reference, parameter in zip(parameters, model.parameters, strict=True):
+            yield _parameter(parameter, reference)
+        for reference, calculated in enumerate(mechanism.calculated, first_parameter + len(parameters)):
+            yield _calculated(calculated, reference, parameters)
+
+    return tuple(variables())
+
+
+def _input(port: Input, reference: int) -> Variable:
+    return Variable(
+        port.name,
+        reference,
+        "Real",
+        "input",
+        "continuous",
+        None,
+        port.description,
+        port.unit,
+        port.display_unit,
+        float(port.start),
+        port.minimum,
+        port.maximum,
+    )
+
+
+def _output(port: Output, reference: int, feedthrough: tuple[int, ...], parameters: tuple[int, ...]) -> Variable:
+    # What the last impact left is the same in every new instance: it depends on nothing.
+    of_impact = bool(_OF_IMPACT.match(port.source))
+    real = port.type == "Real"
+    return Variable(
+        port.name,
+        reference,
+        port.type,
+        "output",
+        "continuous" if real and not of_impact else "discrete",
+        "calculated",
+        port.description,
+        port.unit if real else None,
+        port.display_unit if real else None,
+        nominal=port.nominal,
+        dependencies=feedthrough,
+        initial_dependencies=() if of_impact else feedthrough + parameters,
+    )
+
+
+def _parameter(port: Parameter, reference: int) -> Variable:
+    real = port.type == "Real"
+    cast = {"Real": float, "Integer": int, "Boolean": bool}[port.type]
+    return Variable(
+        port.name,
+        reference,
+        port.type,
+        "parameter",
+        "fixed",
+        "exact",
+        port.description,
+        port.unit if real else None,
+        port.display_unit if real else None,
+        cast(port.start),
+        port.minimum,
+        port.maximum,
+    )
+
+
+def _calculated(port: Calculated, reference: int, parameters: tuple[int, ...]) -> Variable:
+    return Variable(
+        port.name,
+        reference,
+        "Real",
+        "calculatedParameter",
+        "fixed",
+        "calculated",
+        port.description,
+        port.unit,
+        port.display_unit,
+        initial_dependencies=parameters,
+    )

@@ -1,0 +1,30 @@
+"""What a mechanism is: frozen records with SI units, and no numerics."""
+
+from .body import GROUND, Body
+from .compile import MechanismTables
+from .contacts import PointLineContact
+from .errors import MechanismError
+from .forces import Torque, TorsionSpring
+from .joints import Revolute, Translational
+from .mechanism import Mechanism, Settings
+from .model import Model
+from .ports import Calculated, Input, Output, Parameter
+
+__all__ = [
+    "GROUND",
+    "Body",
+    "Calculated",
+    "Input",
+    "Mechanism",
+    "MechanismError",
+    "MechanismTables",
+    "Model",
+    "Output",
+    "Parameter",
+    "PointLineContact",
+    "Revolute",
+    "Settings",
+    "Torque",
+    "TorsionSpring",
+    "Translational",
+]

@@ -1,0 +1,32 @@
+"""Rigid bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .functions import Number
+
+#: The name of the fixed frame: use it wherever a body is asked for.
+GROUND = "ground"
+
+#: A point or a vector (x, y) [m] in the frame of a body, from its centre of mass, or in the global frame.
+Point = tuple[Number, Number]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body of the plane; its coordinates are (x, y) of the centre of mass and the angle phi.
+
+    Attributes:
+        name: unique within the mechanism.
+        mass: [kg], > 0.
+        inertia: about the centre of mass [kg m2], > 0.
+        start: guess of (x [m], y [m], phi [rad]) that `assemble` closes.
+        start_rate: (xd [m/s], yd [m/s], phid [rad/s]) at the start; must agree with the joints.
+    """
+
+    name: str
+    mass: Number
+    inertia: Number
+    start: tuple[Number, Number, Number] = (0.0, 0.0, 0.0)
+    start_rate: tuple[Number, Number, Number] = (0.0, 0.0, 0.0)

@@ -1,0 +1,145 @@
+"""What cannot be right is refused here, by name and with the way out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from .body import GROUND, Body
+from .contacts import PointLineContact
+from .errors import MechanismError
+from .forces import TorsionSpring
+from .joints import Translational
+from .mechanism import Mechanism
+from .ports import Calculated, Input, Output
+from .sources import resolve_output
+
+#: A contact's normal must have unit length to this accuracy.
+_UNIT_LENGTH = 1e-9
+
+
+def check(mechanism: Mechanism) -> None:
+    """Check a mechanism whose values are plain numbers.
+
+    Raises:
+        MechanismError: with every problem found, one sentence each.
+    """
+    problems = [
+        *_names(mechanism),
+        *(p for body in mechanism.bodies for p in _body(body)),
+        *_references(mechanism),
+        *(p for contact in mechanism.contacts for p in _contact(contact)),
+        *_springs(mechanism),
+        *_numbers(mechanism),
+        *_axes(mechanism),
+        *_ports(mechanism),
+        *_settings(mechanism),
+    ]
+    if problems:
+        raise MechanismError(" ".join(problems))
+
+
+def _names(mechanism: Mechanism) -> Iterator[str]:
+    if not mechanism.bodies:
+        yield "The mechanism has no body; give at least one."
+    seen: dict[str, str] = {GROUND: "the fixed frame"}
+    for part in (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.contacts):
+        what = type(part).__name__
+        if not part.name or "." in part.name or ":" in part.name:
+            yield f"{what} {part.name!r}: a name must not be empty or hold '.' or ':'; choose another."
+        elif part.name in seen:
+            yield f"{what} {part.name!r} has the name of {seen[part.name]}; every part needs a name of its own."
+        seen[part.name] = f"another part ({what})"
+    ports: tuple[Input | Output | Calculated, ...] = (*mechanism.inputs, *mechanism.outputs, *mechanism.calculated)
+    taken: set[str] = set()
+    for port in ports:
+        if port.name in taken:
+            yield f"{type(port).__name__} {port.name!r} stands twice among the ports; rename one of the two."
+        taken.add(port.name)
+
+
+def _body(body: Body) -> Iterator[str]:
+    for what, value, unit in (("mass", body.mass, "kg"), ("inertia", body.inertia, "kg.m2")):
+        if not (math.isfinite(value) and value > 0):
+            yield f"Body {body.name!r}: {what} = {value:g} {unit}, but it must be positive and finite."
+    if not all(math.isfinite(v) for v in (*body.start, *body.start_rate)):
+        yield f"Body {body.name!r}: start {body.start} or start_rate {body.start_rate} is not finite."
+
+
+def _references(mechanism: Mechanism) -> Iterator[str]:
+    known = [body.name for body in mechanism.bodies]
+    users = [(p, (p.body_i, p.body_j)) for p in (*mechanism.joints, *mechanism.contacts)]
+    forces = [(f, (f.body, f.reaction)) for f in mechanism.forces]
+    for part, bodies in (*users, *forces):
+        label = f"{type(part).__name__} {part.name!r}"
+        for name in bodies:
+            if name != GROUND and name not in known:
+                yield f"{label} is attached to unknown body {name!r}; there are {', '.join(known)} and {GROUND!r}."
+        if bodies[0] == bodies[1]:
+            yield f"{label} joins {bodies[0]!r} to itself; attach it to two different bodies."
+
+
+def _contact(contact: PointLineContact) -> Iterator[str]:
+    length = math.hypot(*contact.normal)
+    if not abs(length - 1) < _UNIT_LENGTH:
+        yield f"Contact {contact.name!r}: its normal has length {length:g}, but it must be a unit vector."
+    if not 0 <= contact.restitution <= 1:
+        yield f"Contact {contact.name!r}: restitution = {contact.restitution:g} is outside 0..1."
+    if not (math.isfinite(contact.beam_length) and contact.beam_length >= 0):
+        yield f"Contact {contact.name!r}: beam_length = {contact.beam_length:g} m must be finite and not negative."
+
+
+def _springs(mechanism: Mechanism) -> Iterator[str]:
+    for force in mechanism.forces:
+        if isinstance(force, TorsionSpring) and not force.stiffness >= 0:
+            yield f"Spring {force.name!r}: stiffness = {force.stiffness:g} N.m/rad, but it must not be negative."
+
+
+def _numbers(mechanism: Mechanism) -> Iterator[str]:
+    for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts):
+        if not all(math.isfinite(number) for number in part.data()):
+            yield f"{type(part).__name__} {part.name!r} holds a number that is not finite; give finite ones."
+    for port in mechanism.inputs:
+        if not math.isfinite(port.start):
+            yield f"Input {port.name!r}: start = {port.start} is not finite."
+
+
+def _axes(mechanism: Mechanism) -> Iterator[str]:
+    for joint in mechanism.joints:
+        if isinstance(joint, Translational) and not (math.hypot(*joint.axis_i) > 0 and math.hypot(*joint.axis_j) > 0):
+            yield f"Joint {joint.name!r}: an axis of length zero has no direction; give both axes a length."
+
+
+def _ports(mechanism: Mechanism) -> Iterator[str]:
+    forces = {force.name: force for force in mechanism.forces}
+    inputs = {i.name for i in mechanism.inputs}
+    written: dict[str, str] = {}
+    for port in mechanism.inputs:
+        if port.target in written:
+            yield f"Input {port.name!r} writes {port.target!r}, as {written[port.target]!r} does; remove one of them."
+        written[port.target] = port.name
+        force, _, entry = port.target.partition(".")
+        if force not in forces or entry not in forces[force].columns:
+            targets = [f"{name}.{column}" for name, f in forces.items() for column in f.columns]
+            yield f"Input {port.name!r} writes {port.target!r}, which does not exist; choose {' or '.join(targets)}."
+    for output in mechanism.outputs:
+        try:
+            resolve_output(output.source, mechanism)
+        except MechanismError as error:
+            yield f"Output {output.name!r}: {error}"
+        for name in output.feedthrough:
+            if name not in inputs:
+                yield f"Output {output.name!r} depends on unknown input {name!r}."
+    names = [f"{body.name}.{coordinate}" for body in mechanism.bodies for coordinate in ("x", "y", "angle")]
+    for held in mechanism.held:
+        if held not in names:
+            yield f"Held coordinate {held!r} does not exist; choose among {', '.join(names)}."
+
+
+def _settings(mechanism: Mechanism) -> Iterator[str]:
+    settings = mechanism.settings
+    if not 1e-13 <= settings.relative_tolerance <= 1e-3:
+        yield f"relative_tolerance = {settings.relative_tolerance:g} is outside 1e-13..1e-3."
+    for name in ("baumgarte_alpha", "baumgarte_beta"):
+        if not (math.isfinite(getattr(settings, name)) and getattr(settings, name) >= 0):
+            yield f"{name} = {getattr(settings, name):g} must be finite and not negative."

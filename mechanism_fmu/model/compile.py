@@ -1,0 +1,133 @@
+"""From parts to tables: the one thing that the engine reads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import codes
+from .body import GROUND
+from .functions import Number, sqrt
+from .mechanism import Mechanism
+from .sources import resolve_output
+
+#: Width of `joint_data`, `force_data` and `contact_data`: the longest row of any kind.
+JOINT_COLUMNS = 8
+FORCE_COLUMNS = 3
+CONTACT_COLUMNS = 6
+
+#: A one- or two-dimensional table of numbers; of dtype object when the numbers are symbolic.
+Table = np.ndarray[Any, np.dtype[Any]]
+
+
+@dataclass(frozen=True)
+class MechanismTables:
+    """A mechanism as arrays, in the order of its parts; body number `bodies` (one past the last) is the ground.
+
+    Integer tables hold structure and never depend on parameter values; the others hold numbers (SI units).
+    `joint_rows` is the number of rows of all joints. `inverse_mass` and `inverse_root_mass` have 3 entries a body and 3 zeros for the ground.
+    """
+
+    inverse_mass: Table
+    inverse_root_mass: Table
+    body_start: Table
+    body_start_rate: Table
+    joint_kind: Table
+    joint_body_i: Table
+    joint_body_j: Table
+    joint_row: Table
+    joint_rows: int
+    joint_data: Table
+    force_kind: Table
+    force_body: Table
+    force_reaction: Table
+    force_data: Table
+    contact_body_i: Table
+    contact_body_j: Table
+    contact_start_mode: Table
+    contact_tooth: Table
+    contact_data: Table
+    contact_restitution: Table
+    contact_beam_length: Table
+    held: Table
+    input_force: Table
+    input_column: Table
+    input_start: Table
+    output_kind: Table
+    output_index: Table
+    output_slot: Table
+    output_value: Table
+    settings: Table
+
+
+def compile_tables(mechanism: Mechanism) -> MechanismTables:
+    """Write a mechanism as tables (no checks: see `check`). Numbers may be symbolic."""
+    bodies = {body.name: i for i, body in enumerate(mechanism.bodies)} | {GROUND: len(mechanism.bodies)}
+    forces = {force.name: i for i, force in enumerate(mechanism.forces)}
+    contacts = mechanism.contacts
+    masses = [m for body in mechanism.bodies for m in (body.mass, body.mass, body.inertia)]
+    first_rows = np.cumsum([0, *(joint.rows for joint in mechanism.joints)])
+    targets = [i.target.split(".") for i in mechanism.inputs]
+    outputs = [resolve_output(o.source, mechanism) for o in mechanism.outputs]
+    constants = [(codes.CONSTANT, 0, 0)] * len(mechanism.calculated)
+    return MechanismTables(
+        inverse_mass=_numbers([*(1 / m for m in masses), 0.0, 0.0, 0.0]),
+        inverse_root_mass=_numbers([*(1 / sqrt(m) for m in masses), 0.0, 0.0, 0.0]),
+        body_start=_rows([b.start for b in mechanism.bodies], 3),
+        body_start_rate=_rows([b.start_rate for b in mechanism.bodies], 3),
+        joint_kind=_integers([j.kind for j in mechanism.joints]),
+        joint_body_i=_integers([bodies[j.body_i] for j in mechanism.joints]),
+        joint_body_j=_integers([bodies[j.body_j] for j in mechanism.joints]),
+        joint_row=_integers(list(first_rows[:-1])),
+        joint_rows=int(first_rows[-1]),
+        joint_data=_rows([j.data() for j in mechanism.joints], JOINT_COLUMNS),
+        force_kind=_integers([f.kind for f in mechanism.forces]),
+        force_body=_integers([bodies[f.body] for f in mechanism.forces]),
+        force_reaction=_integers([bodies[f.reaction] for f in mechanism.forces]),
+        force_data=_rows([f.data() for f in mechanism.forces], FORCE_COLUMNS),
+        contact_body_i=_integers([bodies[c.body_i] for c in contacts]),
+        contact_body_j=_integers([bodies[c.body_j] for c in contacts]),
+        contact_start_mode=_integers([codes.CLOSED if c.closed else codes.OPEN for c in contacts]),
+        contact_tooth=_integers([c.tooth for c in contacts]),
+        contact_data=_rows([c.data() for c in contacts], CONTACT_COLUMNS),
+        contact_restitution=_numbers([c.restitution for c in contacts]),
+        contact_beam_length=_numbers([c.beam_length for c in contacts]),
+        held=_integers([coordinate_index(h, mechanism) for h in mechanism.held]),
+        input_force=_integers([forces[force] for force, _ in targets]),
+        input_column=_integers([mechanism.forces[forces[force]].columns[entry] for force, entry in targets]),
+        input_start=_numbers([i.start for i in mechanism.inputs]),
+        output_kind=_integers([kind for kind, _, _ in outputs + constants]),
+        output_index=_integers([index for _, index, _ in outputs + constants]),
+        output_slot=_integers([slot for _, _, slot in outputs + constants]),
+        output_value=_numbers([0.0] * len(outputs) + [c.value for c in mechanism.calculated]),
+        settings=_numbers(
+            [
+                mechanism.settings.relative_tolerance,
+                mechanism.settings.baumgarte_alpha,
+                mechanism.settings.baumgarte_beta,
+            ]
+        ),
+    )
+
+
+def coordinate_index(name: str, mechanism: Mechanism) -> int:
+    """Index in q of a coordinate given as "<body>.x|y|angle"."""
+    body, _, coordinate = name.rpartition(".")
+    return 3 * [b.name for b in mechanism.bodies].index(body) + ("x", "y", "angle").index(coordinate)
+
+
+def _integers(values: Sequence[int]) -> Table:
+    return np.array(values, dtype=np.int64)
+
+
+def _numbers(values: Sequence[Number]) -> Table:
+    symbolic = any(not isinstance(v, (int, float, np.number)) for v in values)
+    return np.array(values, dtype=object if symbolic else np.float64)
+
+
+def _rows(rows: Sequence[Sequence[Number]], columns: int) -> Table:
+    flat = [v for row in rows for v in (*row, *[0.0] * (columns - len(row)))]
+    return _numbers(flat).reshape(len(rows), columns)

@@ -1,0 +1,34 @@
+"""Revolute joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ... import codes
+from ..body import Point
+from ..functions import Number
+
+
+@dataclass(frozen=True)
+class Revolute:
+    """A pin: point P of `body_i` and point P of `body_j` coincide; the bodies turn freely (ME451, revolute).
+
+    Attributes:
+        name: unique within the mechanism.
+        body_i, body_j: names of the two bodies (or `GROUND`).
+        point_i, point_j: P in the frame of each body [m].
+    """
+
+    kind: ClassVar[int] = codes.REVOLUTE
+    rows: ClassVar[int] = 2
+
+    name: str
+    body_i: str
+    point_i: Point
+    body_j: str
+    point_j: Point
+
+    def data(self) -> tuple[Number, ...]:
+        """The joint's row of the table `joint_data`: point_i, point_j."""
+        return (*self.point_i, *self.point_j)

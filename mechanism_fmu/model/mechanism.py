@@ -1,0 +1,64 @@
+"""The mechanism: all its parts in one frozen record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .body import Body
+from .contacts import PointLineContact
+from .forces import Force
+from .functions import Number
+from .joints import Joint
+from .ports import Calculated, Input, Output
+
+if TYPE_CHECKING:
+    from .compile import MechanismTables
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How the engine integrates.
+
+    Attributes:
+        relative_tolerance: of the step control, 1e-13..1e-3.
+        baumgarte_alpha: [1/s], and baumgarte_beta: [1/s], of gamma - 2 alpha Phi' - beta^2 Phi.
+    """
+
+    relative_tolerance: Number = 1e-9
+    baumgarte_alpha: Number = 10.0
+    baumgarte_beta: Number = 1.0
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A planar mechanism with its ports.
+
+    Attributes:
+        bodies, joints, forces, contacts: the parts; names are unique over all of them.
+        inputs, outputs, calculated: what the outside sees.
+        held: coordinates, as "<body>.x|y|angle", that `assemble` must not move.
+        settings: how the engine integrates.
+    """
+
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...] = ()
+    forces: tuple[Force, ...] = ()
+    contacts: tuple[PointLineContact, ...] = ()
+    inputs: tuple[Input, ...] = ()
+    outputs: tuple[Output, ...] = ()
+    calculated: tuple[Calculated, ...] = ()
+    held: tuple[str, ...] = ()
+    settings: Settings = Settings()
+
+    def compile(self) -> MechanismTables:
+        """Check the mechanism and write it as tables.
+
+        Raises:
+            MechanismError: a part cannot be right; the message names it and the way out.
+        """
+        from .check import check
+        from .compile import compile_tables
+
+        check(self)
+        return compile_tables(self)

@@ -1,0 +1,99 @@
+"""A model: a mechanism as a function of named parameters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+from .errors import MechanismError
+from .mechanism import Mechanism
+from .ports import Parameter
+
+
+def _no_objection(_values: SimpleNamespace) -> list[str]:
+    return []
+
+
+@dataclass(frozen=True)
+class Model:
+    """What a folder of `models/` exports as `MODEL`, and what becomes an FMU.
+
+    Attributes:
+        name: of the FMU, a Python identifier, e.g. "Ratchet".
+        description: one line for the user.
+        parameters: all parameters with their limits.
+        mechanism: pure function from parameter values (attributes of its one argument, by name) to the mechanism:
+            plain arithmetic and `model.functions` only, no branching on structure, so that symbolic numbers pass.
+        objections: what is wrong with values that are each within their limits, as messages for the user; it is asked
+            before the mechanism is assembled and may use any Python.
+        warnings: likewise, for what is legal but deserves a line in the log.
+        stop_time, step_size: default experiment [s].
+    """
+
+    name: str
+    description: str
+    parameters: tuple[Parameter, ...]
+    mechanism: Callable[[SimpleNamespace], Mechanism]
+    objections: Callable[[SimpleNamespace], list[str]] = _no_objection
+    warnings: Callable[[SimpleNamespace], list[str]] = _no_objection
+    stop_time: float = 1.0
+    step_size: float = 1e-3
+
+    def values(self, **changes: float) -> SimpleNamespace:
+        """Parameter values: the defaults with `changes`.
+
+        Raises:
+            MechanismError: unknown name, or a value outside its limits.
+        """
+        return self.checked({p.name: p.start for p in self.parameters} | changes)
+
+    def checked(self, values: Mapping[str, float]) -> SimpleNamespace:
+        """All parameter values, each checked against its limits.
+
+        Raises:
+            MechanismError: unknown name, or a value outside its limits.
+        """
+        known = {p.name: p for p in self.parameters}
+        for name, value in values.items():
+            if name not in known:
+                raise MechanismError(f"{self.name} has no parameter {name!r}; it has: {', '.join(sorted(known))}.")
+            check_value(known[name], value)
+            if known[name].type == "Integer" and value != int(value):
+                raise MechanismError(f"{name} = {value:g} is not a whole number; give an integer.")
+            if known[name].type == "Boolean" and value not in (0, 1):
+                raise MechanismError(f"{name} = {value:g} is neither true (1) nor false (0); give one of the two.")
+        return SimpleNamespace(**values)
+
+    def build(self, values: SimpleNamespace) -> Mechanism:
+        """The mechanism for parameter values, after asking for objections.
+
+        Raises:
+            MechanismError: with all objections.
+        """
+        objections = self.objections(values)
+        if objections:
+            raise MechanismError(" ".join(objections))
+        return self.mechanism(values)
+
+
+def check_value(parameter: Parameter, value: float) -> None:
+    """Check one value against the limits of its parameter (or input: anything with the same fields).
+
+    Raises:
+        MechanismError: not finite, or outside the limits.
+    """
+    unit = "" if parameter.unit == "1" else f" {parameter.unit}"
+    if not math.isfinite(value):
+        raise MechanismError(
+            f"{parameter.name} = {value} is not a finite number; give a value in{unit or ' plain numbers'}."
+        )
+    if parameter.minimum is not None and value < parameter.minimum:
+        raise MechanismError(
+            f"{parameter.name} = {value:g}{unit} is below its limit; give at least {parameter.minimum:g}{unit}."
+        )
+    if parameter.maximum is not None and value > parameter.maximum:
+        raise MechanismError(
+            f"{parameter.name} = {value:g}{unit} is above its limit; give at most {parameter.maximum:g}{unit}."
+        )

@@ -1,0 +1,99 @@
+"""What the outside sees of a mechanism: parameters, inputs and outputs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .functions import Number
+
+#: The FMI type of a variable.
+VariableType = Literal["Real", "Integer", "Boolean"]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that is fixed before initialization.
+
+    Attributes:
+        name: FMI name.
+        start: default value, in `unit`.
+        unit: SI unit, e.g. "m", "rad", "kg.m2", "1".
+        minimum, maximum: inclusive limits, in `unit`; a value outside is refused.
+        type: FMI type.
+        description: one line for the user.
+        display_unit: e.g. "deg"; None for the SI unit itself.
+    """
+
+    name: str
+    start: float
+    description: str
+    unit: str = "1"
+    minimum: float | None = None
+    maximum: float | None = None
+    type: VariableType = "Real"
+    display_unit: str | None = None
+
+
+@dataclass(frozen=True)
+class Input:
+    """A number that the outside may change at every communication point; it is held in between.
+
+    Attributes:
+        name: FMI name.
+        target: the table entry it writes, "<force>.<column>", e.g. "drive.torque" or "spring.preload".
+        start, unit, minimum, maximum, display_unit, description: as of `Parameter`.
+    """
+
+    name: str
+    target: str
+    start: float
+    description: str
+    unit: str = "1"
+    minimum: float | None = None
+    maximum: float | None = None
+    display_unit: str | None = None
+
+
+@dataclass(frozen=True)
+class Output:
+    """A number that the outside may read.
+
+    Attributes:
+        name: FMI name.
+        source: what it reads. "<body>.x|y|angle" and "<body>.x_rate|y_rate|speed"; "<contact>.force" (multiplier,
+            positive when it pushes) and "<contact>.gap"; "energy.kinetic|spring|work|lost"; "impact.count|in_step|lost|any";
+            "impact.<field>" of the last impact and "impacts[k].<field>" of the k-th (1..8) of the last communication
+            step, with field one of time, contact, tooth, closing_speed, impulse, velocity, "impulse:<contact>",
+            "speed:<body>", "speed_before:<body>".
+        description: one line for the user.
+        unit, display_unit, type: as of `Parameter`.
+        nominal: typical magnitude in `unit`, or None.
+        feedthrough: names of the inputs on which the value depends at the same instant.
+    """
+
+    name: str
+    source: str
+    description: str
+    unit: str = "1"
+    display_unit: str | None = None
+    type: VariableType = "Real"
+    nominal: float | None = None
+    feedthrough: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Calculated:
+    """A number that follows from the parameters alone (FMI: calculatedParameter).
+
+    Attributes:
+        name: FMI name.
+        value: in `unit`.
+        description, unit, display_unit: as of `Parameter`.
+    """
+
+    name: str
+    value: Number
+    description: str
+    unit: str = "1"
+    display_unit: str | None = None

@@ -1,0 +1,105 @@
+"""The little language of `Output.source`."""
+
+from __future__ import annotations
+
+import re
+
+from .. import codes
+from .errors import MechanismError
+from .mechanism import Mechanism
+
+_COORDINATES = {"x": 0, "y": 1, "angle": 2}
+_RATES = {"x_rate": 0, "y_rate": 1, "speed": 2}
+_ENERGIES = {
+    "kinetic": codes.KINETIC_ENERGY,
+    "spring": codes.SPRING_ENERGY,
+    "work": codes.WORK_DONE,
+    "lost": codes.ENERGY_LOST,
+}
+_COUNTERS = {
+    "count": codes.IMPACT_COUNT,
+    "in_step": codes.IMPACTS_IN_STEP,
+    "lost": codes.IMPACTS_LOST,
+    "any": codes.IMPACT_FLAG,
+}
+_FIELDS = {
+    "time": codes.RECORD_TIME,
+    "contact": codes.RECORD_CONTACT,
+    "tooth": codes.RECORD_TOOTH,
+    "closing_speed": codes.RECORD_CLOSING_SPEED,
+    "impulse": codes.RECORD_IMPULSE,
+    "velocity": codes.RECORD_VELOCITY,
+}
+
+
+def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
+    """The (kind, index, slot) of an output's source (see `Output`).
+
+    Raises:
+        MechanismError: the source names no such part or quantity.
+    """
+    part, _, quantity = source.partition(".")
+    found = (
+        _of_impact(part, quantity, mechanism)
+        or _of_body(part, quantity, mechanism)
+        or _of_contact(part, quantity, mechanism)
+    )
+    if part == "energy" and quantity in _ENERGIES:
+        found = (_ENERGIES[quantity], 0, 0)
+    if found is None:
+        raise MechanismError(
+            f"output source {source!r} is unknown; use <body>.x|y|angle|x_rate|y_rate|speed, <contact>.force|gap, "
+            f"energy.{'|'.join(_ENERGIES)}, impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
+            f"bodies {', '.join(b.name for b in mechanism.bodies)} and contacts "
+            f"{', '.join(c.name for c in mechanism.contacts) or '(none)'}."
+        )
+    return found
+
+
+def _of_body(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    names = [b.name for b in mechanism.bodies]
+    if part not in names:
+        return None
+    first = 3 * names.index(part)
+    if quantity in _COORDINATES:
+        return codes.COORDINATE, first + _COORDINATES[quantity], 0
+    if quantity in _RATES:
+        return codes.RATE, first + _RATES[quantity], 0
+    return None
+
+
+def _of_contact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    names = [c.name for c in mechanism.contacts]
+    kinds = {"force": codes.CONTACT_FORCE, "gap": codes.CONTACT_GAP}
+    if part not in names or quantity not in kinds:
+        return None
+    return kinds[quantity], names.index(part), 0
+
+
+def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    if part == "impact":
+        if quantity in _COUNTERS:
+            return _COUNTERS[quantity], 0, 0
+        column = _record_column(quantity, mechanism)
+        return None if column is None else (codes.LAST_IMPACT, column, 0)
+    match = re.fullmatch(r"impacts\[(\d+)\]", part)
+    if match and 1 <= int(match[1]) <= codes.IMPACT_BUFFER_LENGTH:
+        column = _record_column(quantity, mechanism)
+        return None if column is None else (codes.BUFFERED_IMPACT, column, int(match[1]) - 1)
+    return None
+
+
+def _record_column(field: str, mechanism: Mechanism) -> int | None:
+    if field in _FIELDS:
+        return _FIELDS[field]
+    what, _, part = field.partition(":")
+    contacts = [c.name for c in mechanism.contacts]
+    bodies = [b.name for b in mechanism.bodies]
+    before = codes.RECORD_CONTACT_IMPULSES + len(contacts)
+    if what == "impulse" and part in contacts:
+        return codes.RECORD_CONTACT_IMPULSES + contacts.index(part)
+    if what == "speed_before" and part in bodies:
+        return before + 3 * bodies.index(part) + 2
+    if what == "speed" and part in bodies:
+        return before + 3 * len(bodies) + 3 * bodies.index(part) + 2
+    return None

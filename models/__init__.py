@@ -1,0 +1,25 @@
+"""Ready-made mechanisms, one folder each: `model.py` with `MODEL`, README, drawing, reference curve."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
+from mechanism_fmu.model import MechanismError
+
+
+def available() -> dict[str, Path]:
+    """Folders of all models, by name."""
+    return {path.parent.name: path.parent for path in sorted(Path(__file__).parent.glob("*/model.py"))}
+
+
+def load(name: str) -> ModuleType:
+    """The module `models.<name>.model`, which holds `MODEL`.
+
+    Raises:
+        MechanismError: there is no such model; the message lists those that there are.
+    """
+    if name not in available():
+        raise MechanismError(f"There is no model {name!r}; there are: {', '.join(available())}.")
+    return import_module(f"models.{name}.model")

@@ -1,0 +1,105 @@
+"""The ratchet of Pennestrì, Valentini and Vita, with the pawl guided along the slope of one tooth.
+
+Frame: the wheel's hinge at the origin, the crank's hinge at (d, 0). The wheel's x axis passes through the
+root of the tooth that is struck, so that its angle is psi. Equations and sources: README.md beside this file.
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+from mechanism_fmu.model import (
+    GROUND,
+    Body,
+    Mechanism,
+    Model,
+    PointLineContact,
+    Revolute,
+    Settings,
+    Torque,
+    TorsionSpring,
+)
+from mechanism_fmu.model.functions import cos, sin
+
+from .checks import objections, warnings
+from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
+from .start import crank_pin, pawl_angle, tooth
+
+
+def mechanism(values: SimpleNamespace) -> Mechanism:
+    """The ratchet for parameter values that raise no objection."""
+    half_crank, half_pawl = values.crank_length / 2, values.pawl_length / 2
+    return Mechanism(
+        bodies=_bodies(values),
+        joints=(
+            Revolute("crank_hinge", "crank", (-half_crank, 0.0), GROUND, (values.hinge_distance, 0.0)),
+            Revolute("pin", "pawl", (-half_pawl, 0.0), "crank", (half_crank, 0.0)),
+            Revolute("wheel_hinge", "wheel", (0.0, 0.0), GROUND, (0.0, 0.0)),
+        ),
+        forces=(
+            Torque("drive", "crank"),
+            Torque("load", "wheel"),
+            TorsionSpring(
+                "spring",
+                "wheel",
+                stiffness=values.spring_stiffness,
+                free_angle=values.spring_free_angle,
+            ),
+        ),
+        contacts=_contacts(values),
+        inputs=INPUTS,
+        outputs=OUTPUTS,
+        calculated=calculated(values),
+        held=("crank.angle", "wheel.angle"),
+        settings=Settings(values.relative_tolerance, values.baumgarte_alpha, values.baumgarte_beta),
+    )
+
+
+def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
+    pin, phi, gamma = crank_pin(values), values.crank_angle_start, pawl_angle(values)
+    half_crank, half_pawl = values.crank_length / 2, values.pawl_length / 2
+    return (
+        Body(
+            "crank",
+            values.crank_mass,
+            values.crank_inertia,
+            (values.hinge_distance + half_crank * cos(phi), half_crank * sin(phi), phi),
+        ),
+        Body(
+            "pawl",
+            values.pawl_mass,
+            values.pawl_inertia,
+            (pin.x + half_pawl * cos(gamma), pin.y + half_pawl * sin(gamma), gamma),
+        ),
+        Body("wheel", values.wheel_mass, values.wheel_inertia, (0.0, 0.0, values.wheel_angle_start)),
+    )
+
+
+def _contacts(values: SimpleNamespace) -> tuple[PointLineContact, ...]:
+    geometry = tooth(values)
+    tip, root = (values.pawl_length / 2, 0.0), (values.wheel_inner_radius, 0.0)
+    return (
+        PointLineContact("slope", "pawl", tip, "wheel", root, geometry.slope_normal, closed=True),
+        PointLineContact(
+            "face",
+            "pawl",
+            tip,
+            "wheel",
+            root,
+            geometry.face_normal,
+            restitution=values.restitution,
+            beam_length=geometry.beam_length,
+        ),
+    )
+
+
+MODEL = Model(
+    name="Ratchet",
+    description="Ratchet of Pennestrì, Valentini and Vita: crank, guided pawl, toothed wheel with spring",
+    parameters=PARAMETERS,
+    mechanism=mechanism,
+    objections=objections,
+    warnings=warnings,
+    stop_time=6.0,
+    step_size=1e-2,
+)

@@ -1,0 +1,231 @@
+"""Inputs, outputs and parameters of the ratchet."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+from mechanism_fmu.model import Calculated, Input, Output, Parameter
+
+from .start import tooth
+
+_IMPACTS_KEPT = 8
+
+INPUTS = (
+    Input(
+        "drive_torque",
+        "drive.torque",
+        1e-3,
+        "Torque on the crank, counter-clockwise positive",
+        "N.m",
+        -1e6,
+        1e6,
+    ),
+    Input(
+        "spring_preload",
+        "spring.preload",
+        0.0,
+        "Preload of the wheel's torsion spring: constant torque that opposes positive wheel rotation",
+        "N.m",
+        -1e6,
+        1e6,
+    ),
+    Input(
+        "load_torque",
+        "load.torque",
+        0.0,
+        "External torque on the wheel, counter-clockwise positive",
+        "N.m",
+        -1e6,
+        1e6,
+    ),
+)
+
+
+def _angle(name: str, body: str, symbol: str) -> Output:
+    return Output(
+        name,
+        f"{body}.angle",
+        f"Absolute angle of the {body} ({symbol}), unwrapped",
+        "rad",
+        "deg",
+        nominal=1.0,
+    )
+
+
+def _speed(name: str, source: str, description: str) -> Output:
+    return Output(name, source, description, "rad/s", "rpm", nominal=0.1)
+
+
+def _buffered_impact(k: int) -> tuple[Output, ...]:
+    prefix, of = f"impacts[{k}]", f"of impact {k} of the last communication step"
+    return (
+        Output(f"{prefix}.time", f"{prefix}.time", f"Time {of}", "s"),
+        Output(
+            f"{prefix}.velocity",
+            f"{prefix}.velocity",
+            f"Stress-recovery velocity v_I {of}",
+            "m/s",
+            nominal=1e-3,
+        ),
+        Output(
+            f"{prefix}.closing_speed",
+            f"{prefix}.closing_speed",
+            f"Normal closing speed {of}",
+            "m/s",
+            nominal=0.1,
+        ),
+        Output(f"{prefix}.impulse", f"{prefix}.impulse", f"Impulse on the tooth face {of}", "N.s", nominal=0.01),
+        _speed(f"{prefix}.wheel_speed", f"{prefix}.speed:wheel", f"Wheel speed just after {of[3:]}"),
+        Output(f"{prefix}.tooth", f"{prefix}.tooth", f"Index of the tooth struck {of}", type="Integer"),
+    )
+
+
+OUTPUTS = (
+    _angle("wheel_angle", "wheel", "psi"),
+    _angle("crank_angle", "crank", "phi"),
+    _angle("pawl_angle", "pawl", "gamma"),
+    _speed("wheel_speed", "wheel.speed", "Rate of wheel_angle (omega)"),
+    _speed("crank_speed", "crank.speed", "Rate of crank_angle"),
+    _speed("pawl_speed", "pawl.speed", "Rate of pawl_angle"),
+    Output(
+        "contact_force",
+        "face.force",
+        "Normal force of the pawl on the tooth face, 0 when open",
+        "N",
+        nominal=0.1,
+        feedthrough=("drive_torque", "spring_preload", "load_torque"),
+    ),
+    Output("face_gap", "face.gap", "Distance of the pawl's tip from the tooth face", "m", nominal=0.01),
+    Output("impact_count", "impact.count", "Impacts since the start", type="Integer"),
+    Output("impact", "impact.any", "At least one impact in the last communication step", type="Boolean"),
+    Output("impact_time", "impact.time", "Time of the last impact; -1 before the first", "s"),
+    Output(
+        "impact_velocity",
+        "impact.velocity",
+        "v_I of the stress recovery for the last impact: impact_wheel_speed times tooth_length",
+        "m/s",
+        nominal=1e-3,
+    ),
+    Output(
+        "impact_closing_speed",
+        "impact.closing_speed",
+        "Normal closing speed just before the last impact",
+        "m/s",
+        nominal=0.1,
+    ),
+    Output(
+        "impact_impulse",
+        "impact.impulse",
+        "Impulse on the tooth face at the last impact",
+        "N.s",
+        nominal=0.01,
+    ),
+    Output(
+        "impact_slope_impulse",
+        "impact.impulse:slope",
+        "Impulse on the tooth slope at the last impact",
+        "N.s",
+        nominal=0.01,
+    ),
+    _speed("impact_wheel_speed", "impact.speed:wheel", "Wheel speed just after the last impact"),
+    _speed("impact_crank_speed", "impact.speed:crank", "Crank speed just after the last impact"),
+    _speed("impact_pawl_speed", "impact.speed:pawl", "Pawl speed just after the last impact"),
+    _speed("impact_wheel_speed_before", "impact.speed_before:wheel", "Wheel speed just before the last impact"),
+    _speed("impact_crank_speed_before", "impact.speed_before:crank", "Crank speed just before the last impact"),
+    _speed("impact_pawl_speed_before", "impact.speed_before:pawl", "Pawl speed just before the last impact"),
+    Output(
+        "impact_tooth",
+        "impact.tooth",
+        "Index of the tooth struck at the last impact; -1 before the first",
+        type="Integer",
+    ),
+    Output(
+        "impacts_in_step",
+        "impact.in_step",
+        "Impacts of the last communication step held in impacts[1..8]",
+        type="Integer",
+    ),
+    Output(
+        "impacts_lost",
+        "impact.lost",
+        "Impacts since the start that did not fit into impacts[1..8]",
+        type="Integer",
+    ),
+    *(output for k in range(1, _IMPACTS_KEPT + 1) for output in _buffered_impact(k)),
+    Output("kinetic_energy", "energy.kinetic", "Kinetic energy of all bodies", "J", nominal=1e-4),
+    Output("spring_energy", "energy.spring", "Energy of the wheel's spring, without preload", "J", nominal=1e-4),
+    Output("work_done", "energy.work", "Work done by the inputs since the start", "J", nominal=1e-4),
+    Output("energy_lost", "energy.lost", "Energy lost in impacts since the start", "J", nominal=1e-4),
+)
+
+
+def _length(name: str, start: float, description: str) -> Parameter:
+    return Parameter(name, start, description, "m", 1e-6, 1e3)
+
+
+def _mass(name: str, start: float, description: str) -> Parameter:
+    return Parameter(name, start, description, "kg", 1e-12, 1e6)
+
+
+def _inertia(name: str, start: float, description: str) -> Parameter:
+    return Parameter(name, start, f"{description} about its centre of mass", "kg.m2", 1e-12, 1e6)
+
+
+def _start_angle(name: str, degrees: float, description: str) -> Parameter:
+    return Parameter(name, math.radians(degrees), description, "rad", -1e3, 1e3, display_unit="deg")
+
+
+PARAMETERS = (
+    Parameter("tooth_count", 10, "Number of teeth of the wheel (nt)", "1", 3, 1000, "Integer"),
+    Parameter(
+        "tooth_slope_angle",
+        math.radians(90),
+        "Angle between the slope of a tooth and the radius at its root (beta_0)",
+        "rad",
+        math.radians(30),
+        math.radians(150),
+        display_unit="deg",
+    ),
+    _length("hinge_distance", 0.130, "Distance between the fixed hinges of wheel and crank (d)"),
+    _length("crank_length", 0.110, "Length of the crank (a)"),
+    _length("pawl_length", 0.100, "Length of the pawl, the paper's follower (b)"),
+    _length("wheel_inner_radius", 0.100, "Radius of the tooth roots (r)"),
+    Parameter("slope_ratio", 1.115, "Slope length over distance between two roots (c_prop)", "1", 1e-3, 1e3),
+    _mass("crank_mass", 0.1000, "Mass of the crank"),
+    _inertia("crank_inertia", 0.0900e-3, "Moment of inertia of the crank"),
+    _mass("pawl_mass", 0.0976, "Mass of the pawl"),
+    _inertia("pawl_inertia", 0.0853e-3, "Moment of inertia of the pawl"),
+    _mass("wheel_mass", 5.6264, "Mass of the wheel"),
+    _inertia("wheel_inertia", 32.7948e-3, "Moment of inertia of the wheel"),
+    Parameter("spring_stiffness", 15e-3, "Stiffness of the wheel's torsion spring", "N.m/rad", 0.0, 1e6),
+    _start_angle("spring_free_angle", 75, "Wheel angle at which the torsion spring is relaxed"),
+    Parameter("restitution", 0.0, "Coefficient of restitution between pawl and tooth face (e)", "1", 0.0, 1.0),
+    _start_angle("crank_angle_start", 77, "Crank angle at the start (phi)"),
+    _start_angle("wheel_angle_start", 75, "Wheel angle at the start (psi)"),
+    Parameter("baumgarte_alpha", 10.0, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
+    Parameter("baumgarte_beta", 1.0, "Baumgarte gain on the constraints, squared in use", "1/s", 0.0, 1e4),
+    Parameter("relative_tolerance", 1e-9, "Relative tolerance of the integration", "1", 1e-13, 1e-3),
+    Parameter(
+        "guided",
+        1.0,
+        "Whether the slope guides the pawl's tip in both directions, as in the paper",
+        type="Boolean",
+    ),
+)
+
+
+def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
+    """The tooth geometry that stress recovery and drawings need."""
+    geometry = tooth(values)
+    lengths: tuple[tuple[str, Any, str], ...] = (
+        ("tooth_length", geometry.beam_length, "Length of a tooth as a beam (l)"),
+        ("tooth_slope_length", geometry.slope_length, "Length of a tooth's slope (L)"),
+        ("tooth_face_length", geometry.face_length, "Length of a tooth's face (F)"),
+    )
+    return (
+        Calculated("tooth_pitch", geometry.pitch, "Angle between two teeth (theta)", "rad", "deg"),
+        Calculated("tooth_apex_angle", geometry.apex_angle, "Angle at a tooth's apex (alpha)", "rad", "deg"),
+        *(Calculated(name, length, description, "m") for name, length, description in lengths),
+    )

@@ -1,0 +1,12 @@
+from pathlib import Path
+
+import pytest
+
+import models
+from mechanism_fmu.fmu.package import build_fmu
+
+
+@pytest.fixture(scope="session")
+def ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built Ratchet.fmu."""
+    return build_fmu(models.load("ratchet"), tmp_path_factory.mktemp("fmu"))

@@ -1,0 +1,55 @@
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from harness.clock import SECOND, TimeGrid, seconds
+from harness.errors import UsageError
+
+
+@given(st.integers(1, 10**12), st.integers(1, 10**9), st.integers(0, 10**12))
+def test_steps_join_without_gap_and_end_at_stop(length: int, step: int, start: int) -> None:
+    grid = TimeGrid(start, start + min(length, 1000 * step), step)
+    steps = list(grid)
+    assert len(steps) == len(grid)
+    assert steps[0][0] == grid.start
+    assert steps[-1][1] == grid.stop
+    assert all(before[1] == after[0] for before, after in zip(steps, steps[1:], strict=False))
+    assert all(end - begin == step for begin, end in steps[:-1])
+    assert 0 < steps[-1][1] - steps[-1][0] <= step
+
+
+def test_time_never_drifts_over_a_million_steps() -> None:
+    added = 0.0
+    for number, (begin, _) in enumerate(TimeGrid.of(stop_time=1e4, step=0.01)):
+        assert seconds(begin) == number / 100
+        added += 0.01
+    assert added != 1e4  # what the clock is there to avoid
+
+
+def test_last_step_is_shortened() -> None:
+    steps = list(TimeGrid.of(stop_time=1.0, step=0.3))
+    assert [end - begin for begin, end in steps] == [3 * SECOND // 10] * 3 + [SECOND // 10]
+
+
+def test_a_step_longer_than_the_run_becomes_the_run() -> None:
+    assert list(TimeGrid.of(stop_time=0.5, step=2.0)) == [(0, SECOND // 2)]
+
+
+@pytest.mark.parametrize(
+    ("stop_time", "step", "message"),
+    [
+        (1.0, 0.0, "at least one nanosecond"),
+        (1.0, 1e-10, "at least one nanosecond"),
+        (1.0, -1e-3, "step is -0.001 s"),
+        (0.0, 1e-3, "must be later than the start"),
+        (-1.0, 1e-3, "stop time is -1 s"),
+        (math.nan, 1e-3, "stop time is nan s"),
+        (1.0, math.inf, "step is inf s"),
+        (1e9, 1e-3, "counts nanoseconds up to 9007199 s"),
+    ],
+)
+def test_impossible_times_are_refused(stop_time: float, step: float, message: str) -> None:
+    with pytest.raises(UsageError, match=message):
+        TimeGrid.of(stop_time, step)
