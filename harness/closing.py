@@ -16,7 +16,7 @@ from .terminal import FAILED, INTERRUPTED, console, show_checks, show_error, sho
 _IMPACT_COLUMNS = {
     "time": "t [s]",
     "velocity": "v_I [m/s]",
-    "closing_speed": "closing speed [m/s]",
+    "closing_speed": "closing\nspeed [m/s]",
     "impulse": "impulse [N.s]",
     "wheel_speed": "omega [rad/s]",
     "stress_max": "sigma_max [Pa]",

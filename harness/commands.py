@@ -105,7 +105,7 @@ def _performed(fmu: Fmu, experiment: Experiment) -> Run:
     Raises:
         FmuError: the FMU failed before there was anything to record.
     """
-    loading = f"Loading {fmu.path.name} (its first start compiles the engine) ..."
+    loading = f"Loading {fmu.path.name}; a first start may take a while ..."
     with (
         RunDisplay(experiment.stop_time, loading) as display,
         interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop_requested,

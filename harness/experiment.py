@@ -106,7 +106,7 @@ def perform(
 
     Raises:
         UsageError: a setting that cannot be used.
-        FmuError: the FMU cannot even be instantiated.
+        FmuError: the FMU cannot even be instantiated, or describes an impossible tooth.
     """
     grid = TimeGrid.of(experiment.stop_time, experiment.step)
     inputs = None
@@ -123,7 +123,7 @@ def perform(
         )
         wall_time = time.perf_counter() - began
         messages = tuple(slave.messages)
-    tooth = tooth_of(reader.values)
+    tooth = tooth_of(reader.values) if "velocity" in collector.fields else None
     impacts = collector.table() if tooth is None else with_stress(collector.table(), tooth)
     results = recorder.table()
     return Run(

@@ -13,7 +13,7 @@ import fmpy
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
-from .description import Description, Value, Variable, read_description
+from .description import Description, Value, read_description
 from .errors import FmuError, UsageError
 from .messages import LogMessage, Status
 from .workspace import temporary_folder
@@ -90,24 +90,24 @@ class FmuSlave:
         self._time = 0.0
         self._initialized = False
         self._fatal = False
+        self._known_batches: dict[tuple[str, ...], list[tuple[str, list[int], list[int]]]] = {}
         self._fmu = self._load(fmu.folder)
         self._instantiate()
 
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name: one FMI call for each type."""
-        for kind, variables in self._by_type(values).items():
-            references = [variable.reference for variable in variables]
-            numbers = [values[variable.name] for variable in variables]
-            self._call(f"fmi2Set{kind}", getattr(self._fmu, f"set{kind}"), references, numbers)
+        given = list(values.values())
+        for kind, references, places in self._batches(tuple(values)):
+            self._call(f"fmi2Set{kind}", getattr(self._fmu, f"set{kind}"), references, [given[i] for i in places])
 
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`: one FMI call for each type."""
-        values: dict[str, Value] = {}
-        for kind, variables in self._by_type(names).items():
-            references = [variable.reference for variable in variables]
+        values: list[Value] = [0.0] * len(names)
+        for kind, references, places in self._batches(tuple(names)):
             numbers = self._call(f"fmi2Get{kind}", getattr(self._fmu, f"get{kind}"), references)
-            values.update(zip((variable.name for variable in variables), map(_FROM_C[kind], numbers), strict=True))
-        return [values[name] for name in names]
+            for place, number in zip(places, map(_FROM_C[kind], numbers), strict=True):
+                values[place] = number
+        return values
 
     def initialize(self, start_time: float, stop_time: float) -> None:
         """Go through the initialization mode."""
@@ -227,12 +227,17 @@ class FmuSlave:
         text = f"{self.name} failed {where} ({problem}): {' '.join(own) or 'it gave no reason.'}"
         return FmuError(text, instance=self.name, time=time, status=status, messages=messages)
 
-    def _by_type(self, names: Sequence[str] | Mapping[str, Value]) -> dict[str, list[Variable]]:
-        groups: dict[str, list[Variable]] = {}
-        for name in names:
-            variable = self.description.variable(name)
-            groups.setdefault(variable.type, []).append(variable)
-        return groups
+    def _batches(self, names: tuple[str, ...]) -> list[tuple[str, list[int], list[int]]]:
+        """For each type among variables: the type, the value references, and the places in `names`."""
+        if names not in self._known_batches:
+            batches: dict[str, tuple[str, list[int], list[int]]] = {}
+            for place, name in enumerate(names):
+                variable = self.description.variable(name)
+                _, references, places = batches.setdefault(variable.type, (variable.type, [], []))
+                references.append(variable.reference)
+                places.append(place)
+            self._known_batches[names] = list(batches.values())
+        return self._known_batches[names]
 
 
 _FROM_C: dict[str, Callable[[Any], Value]] = {

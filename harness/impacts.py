@@ -44,7 +44,7 @@ class ImpactCollector:
         """Keep the impacts of the step that ends at `time`."""
         if not self._slots:
             return
-        count = int(slave.get([_IN_STEP])[0])
+        count = int(slave.get((_IN_STEP,))[0])
         for slot in self._slots[:count]:
             self._rows.append(slave.get([slot[field].name for field in self.fields]))
         if count and self._counts_lost:

@@ -27,7 +27,7 @@ class Recorder:
 
     def __init__(self, variables: list[Variable]) -> None:
         self._variables = variables
-        self._names = [variable.name for variable in variables]
+        self._names = tuple(variable.name for variable in variables)
         self._numbers = array("d")
 
     def started(self, slave: Slave, time: float) -> None:
@@ -37,7 +37,7 @@ class Recorder:
     def stepped(self, slave: Slave, time: float) -> None:
         """Keep the values at the end of a step."""
         self._numbers.append(time)
-        self._numbers.extend(float(value) for value in slave.get(self._names))
+        self._numbers.extend(map(float, slave.get(self._names)))
 
     def table(self) -> pd.DataFrame:
         """One row for each communication point: `time` [s], then the variables by name, in their units."""

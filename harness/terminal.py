@@ -58,9 +58,10 @@ def show_checks(checks: Iterable[Check]) -> None:
 
 
 def show_files(files: Sequence[Path]) -> None:
-    """Where the results are."""
+    """Where the results are; the last file is the one to look at."""
     names = ", ".join(path.name for path in files)
-    console.print(f"Written to [bold]{escape(str(files[0].parent))}[/]: {escape(names)}", soft_wrap=True)
+    console.print(f"Written to {escape(str(files[0].parent))}: {escape(names)}", soft_wrap=True)
+    console.print(f"Open in a browser: [bold]{escape(str(files[-1]))}[/]", soft_wrap=True)
 
 
 def show_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]], numeric: Sequence[int] = ()) -> None:
@@ -86,7 +87,7 @@ class RunDisplay:
         columns = TextColumn("t = {task.completed:.4g} s"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn()
         self._bar = Progress(*columns, console=console, transient=True)
         self._task = self._bar.add_task("", total=stop_time)
-        self._bar_shown = False
+        self.bar_shown = False
 
     def __enter__(self) -> RunDisplay:
         self._spinner.start()
@@ -103,9 +104,9 @@ class RunDisplay:
 
     def stepped(self, slave: Slave, time: float) -> None:
         """Move the bar."""
-        if not self._bar_shown:
+        if not self.bar_shown:
             if self._now() - self._began < _PATIENCE:
                 return
-            self._bar_shown = True
+            self.bar_shown = True
             self._bar.start()
         self._bar.update(self._task, completed=time)

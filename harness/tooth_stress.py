@@ -12,6 +12,7 @@ import pandas as pd
 from mechanism_fmu.stress import STEEL, MaximumStress, WedgeTooth, bending_stress, maximum_stress
 
 from .description import Value
+from .errors import FmuError
 
 #: Units of the columns that `with_stress` adds to the table of impacts.
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
@@ -28,12 +29,15 @@ def tooth_of(parameters: Mapping[str, Value]) -> WedgeTooth | None:
     Its thickness is the default: the stress does not depend on it.
 
     Raises:
-        ValueError: the FMU reports a tooth that cannot be.
+        FmuError: the FMU reports a tooth that cannot be.
     """
     length, apex_angle = parameters.get("tooth_length"), parameters.get("tooth_apex_angle")
     if length is None or apex_angle is None:
         return None
-    return WedgeTooth(length=float(length), apex_angle=float(apex_angle))
+    try:
+        return WedgeTooth(length=float(length), apex_angle=float(apex_angle))
+    except ValueError as error:
+        raise FmuError(f"The FMU's tooth_length and tooth_apex_angle describe no tooth: {error}") from error
 
 
 def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth) -> pd.DataFrame:

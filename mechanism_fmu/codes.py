@@ -69,7 +69,8 @@ COUNT_IN_STEP = 1
 COUNT_LOST = 2
 COUNT_STEPS = 3  # accepted steps since the start
 PENDING_CONTACT = 4  # contact whose impact waits at STEP_END, or NO_CONTACT
-COUNTERS_LENGTH = 5
+COUNT_PULLS = 5  # closed contacts that have pulled, as far as the engine has computed
+COUNTERS_LENGTH = 6
 NO_CONTACT = -1
 
 # columns of the state's ledger [J]

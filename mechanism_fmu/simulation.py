@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from .engine.assembly import assemble, start
 from .engine.events import gap
 from .engine.layout import field_of, state_of
 from .engine.outputs import read_outputs
-from .engine.pack import pack, write_tables
+from .engine.pack import pack
 from .engine.stepper import advance
 from .model import Mechanism, MechanismError
 
@@ -23,18 +24,28 @@ class SimulationError(RuntimeError):
     """The motion cannot go on; the message gives the time, the reason and what to do."""
 
 
+class Impact(NamedTuple):
+    """An impact: time [s], name of the contact, normal closing speed before [m/s], impulse [N s]."""
+
+    time: float
+    contact: str
+    closing_speed: float
+    impulse: float
+
+
 class Simulation:
     """One mechanism, from assembly through its motion.
 
     Args:
         mechanism: its numbers are checked and written as tables.
         start_time: [s].
+        inputs: values at the start, in the order of `mechanism.inputs`; their own start values by default.
 
     Raises:
         MechanismError: the mechanism cannot be right, or cannot be assembled (with what is left of each joint).
     """
 
-    def __init__(self, mechanism: Mechanism, start_time: float = 0.0) -> None:
+    def __init__(self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float] | None = None) -> None:
         self._mechanism = mechanism
         self._block = pack(mechanism.compile())
         self._input_names = [port.name for port in mechanism.inputs]
@@ -42,12 +53,16 @@ class Simulation:
         self.inputs: Array = field_of(self._block, "inputs")
         self.outputs: Array = field_of(self._block, "outputs")
         self.state: Array = state_of(self._block)
+        self.counters: Array = field_of(self._block, "counters")
+        self._clock: Array = field_of(self._block, "clock")
+        if inputs is not None:
+            self.inputs[:] = inputs
         self._begin(start_time)
 
     @property
     def time(self) -> float:
         """The time reached [s]."""
-        return float(field_of(self._block, "clock")[codes.TIME])
+        return float(self._clock.item(codes.TIME))
 
     def advance(self, target: float) -> None:
         """Go on to time `target` [s] with the inputs held.
@@ -73,20 +88,28 @@ class Simulation:
         """Set an input from now on (SI units)."""
         self.inputs[self._input_names.index(name)] = value
 
-    def retable(self, mechanism: Mechanism) -> None:
-        """Replace the numbers by those of another mechanism of the same structure, leaving the state as it is."""
-        write_tables(self._block, mechanism.compile())
-
     def field(self, name: str) -> Array:
         """A view of a field of the instance's block (see `engine.layout`), for tests and diagnosis."""
         return field_of(self._block, name)
 
-    def pulling_contacts(self) -> list[tuple[str, float]]:
-        """Closed contacts that have pulled, with the first time [s] at which they did."""
-        times = field_of(self._block, "pull_time")
-        now = self.time
+    def pulling_contacts(self) -> dict[str, float]:
+        """Closed contacts that have pulled so far, with the first time [s] at which each did."""
+        times = field_of(self._block, "pull_time").tolist()
+        pairs = zip(self._mechanism.contacts, times, strict=True)
+        return {contact.name: time for contact, time in pairs if time <= self.time}
+
+    def impacts_in_step(self) -> list[Impact]:
+        """The impacts of the last call of `advance`, oldest first, at most `codes.IMPACT_BUFFER_LENGTH`."""
+        records = field_of(self._block, "impacts")[: int(self.counters[codes.COUNT_IN_STEP])].tolist()
+        names = [contact.name for contact in self._mechanism.contacts]
         return [
-            (contact.name, float(t)) for contact, t in zip(self._mechanism.contacts, times, strict=True) if t <= now
+            Impact(
+                record[codes.RECORD_TIME],
+                names[int(record[codes.RECORD_CONTACT])],
+                record[codes.RECORD_CLOSING_SPEED],
+                record[codes.RECORD_IMPULSE],
+            )
+            for record in records
         ]
 
     def _begin(self, time: float) -> None:

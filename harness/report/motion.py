@@ -26,6 +26,8 @@ _QUANTITIES = {
 }
 
 _ROW_HEIGHT = 215
+#: Between two rows, as a part of a row.
+_SPACING = 0.28
 #: More vertical lines than this hide the curves.
 _MOST_MARKS = 150
 
@@ -38,10 +40,15 @@ class _Row:
     curves: list[tuple[str, pd.Series[float]]]
 
 
-def motion_chart(run: Run) -> go.Figure:
-    """All continuous outputs, the energy balance, and the inputs that vary, with every impact marked."""
+def motion_chart(run: Run) -> go.Figure | None:
+    """All continuous outputs, the energy balance, and the inputs that vary, with every impact marked.
+
+    None when there is nothing of that kind.
+    """
     rows = _rows(run)
-    figure = make_subplots(rows=len(rows), shared_xaxes=True, vertical_spacing=0.035)
+    if not rows:
+        return None
+    figure = make_subplots(rows=len(rows), shared_xaxes=True, vertical_spacing=_SPACING / len(rows))
     time = run.results["time"].to_numpy()
     for number, row in enumerate(rows, start=1):
         legend = "legend" if number == 1 else f"legend{number}"
@@ -59,13 +66,15 @@ def motion_chart(run: Run) -> go.Figure:
 
 
 def _rows(run: Run) -> list[_Row]:
+    if run.results.empty:
+        return []
     outputs = [v for v in run.description.of("output") if v.continuous and _is_motion(v, run)]
-    rows = [
-        _quantity(unit, [v for v in outputs if v.unit == unit], run) for unit in dict.fromkeys(v.unit for v in outputs)
-    ]
     residual = energy_residual(run.results)
-    if residual is not None:
-        rows.append(_Row("Energy balance [J]", [("kinetic + spring<br>− initial − work<br>+ lost", residual)]))
+    rows = []
+    for unit in dict.fromkeys(v.unit for v in outputs):
+        rows.append(_quantity(unit, [v for v in outputs if v.unit == unit], run))
+        if unit == "J" and residual is not None:
+            rows.append(_Row("Balance [J]", [("kinetic + spring<br>− initial − work<br>+ lost", residual)]))
     varying = [v for v in run.description.of("input") if v.name in run.results and run.results[v.name].nunique() > 1]
     for unit in dict.fromkeys(v.unit for v in varying):
         row = _quantity(unit, [v for v in varying if v.unit == unit], run)
@@ -90,7 +99,7 @@ def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
     title = f"{_QUANTITIES.get(unit, 'Values')} [{shown or unit or '1'}]"
     if unit == "rad":
         curves = [(f"{name} − {values.iloc[0]:.5g}", values - values.iloc[0]) for name, values in curves]
-        title = title.replace("Angles", "Angles from start")
+        title = title.replace("Angles", "Angle change")
     return _Row(title, curves)
 
 

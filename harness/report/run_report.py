@@ -34,10 +34,7 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    if not run.results.empty:
-        note = "Dotted red lines mark impacts. Drag to zoom, double-click to return."
-        body.append(section("Motion", chart(motion_chart(run)), note=note))
-    body += [_stress(run), _impacts(run), _parameters(run), _messages(run)]
+    body += [_motion(run), _stress(run), _impacts(run), _parameters(run), _messages(run)]
     return page(description.model, subtitle, [part for part in body if part])
 
 
@@ -59,6 +56,12 @@ def _key_figures(run: Run) -> list[tuple[str, str]]:
     if "stress_max" in run.impacts:
         figures.append(("largest bending stress", engineering(float(run.impacts["stress_max"].max()), "Pa")))
     return figures
+
+
+def _motion(run: Run) -> str:
+    figure = motion_chart(run)
+    note = "Dotted red lines mark impacts. Drag to zoom, double-click to return."
+    return "" if figure is None else section("Motion", chart(figure), note=note)
 
 
 def _stress(run: Run) -> str:
@@ -97,24 +100,20 @@ def _cell(value: Value) -> str:
 
 
 def _parameters(run: Run) -> str:
-    names = list(run.parameters)
-    rows = [
-        [name, shown(run.parameters[name], name, run.description), run.description.variable(name).description]
-        for name in names
-    ]
-    changed = [i for i, name in enumerate(names) if name in run.experiment.start_values]
-    inputs = [
-        [
-            v.name,
-            shown(run.results[v.name].iloc[0].item(), v.name, run.description),
-            f"input, start value: {v.description}",
-        ]
-        for v in run.description.of("input")
-        if v.name in run.results and not run.results.empty
-    ]
-    changed += [len(rows) + i for i, row in enumerate(inputs) if row[0] in run.experiment.start_values]
+    values = dict(run.parameters)
+    if not run.results.empty:
+        values |= {
+            v.name: run.results[v.name].iloc[0].item() for v in run.description.of("input") if v.name in run.results
+        }
+    rows = []
+    for name, value in values.items():
+        variable = run.description.variable(name)
+        note = "Input, start value: " if variable.causality == "input" else ""
+        text = shown(value, name, run.description).replace(" ", "\u00a0")
+        rows.append([name, text, note + variable.description])
+    changed = [i for i, name in enumerate(values) if name in run.experiment.start_values]
     note = "Values set for this run are marked." if changed else "All values are the FMU's defaults."
-    return section("Parameters", table(["name", "value", "meaning"], rows + inputs, changed=changed), note=note)
+    return section("Parameters", table(["name", "value", "meaning"], rows, changed=changed), note=note)
 
 
 def _messages(run: Run) -> str:

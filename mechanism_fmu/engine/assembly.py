@@ -14,7 +14,7 @@ from .ports import clear_impacts, clear_record, write_inputs
 from .room import Array
 from .rows import active_rows
 from .stepper import copy, restart
-from .subset import jit
+from .subset import entry, jit, keep_small
 from .views import bodies, contacts, course, linear_system, loads, options, ports, rows, sizes, stages
 
 #: Position rows are closed when none is off by more than this [m, rad, m^2].
@@ -27,7 +27,7 @@ _NEWTON_STEPS = 50
 _HALVINGS = 30
 
 
-@jit
+@entry
 def assemble(block: Array) -> int:
     """Close the position rows from the bodies' start guess by Newton's method with minimum-norm steps.
 
@@ -68,7 +68,7 @@ def assemble(block: Array) -> int:
     return status.NOT_ASSEMBLED
 
 
-@jit
+@entry
 def start(block: Array, time: float) -> int:
     """Begin the motion at `time` [s] from the assembled position, with all counters at zero."""
     n = sizes(block).coordinates
@@ -127,6 +127,7 @@ def _start_guess(block: Array) -> None:
 @jit
 def _newton_direction(block: Array, count: int) -> None:
     """Minimum-norm solution of Phi_q dq = -Phi over the coordinates that are not held."""
+    keep_small()
     n = sizes(block).coordinates
     row = rows(block)
     weight = loads(block).weight

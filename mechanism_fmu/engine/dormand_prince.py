@@ -7,7 +7,7 @@ import math
 from .. import codes
 from .acceleration import derivative
 from .room import Array
-from .subset import jit
+from .subset import jit, keep_small
 from .views import course, options, sizes, stages
 
 _A21 = 1 / 5
@@ -30,6 +30,7 @@ def try_step(block: Array, size_: float) -> float:
 
     Writes y_new, all seven derivatives (the last one belongs to y_new) and the dense output.
     """
+    keep_small()
     n = sizes(block).unknowns
     s = stages(block)
     k = s.derivatives
@@ -62,6 +63,7 @@ def try_step(block: Array, size_: float) -> float:
 @jit
 def _error_norm(block: Array, h: float) -> float:
     """Root mean square of the local error over its tolerance."""
+    keep_small()
     n = sizes(block).unknowns
     s = stages(block)
     k = s.derivatives
@@ -77,6 +79,7 @@ def _error_norm(block: Array, h: float) -> float:
 @jit
 def _write_dense(block: Array, h: float) -> None:
     """Coefficients of the continuous extension of order 4, rows 0..4."""
+    keep_small()
     n = sizes(block).unknowns
     s = stages(block)
     k = s.derivatives
@@ -96,6 +99,7 @@ def _write_dense(block: Array, h: float) -> None:
 @jit
 def interpolate(dense: Array, fraction: float, y: Array) -> None:
     """Y at `fraction` (0..1) of the step whose coefficients are `dense`, shape (5, unknowns)."""
+    keep_small()
     rest = 1.0 - fraction
     for i in range(y.shape[0]):
         y[i] = dense[0, i] + fraction * (
@@ -106,6 +110,7 @@ def interpolate(dense: Array, fraction: float, y: Array) -> None:
 @jit
 def initial_step_size(block: Array) -> float:
     """A first step size from y_end and dy_end [s] (Hairer, Nørsett, Wanner, II.4, algorithm of the starting step)."""
+    keep_small()
     n = sizes(block).unknowns
     now = course(block)
     s = stages(block)

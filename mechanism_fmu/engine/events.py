@@ -12,7 +12,7 @@ from .dormand_prince import interpolate, try_step
 from .kinematics import place_bodies
 from .room import Array
 from .rows import contact_row
-from .subset import jit
+from .subset import entry, jit, keep_small
 from .views import contacts, rows, sizes, stages
 
 #: Points of a step at which each open gap is looked at; between two of them a dip is found by the sign of the gap rate.
@@ -24,9 +24,10 @@ ROOT_TOLERANCE = 1e-13
 _NEWTON_STEPS = 12
 
 
-@jit
+@entry
 def gap(block: Array, contact: int, y: Array) -> tuple[float, float]:
     """Gap s [m] and gap rate s' [m/s] of an open contact at y."""
+    keep_small()
     row = sizes(block).rows - 1
     place_bodies(block, y)
     contact_row(block, contact, row)
@@ -39,6 +40,7 @@ def first_impact(block: Array) -> tuple[int, float]:
 
     (`codes.NO_CONTACT`, 2.0) when none does.
     """
+    keep_small()
     table = contacts(block)
     which = codes.NO_CONTACT
     earliest = 2.0
@@ -54,6 +56,7 @@ def first_impact(block: Array) -> tuple[int, float]:
 @jit
 def refine(block: Array, contact: int, step_size: float) -> float:
     """The step size at which the true step, not its interpolant, ends at zero gap; that step is the last one tried."""
+    keep_small()
     s = stages(block)
     limit = 2.0 * step_size
     for _ in range(_NEWTON_STEPS):
@@ -71,6 +74,7 @@ def refine(block: Array, contact: int, step_size: float) -> float:
 
 @jit
 def _gap_at(block: Array, contact: int, fraction: float) -> tuple[float, float]:
+    keep_small()
     s = stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
     return gap(block, contact, s.y_at)
@@ -79,6 +83,7 @@ def _gap_at(block: Array, contact: int, fraction: float) -> tuple[float, float]:
 @jit
 def _first_root(block: Array, contact: int) -> float:
     """The first fraction at which this contact's gap reaches zero from above; 2.0 when it does not."""
+    keep_small()
     before = 0.0
     distance, rate = _gap_at(block, contact, before)
     is_open = distance > 0.0 and contacts(block).touching[contact] == 0
@@ -103,6 +108,7 @@ def _first_root(block: Array, contact: int) -> float:
 @jit
 def _after_opening(block: Array, contact: int, after: float) -> float:
     """A fraction before `after` at which a gap that opens from zero is positive; 0.0 when rounding hides it."""
+    keep_small()
     fraction = after
     for _ in range(_BISECTIONS):
         fraction *= 0.5
@@ -114,6 +120,7 @@ def _after_opening(block: Array, contact: int, after: float) -> float:
 @jit
 def _bisect(block: Array, contact: int, before: float, after: float) -> float:
     """The fraction at which the gap, positive at `before` and not at `after`, becomes zero."""
+    keep_small()
     for _ in range(_BISECTIONS):
         middle = 0.5 * (before + after)
         if middle <= before or middle >= after:
@@ -128,6 +135,7 @@ def _bisect(block: Array, contact: int, before: float, after: float) -> float:
 @jit
 def _bottom(block: Array, contact: int, before: float, after: float) -> float:
     """The fraction at which a gap that falls at `before` and rises at `after` is least."""
+    keep_small()
     for _ in range(_BISECTIONS):
         middle = 0.5 * (before + after)
         if _gap_at(block, contact, middle)[1] < 0.0:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .. import codes
 from .room import Array
 from .rows import clear
-from .subset import jit
+from .subset import jit, keep_small
 from .views import forces, loads, sizes
 
 
@@ -15,6 +15,7 @@ def apply_forces(block: Array, y: Array) -> float:
 
     External are all torque elements and the preloads of springs; the linear part of a spring stores energy instead.
     """
+    keep_small()
     n = sizes(block).coordinates
     force = loads(block).force
     clear(force)
@@ -40,6 +41,7 @@ def apply_forces(block: Array, y: Array) -> float:
 @jit
 def spring_energy(block: Array, y: Array) -> float:
     """Energy stored in the linear part of all springs [J]."""
+    keep_small()
     n = sizes(block).coordinates
     table = forces(block)
     energy = 0.0
@@ -55,6 +57,7 @@ def spring_energy(block: Array, y: Array) -> float:
 @jit
 def kinetic_energy(inverse_mass: Array, rate: Array, count: int) -> float:
     """Kinetic energy [J] of rates (count,) with inverse masses (count,)."""
+    keep_small()
     energy = 0.0
     for k in range(count):
         energy += 0.5 * rate[k] * rate[k] / inverse_mass[k]

@@ -9,7 +9,7 @@ from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
 from .room import Array
 from .rows import active_rows
-from .subset import jit
+from .subset import jit, keep_small
 from .views import bodies, contacts, course, linear_system, rows, sizes
 
 #: A contact that would come apart more slowly than this stays closed [m/s]: it ends the bouncing of e > 0.
@@ -24,6 +24,7 @@ def strike(block: Array, contact: int) -> None:
     stays closed when e times its closing speed is below `STICK_SPEED` (e = 0 always), and is open with zero gap
     otherwise.
     """
+    keep_small()
     n = sizes(block).coordinates
     table = contacts(block)
     now = course(block)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 
 from .room import Array
-from .subset import jit
+from .subset import jit, keep_small
 from .views import pose, sizes
 
 
 @jit
 def place_bodies(block: Array, y: Array) -> None:
     """Write poses and rates from y = (q, qd, ...); q and qd are (x, y, phi) of each body in turn, shape (3 bodies,)."""
+    keep_small()
     bodies = sizes(block).bodies
     at = pose(block)
     for i in range(bodies):

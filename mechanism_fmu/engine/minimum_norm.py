@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from .room import Array
-from .subset import jit
+from .subset import jit, keep_small
 from .views import LinearSystem, linear_system
 
 #: A row depends on the rows before it when less than this fraction of its length is left after projection.
@@ -28,6 +28,7 @@ def minimum_norm(block: Array, count: int, width: int) -> int:
     Reads D = `scaled`[:count, :width] and b = `right_side`[:count] of the linear system; writes z = D^+ b to
     `solution`[:width] and the minimum-norm solution of D^T multiplier = z to `multiplier`[:count].
     """
+    keep_small()
     system = linear_system(block)
     rank = _orthogonalise(block, count, width)
     if rank == count:
@@ -44,6 +45,7 @@ def minimum_norm(block: Array, count: int, width: int) -> int:
 @jit
 def _orthogonalise(block: Array, count: int, width: int) -> int:
     """D = L Q; row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i. Return the rank."""
+    keep_small()
     system = linear_system(block)
     basis = system.basis
     for i in range(count):
@@ -104,6 +106,7 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> bool:
 @jit
 def _solve_full_rank(block: Array, count: int) -> None:
     """L coefficient = b forwards, then L^T multiplier = coefficient backwards."""
+    keep_small()
     system = linear_system(block)
     for r in range(count):
         p = system.order[r]
@@ -124,6 +127,7 @@ def _solve_full_rank(block: Array, count: int) -> None:
 @jit
 def _solve_deficient(block: Array, count: int, rank: int) -> None:
     """L = U R by columns; coefficient = R^-1 U^T b, multiplier = U R^-T coefficient."""
+    keep_small()
     system = linear_system(block)
     u = system.column_basis
     triangle = system.column_triangle
@@ -162,6 +166,7 @@ def _solve_deficient(block: Array, count: int, rank: int) -> None:
 @jit
 def _dot(a: Array, b: Array, length: int) -> float:
     """Scalar product of the first `length` entries."""
+    keep_small()
     total = 0.0
     for k in range(length):
         total += a[k] * b[k]
@@ -171,5 +176,6 @@ def _dot(a: Array, b: Array, length: int) -> float:
 @jit
 def _add_multiple(target: Array, factor: float, source: Array, length: int) -> None:
     """Target += factor * source, in the first `length` entries."""
+    keep_small()
     for k in range(length):
         target[k] += factor * source[k]

@@ -8,11 +8,11 @@ from .events import gap
 from .forces import kinetic_energy, spring_energy
 from .room import Array
 from .stepper import state_at_time
-from .subset import jit
+from .subset import entry, jit
 from .views import bodies, contacts, course, forces, linear_system, ports, sizes, stages
 
 
-@jit
+@entry
 def read_outputs(block: Array) -> None:
     """Write all output values, shape (outputs,), to the work field `outputs`; the motion is not touched."""
     n = sizes(block).coordinates

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .room import Array
-from .subset import jit
+from .subset import jit, keep_small
 from .views import Pose, Rows
 
 
@@ -14,6 +14,7 @@ def point_line(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array) -> N
     With n = A_j n', a = A_i s_i, e = r_i + a - r_j, u = phi_j':
     s_q = [n, n.Ra, -n, (R n).e], s' = n.e' + u (R n).e, gamma = n.a phi_i'^2 + n.e u^2 - 2 u (R n).e', with e' the rate of e.
     """
+    keep_small()
     ax = at.cosine[i] * data[0] - at.sine[i] * data[1]
     ay = at.sine[i] * data[0] + at.cosine[i] * data[1]
     nx = at.cosine[j] * data[4] - at.sine[j] * data[5]

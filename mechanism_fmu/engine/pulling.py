@@ -8,7 +8,7 @@ from .. import codes
 from .acceleration import derivative
 from .dormand_prince import interpolate
 from .room import Array
-from .subset import jit
+from .subset import jit, keep_small
 from .views import contacts, course, linear_system, stages
 
 #: A contact force below this pulls [N]; rounding leaves about 1e-13.
@@ -19,17 +19,20 @@ _BISECTIONS = 50
 @jit
 def watch_at(block: Array, time: float) -> None:
     """Note `time` for every contact that pulls for the first time, by the multipliers of the last acceleration."""
+    keep_small()
     table = contacts(block)
     system = linear_system(block)
     for c in range(table.mode.shape[0]):
         pulls = table.mode[c] == codes.CLOSED and system.multiplier[table.row[c]] < _PULLS_BELOW
         if pulls and table.pull_time[c] == math.inf:
             table.pull_time[c] = time
+            course(block).counters[codes.COUNT_PULLS] += 1
 
 
 @jit
 def watch_step(block: Array) -> None:
     """After a step: note when contacts began to pull, located inside the step by bisection."""
+    keep_small()
     table = contacts(block)
     now = course(block)
     end = now.clock[codes.STEP_END]
@@ -41,6 +44,7 @@ def watch_step(block: Array) -> None:
 
 @jit
 def _locate(block: Array, contact: int) -> float:
+    keep_small()
     table = contacts(block)
     now = course(block)
     s = stages(block)

@@ -17,7 +17,7 @@ from numba.core.typing.templates import AttributeTemplate
 from numba.extending import infer_getattr, lower_builtin, lower_getattr, models, register_model, type_callable
 from numba.np.arrayobj import make_array, populate_array
 
-from .layout import SIZES, Field, field_named, field_of, size_slot, sizes_of, slot
+from .layout import Field, field_named, field_of, size_slot, sizes_of, slot
 
 Array = np.ndarray[Any, np.dtype[Any]]
 _View = TypeVar("_View", bound=NamedTuple)

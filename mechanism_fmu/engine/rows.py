@@ -7,7 +7,7 @@ from .joints.revolute import revolute
 from .joints.translational import translational
 from .point_line import point_line
 from .room import Array
-from .subset import jit
+from .subset import jit, keep_small
 from .views import contacts, joints, options, pose, rows, sizes
 
 
@@ -32,6 +32,7 @@ def joint_rows(block: Array) -> None:
 @jit
 def contact_row(block: Array, contact: int, row: int) -> None:
     """Write the row of one contact: its gap, gap rate, gamma and Jacobian."""
+    keep_small()
     table = contacts(block)
     out = rows(block)
     clear(out.jacobian[row])
@@ -44,6 +45,7 @@ def active_rows(block: Array) -> int:
 
     `contacts.row` afterwards holds each closed contact's row, and -1 for an open one.
     """
+    keep_small()
     joint_rows(block)
     table = contacts(block)
     count = sizes(block).joint_rows
@@ -71,5 +73,6 @@ def stabilise(block: Array, count: int) -> None:
 @jit
 def clear(vector: Array) -> None:
     """Set all entries to zero."""
+    keep_small()
     for k in range(vector.shape[0]):
         vector[k] = 0.0

@@ -18,7 +18,7 @@ from .impact import strike
 from .ports import clear_impacts, write_inputs
 from .pulling import watch_at, watch_step
 from .room import Array
-from .subset import jit
+from .subset import entry, jit, keep_small
 from .views import contacts, course, stages
 
 #: Smallest step as a fraction of max(1 s, |t|).
@@ -30,7 +30,7 @@ _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0
 
 
-@jit
+@entry
 def advance(block: Array, target: float) -> int:
     """Bring TIME to `target` [s]; return a status. On failure TIME and all outputs stay at the last good instant."""
     now = course(block)
@@ -59,6 +59,7 @@ def advance(block: Array, target: float) -> int:
 @jit
 def restart(block: Array) -> None:
     """Begin anew from y_end at STEP_END: nothing lies ahead."""
+    keep_small()
     now = course(block)
     now.clock[codes.STEP_START] = now.clock[codes.STEP_END]
     now.clock[codes.STEP_SIZE] = 0.0
@@ -70,20 +71,23 @@ def restart(block: Array) -> None:
 @jit
 def resume(block: Array) -> None:
     """Drop what lies ahead of TIME, because the inputs have changed."""
+    keep_small()
     now = course(block)
     table = contacts(block)
     time = now.clock[codes.TIME]
     state_at_time(block, now.y_end)
     now.clock[codes.STEP_END] = time
     for c in range(table.mode.shape[0]):
-        if table.pull_time[c] > time:
+        if time < table.pull_time[c] < math.inf:
             table.pull_time[c] = math.inf
+            now.counters[codes.COUNT_PULLS] -= 1
     restart(block)
 
 
 @jit
 def state_at_time(block: Array, y: Array) -> None:
     """Y at TIME, shape (unknowns,); `y` may be `y_end` itself."""
+    keep_small()
     now = course(block)
     if now.clock[codes.TIME] < now.clock[codes.STEP_END]:
         fraction = (now.clock[codes.TIME] - now.clock[codes.STEP_START]) / now.clock[codes.STEP_SIZE]
@@ -95,6 +99,7 @@ def state_at_time(block: Array, y: Array) -> None:
 @jit
 def take_step(block: Array) -> int:
     """One accepted step from STEP_END on, cut at the first impact, which then waits as PENDING_CONTACT."""
+    keep_small()
     now = course(block)
     s = stages(block)
     start = now.clock[codes.STEP_END]
@@ -158,5 +163,6 @@ def _scale(error: float, most: float) -> float:
 @jit
 def copy(source: Array, target: Array) -> None:
     """Target = source."""
+    keep_small()
     for k in range(source.shape[0]):
         target[k] = source[k]

@@ -7,9 +7,12 @@ variable NUMBA_DISABLE_JIT=1 they run as plain Python.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
 
 import numba
+from numba import types
+from numba.extending import lower_builtin, type_callable
 
 #: Numba does not notice a change in a callee, so a compilation is kept on disk only for the copy of the library that
 #: an FMU unpacks into a folder named after its contents; that copy has another package name.
@@ -23,5 +26,32 @@ _OPTIONS: dict[str, Any] = {
     "cache": KEEP_COMPILED,
 }
 
-#: Compile a function of the engine.
-jit = numba.njit(**_OPTIONS)
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def entry(function: _Function) -> _Function:
+    """Compile a function that Python calls."""
+    return cast(_Function, numba.njit(**_OPTIONS)(function))
+
+
+def jit(function: _Function) -> _Function:
+    """Compile a function that only compiled functions call."""
+    return cast(_Function, numba.njit(**_OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function))
+
+
+def keep_small() -> None:
+    """Compile the calling function for size, and as one function of its own.
+
+    The compiler would otherwise unroll every short loop and copy the larger functions into each of their callers, which
+    makes compilation four times as long and the code no faster.
+    """
+
+
+def _mark_small(context: Any, builder: Any, _signature: Any, _args: Any) -> Any:
+    builder.function.attributes.add("noinline")
+    builder.function.attributes.add("optsize")
+    return context.get_dummy_value()
+
+
+type_callable(keep_small)(lambda _context: lambda: types.none)
+lower_builtin(keep_small)(_mark_small)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
+from typing import Protocol
 
 from .errors import MechanismError
 from .mechanism import Mechanism
@@ -78,13 +79,33 @@ class Model:
         return self.mechanism(values)
 
 
-def check_value(parameter: Parameter, value: float) -> None:
-    """Check one value against the limits of its parameter (or input: anything with the same fields).
+class Limited(Protocol):
+    """Anything with a name, a unit and limits: a parameter, an input, an FMU's variable."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def unit(self) -> str | None:
+        """Its SI unit."""
+
+    @property
+    def minimum(self) -> float | None:
+        """Its least value."""
+
+    @property
+    def maximum(self) -> float | None:
+        """Its greatest value."""
+
+
+def check_value(parameter: Limited, value: float) -> None:
+    """Check one value against the limits of what it is meant for.
 
     Raises:
         MechanismError: not finite, or outside the limits.
     """
-    unit = "" if parameter.unit == "1" else f" {parameter.unit}"
+    unit = "" if parameter.unit in (None, "1") else f" {parameter.unit}"
     if not math.isfinite(value):
         raise MechanismError(
             f"{parameter.name} = {value} is not a finite number; give a value in{unit or ' plain numbers'}."

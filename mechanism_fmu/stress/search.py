@@ -76,7 +76,8 @@ def _locate(field: BendingField, cell: tuple[float, float], i: int, j: int) -> S
     start = np.array([i, j], dtype=np.float64)
     scale = stress_around(start)[1, 1]
     bounds = [(max(i - _REACH, 0), min(i + _REACH, _CELLS_OF_LENGTH)), (max(j - _REACH, 0), j + _REACH)]
-    options = {"ftol": 1e-15, "gtol": 1e-8}
-    found = minimize(descent, start, jac=True, method="L-BFGS-B", bounds=bounds, options=options)
+    # TNC, and no scaling by it: cells are the right unit, and its small problem starts no threads of a BLAS.
+    options = {"ftol": 1e-15, "gtol": 1e-9, "xtol": 1e-7, "scale": np.ones(2), "offset": np.zeros(2)}
+    found = minimize(descent, start, jac=True, method="TNC", bounds=bounds, options=options)
     x, t = (size * float(at) for size, at in zip(cell, found.x, strict=True))
     return StressPoint(abs(float(found.fun * scale)), x, t)

@@ -1,10 +1,12 @@
 """A simulation unit without a simulation: what a master needs of one, and a record of what it was asked."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
 
 from harness.description import Description, Value, Variable
 from harness.errors import FmuError
-from harness.messages import Status
+from harness.messages import LogMessage, Status
 from harness.si import BASE_UNITS, Measure
 from harness.units import Units
 
@@ -72,14 +74,18 @@ class FakeSlave:
         calls: (time, size) of every step.
         values: of all variables.
         log: names of the other calls, in order.
+        messages: none.
     """
 
     def __init__(self, impacts: Sequence[float] = (), fail: Callable[[float], Status | None] = lambda _: None) -> None:
         self.description = fake_description()
         self.calls: list[tuple[float, float]] = []
         self.log: list[str] = []
-        self.values: dict[str, Value] = {name: 0 for name in self.description.variables}
+        self.messages: list[LogMessage] = []
+        self.values: dict[str, Value] = dict.fromkeys(self.description.variables, 0)
         self._impacts = impacts
+        self._count = 0
+        self._lost = 0
         self._fail = fail
 
     def initialize(self, start_time: float, stop_time: float) -> None:
@@ -98,13 +104,29 @@ class FakeSlave:
         self.calls.append((time, size))
         hits = [t for t in self._impacts if time < t <= time + size]
         self.values["wheel_angle"] = time + size
-        self.values["impact_count"] += len(hits)
+        self._count += len(hits)
+        self.values["impact_count"] = self._count
         self.values["impact"] = bool(hits)
         self.values["impacts_in_step"] = min(len(hits), _SLOTS)
-        self.values["impacts_lost"] += max(len(hits) - _SLOTS, 0)
+        self._lost += max(len(hits) - _SLOTS, 0)
+        self.values["impacts_lost"] = self._lost
         for slot, instant in enumerate(hits[:_SLOTS], start=1):
             self.values[f"impacts[{slot}].time"] = instant
             self.values[f"impacts[{slot}].velocity"] = -2.0 * instant
 
     def terminate(self) -> None:
         self.log.append("terminate")
+
+
+class FakeFmu:
+    """An FMU whose only instance is a `FakeSlave`."""
+
+    path = Path("Fake.fmu")
+
+    def __init__(self, slave: FakeSlave) -> None:
+        self.description = slave.description
+        self._slave = slave
+
+    @contextmanager
+    def instantiate(self, _name: str, _on_message: Callable[[LogMessage], None]) -> Iterator[FakeSlave]:
+        yield self._slave

@@ -1,3 +1,4 @@
+import itertools
 import math
 
 import pytest
@@ -15,7 +16,7 @@ def test_steps_join_without_gap_and_end_at_stop(length: int, step: int, start: i
     assert len(steps) == len(grid)
     assert steps[0][0] == grid.start
     assert steps[-1][1] == grid.stop
-    assert all(before[1] == after[0] for before, after in zip(steps, steps[1:], strict=False))
+    assert all(before[1] == after[0] for before, after in itertools.pairwise(steps))
     assert all(end - begin == step for begin, end in steps[:-1])
     assert 0 < steps[-1][1] - steps[-1][0] <= step
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..room import Array
-from ..subset import jit
+from ..subset import jit, keep_small
 from ..views import Pose, Rows
 
 
@@ -14,6 +14,7 @@ def revolute(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array) -> Non
     With a = A_i s_i and b = A_j s_j: Phi = r_i + a - r_j - b, Phi_q = [1, R a, -1, -R b], nu = 0,
     gamma = a phi_i'^2 - b phi_j'^2.
     """
+    keep_small()
     ax = at.cosine[i] * data[0] - at.sine[i] * data[1]
     ay = at.sine[i] * data[0] + at.cosine[i] * data[1]
     bx = at.cosine[j] * data[2] - at.sine[j] * data[3]

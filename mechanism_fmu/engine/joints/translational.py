@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..room import Array
-from ..subset import jit
+from ..subset import jit, keep_small
 from ..views import Pose, Rows
 
 
@@ -15,6 +15,7 @@ def translational(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array) -
     Phi_1 = n.d, Phi_1,q = [-n, -v.d - n.Ra, n, n.Rb], gamma_1 = n.d u^2 + 2 v.d' u - n.(a u^2 - b phi_j'^2);
     Phi_2 = n.w, Phi_2,q = [0, -v.w, 0, n.Rw], gamma_2 = n.w (u - phi_j')^2; nu = 0.
     """
+    keep_small()
     ci, si, cj, sj = at.cosine[i], at.sine[i], at.cosine[j], at.sine[j]
     ax, ay = ci * data[0] - si * data[1], si * data[0] + ci * data[1]
     bx, by = cj * data[2] - sj * data[3], sj * data[2] + cj * data[3]

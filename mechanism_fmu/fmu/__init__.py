@@ -1,0 +1,1 @@
+"""The plug: ports, modelDescription.xml, the slave, and what travels in an FMU."""

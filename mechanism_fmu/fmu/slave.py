@@ -1,0 +1,375 @@
+"""The co-simulation slave: FMI calls on one side, a `Simulation` on the other. No dynamics here."""
+
+from __future__ import annotations
+
+import functools
+import math
+import weakref
+from collections.abc import Sequence
+from enum import IntEnum
+from typing import Any, ClassVar, NoReturn
+from xml.etree.ElementTree import Element
+
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from .. import codes
+from ..engine.layout import FIELDS
+from ..model import MechanismError, Model
+from ..model.model import check_value
+from ..simulation import Simulation, SimulationError
+from . import saved_state
+from .saved_state import SavedState, SavedStateError
+from .variables import Variable, variables_of
+from .wrapper import fmi_call, survive_release
+
+#: A communication point may differ from the time reached by this fraction of max(1 s, |t|): rounding of the host.
+_SAME_TIME = 1e-9
+#: The engine's tightest relative tolerance.
+_TIGHTEST = 1e-13
+
+
+class Phase(IntEnum):
+    """The states of a slave (FMI 2.0.4, section 4.2.4)."""
+
+    INSTANTIATED = 0
+    INITIALIZATION = 1
+    STEPPING = 2
+    TERMINATED = 3
+
+
+class FmiError(RuntimeError):
+    """A call or a value that was refused; the message is for the user."""
+
+
+class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
+    """The slave of any model; `make_slave_class` gives it one."""
+
+    model: ClassVar[Model]
+    variables: ClassVar[tuple[Variable, ...]]
+    _mark: ClassVar[bytes]
+    _instances: ClassVar[weakref.WeakSet[MechanismSlave]] = weakref.WeakSet()
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        _compile_engine(type(self))
+        self.modelName = self.model.name
+        self.description = self.model.description
+        self._phase = Phase.INSTANTIATED
+        self._start_time = 0.0
+        self._tolerance = math.inf
+        self._parameters = [p.start for p in self.model.parameters]
+        self._inputs = [float(v.start or 0.0) for v in self.variables if v.causality == "input"]
+        self._first_parameter = len(self.variables) - len(self._parameters) - self._calculated_count()
+        self._simulation: Simulation | None = None
+        self._values: list[float] | None = None
+        self._forget_news()
+        self._instances.add(self)
+
+    # --- life cycle --------------------------------------------------------------------------------------------------
+
+    @fmi_call
+    def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
+        """fmi2SetupExperiment: the tighter of the host's tolerance and `relative_tolerance` will be used."""
+        self._require(Phase.INSTANTIATED, call="fmi2SetupExperiment")
+        if not math.isfinite(start_time):
+            self._refuse(f"The start time {start_time} s is not a finite number.")
+        if tolerance is not None and tolerance > 0:
+            self._tolerance = max(tolerance, _TIGHTEST)
+        self._start_time = start_time
+
+    @fmi_call
+    def enter_initialization_mode(self) -> None:
+        """fmi2EnterInitializationMode."""
+        self._require(Phase.INSTANTIATED, call="fmi2EnterInitializationMode")
+        self._phase = Phase.INITIALIZATION
+
+    @fmi_call
+    def exit_initialization_mode(self) -> None:
+        """fmi2ExitInitializationMode: assemble the mechanism and begin its motion."""
+        self._require(Phase.INITIALIZATION, call="fmi2ExitInitializationMode")
+        values = self.model.checked(self._parameter_values())
+        self._prepared()
+        for warning in self.model.warnings(values):
+            self.log(warning, Fmi2Status.warning)
+        self._phase = Phase.STEPPING
+        self._log_news()
+
+    @fmi_call
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """fmi2DoStep."""
+        if self._phase is not Phase.STEPPING:
+            self._require(Phase.STEPPING, call="fmi2DoStep")
+        simulation = self._prepared()
+        target = self._target(simulation.time, current_time, step_size)
+        simulation.inputs[:] = self._inputs
+        self._values = None
+        simulation.advance(target)
+        self._log_news()
+        return True
+
+    @fmi_call
+    def terminate(self) -> None:
+        """fmi2Terminate."""
+        self._require(Phase.STEPPING, call="fmi2Terminate")
+        self._phase = Phase.TERMINATED
+
+    def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
+        """modelDescription.xml; the build writes the final GUID into it."""
+        from .model_description import model_description
+
+        return model_description(self.model, str(self.guid))
+
+    # --- values ------------------------------------------------------------------------------------------------------
+
+    @fmi_call
+    def get_real(self, vrs: list[int]) -> list[float]:
+        """fmi2GetReal."""
+        return self._get("Real", vrs)
+
+    @fmi_call
+    def get_integer(self, vrs: list[int]) -> list[int]:
+        """fmi2GetInteger."""
+        return [int(value) for value in self._get("Integer", vrs)]
+
+    @fmi_call
+    def get_boolean(self, vrs: list[int]) -> list[bool]:
+        """fmi2GetBoolean."""
+        return [value != 0 for value in self._get("Boolean", vrs)]
+
+    @fmi_call
+    def get_string(self, vrs: list[int]) -> list[str]:
+        """fmi2GetString: there are no strings."""
+        self._check_types("String", vrs)
+        return []
+
+    @fmi_call
+    def set_real(self, vrs: list[int], values: list[float]) -> None:
+        """fmi2SetReal."""
+        self._set("Real", vrs, values)
+
+    @fmi_call
+    def set_integer(self, vrs: list[int], values: list[int]) -> None:
+        """fmi2SetInteger."""
+        self._set("Integer", vrs, [float(v) for v in values])
+
+    @fmi_call
+    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
+        """fmi2SetBoolean."""
+        self._set("Boolean", vrs, [float(v) for v in values])
+
+    @fmi_call
+    def set_string(self, vrs: list[int], values: list[str]) -> None:
+        """fmi2SetString: there are no strings."""
+        self._check_types("String", vrs)
+
+    # --- state -------------------------------------------------------------------------------------------------------
+
+    @fmi_call
+    def _get_fmu_state(self) -> bytes:
+        """fmi2GetFMUstate: the saved state, already as the bytes that serialization hands out."""
+        words = b"" if self._simulation is None else self._simulation.state.tobytes()
+        return saved_state.encode(
+            SavedState(
+                self._phase, self._start_time, self._tolerance, tuple(self._parameters), tuple(self._inputs), words
+            ),
+            self._mark,
+        )
+
+    @fmi_call
+    def _set_fmu_state(self, state: bytes) -> None:
+        """fmi2SetFMUstate: everything is restored; the log does not repeat what it has said."""
+        saved = saved_state.decode(state, self._mark)
+        same = self._simulation is not None and (
+            (list(saved.parameters), saved.tolerance) == (self._parameters, self._tolerance)
+        )
+        self._start_time, self._tolerance = saved.start_time, saved.tolerance
+        self._parameters, self._inputs = list(saved.parameters), list(saved.inputs)
+        self._values = None
+        if not saved.words:
+            self._simulation = None
+        elif not same:
+            self._simulation = None
+            self._prepared()
+        if self._simulation is not None:
+            self._simulation.state.data.cast("B")[:] = saved.words
+        self._phase = Phase(saved.phase)
+        self._forget_news()
+
+    @classmethod
+    def _fmu_state_to_bytes(cls, state: bytes) -> bytes:
+        return state
+
+    @classmethod
+    def _fmu_state_from_bytes(cls, state: bytes) -> bytes:
+        """fmi2DeSerializeFMUstate; the wrapper does not say for which instance."""
+        try:
+            saved_state.check(state, cls._mark)
+        except SavedStateError:
+            for instance in cls._instances:
+                survive_release(type(instance), instance, instance.log_queue)
+            raise
+        return state
+
+    # --- inside ------------------------------------------------------------------------------------------------------
+
+    def report(self, error: Exception) -> None:
+        """Log an exception: as it is when it was meant for the user, with its type and place when it was not."""
+        if isinstance(error, (FmiError, MechanismError, SimulationError, SavedStateError)):
+            self.log(f"{self.instance_name}: {error}", Fmi2Status.error)
+            return
+        trace = error.__traceback__
+        while trace is not None and trace.tb_next is not None:
+            trace = trace.tb_next
+        place = "" if trace is None else f" at {trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}"
+        self.log(
+            f"{self.instance_name}: internal error {type(error).__name__}: {error}{place}; please report it.",
+            Fmi2Status.error,
+        )
+
+    @classmethod
+    def _calculated_count(cls) -> int:
+        return sum(v.causality == "calculatedParameter" for v in cls.variables)
+
+    def _parameter_values(self) -> dict[str, float]:
+        return {p.name: value for p, value in zip(self.model.parameters, self._parameters, strict=True)}
+
+    def _prepared(self) -> Simulation:
+        """The simulation; before the first step it is made anew after each change of a parameter or input."""
+        if self._simulation is None:
+            values = self.model.checked(self._parameter_values())
+            if self._tolerance < math.inf:
+                values.relative_tolerance = min(values.relative_tolerance, self._tolerance)
+            self._simulation = Simulation(self.model.build(values), self._start_time, self._inputs)
+        return self._simulation
+
+    def _target(self, reached: float, current_time: float, step_size: float) -> float:
+        if not math.isfinite(current_time) or not math.isfinite(step_size):
+            self._refuse(f"fmi2DoStep: time {current_time} s or step size {step_size} s is not a finite number.")
+        if not step_size > 0:
+            self._refuse(f"fmi2DoStep: step size {step_size:g} s must be positive; to go back, restore a saved state.")
+        if abs(current_time - reached) > _SAME_TIME * max(1.0, abs(reached)):
+            self._refuse(
+                f"fmi2DoStep: the communication point {current_time:.12g} s is not the time reached, {reached:.12g} s; "
+                "steps follow each other without gap, and a step back needs a saved state."
+            )
+        target = current_time + step_size
+        if not target > reached:
+            self._refuse(
+                f"fmi2DoStep: step size {step_size:g} s is lost in rounding at {reached:.12g} s; take larger steps."
+            )
+        return target
+
+    def _get(self, kind: str, vrs: Sequence[int]) -> list[float]:
+        self._check_types(kind, vrs)
+        if self._values is None:
+            simulation = self._prepared()
+            if self._phase is Phase.STEPPING:
+                simulation.inputs[:] = self._inputs
+            outputs = simulation.read_array().tolist()
+            split = self._first_parameter - len(self._inputs)
+            self._values = [*self._inputs, *outputs[:split], *self._parameters, *outputs[split:]]
+        values = self._values
+        return [values[vr] for vr in vrs]
+
+    def _set(self, kind: str, vrs: Sequence[int], values: Sequence[float]) -> None:
+        self._check_types(kind, vrs)
+        for vr, value in zip(vrs, values, strict=True):
+            variable = self.variables[vr]
+            if variable.causality == "input":
+                self._require(Phase.INSTANTIATED, Phase.INITIALIZATION, Phase.STEPPING, call=f"setting {variable.name}")
+                check_value(variable, value)
+                self._inputs[vr] = value
+            elif variable.causality == "parameter":
+                self._require(Phase.INSTANTIATED, Phase.INITIALIZATION, call=f"setting parameter {variable.name}")
+                check_value(variable, value)
+                self._parameters[vr - self._first_parameter] = value
+            else:
+                self._refuse(f"{variable.name} is an {variable.causality} and cannot be set.")
+        self._values = None
+        if self._phase is not Phase.STEPPING:
+            self._simulation = None
+
+    def _check_types(self, kind: str, vrs: Sequence[int]) -> None:
+        for vr in vrs:
+            if not 0 <= vr < len(self.variables):
+                self._refuse(
+                    f"There is no variable with value reference {vr}; they run from 0 to {len(self.variables) - 1}."
+                )
+            if self.variables[vr].type != kind:
+                variable = self.variables[vr]
+                self._refuse(f"{variable.name} (value reference {vr}) is of type {variable.type}, not {kind}.")
+
+    def _require(self, *allowed: Phase, call: str) -> None:
+        if self._phase not in allowed:
+            names = " or ".join(phase.name.lower() for phase in allowed)
+            self._refuse(
+                f"{call} is not allowed now: the instance is in state {self._phase.name.lower()}, not {names}."
+            )
+
+    def _refuse(self, message: str) -> NoReturn:
+        raise FmiError(message)
+
+    # --- log ---------------------------------------------------------------------------------------------------------
+
+    def _forget_news(self) -> None:
+        """Take all that has happened so far as told."""
+        self._told_impacts = self._told_lost = 0
+        self._told_pulls: set[str] = set()
+        if self._simulation is not None:
+            self._told_impacts = self._simulation.counters.item(codes.COUNT_IMPACTS)
+            self._told_lost = self._simulation.counters.item(codes.COUNT_LOST)
+            self._told_pulls = set(self._simulation.pulling_contacts())
+
+    def _log_news(self) -> None:
+        """Log the impacts of the step, those lost from the buffer, and contacts that have begun to pull."""
+        simulation = self._prepared()
+        counters = simulation.counters
+        if counters.item(codes.COUNT_IMPACTS) != self._told_impacts:
+            self._told_impacts = counters.item(codes.COUNT_IMPACTS)
+            for impact in simulation.impacts_in_step():
+                self.log(
+                    f"Impact on {impact.contact} at t = {impact.time:.12g} s: closing speed {impact.closing_speed:.6g} m/s, "
+                    f"impulse {impact.impulse:.6g} N.s.",
+                    Fmi2Status.ok,
+                    "logEvents",
+                )
+        if counters.item(codes.COUNT_LOST) > self._told_lost:
+            lost = counters.item(codes.COUNT_LOST) - self._told_lost
+            self._told_lost += lost
+            self.log(
+                f"{lost} impacts of the step to t = {simulation.time:.9g} s did not fit into impacts[1..8] and are lost "
+                "to the outside (the motion is right); use a shorter communication step.",
+                Fmi2Status.warning,
+            )
+        if counters.item(codes.COUNT_PULLS) > len(self._told_pulls):
+            for contact, time in simulation.pulling_contacts().items():
+                if contact not in self._told_pulls:
+                    self._told_pulls.add(contact)
+                    self.log(
+                        f"From t = {time:.6g} s the guided contact {contact} pulls: it holds the bodies together where a "
+                        "real contact would open. The motion from here on is the guided model's, as in the paper.",
+                        Fmi2Status.warning,
+                    )
+
+
+@functools.cache
+def make_slave_class(model: Model) -> type[MechanismSlave]:
+    """The slave class of a model, named after it."""
+    variables = variables_of(model)
+    parts = [model.name, *(v.name for v in variables), *(repr(field) for field in FIELDS)]
+    members = {
+        "model": model,
+        "variables": variables,
+        "_mark": saved_state.fingerprint(parts),
+        "__doc__": model.description,
+    }
+    return type(model.name, (MechanismSlave,), members)
+
+
+@functools.cache
+def _compile_engine(slave: type[MechanismSlave]) -> None:
+    """Compile the engine, or load it from the cache: in the constructor, never in the first step."""
+    simulation = Simulation(slave.model.build(slave.model.values()))
+    simulation.advance(1e-3)
+    simulation.read()

@@ -1,0 +1,36 @@
+"""What the pythonfmu wrapper (0.7.0) leaves to the slave: surviving an exception.
+
+When a slave's method raises, the wrapper reports fmi2Fatal and releases its references to the slave's class, instance
+and log queue, and goes on using them: the next call, or freeing the instance, would crash the host. Giving it one
+reference more for each that it will release keeps the instance usable, so that the host can read, reset and free it.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+_Method = TypeVar("_Method", bound=Callable[..., Any])
+
+
+def survive_release(*objects: object) -> None:
+    """Add a reference to each object, which the wrapper is about to release once too often."""
+    for one in objects:
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(one))
+
+
+def fmi_call(method: _Method) -> _Method:
+    """Decorate a slave's method that the wrapper calls: any exception is logged, and survived."""
+
+    @functools.wraps(method)
+    def guarded(slave: Any, *args: Any) -> Any:
+        try:
+            return method(slave, *args)
+        except Exception as error:
+            slave.report(error)
+            survive_release(type(slave), slave, slave.log_queue)
+            raise
+
+    return guarded  # type: ignore[return-value]

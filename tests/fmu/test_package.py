@@ -1,0 +1,165 @@
+import os
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+
+import build_fmu as command
+import models
+from mechanism_fmu.fmu.archive import read_entries, with_guid
+from mechanism_fmu.fmu.package import build_fmu
+
+#: What the FMU must run without.
+NOT_NEEDED = ("scipy", "fmpy", "typer", "rich", "plotly", "pandas", "markdown_it", "harness", "stress")
+
+
+@pytest.fixture(scope="module")
+def entries(ratchet_fmu: Path) -> dict[str, bytes]:
+    return read_entries(ratchet_fmu)
+
+
+@pytest.fixture(scope="module")
+def digest(entries: dict[str, bytes]) -> str:
+    """What makes the names of this FMU's modules unlike those of any other."""
+    return entries["resources/slavemodule.txt"].decode().removeprefix("Ratchet_")
+
+
+def test_the_file_is_named_after_the_model(ratchet_fmu: Path) -> None:
+    assert ratchet_fmu.name == "Ratchet.fmu"
+
+
+def test_fmpy_finds_no_problem(ratchet_fmu: Path) -> None:
+    assert validate_fmu(str(ratchet_fmu)) == []
+
+
+def test_nothing_is_inside_that_does_not_belong_there(entries: dict[str, bytes], digest: str) -> None:
+    assert re.fullmatch("[0-9a-f]{12}", digest)
+    others = {
+        name for name in entries if not name.startswith((f"resources/mechanism_fmu_{digest}/", "resources/pythonfmu/"))
+    }
+    assert others == {
+        "binaries/linux64/Ratchet.so",
+        "binaries/win64/Ratchet.dll",
+        "documentation/index.html",
+        "documentation/licenses/mechanism_fmu.txt",
+        "documentation/licenses/pythonfmu.txt",
+        "model.png",
+        "modelDescription.xml",
+        f"resources/Ratchet_{digest}.py",
+        f"resources/start_{digest}.py",
+        "resources/requirements.txt",
+        "resources/slavemodule.txt",
+    }
+    sources = set(entries) - others
+    assert {Path(name).suffix for name in sources} == {".py"}
+    assert not [name for name in sources if "__pycache__" in name]
+
+
+def test_the_package_holds_what_runs_and_no_more(entries: dict[str, bytes], digest: str) -> None:
+    prefix = f"resources/mechanism_fmu_{digest}/"
+    package = {name.removeprefix(prefix) for name in entries if name.startswith(prefix)}
+    assert {name.partition("/")[0] for name in package} == {
+        *("__init__.py", "codes.py", "simulation.py"),
+        *("engine", "fmu", "model", "models"),
+    }
+    assert {"fmu/slave.py", "engine/stepper.py", "models/ratchet/model.py"} <= package
+    assert not {"fmu/package.py", "fmu/start.py", "fmu/documentation.py", "models/ratchet/drawing.py"} & package
+    imports = re.compile(rf"^\s*(from|import) ({'|'.join(NOT_NEEDED)})\b", re.MULTILINE)
+    assert not [name for name in package if imports.search(entries[prefix + name].decode())]
+
+
+def test_the_target_must_install_numpy_and_numba_only(entries: dict[str, bytes]) -> None:
+    lines = entries["resources/requirements.txt"].decode().split()
+    assert [re.split("[<>=]", line)[0] for line in lines] == ["numba", "numpy"]
+    assert lines[0] == "numba>=0.68,<0.69"
+
+
+def test_the_slave_file_defines_no_class(entries: dict[str, bytes], digest: str) -> None:
+    text = entries[f"resources/Ratchet_{digest}.py"].decode()
+    assert "class" not in text.replace("slave_class", "").partition('"""\n')[2]
+    assert len(text.splitlines()) <= 6
+
+
+def test_the_binaries_have_the_name_that_the_description_gives(ratchet_fmu: Path) -> None:
+    description = fmpy.read_model_description(str(ratchet_fmu))
+    assert description.coSimulation.modelIdentifier == description.modelName == "Ratchet"
+
+
+def test_the_icon_is_the_models_own(entries: dict[str, bytes]) -> None:
+    assert entries["model.png"] == (models.available()["ratchet"] / "model.png").read_bytes()
+
+
+def test_the_guid_is_a_fingerprint_of_the_contents(entries: dict[str, bytes]) -> None:
+    assert with_guid(entries) == entries
+    changed = with_guid(entries | {"model.png": b"another"})
+    assert changed["modelDescription.xml"] != entries["modelDescription.xml"]
+
+
+def test_the_archive_is_sorted_and_without_a_trace_of_when_and_where(ratchet_fmu: Path) -> None:
+    with zipfile.ZipFile(ratchet_fmu) as archive:
+        infos = archive.infolist()
+    assert [i.filename for i in infos] == sorted(i.filename for i in infos)
+    assert {i.date_time for i in infos} == {(1980, 1, 1, 0, 0, 0)}
+    assert {oct(i.external_attr >> 16) for i in infos} == {"0o100644", "0o100755"}
+    assert [i.filename for i in infos if i.external_attr >> 16 == 0o100755] == [
+        *("binaries/linux64/Ratchet.so", "binaries/win64/Ratchet.dll"),
+    ]
+
+
+def test_the_command_gives_the_same_bytes_elsewhere(ratchet_fmu: Path, tmp_path: Path) -> None:
+    for name in ("cwd", "tmp"):
+        (tmp_path / name).mkdir()
+    script = Path(command.__file__).resolve()
+    environment = os.environ | {
+        "TMPDIR": str(tmp_path / "tmp"),
+        "PYTHONPATH": str(script.parent),
+        "PYTHONHASHSEED": "7",
+    }
+    done = subprocess.run(
+        [sys.executable, str(script), "ratchet", "-o", "new/folder"],
+        cwd=tmp_path / "cwd",
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    again = tmp_path / "cwd" / "new" / "folder" / "Ratchet.fmu"
+    assert again.read_bytes() == ratchet_fmu.read_bytes()
+    guid = fmpy.read_model_description(str(again)).guid
+    assert done.stdout.startswith(os.path.join("new", "folder", "Ratchet.fmu"))
+    assert guid in done.stdout
+    assert list((tmp_path / "tmp").iterdir()) == []
+
+
+def test_a_build_leaves_the_imports_of_its_process_as_they_were(ratchet_fmu: Path, digest: str, tmp_path: Path) -> None:
+    path = sys.path[:]
+    ours = {name for name in sys.modules if digest in name}
+    assert build_fmu(models.load("ratchet"), tmp_path).read_bytes() == ratchet_fmu.read_bytes()
+    assert sys.path == path
+    assert {name for name in sys.modules if digest in name} == ours
+
+
+def test_many_instantiations_leave_the_host_as_it_was(ratchet_fmu: Path, digest: str) -> None:
+    # In a process of its own, because the failure would be a crash.
+    code = f"""
+import sys, fmpy
+from fmpy.fmi2 import FMU2Slave
+folder = fmpy.extract({str(ratchet_fmu)!r})
+description = fmpy.read_model_description(folder)
+before = sys.path[:]
+references = set()
+for i in range(50):
+    fmu = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier="Ratchet", instanceName="one")
+    fmu.instantiate()
+    references.add(sys.getrefcount(sys.modules["Ratchet_{digest}"].__dict__))
+    fmu.fmi2FreeInstance(fmu.component)
+assert len(references) == 1, references
+assert sys.path[1:] == before, sys.path
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -1,0 +1,165 @@
+"""The harness around the real FMU; numbers from the reference table of the paper's ratchet."""
+
+import json
+import math
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from typer.testing import CliRunner
+
+from harness.cli import main
+from harness.experiment import Experiment, Run, perform
+from harness.fmu import Fmu, open_fmu
+from harness.master import Ending
+from harness.study import ratchet_study
+from harness.validate import validate
+
+#: By beta_0 [deg]: t_I [s] and omega just after the impact [rad/s], from two independent implementations.
+IMPACTS = {
+    85: (0.9573080523, 0.0228046146),
+    90: (0.9399211769, 0.0227388573),
+    95: (0.9277144372, 0.0227178290),
+    100: (0.9194210908, 0.0227425265),
+    105: (0.9143304857, 0.0228158202),
+}
+#: By nt and beta_0 [deg]: sigma_max [Pa], from the same sources.
+STRESSES = {(10, 90): 15547.0, (20, 95): 6337.0, (25, 85): 2204.0, (10, 105): 22498.0}
+
+
+@pytest.fixture(scope="module")
+def fmu(ratchet_fmu: Path) -> Fmu:  # type: ignore[misc]
+    with open_fmu(ratchet_fmu) as fmu:
+        yield fmu
+
+
+@pytest.fixture(scope="module")
+def base_case(fmu: Fmu) -> Run:
+    return perform(fmu, Experiment(6.0, 1e-3))
+
+
+def invoke(*arguments: str | Path) -> tuple[int, str]:
+    result = CliRunner().invoke(main, [str(a) for a in arguments], env={"COLUMNS": "200"})
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    return result.exit_code, " ".join(result.output.split())
+
+
+def test_the_base_case(base_case: Run) -> None:
+    first = base_case.impacts.iloc[0]
+    assert base_case.outcome.ending is Ending.COMPLETED
+    assert first["time"] == pytest.approx(IMPACTS[90][0], rel=1e-7)
+    assert first["wheel_speed"] == pytest.approx(IMPACTS[90][1], rel=1e-7)
+    assert first["impulse"] == pytest.approx(7.7895902699e-3, rel=1e-7)
+    assert first["stress_max"] == pytest.approx(STRESSES[10, 90], rel=1e-4)
+    assert all(check.passed for check in base_case.checks)
+
+
+def test_impact_velocity_is_wheel_speed_times_tooth_length(base_case: Run) -> None:
+    first = base_case.impacts.iloc[0]
+    assert first["velocity"] == pytest.approx(first["wheel_speed"] * base_case.parameters["tooth_length"], rel=1e-12)
+
+
+@pytest.mark.parametrize("step", [1e-4, 7e-3, 0.05, 1.0])
+def test_the_impact_does_not_depend_on_the_communication_step(fmu: Fmu, base_case: Run, step: float) -> None:
+    run = perform(fmu, Experiment(1.0, step))
+    assert run.impacts["time"].iloc[0] == pytest.approx(base_case.impacts["time"].iloc[0], rel=1e-9)
+    assert run.impacts["impulse"].iloc[0] == pytest.approx(base_case.impacts["impulse"].iloc[0], rel=1e-7)
+
+
+def test_inputs_from_a_table_act(fmu: Fmu, tmp_path: Path) -> None:
+    table = tmp_path / "torque.csv"
+    table.write_text("time [ms],drive_torque [N.mm]\n0,1\n6000,1\n")
+    driven = perform(fmu, Experiment(1.0, 1e-3, input_file=table))
+    assert driven.impacts["time"].iloc[0] == pytest.approx(IMPACTS[90][0], rel=1e-7)
+    table.write_text("time [ms],drive_torque [N.mm]\n0,4\n6000,4\n")
+    stronger = perform(fmu, Experiment(1.0, 1e-3, input_file=table))
+    assert stronger.impacts["time"].iloc[0] < driven.impacts["time"].iloc[0]
+
+
+def test_the_study_reproduces_the_paper(fmu: Fmu) -> None:
+    numbers: list[int] = []
+    study = ratchet_study(fmu, lambda number, of: numbers.append(number))
+    assert numbers == list(range(1, 21))
+    for wheel in study.wheels:
+        time, speed = IMPACTS[wheel.slope_angle_deg]
+        assert wheel.impact_time == pytest.approx(time, rel=1e-7)
+        assert wheel.wheel_speed == pytest.approx(speed, rel=1e-7)
+        assert wheel.stress_position == pytest.approx(0.3956, abs=1e-4)
+        if (wheel.tooth_count, wheel.slope_angle_deg) in STRESSES:
+            stress = STRESSES[wheel.tooth_count, wheel.slope_angle_deg]
+            assert wheel.stress_max == pytest.approx(stress, rel=1e-4)
+    assert [check.passed for check in study.checks] == [True, True, True]
+
+
+def test_validate_finds_nothing(fmu: Fmu) -> None:
+    verdicts = list(validate(fmu))
+    assert len(verdicts) == 6
+    assert [v for v in verdicts if not v.passed] == []
+
+
+def test_run_writes_everything_and_says_so(ratchet_fmu: Path, tmp_path: Path) -> None:
+    settings = ["--set", "tooth_slope_angle=95deg", "--set", "tooth_count=20", "--stop-time", "1.5"]
+    code, text = invoke("run", ratchet_fmu, *settings, "-o", tmp_path)
+    assert code == 0
+    assert "0.927714437" in text
+    assert "results.csv, impacts.csv, summary.json, report.html" in text
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert summary["parameters"]["tooth_slope_angle"] == pytest.approx(math.radians(95), rel=1e-15)
+    assert summary["final_time"] == 1.5
+    assert len(pd.read_csv(tmp_path / "results.csv")) == 1501
+    assert pd.read_csv(tmp_path / "impacts.csv")["stress_max"][0] == pytest.approx(STRESSES[20, 95], rel=1e-4)
+
+
+def test_the_report_works_offline(ratchet_fmu: Path, tmp_path: Path) -> None:
+    assert invoke("run", ratchet_fmu, "--stop-time", "1.2", "-o", tmp_path)[0] == 0
+    html = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "plotly.js" in html
+    assert "<script src=" not in html
+    assert "<link" not in html
+    for heading in ("Verdicts", "Motion", "Bending stress in the tooth", "Impacts", "Parameters"):
+        assert f"<h2>{heading}</h2>" in html
+
+
+def test_the_study_command_writes_table_and_charts(ratchet_fmu: Path, tmp_path: Path) -> None:
+    code, text = invoke("study", "ratchet", "--fmu", ratchet_fmu, "-o", tmp_path)
+    assert code == 0
+    assert "The maximum stress falls with the number of teeth" in text
+    assert len(pd.read_csv(tmp_path / "study.csv")) == 20
+    assert json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))["units"]["stress_max"] == "Pa"
+    assert "10 teeth" in (tmp_path / "study.html").read_text(encoding="utf-8")
+
+
+def test_the_demo_is_one_command(tmp_path: Path) -> None:
+    code, text = invoke("demo", "-o", tmp_path)
+    assert code == 0
+    assert text.count("agrees with the reference") == 3
+    assert {path.name for path in tmp_path.iterdir()} == {
+        *("Ratchet.fmu", "results.csv", "impacts.csv", "summary.json", "report.html"),
+    }
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--set", "tooth_cuont=20"], "Did you mean tooth_count"),
+        (["--set", "drive_torque=2 mm"], "these fit: N.m"),
+        (["--set", "wheel_angle=1"], "cannot be set"),
+        (["--step", "0"], "at least one nanosecond"),
+        (["--stop-time", "-1"], "stop time is -1 s"),
+        (["--input", "nowhere.csv"], "cannot be read"),
+    ],
+)
+def test_wrong_use_is_told_before_anything_runs(
+    ratchet_fmu: Path, tmp_path: Path, arguments: list[str], message: str
+) -> None:
+    code, text = invoke("run", ratchet_fmu, *arguments, "-o", tmp_path / "out")
+    assert code == 2
+    assert message in text
+    assert not list(tmp_path.glob("out/*"))
+
+
+def test_a_mechanism_that_cannot_be_assembled_fails_with_the_fmu_s_advice(ratchet_fmu: Path, tmp_path: Path) -> None:
+    code, text = invoke("run", ratchet_fmu, "--set", "crank_length=10 mm", "-o", tmp_path)
+    assert code == 1
+    assert "Ratchet failed before the first step" in text
+    assert "it gave no reason" not in text

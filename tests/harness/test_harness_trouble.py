@@ -1,0 +1,119 @@
+"""FMUs that fail: each in a process of its own, because what is tested is that it survives."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+_RUN = "from harness.cli import main; main()"
+
+
+@pytest.fixture(scope="module")
+def troublesome_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    source = Path(__file__).with_name("troublesome.py")
+    folder = tmp_path_factory.mktemp("troublesome")
+    command = [sys.executable, "-m", "pythonfmu", "build", "-f", str(source), "-d", str(folder)]
+    subprocess.run(command, check=True, capture_output=True)
+    return folder / "Troublesome.fmu"
+
+
+def run(fmu: Path, folder: Path, trouble: int, **environment: str) -> tuple[int, str, str]:
+    times = ["--stop-time", "1", "--step", "0.1"]
+    process = subprocess.run(
+        [sys.executable, "-c", _RUN, "run", str(fmu), *times, "--set", f"trouble={trouble}", "-o", str(folder)],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ | {"COLUMNS": "500"} | environment,
+    )
+    assert "Traceback" not in process.stderr
+    return process.returncode, process.stdout, process.stderr
+
+
+def ending(folder: Path) -> tuple[str, float]:
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    return summary["ending"], summary["final_time"]
+
+
+def test_a_well_behaved_run(troublesome_fmu: Path, tmp_path: Path) -> None:
+    code, out, err = run(troublesome_fmu, tmp_path, 0)
+    assert (code, err) == (0, "")
+    assert "No impacts." in out
+    assert ending(tmp_path) == ("completed", 1.0)
+
+
+def test_a_discarded_step_is_a_failure(troublesome_fmu: Path, tmp_path: Path) -> None:
+    code, _, err = run(troublesome_fmu, tmp_path, 1)
+    assert code == 1
+    assert "Troublesome failed at t = 0.5 s (fmi2DoStep, status discard)" in err
+    assert "recorded up to 0.5 s of 1 s" in err
+    assert ending(tmp_path) == ("failed", 0.5)
+
+
+def test_an_exception_in_a_step_shows_the_fmu_s_own_message(troublesome_fmu: Path, tmp_path: Path) -> None:
+    code, _, err = run(troublesome_fmu, tmp_path, 2)
+    assert code == 1
+    assert "(fmi2DoStep, status fatal): the pawl has left the wheel." in err
+    assert "Fatal py exception" not in err
+    assert ending(tmp_path) == ("failed", 0.5)
+
+
+def test_an_exception_without_a_message_still_ends_well(troublesome_fmu: Path, tmp_path: Path) -> None:
+    code, _, err = run(troublesome_fmu, tmp_path, 3)
+    assert code == 1
+    assert "failed at t = 0.5 s (fmi2DoStep, status fatal)" in err
+    assert ending(tmp_path) == ("failed", 0.5)
+
+
+def test_a_message_is_text_whatever_it_contains(troublesome_fmu: Path, tmp_path: Path) -> None:
+    code, _, err = run(troublesome_fmu, tmp_path, 4)
+    assert code == 0
+    assert err.count("Warning (Troublesome, t = 0.5 s): loaded to 100%, %s and %n are only text") == 1
+
+
+def test_a_failure_at_the_start_writes_nothing(troublesome_fmu: Path, tmp_path: Path) -> None:
+    code, out, err = run(troublesome_fmu, tmp_path, 5)
+    assert code == 1
+    assert "failed before the first step (fmi2ExitInitializationMode, status fatal): the crank is too short" in err
+    assert out.strip() == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_fmu_that_cannot_be_instantiated(troublesome_fmu: Path, tmp_path: Path) -> None:
+    code, _, err = run(troublesome_fmu, tmp_path, 0, STILLBORN="1")
+    assert code == 1
+    assert "Troublesome failed before the first step (fmi2Instantiate)" in err
+
+
+def test_a_temporary_folder_that_crashes_fmus_is_avoided(troublesome_fmu: Path, tmp_path: Path) -> None:
+    hostile = tmp_path / "50% + ä#"
+    hostile.mkdir()
+    code, _, _ = run(troublesome_fmu, tmp_path, 0, TMPDIR=str(hostile))
+    assert code == 0
+    assert list(hostile.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C cannot be sent to one process there")
+def test_ctrl_c_keeps_what_was_recorded(troublesome_fmu: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "results"
+    endless = ["--stop-time", "1e6", "--step", "1e-3", "-o", str(folder)]
+    process = subprocess.Popen(
+        [sys.executable, "-c", _RUN, "run", str(troublesome_fmu), *endless], stdout=subprocess.PIPE, text=True
+    )
+    while not folder.exists():  # it is made just before the run
+        assert process.poll() is None
+        time.sleep(0.05)
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate()
+    assert process.returncode == 130
+    assert "the files hold what was recorded up to" in out
+    how, reached = ending(folder)
+    assert how == "interrupted"
+    assert 0.0 < reached < 1e6
+    assert len((folder / "results.csv").read_text().splitlines()) == round(reached / 1e-3) + 2

@@ -1,0 +1,41 @@
+"""The source of an FMU that misbehaves on demand."""
+
+import ctypes
+import os
+from typing import Any
+
+from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Integer, Real
+from pythonfmu.enums import Fmi2Status
+
+BEHAVE, DISCARD, RAISE, RAISE_SILENTLY, FORMAT, RAISE_AT_START = range(6)
+
+
+class Troublesome(Fmi2Slave):  # type: ignore[misc]
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        if os.environ.get("STILLBORN"):
+            raise RuntimeError("no engine here")
+        self.trouble = BEHAVE
+        self.y = 0.0
+        self.register_variable(Integer("trouble", causality=Fmi2Causality.parameter, variability=Fmi2Variability.fixed))
+        self.register_variable(Real("y", causality=Fmi2Causality.output))
+
+    def exit_initialization_mode(self) -> None:
+        if self.trouble == RAISE_AT_START:
+            self.log("the crank is too short by 3 mm; lengthen it.", Fmi2Status.error)
+            raise ValueError
+
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        late = current_time > 0.45
+        if self.trouble == FORMAT and late:
+            self.log("loaded to 100%, %s and %n are only text", Fmi2Status.warning)
+        if self.trouble == RAISE and late:
+            self.log("the pawl has left the wheel.", Fmi2Status.error)
+        if self.trouble in (RAISE, RAISE_SILENTLY) and late:
+            raise ValueError
+        self.y = current_time + step_size
+        return not (self.trouble == DISCARD and late)
+
+
+# pythonfmu 0.7.0 releases a reference to the module's globals that it does not own.
+ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
