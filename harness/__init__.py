@@ -1,9 +1,17 @@
 """The machine around an FMU: run it, record it, and see what its impacts do.
 
-The harness knows a mechanism only through its FMU. A master moves time (`master`), anything with the interface of
-`slave` can be simulated, observers look on (`observers`). In Python, start with `experiment.perform`:
+The harness knows a mechanism only through its FMU. In Python, start with `experiment.perform`:
 
     with open_fmu(Path("build/Ratchet.fmu")) as fmu:
         run = perform(fmu, Experiment(stop_time=6.0, step=1e-3))
     print(run.impacts)
+
+Where to find what:
+
+- an FMU: `description` (what it says about itself), `units` and `si`, `messages`, `fmu` (fmpy), `workspace`
+- simulation: `slave` (what can be simulated), `clock`, `inputs`, `master` (moves time), `observers` (look on):
+  `recorder`, `impacts`; `experiment` puts them together
+- meaning: `tooth_stress`, `checks` (verdicts), `paper` (its claims), `study` and `wheels`, `validate`
+- for people: `assignments` (name=value unit), `numbers`, `results` (files), `report`, `cli`, `commands`, `closing`,
+  `terminal`, `interrupt`
 """

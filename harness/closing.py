@@ -55,7 +55,7 @@ def _show_impacts(run: Run) -> None:
     columns = [name for name in _IMPACT_COLUMNS if name in run.impacts.columns]
     shown_impacts = run.impacts[columns].head(_MOST_IMPACTS)
     rows = [
-        [f"{time:.9g}", *(f"{value:.6g}" for value in rest)] for time, *rest in shown_impacts.itertuples(index=False)
+        [f"{time:.9g}", *(f"{value:.5g}" for value in rest)] for time, *rest in shown_impacts.itertuples(index=False)
     ]
     title = f"Impacts: {len(run.impacts)}" + (
         f", the first {_MOST_IMPACTS}" if len(run.impacts) > _MOST_IMPACTS else ""

@@ -26,7 +26,7 @@ class Variable:
         type: "Real", "Integer", "Boolean" or "String" (an Enumeration counts as Integer).
         causality: "input", "output", "parameter", "calculatedParameter", "local" or "independent".
         continuous: whether it varies continuously.
-        unit, display_unit: "" when it has none.
+        unit, display_unit: "" when it has none, or the unit "1".
         start: its default value, as text; None when it has none.
         minimum, maximum: its limits in `unit`; None when it has none.
     """
@@ -148,7 +148,7 @@ def _variable(raw: Any) -> Variable:
         causality=raw.causality or "local",
         description=raw.description or "",
         continuous=raw.type == "Real" and raw.variability in (None, "continuous"),
-        unit=attribute("unit") or "",
+        unit="" if attribute("unit") in (None, "1") else attribute("unit"),
         display_unit=attribute("displayUnit") or "",
         start=raw.start,
         minimum=_number(attribute("min")),

@@ -27,6 +27,6 @@ def shown(value: Value, name: str, description: Description) -> str:
     if not isinstance(value, float):
         return str(value)
     variable = description.variable(name)
-    text = f"{value:.9g}" if variable.unit in ("", "1") else f"{value:.9g} {variable.unit}"
+    text = f"{value:.9g}" if not variable.unit else f"{value:.9g} {variable.unit}"
     displayed = description.units.to_display(value, variable.unit, variable.display_unit)
     return text if displayed is None else f"{text} ({displayed:.6g} {variable.display_unit})"

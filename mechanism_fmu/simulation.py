@@ -49,7 +49,7 @@ class Simulation:
         self._mechanism = mechanism
         self._block = pack(mechanism.compile())
         self._input_names = [port.name for port in mechanism.inputs]
-        self._output_names = [port.name for port in (*mechanism.outputs, *mechanism.calculated)]
+        self._output_names = [o.name for o in mechanism.outputs] + [c.name for c in mechanism.calculated]
         self.inputs: Array = field_of(self._block, "inputs")
         self.outputs: Array = field_of(self._block, "outputs")
         self.state: Array = state_of(self._block)
@@ -80,7 +80,7 @@ class Simulation:
         return dict(zip(self._output_names, self.outputs.tolist(), strict=True))
 
     def read_array(self) -> Array:
-        """All outputs and calculated parameters at the current time, shape (outputs,): a view, valid until the next read."""
+        """As `read`, as an array of shape (outputs,): a view that the next read overwrites."""
         read_outputs(self._block)
         return self.outputs
 
@@ -142,7 +142,7 @@ class Simulation:
             distance = 0.0 if contact.closed else gap(self._block, c, y)[0]
             if distance < 0:
                 found.append(
-                    f"Contact {contact.name!r}: the point of {contact.body_i!r} is {-distance:.6g} m behind the line on "
-                    f"{contact.body_j!r}; change the start angles or the lengths."
+                    f"Contact {contact.name!r}: the point of {contact.body_i!r} is {-distance:.6g} m behind the line "
+                    f"on {contact.body_j!r}; change the start angles or the lengths."
                 )
         return " ".join(found)

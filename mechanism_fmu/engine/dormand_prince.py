@@ -138,5 +138,5 @@ def initial_step_size(block: Array) -> float:
     steepest = max(size_dy, bend)
     second = max(1e-6, first * 1e-3)
     if steepest > 1e-15:
-        second = (0.01 / steepest) ** 0.2
+        second = math.pow(0.01 / steepest, 0.2)
     return min(100.0 * first, second)

@@ -11,8 +11,8 @@ from .views import Pose, Rows
 def point_line(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array) -> None:
     """Write the row s = n.(r_i^P - r_j) - n'.p' of `data` = (point_i, line_point p', normal n' in body j).
 
-    With n = A_j n', a = A_i s_i, e = r_i + a - r_j, u = phi_j':
-    s_q = [n, n.Ra, -n, (R n).e], s' = n.e' + u (R n).e, gamma = n.a phi_i'^2 + n.e u^2 - 2 u (R n).e', with e' the rate of e.
+    With n = A_j n', a = A_i s_i, e = r_i + a - r_j and its rate e', u = phi_j':
+    s_q = [n, n.Ra, -n, (R n).e], s' = n.e' + u (R n).e, gamma = n.a phi_i'^2 + n.e u^2 - 2 u (R n).e'.
     """
     keep_small()
     ax = at.cosine[i] * data[0] - at.sine[i] * data[1]

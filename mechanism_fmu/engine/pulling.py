@@ -58,4 +58,5 @@ def _locate(block: Array, contact: int) -> float:
             after = middle
         else:
             before = middle
-    return now.clock[codes.STEP_START] + after * now.clock[codes.STEP_SIZE]
+    time: float = now.clock[codes.STEP_START] + after * now.clock[codes.STEP_SIZE]
+    return time

@@ -1,13 +1,13 @@
 """Named views of an instance's block, in Python and compiled.
 
-In Python a view is a named tuple of arrays. Compiled, it is the block's address, and each attribute is computed where it
-is used: nothing is copied, nothing is allocated.
+In Python a view is a named tuple of arrays. Compiled, it is the block's address, and each attribute is computed where
+it is used: nothing is copied, nothing is allocated.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from llvmlite import ir
@@ -20,12 +20,13 @@ from numba.np.arrayobj import make_array, populate_array
 from .layout import Field, field_named, field_of, size_slot, sizes_of, slot
 
 Array = np.ndarray[Any, np.dtype[Any]]
-_View = TypeVar("_View", bound=NamedTuple)
+_View = TypeVar("_View")  # a NamedTuple class; the type system has no bound for those
 
 
 def room(view: type[_View], *names: str) -> Callable[[Array], _View]:
     """A function from a block to a `view` whose entries are the fields `names`, in this order."""
-    fields = {entry: field_named(name) for entry, name in zip(view._fields, names, strict=True)}
+    entries = _entries(view)
+    fields = {entry: field_named(name) for entry, name in zip(entries, names, strict=True)}
 
     def look(block: Array) -> _View:
         return view(*(field_of(block, name) for name in names))
@@ -37,9 +38,13 @@ def sizes_room(view: type[_View]) -> Callable[[Array], _View]:
     """A function from a block to a `view` of its sizes, named as in `layout.SIZES`."""
 
     def look(block: Array) -> _View:
-        return view(*(sizes_of(block)[name] for name in view._fields))
+        return view(*(sizes_of(block)[name] for name in _entries(view)))
 
-    return _compilable(look, view.__name__, {name: _SizeEntry(name) for name in view._fields})
+    return _compilable(look, view.__name__, {name: _SizeEntry(name) for name in _entries(view)})
+
+
+def _entries(view: Any) -> tuple[str, ...]:
+    return tuple(view._fields)
 
 
 class _ViewType(types.Type):
@@ -93,12 +98,12 @@ def _compilable(look: Callable[[Array], _View], name: str, entries: dict[str, An
     view_type = view_class(name=f"{name}View")
 
     @register_model(view_class)
-    class _Model(models.PrimitiveModel):  # type: ignore[misc]
+    class _Model(models.PrimitiveModel):
         def __init__(self, manager: Any, declared: Any) -> None:
             super().__init__(manager, declared, ir.DoubleType().as_pointer())
 
     @infer_getattr
-    class _Attributes(AttributeTemplate):  # type: ignore[misc]
+    class _Attributes(AttributeTemplate):
         key = view_class
 
         def generic_resolve(self, _view: Any, attribute: str) -> Any:

@@ -157,7 +157,7 @@ def _scale(error: float, most: float) -> float:
         return most
     if not error < math.inf:
         return _SHRINK_MOST
-    return min(most, max(_SHRINK_MOST, _SAFETY * error**-0.2))
+    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -0.2)))
 
 
 @jit

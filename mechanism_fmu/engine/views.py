@@ -68,8 +68,10 @@ forces = room(Forces, "force_kind", "force_body", "force_reaction", "force_data"
 
 
 class Contacts(NamedTuple):
-    """The contacts' specifications, and their state: mode (`codes.OPEN` or `CLOSED`), whether the gap was zero when the
-    step began, and the first time at which a closed contact pulled [s] (infinity: never).
+    """The contacts' specifications and state.
+
+    State is the mode (`codes.OPEN` or `CLOSED`), whether the gap was zero when the step began, and the first time at
+    which a closed contact pulled [s] (infinity: never).
     """
 
     body_i: Array
@@ -132,8 +134,10 @@ ports = room(
 
 
 class Course(NamedTuple):
-    """How far the motion has come: clock, counters and ledger (columns in `codes`); y = (q, qd, work) and its derivative
-    at the end of the engine's own step, and the step's dense output.
+    """How far the motion has come.
+
+    Clock, counters and ledger (columns in `codes`); y = (q, qd, work) and its derivative at the end of the engine's own
+    step, and the step's dense output; the last impact, and those of the last communication step.
     """
 
     clock: Array

@@ -65,7 +65,9 @@ def check(data: bytes, mark: bytes) -> None:
     _, its_mark, _, _, _, length = _HEAD.unpack_from(data)
     complete = _HEAD.size + length + _CHECKSUM.size
     if len(data) != complete:
-        raise SavedStateError(f"The saved state has {len(data)} bytes instead of {complete}: it was cut off or extended.")
+        raise SavedStateError(
+            f"The saved state has {len(data)} bytes instead of {complete}: it was cut off or extended."
+        )
     (checksum,) = _CHECKSUM.unpack(data[-_CHECKSUM.size :])
     if zlib.crc32(data[: -_CHECKSUM.size]) != checksum:
         raise SavedStateError("The saved state was changed after it was written: its checksum does not fit.")

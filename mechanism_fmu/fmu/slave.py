@@ -6,43 +6,32 @@ import functools
 import math
 import weakref
 from collections.abc import Sequence
-from enum import IntEnum
-from typing import Any, ClassVar, NoReturn
+from typing import Any, ClassVar
 from xml.etree.ElementTree import Element
 
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
-from .. import codes
 from ..engine.layout import FIELDS
 from ..model import MechanismError, Model
 from ..model.model import check_value
 from ..simulation import Simulation, SimulationError
 from . import saved_state
+from .news import News
+from .protocol import FmiError, Phase, require, step_target
 from .saved_state import SavedState, SavedStateError
 from .variables import Variable, variables_of
 from .wrapper import fmi_call, survive_release
 
-#: A communication point may differ from the time reached by this fraction of max(1 s, |t|): rounding of the host.
-_SAME_TIME = 1e-9
 #: The engine's tightest relative tolerance.
 _TIGHTEST = 1e-13
+_SETTABLE = {
+    "input": (Phase.INSTANTIATED, Phase.INITIALIZATION, Phase.STEPPING),
+    "parameter": (Phase.INSTANTIATED, Phase.INITIALIZATION),
+}
 
 
-class Phase(IntEnum):
-    """The states of a slave (FMI 2.0.4, section 4.2.4)."""
-
-    INSTANTIATED = 0
-    INITIALIZATION = 1
-    STEPPING = 2
-    TERMINATED = 3
-
-
-class FmiError(RuntimeError):
-    """A call or a value that was refused; the message is for the user."""
-
-
-class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
+class MechanismSlave(Fmi2Slave):
     """The slave of any model; `make_slave_class` gives it one."""
 
     model: ClassVar[Model]
@@ -52,7 +41,7 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        _compile_engine(type(self))
+        _compile_engine(self.model)
         self.modelName = self.model.name
         self.description = self.model.description
         self._phase = Phase.INSTANTIATED
@@ -60,10 +49,10 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
         self._tolerance = math.inf
         self._parameters = [p.start for p in self.model.parameters]
         self._inputs = [float(v.start or 0.0) for v in self.variables if v.causality == "input"]
-        self._first_parameter = len(self.variables) - len(self._parameters) - self._calculated_count()
+        self._first_parameter = sum(v.causality in ("input", "output") for v in self.variables)
         self._simulation: Simulation | None = None
         self._values: list[float] | None = None
-        self._forget_news()
+        self._news = News()
         self._instances.add(self)
 
     # --- life cycle --------------------------------------------------------------------------------------------------
@@ -71,9 +60,9 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
     @fmi_call
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
         """fmi2SetupExperiment: the tighter of the host's tolerance and `relative_tolerance` will be used."""
-        self._require(Phase.INSTANTIATED, call="fmi2SetupExperiment")
+        require(self._phase, (Phase.INSTANTIATED,), "fmi2SetupExperiment")
         if not math.isfinite(start_time):
-            self._refuse(f"The start time {start_time} s is not a finite number.")
+            raise FmiError(f"The start time {start_time} s is not a finite number.")
         if tolerance is not None and tolerance > 0:
             self._tolerance = max(tolerance, _TIGHTEST)
         self._start_time = start_time
@@ -81,37 +70,36 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
     @fmi_call
     def enter_initialization_mode(self) -> None:
         """fmi2EnterInitializationMode."""
-        self._require(Phase.INSTANTIATED, call="fmi2EnterInitializationMode")
+        require(self._phase, (Phase.INSTANTIATED,), "fmi2EnterInitializationMode")
         self._phase = Phase.INITIALIZATION
 
     @fmi_call
     def exit_initialization_mode(self) -> None:
         """fmi2ExitInitializationMode: assemble the mechanism and begin its motion."""
-        self._require(Phase.INITIALIZATION, call="fmi2ExitInitializationMode")
+        require(self._phase, (Phase.INITIALIZATION,), "fmi2ExitInitializationMode")
         values = self.model.checked(self._parameter_values())
         self._prepared()
         for warning in self.model.warnings(values):
             self.log(warning, Fmi2Status.warning)
         self._phase = Phase.STEPPING
-        self._log_news()
+        self._tell()
 
     @fmi_call
     def do_step(self, current_time: float, step_size: float) -> bool:
         """fmi2DoStep."""
-        if self._phase is not Phase.STEPPING:
-            self._require(Phase.STEPPING, call="fmi2DoStep")
+        require(self._phase, (Phase.STEPPING,), "fmi2DoStep")
         simulation = self._prepared()
-        target = self._target(simulation.time, current_time, step_size)
+        target = step_target(simulation.time, current_time, step_size)
         simulation.inputs[:] = self._inputs
         self._values = None
         simulation.advance(target)
-        self._log_news()
+        self._tell()
         return True
 
     @fmi_call
     def terminate(self) -> None:
         """fmi2Terminate."""
-        self._require(Phase.STEPPING, call="fmi2Terminate")
+        require(self._phase, (Phase.STEPPING,), "fmi2Terminate")
         self._phase = Phase.TERMINATED
 
     def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
@@ -194,7 +182,7 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
         if self._simulation is not None:
             self._simulation.state.data.cast("B")[:] = saved.words
         self._phase = Phase(saved.phase)
-        self._forget_news()
+        self._news = News(self._simulation)
 
     @classmethod
     def _fmu_state_to_bytes(cls, state: bytes) -> bytes:
@@ -227,10 +215,6 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
             Fmi2Status.error,
         )
 
-    @classmethod
-    def _calculated_count(cls) -> int:
-        return sum(v.causality == "calculatedParameter" for v in cls.variables)
-
     def _parameter_values(self) -> dict[str, float]:
         return {p.name: value for p, value in zip(self.model.parameters, self._parameters, strict=True)}
 
@@ -242,23 +226,6 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
                 values.relative_tolerance = min(values.relative_tolerance, self._tolerance)
             self._simulation = Simulation(self.model.build(values), self._start_time, self._inputs)
         return self._simulation
-
-    def _target(self, reached: float, current_time: float, step_size: float) -> float:
-        if not math.isfinite(current_time) or not math.isfinite(step_size):
-            self._refuse(f"fmi2DoStep: time {current_time} s or step size {step_size} s is not a finite number.")
-        if not step_size > 0:
-            self._refuse(f"fmi2DoStep: step size {step_size:g} s must be positive; to go back, restore a saved state.")
-        if abs(current_time - reached) > _SAME_TIME * max(1.0, abs(reached)):
-            self._refuse(
-                f"fmi2DoStep: the communication point {current_time:.12g} s is not the time reached, {reached:.12g} s; "
-                "steps follow each other without gap, and a step back needs a saved state."
-            )
-        target = current_time + step_size
-        if not target > reached:
-            self._refuse(
-                f"fmi2DoStep: step size {step_size:g} s is lost in rounding at {reached:.12g} s; take larger steps."
-            )
-        return target
 
     def _get(self, kind: str, vrs: Sequence[int]) -> list[float]:
         self._check_types(kind, vrs)
@@ -276,16 +243,14 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
         self._check_types(kind, vrs)
         for vr, value in zip(vrs, values, strict=True):
             variable = self.variables[vr]
+            if variable.causality not in _SETTABLE:
+                raise FmiError(f"{variable.name} is of causality {variable.causality} and cannot be set.")
+            require(self._phase, _SETTABLE[variable.causality], f"Setting {variable.causality} {variable.name}")
+            check_value(variable, value)
             if variable.causality == "input":
-                self._require(Phase.INSTANTIATED, Phase.INITIALIZATION, Phase.STEPPING, call=f"setting {variable.name}")
-                check_value(variable, value)
                 self._inputs[vr] = value
-            elif variable.causality == "parameter":
-                self._require(Phase.INSTANTIATED, Phase.INITIALIZATION, call=f"setting parameter {variable.name}")
-                check_value(variable, value)
-                self._parameters[vr - self._first_parameter] = value
             else:
-                self._refuse(f"{variable.name} is an {variable.causality} and cannot be set.")
+                self._parameters[vr - self._first_parameter] = value
         self._values = None
         if self._phase is not Phase.STEPPING:
             self._simulation = None
@@ -293,64 +258,16 @@ class MechanismSlave(Fmi2Slave):  # type: ignore[misc]
     def _check_types(self, kind: str, vrs: Sequence[int]) -> None:
         for vr in vrs:
             if not 0 <= vr < len(self.variables):
-                self._refuse(
+                raise FmiError(
                     f"There is no variable with value reference {vr}; they run from 0 to {len(self.variables) - 1}."
                 )
             if self.variables[vr].type != kind:
                 variable = self.variables[vr]
-                self._refuse(f"{variable.name} (value reference {vr}) is of type {variable.type}, not {kind}.")
+                raise FmiError(f"{variable.name} (value reference {vr}) is of type {variable.type}, not {kind}.")
 
-    def _require(self, *allowed: Phase, call: str) -> None:
-        if self._phase not in allowed:
-            names = " or ".join(phase.name.lower() for phase in allowed)
-            self._refuse(
-                f"{call} is not allowed now: the instance is in state {self._phase.name.lower()}, not {names}."
-            )
-
-    def _refuse(self, message: str) -> NoReturn:
-        raise FmiError(message)
-
-    # --- log ---------------------------------------------------------------------------------------------------------
-
-    def _forget_news(self) -> None:
-        """Take all that has happened so far as told."""
-        self._told_impacts = self._told_lost = 0
-        self._told_pulls: set[str] = set()
-        if self._simulation is not None:
-            self._told_impacts = self._simulation.counters.item(codes.COUNT_IMPACTS)
-            self._told_lost = self._simulation.counters.item(codes.COUNT_LOST)
-            self._told_pulls = set(self._simulation.pulling_contacts())
-
-    def _log_news(self) -> None:
-        """Log the impacts of the step, those lost from the buffer, and contacts that have begun to pull."""
-        simulation = self._prepared()
-        counters = simulation.counters
-        if counters.item(codes.COUNT_IMPACTS) != self._told_impacts:
-            self._told_impacts = counters.item(codes.COUNT_IMPACTS)
-            for impact in simulation.impacts_in_step():
-                self.log(
-                    f"Impact on {impact.contact} at t = {impact.time:.12g} s: closing speed {impact.closing_speed:.6g} m/s, "
-                    f"impulse {impact.impulse:.6g} N.s.",
-                    Fmi2Status.ok,
-                    "logEvents",
-                )
-        if counters.item(codes.COUNT_LOST) > self._told_lost:
-            lost = counters.item(codes.COUNT_LOST) - self._told_lost
-            self._told_lost += lost
-            self.log(
-                f"{lost} impacts of the step to t = {simulation.time:.9g} s did not fit into impacts[1..8] and are lost "
-                "to the outside (the motion is right); use a shorter communication step.",
-                Fmi2Status.warning,
-            )
-        if counters.item(codes.COUNT_PULLS) > len(self._told_pulls):
-            for contact, time in simulation.pulling_contacts().items():
-                if contact not in self._told_pulls:
-                    self._told_pulls.add(contact)
-                    self.log(
-                        f"From t = {time:.6g} s the guided contact {contact} pulls: it holds the bodies together where a "
-                        "real contact would open. The motion from here on is the guided model's, as in the paper.",
-                        Fmi2Status.warning,
-                    )
+    def _tell(self) -> None:
+        for message in self._news.since_last(self._prepared()):
+            self.log(*message)
 
 
 @functools.cache
@@ -368,8 +285,8 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
 
 
 @functools.cache
-def _compile_engine(slave: type[MechanismSlave]) -> None:
+def _compile_engine(model: Model) -> None:
     """Compile the engine, or load it from the cache: in the constructor, never in the first step."""
-    simulation = Simulation(slave.model.build(slave.model.values()))
+    simulation = Simulation(model.build(model.values()))
     simulation.advance(1e-3)
     simulation.read()

@@ -28,7 +28,8 @@ class MechanismTables:
     """A mechanism as arrays, in the order of its parts; body number `bodies` (one past the last) is the ground.
 
     Integer tables hold structure and never depend on parameter values; the others hold numbers (SI units).
-    `joint_rows` is the number of rows of all joints. `inverse_mass` and `inverse_root_mass` have 3 entries a body and 3 zeros for the ground.
+    `joint_rows` is the number of rows of all joints;
+    `inverse_mass` and `inverse_root_mass` have 3 entries a body and 3 zeros for the ground.
     """
 
     inverse_mass: Table

@@ -79,6 +79,15 @@ def test_wrong_arguments_are_wrong_use(arguments: list[str]) -> None:
     assert invoke(*arguments)[0] == 2
 
 
+def test_build_knows_its_models(tmp_path: Path) -> None:
+    code, text = invoke("build", "gearbox", "-o", tmp_path)
+    assert code == 2
+    assert "There is no model 'gearbox'; there are: ratchet" in text
+    code, text = invoke("build", "--list")
+    assert code == 0
+    assert text.startswith("ratchet")
+
+
 def test_help_does_not_wait_for_the_libraries() -> None:
     heavy = "pandas", "numpy", "fmpy", "plotly", "mechanism_fmu", "models"
     script = f"import sys, harness.cli; sys.exit(bool(set({heavy!r}) & set(sys.modules)))"

@@ -87,7 +87,7 @@ def test_the_study_reproduces_the_paper(fmu: Fmu) -> None:
         assert wheel.stress_position == pytest.approx(0.3956, abs=1e-4)
         if (wheel.tooth_count, wheel.slope_angle_deg) in STRESSES:
             stress = STRESSES[wheel.tooth_count, wheel.slope_angle_deg]
-            assert wheel.stress_max == pytest.approx(stress, rel=1e-4)
+            assert wheel.stress_max == pytest.approx(stress, abs=0.5)  # printed in whole pascals
     assert [check.passed for check in study.checks] == [True, True, True]
 
 
@@ -98,7 +98,7 @@ def test_validate_finds_nothing(fmu: Fmu) -> None:
 
 
 def test_run_writes_everything_and_says_so(ratchet_fmu: Path, tmp_path: Path) -> None:
-    settings = ["--set", "tooth_slope_angle=95deg", "--set", "tooth_count=20", "--stop-time", "1.5"]
+    settings = ["--set", "tooth_slope_angle=95deg", "--set", "tooth_count=20", "--stop-time", "1.5", "--step", "1e-3"]
     code, text = invoke("run", ratchet_fmu, *settings, "-o", tmp_path)
     assert code == 0
     assert "0.927714437" in text

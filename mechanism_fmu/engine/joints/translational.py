@@ -11,7 +11,7 @@ from ..views import Pose, Rows
 def translational(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array) -> None:
     """Write the two rows of a slider with `data` = (point_i, point_j, axis_i, axis_j).
 
-    With n = R A_i v_i, v = A_i v_i, w = A_j v_j, a = A_i s_i, b = A_j s_j, d = r_j + b - r_i - a, u = phi_i', d' its rate:
+    With v = A_i v_i, n = R v, w = A_j v_j, a = A_i s_i, b = A_j s_j, d = r_j + b - r_i - a and its rate d', u = phi_i':
     Phi_1 = n.d, Phi_1,q = [-n, -v.d - n.Ra, n, n.Rb], gamma_1 = n.d u^2 + 2 v.d' u - n.(a u^2 - b phi_j'^2);
     Phi_2 = n.w, Phi_2,q = [0, -v.w, 0, n.Rw], gamma_2 = n.w (u - phi_j')^2; nu = 0.
     """

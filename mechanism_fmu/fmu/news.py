@@ -1,0 +1,73 @@
+"""What an instance tells through the FMI logger while it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from pythonfmu.enums import Fmi2Status
+
+from .. import codes
+from ..simulation import Simulation
+
+
+class Message(NamedTuple):
+    """A line of the log: text, FMI status, category."""
+
+    text: str
+    status: Fmi2Status
+    category: str
+
+
+class News:
+    """Keeps count of what has been told.
+
+    Args:
+        simulation: all that has happened to it so far counts as told.
+    """
+
+    def __init__(self, simulation: Simulation | None = None) -> None:
+        self._impacts = 0 if simulation is None else simulation.counters.item(codes.COUNT_IMPACTS)
+        self._lost = 0 if simulation is None else simulation.counters.item(codes.COUNT_LOST)
+        self._pulls = set[str]() if simulation is None else set(simulation.pulling_contacts())
+
+    def since_last(self, simulation: Simulation) -> Iterator[Message]:
+        """Impacts of the step, impacts that the buffer lost, contacts that have begun to pull."""
+        counters = simulation.counters
+        if counters.item(codes.COUNT_IMPACTS) != self._impacts:
+            self._impacts = counters.item(codes.COUNT_IMPACTS)
+            yield from _impacts(simulation)
+        if counters.item(codes.COUNT_LOST) != self._lost:
+            lost = counters.item(codes.COUNT_LOST) - self._lost
+            self._lost += lost
+            yield Message(
+                f"{lost} impacts of the step to t = {simulation.time:.9g} s did not fit into "
+                f"impacts[1..{codes.IMPACT_BUFFER_LENGTH}] and are lost to the outside (the motion is right); "
+                "use a shorter communication step.",
+                Fmi2Status.warning,
+                "logStatusWarning",
+            )
+        if counters.item(codes.COUNT_PULLS) > len(self._pulls):
+            for contact, time in simulation.pulling_contacts().items():
+                if contact not in self._pulls:
+                    self._pulls.add(contact)
+                    yield _pull(contact, time)
+
+
+def _impacts(simulation: Simulation) -> Iterator[Message]:
+    for impact in simulation.impacts_in_step():
+        yield Message(
+            f"Impact on {impact.contact} at t = {impact.time:.12g} s: closing speed {impact.closing_speed:.6g} m/s, "
+            f"impulse {impact.impulse:.6g} N.s.",
+            Fmi2Status.ok,
+            "logEvents",
+        )
+
+
+def _pull(contact: str, time: float) -> Message:
+    return Message(
+        f"From t = {time:.6g} s the guided contact {contact} pulls: it holds the bodies together where a real contact "
+        "would open. The motion from here on is the guided model's, as in the paper.",
+        Fmi2Status.warning,
+        "logStatusWarning",
+    )
