@@ -8,6 +8,7 @@ from pathlib import Path
 from .checks import Check, all_passed
 from .experiment import Run
 from .master import Ending
+from .messages import Status
 from .numbers import shown
 from .results import final_values
 from .terminal import FAILED, INTERRUPTED, console, show_checks, show_error, show_files, show_table
@@ -38,6 +39,9 @@ def close_run(run: Run, files: Sequence[Path], more_checks: Sequence[Check] = ()
     if run.outcome.ending is Ending.INTERRUPTED:
         console.print(f"[yellow]Interrupted[/]: the files hold what was recorded up to {reached}.")
         return INTERRUPTED
+    for message in run.messages:
+        if message.needs_attention and message.status is not Status.WARNING:  # warnings were shown when they came
+            show_error(f"{message.instance} said so, but went on at t = {message.time:.6g} s: {message.text}")
     return 0 if all_passed(checks) else FAILED
 
 

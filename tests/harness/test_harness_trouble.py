@@ -76,6 +76,12 @@ def test_a_message_is_text_whatever_it_contains(troublesome_fmu: Path, tmp_path:
     assert err.count("Warning (Troublesome, t = 0.5 s): loaded to 100%, %s and %n are only text") == 1
 
 
+def test_an_error_that_the_fmu_only_talks_about_is_shown(troublesome_fmu: Path, tmp_path: Path) -> None:
+    code, _, err = run(troublesome_fmu, tmp_path, 6)
+    assert code == 0
+    assert "Troublesome said so, but went on at t = 0.4 s: the oil is hot." in err
+
+
 def test_a_failure_at_the_start_writes_nothing(troublesome_fmu: Path, tmp_path: Path) -> None:
     code, out, err = run(troublesome_fmu, tmp_path, 5)
     assert code == 1

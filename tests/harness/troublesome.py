@@ -7,7 +7,7 @@ from typing import Any
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Integer, Real
 from pythonfmu.enums import Fmi2Status
 
-BEHAVE, DISCARD, RAISE, RAISE_SILENTLY, FORMAT, RAISE_AT_START = range(6)
+BEHAVE, DISCARD, RAISE, RAISE_SILENTLY, FORMAT, RAISE_AT_START, COMPLAIN = range(7)
 
 
 class Troublesome(Fmi2Slave):  # type: ignore[misc]
@@ -29,6 +29,8 @@ class Troublesome(Fmi2Slave):  # type: ignore[misc]
         late = current_time > 0.45
         if self.trouble == FORMAT and late:
             self.log("loaded to 100%, %s and %n are only text", Fmi2Status.warning)
+        if self.trouble == COMPLAIN and not late and current_time > 0.35:
+            self.log("the oil is hot.", Fmi2Status.error)
         if self.trouble == RAISE and late:
             self.log("the pawl has left the wheel.", Fmi2Status.error)
         if self.trouble in (RAISE, RAISE_SILENTLY) and late:
