@@ -81,14 +81,14 @@ def run(
         ),
     ] = None,
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.")] = Path(
-        "results"
+        "result"
     ),
 ) -> None:
     """Run an FMU and write results.csv, impacts.csv, summary.json and report.html.
 
     Try:
 
-        mechanism-fmu run build/Ratchet.fmu -o results
+        mechanism-fmu run build/Ratchet.fmu -o result
 
         mechanism-fmu run build/Ratchet.fmu --set tooth_slope_angle=95deg --set tooth_count=20
 

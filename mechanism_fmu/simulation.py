@@ -9,8 +9,7 @@ import numpy as np
 
 from . import codes
 from .engine import status
-from .engine.assembly import assemble, start
-from .engine.events import gap
+from .engine.assembly import begin
 from .engine.layout import field_of, state_of
 from .engine.outputs import read_outputs
 from .engine.pack import pack
@@ -113,14 +112,11 @@ class Simulation:
         ]
 
     def _begin(self, time: float) -> None:
-        outcome = assemble(self._block)
-        if outcome == status.NOT_ASSEMBLED:
-            raise MechanismError(f"{status.ADVICE[outcome]} Left open: {self._residuals()}.")
-        outcome = start(self._block, time)
-        if outcome == status.START_INSIDE:
-            raise MechanismError(f"{status.ADVICE[outcome]} {self._penetrations()}")
-        if outcome != status.OK:
-            raise MechanismError(status.ADVICE[outcome])
+        outcome = begin(self._block, time)
+        if outcome == status.OK:
+            return
+        details = {status.NOT_ASSEMBLED: self._residuals, status.START_INSIDE: self._penetration}
+        raise MechanismError(status.ADVICE[outcome] + (details[outcome]() if outcome in details else ""))
 
     def _residuals(self) -> str:
         """What is left of each joint and closed contact at the closest position found."""
@@ -133,16 +129,13 @@ class Simulation:
             if contact.closed:
                 parts.append(f"{contact.name} by {abs(residual[row]):.6g}")
                 row += 1
-        return ", ".join(parts) + " (m, or rad between directions)"
+        return f" Left open: {', '.join(parts)} (m, or rad between directions)."
 
-    def _penetrations(self) -> str:
-        y = field_of(self._block, "y_end")
-        found = []
-        for c, contact in enumerate(self._mechanism.contacts):
-            distance = 0.0 if contact.closed else gap(self._block, c, y)[0]
-            if distance < 0:
-                found.append(
-                    f"Contact {contact.name!r}: the point of {contact.body_i!r} is {-distance:.6g} m behind the line "
-                    f"on {contact.body_j!r}; change the start angles or the lengths."
-                )
-        return " ".join(found)
+    def _penetration(self) -> str:
+        """Which contact point starts inside, and by how much."""
+        contact = self._mechanism.contacts[self.counters.item(codes.PENDING_CONTACT)]
+        depth = -field_of(self._block, "residual").item(-1)
+        return (
+            f" Contact {contact.name!r}: the point of {contact.body_i!r} is {depth:.6g} m behind the line on "
+            f"{contact.body_j!r}; change the start angles or the lengths."
+        )

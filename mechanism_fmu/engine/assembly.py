@@ -28,6 +28,19 @@ _HALVINGS = 30
 
 
 @entry
+def begin(block: Array, time: float) -> int:
+    """Assemble the mechanism from its start guess and begin the motion at `time` [s]; return a status.
+
+    When the mechanism cannot be assembled, y_end and `rows.residual` hold the closest position and what is left of
+    Phi. When it starts inside, PENDING_CONTACT and the last entry of `rows.residual` hold the contact and its gap [m].
+    """
+    outcome = assemble(block)
+    if outcome == status.OK:
+        outcome = start(block, time)
+    return outcome
+
+
+@jit
 def assemble(block: Array) -> int:
     """Close the position rows from the bodies' start guess by Newton's method with minimum-norm steps.
 
@@ -68,7 +81,7 @@ def assemble(block: Array) -> int:
     return status.NOT_ASSEMBLED
 
 
-@entry
+@jit
 def start(block: Array, time: float) -> int:
     """Begin the motion at `time` [s] from the assembled position, with all counters at zero."""
     n = sizes(block).coordinates
@@ -92,6 +105,7 @@ def start(block: Array, time: float) -> int:
         if table.mode[c] == codes.OPEN:
             distance, _ = gap(block, c, now.y_end)
             if not distance >= -TOUCHES_WITHIN:
+                now.counters[codes.PENDING_CONTACT] = c
                 return status.START_INSIDE
             if distance <= TOUCHES_WITHIN:
                 table.mode[c] = codes.CLOSED

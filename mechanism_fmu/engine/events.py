@@ -12,7 +12,7 @@ from .dormand_prince import interpolate, try_step
 from .kinematics import place_bodies
 from .room import Array
 from .rows import contact_row
-from .subset import entry, jit, keep_small
+from .subset import jit, keep_small
 from .views import contacts, rows, sizes, stages
 
 #: Points of a step at which each open gap is looked at; between two of them a dip is found by the sign of the gap rate.
@@ -24,7 +24,7 @@ ROOT_TOLERANCE = 1e-13
 _NEWTON_STEPS = 12
 
 
-@entry
+@jit
 def gap(block: Array, contact: int, y: Array) -> tuple[float, float]:
     """Gap s [m] and gap rate s' [m/s] of an open contact at y."""
     keep_small()

@@ -14,6 +14,8 @@ import numba
 from numba import types
 from numba.extending import lower_builtin, type_callable
 
+from .whole_program import InnerCompiler
+
 #: Numba does not notice a change in a callee, so a compilation is kept on disk only for the copy of the library that
 #: an FMU unpacks into a folder named after its contents; that copy has another package name.
 KEEP_COMPILED = __name__.partition(".")[0] != "mechanism_fmu"
@@ -26,6 +28,13 @@ _OPTIONS: dict[str, Any] = {
     "cache": KEEP_COMPILED,
 }
 
+_INNER_OPTIONS = _OPTIONS | {
+    "cache": False,  # what is kept is the entry point, with all of its parts
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+    "pipeline_class": InnerCompiler,
+}
+
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
@@ -36,7 +45,7 @@ def entry(function: _Function) -> _Function:
 
 def jit(function: _Function) -> _Function:
     """Compile a function that only compiled functions call."""
-    return cast(_Function, numba.njit(**_OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function))
+    return cast(_Function, numba.njit(**_INNER_OPTIONS)(function))
 
 
 def keep_small() -> None:

@@ -30,12 +30,14 @@ _WRAPPER = (
     "The FMU needs a 64-bit Python 3.11 or later with the packages of <code>resources/requirements.txt</code>; "
     "binaries for Linux and Windows are inside.",
     "A host that is not itself Python must load the Python library first, on Linux with "
-    "<code>LD_PRELOAD</code> and the full path of, for example, <code>libpython3.11.so</code>. Hosts that refuse "
-    "<code>needsExecutionTool</code> cannot run it.",
+    "<code>LD_PRELOAD</code> and the full path of, for example, <code>libpython3.11.so</code>, and lets Python find "
+    "the packages with <code>PYTHONPATH</code>. Hosts that refuse <code>needsExecutionTool</code> cannot run it.",
     "A value or a call that is refused gives a message in the log and the status <em>fatal</em>, because the wrapper "
-    "knows no milder one. Messages arrive only if the host switched logging on.",
-    "Any GUID is accepted at instantiation.",
+    "knows no milder one; the instance can be reset or freed all the same. Messages arrive only if the host switched "
+    "logging on.",
+    "Any GUID and any FMU type are accepted at instantiation.",
     "Unzip the FMU to a path of ASCII letters without <code># % + ? &amp;</code>; other paths crash the host.",
+    "Each instantiation in the same process costs about 1 kB of memory that is not given back.",
     "The first start compiles the engine (some seconds) and keeps the result in the user's cache directory, in a "
     "folder <code>mechanism_fmu</code>; the environment variable <code>MECHANISM_FMU_CACHE</code> chooses another. "
     "The folder may be deleted at any time.",

@@ -201,6 +201,10 @@ class MechanismSlave(Fmi2Slave):
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
+    def log(self, msg: str, status: Fmi2Status = Fmi2Status.ok, category: str | None = None, debug: Any = None) -> None:
+        """Log a plain text: the FMI logger takes it for a printf format, in which % must be doubled."""
+        super().log(msg.replace("%", "%%"), status, category)
+
     def report(self, error: Exception) -> None:
         """Log an exception: as it is when it was meant for the user, with its type and place when it was not."""
         if isinstance(error, (FmiError, MechanismError, SimulationError, SavedStateError)):

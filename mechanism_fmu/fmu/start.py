@@ -8,6 +8,7 @@ that the second start finds what the first one compiled.
 
 from __future__ import annotations
 
+import _ctypes
 import atexit
 import ctypes
 import importlib
@@ -66,11 +67,11 @@ def _refusal(reason: str) -> ImportError:
 
 
 def tidy_up(slave_globals: dict[str, object]) -> None:
-    """Undo what pythonfmu's wrapper leaves behind; to be called at the end of the slave file.
+    """Make good what pythonfmu's wrapper does wrong; to be called at the end of the slave file.
 
     The wrapper (PySlaveInstance.cpp of pythonfmu 0.7.0) runs the slave file at every instantiation. Each time it
     releases a reference to the module's globals that it does not own, which would free them while in use, and puts
-    the FMU's resources at the front of `sys.path` once more.
+    the FMU's resources at the front of `sys.path` once more. For the third fault see `_release_interpreter_once`.
 
     Args:
         slave_globals: `globals()` of the slave file.
@@ -78,10 +79,34 @@ def tidy_up(slave_globals: dict[str, object]) -> None:
     global _entry
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(slave_globals))
     newest = sys.path[0]
-    if os.path.isfile(os.path.join(newest, f"{slave_globals['__name__']}.py")):
-        # The newest entry stays: pythonfmu's builder removes the one that it has put there, and fails if it is gone.
-        sys.path[1:] = [entry for entry in sys.path[1:] if entry not in (newest, _entry)]
-        _entry = newest
+    if not os.path.isfile(os.path.join(newest, f"{slave_globals['__name__']}.py")):
+        return
+    # The newest entry stays: pythonfmu's builder removes the one that it has put there, and fails if it is gone.
+    sys.path[1:] = [entry for entry in sys.path[1:] if entry not in (newest, _entry)]
+    if sys.platform == "linux":
+        _release_interpreter_once(Path(newest).parent, known=newest == _entry)
+    _entry = newest
+
+
+def _release_interpreter_once(fmu: Path, known: bool) -> None:
+    """Make the wrapper release the Python interpreter once; by itself it does so twice.
+
+    Its static destructor releases it at exit or when the library is unloaded, and afterwards the exported function
+    `finalizePythonInterpreter` releases it again, in memory that is already free: hosts abort at exit with a corrupted
+    heap. When that function is called first, it leaves nothing behind that could be released.
+    """
+    for path in (fmu / "binaries" / "linux64").glob("*.so"):
+        try:
+            wrapper = ctypes.CDLL(str(path), os.RTLD_NOLOAD | os.RTLD_NOW)
+        except OSError:
+            continue  # not loaded: somebody else's instance
+        if sys.orig_argv:
+            # A Python host: what the wrapper holds is empty, because the interpreter was there before.
+            wrapper.finalizePythonInterpreter()
+            _ctypes.dlclose(wrapper._handle)
+        elif not known:
+            # Any other host needs the interpreter to the end. What is registered last is called first at exit.
+            ctypes.CDLL(None).__cxa_atexit(wrapper.finalizePythonInterpreter, None, None)
 
 
 def _cached(source: Path) -> Path:
@@ -135,8 +160,6 @@ def _synchronize(source: Path, folder: Path) -> None:
             with os.fdopen(handle, "wb") as file:
                 file.write(contents)
             os.chmod(temporary, 0o644)
-            # The same time stamp for all writers: compiled code is cached by the time stamp of its source.
-            os.utime(temporary, (0, 0))
             os.replace(temporary, copy)
         except BaseException:
             os.unlink(temporary)
