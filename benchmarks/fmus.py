@@ -1,0 +1,49 @@
+"""The two FMUs that are compared: Ratchet.fmu, and the plain ratchet packed by pythonfmu."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from mechanism_fmu.fmu.archive import content_hash
+from mechanism_fmu.fmu.start import CACHE_VARIABLE
+
+ROOT = Path(__file__).parents[1]
+
+#: Modules of the plain ratchet that travel.
+_PLAIN = ("__init__", "ratchet", "reference", "plain", "plain_slave")
+
+#: Its slave file. pythonfmu's wrapper releases a reference to the globals that it does not own.
+_SLAVE = """import ctypes
+
+from {package}.plain_slave import PlainRatchet
+
+ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
+"""
+
+
+def build_ratchet(folder: Path) -> Path:
+    """Build Ratchet.fmu without compiling the engine: its first start is still to be timed."""
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1", CACHE_VARIABLE: str(folder / "cache_of_the_build")}
+    _run("-m", "build_fmu", "ratchet", "-o", str(folder), environment=environment)
+    return folder / "Ratchet.fmu"
+
+
+def build_plain(folder: Path) -> Path:
+    """Build PlainRatchet.fmu: the same steps by `benchmarks.reference`."""
+    files = {f"{name}.py": Path(__file__).with_name(f"{name}.py").read_bytes() for name in _PLAIN}
+    digest = content_hash(files)[:12]  # module names that no other FMU in the process has
+    package = folder / "plain" / f"plain_ratchet_{digest}"
+    package.mkdir(parents=True)
+    for name, contents in files.items():
+        (package / name).write_bytes(contents)
+    script = package.parent / f"PlainRatchet_{digest}.py"
+    script.write_text(_SLAVE.format(package=package.name), encoding="utf-8")
+    _run("-m", "pythonfmu", "build", "-f", str(script), "-d", str(folder), str(package))
+    return folder / "PlainRatchet.fmu"
+
+
+def _run(*arguments: str, environment: dict[str, str] | None = None) -> None:
+    subprocess.run([sys.executable, *arguments], cwd=ROOT, env=environment, check=True, stdout=subprocess.DEVNULL)
