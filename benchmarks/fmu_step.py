@@ -2,39 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from .host import Host
-from .instance import INSTANTS
 from .step import DRIVES, STEP, WITHIN
-from .timing import Comparison, in_turns, require_agreement
+from .timing import Comparison, Timer, in_turns, require_agreement
 
+#: Where the phases begin [s]; the impact comes between 0.8 s and 1 s, depending on the drive torques.
+_PHASES = {"before the impact": 0.0, "after the impact": 1.0}
 _LEAST_RATIO = 25.0
 _STEPS = 20
 
-_Work = Callable[[Host], float]
-
 
 def compare(plain: Path, ratchet: Path, folder: Path, rounds: int) -> list[Comparison]:
-    """Compare the FMUs, unzipped into new folders in `folder`: both go through the impact in lockstep."""
+    """Compare the FMUs, unzipped into new folders in `folder`: both go the same way, through the impact."""
+    found = []
     with Host(plain, folder / "plain") as slow, Host(ratchet, folder / "ratchet") as fast:
-        return [
-            _compare(subject, f"{case}, {when}", work, (slow, fast), rounds)
-            for when, time in INSTANTS.items()
-            for subject, case, work in _works(slow, fast, time)
-        ]
+        fast_timers = _timers(fast)
+        for phase, begin in _PHASES.items():
+            slow.go_to(round(begin / STEP))
+            fast.go_to(round(begin / STEP))
+            for (subject, drive), timer in _timers(slow).items():
+                times = in_turns(timer, fast_timers[subject, drive], rounds)
+                require_agreement(f"{subject}, {drive}, {phase}", slow.outputs(), fast.outputs(), WITHIN)
+                found.append(Comparison(subject, f"{drive}, {phase}", *times, _LEAST_RATIO))
+    return found
 
 
-def _works(slow: Host, fast: Host, time: float) -> list[tuple[str, str, _Work]]:
-    for host in (slow, fast):
-        host.go_to(round(time / STEP))
-    require_agreement(f"FMUs at {time:g} s", slow.outputs(), fast.outputs(), WITHIN)
-    changing = "input changes at every step"
-    return [
-        *(
-            ("fmi2DoStep of 1 ms", case, lambda host, torques=torques: host.time_steps(torques, _STEPS))
-            for case, torques in DRIVES.items()
-        ),
-        ("set 1, fmi2DoStep, get 6", changing, lambda host: host.time_exchanges(DRIVES[changing], _STEPS)),
-    ]
+def _timers(host: Host) -> dict[tuple[str, str], Timer]:
+    """What is timed, by subject and drive."""
+    timers: dict[tuple[str, str], Timer] = {
+        ("fmi2DoStep of 1 ms", drive): partial(host.time_steps, torques, _STEPS) for drive, torques in DRIVES.items()
+    }
+    changing = next(iter(DRIVES))
+    timers["set 1, fmi2DoStep, get 6", changing] = partial(host.time_exchanges, DRIVES[changing], _STEPS)
+    return timers

@@ -9,7 +9,7 @@ import numpy as np
 import models
 from mechanism_fmu import codes
 from mechanism_fmu.engine import status
-from mechanism_fmu.engine.assembly import assemble, start
+from mechanism_fmu.engine.assembly import begin
 from mechanism_fmu.engine.layout import field_of, state_of
 from mechanism_fmu.engine.outputs import read_outputs
 from mechanism_fmu.engine.pack import pack
@@ -39,8 +39,7 @@ class Instance:
         self.block: Array = pack(mechanism.compile())
         self.inputs: Array = field_of(self.block, "inputs")
         self._shown = [[port.name for port in mechanism.outputs].index(name) for name in OUTPUTS]
-        _require_ok(assemble(self.block))
-        _require_ok(start(self.block, 0.0))
+        _require_ok(begin(self.block, 0.0))
         clock, y = field_of(self.block, "clock"), field_of(self.block, "y_end")
         self.advance(time)
         self.advance(float(clock[codes.STEP_END]))

@@ -24,9 +24,11 @@ def at_rest() -> tuple[Ratchet, State]:
     return ratchet, State(0.0, ratchet.start, np.zeros(9))
 
 
-def driven(ratchet: Ratchet, **torques: float) -> Ratchet:
+def driven(ratchet: Ratchet, drive_torque: float, spring_preload: float, load_torque: float) -> Ratchet:
     """The ratchet with other inputs [N m]."""
-    return replace(ratchet, parameters=replace(ratchet.parameters, **torques))
+    p = ratchet.parameters
+    p = replace(p, drive_torque=drive_torque, spring_preload=spring_preload, load_torque=load_torque)
+    return replace(ratchet, parameters=p)
 
 
 def outputs(state: State) -> Vector:

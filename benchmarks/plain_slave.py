@@ -27,7 +27,7 @@ class PlainRatchet(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
 
     def do_step(self, _current_time: float, step_size: float) -> bool:
         """fmi2DoStep."""
-        self._ratchet = driven(self._ratchet, **{name: getattr(self, name) for name in INPUTS})
+        self._ratchet = driven(self._ratchet, self.drive_torque, self.spring_preload, self.load_torque)
         self._state = step(self._ratchet, self._state, step_size)
         self._show()
         return True

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 from . import reference
 from .instance import INSTANTS, Instance
 from .plain import INPUTS, at_rest, driven, outputs
@@ -38,7 +37,7 @@ def _compare(case: str, instance: Instance, torques: tuple[float, float], rounds
     def plain() -> reference.State:
         state = instance.state
         for k in range(_STEPS):
-            state = reference.step(driven(ratchet, drive_torque=torques[k % 2]), state, STEP)
+            state = reference.step(driven(ratchet, torques[k % 2], 0.0, 0.0), state, STEP)
         return state
 
     def engine() -> None:

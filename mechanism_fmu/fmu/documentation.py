@@ -37,7 +37,7 @@ _WRAPPER = (
     "logging on.",
     "Any GUID and any FMU type are accepted at instantiation.",
     "Unzip the FMU to a path of ASCII letters without <code># % + ? &amp;</code>; other paths crash the host.",
-    "Each instantiation in the same process costs about 1 kB of memory that is not given back.",
+    "Each instantiation in the same process costs less than 1 kB of memory that is not given back.",
     "The first start compiles the engine (some seconds) and keeps the result in the user's cache directory, in a "
     "folder <code>mechanism_fmu</code>; the environment variable <code>MECHANISM_FMU_CACHE</code> chooses another. "
     "The folder may be deleted at any time.",

@@ -99,7 +99,7 @@ def test_help_shows_an_example() -> None:
 
 
 def test_an_unknown_model_is_refused_by_the_loader() -> None:
-    with pytest.raises(MechanismError, match="'rachet'; there are: .*ratchet"):
+    with pytest.raises(MechanismError, match=r"'rachet'; there are: .*ratchet"):
         models.load("rachet")
 
 

@@ -1,0 +1,65 @@
+"""Command: `python -m benchmarks`, from the root of the repository; see docs/benchmarks.md."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from mechanism_fmu.fmu.start import CACHE_VARIABLE
+
+from . import acceleration, fmu_step, fmus, startup, step
+from .table import as_json, machine, table
+from .timing import Comparison, DisagreementError
+
+_ROUNDS = 9
+_WIDTH_OF_A_FILE = 120
+
+
+def run(
+    json_file: Annotated[
+        Path | None, typer.Option("--json", help="Write all times to this file as well.", dir_okay=False)
+    ] = None,
+) -> None:
+    """Time the engine and its FMU against plain numpy and scipy, in one run, and check the ratios.
+
+    The exit code is 1 when a requirement is missed, or when two ways disagree in what they compute.
+    """
+    out, progress = Console(highlight=False), Console(stderr=True, highlight=False)
+    if not out.is_terminal:
+        out.width = _WIDTH_OF_A_FILE
+    out.print(", ".join(f"{name} {value}" for name, value in machine().items()))
+    try:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+            comparisons = _compare(Path(folder), progress)
+    except DisagreementError as error:
+        progress.print(f"[bold red]Error:[/] {error}", soft_wrap=True)
+        raise typer.Exit(1) from None
+    out.print(table(comparisons))
+    if json_file is not None:
+        json_file.write_text(json.dumps(as_json(comparisons), indent=1) + "\n", encoding="utf-8")
+    if any(comparison.met is False for comparison in comparisons):
+        raise typer.Exit(1)
+
+
+def _compare(folder: Path, progress: Console) -> list[Comparison]:
+    cache = folder / "cache"
+    progress.print("1/4  one acceleration (compiles the engine first)")
+    comparisons = acceleration.compare(_ROUNDS)
+    progress.print("2/4  one step")
+    comparisons += step.compare(_ROUNDS)
+    progress.print("3/4  start of the FMU (builds it; the first start compiles the engine)")
+    ratchet, plain = fmus.build_ratchet(folder), fmus.build_plain(folder)
+    starts = startup.compare(ratchet, folder, cache)
+    progress.print("4/4  one step of the FMU")
+    os.environ[CACHE_VARIABLE] = str(cache)
+    return [*comparisons, *fmu_step.compare(plain, ratchet, folder, _ROUNDS), *starts]
+
+
+if __name__ == "__main__":
+    typer.run(run)

@@ -1,0 +1,81 @@
+"""Comparisons as a table for people and as JSON for programs."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from importlib.metadata import version
+from itertools import groupby
+from statistics import median
+from typing import Any
+
+from rich.table import Table
+
+from .timing import Comparison
+
+_PACKAGES = ("numpy", "scipy", "numba", "fmpy", "pythonfmu")
+_UNITS = (("s", 1.0), ("ms", 1e-3), ("us", 1e-6))
+_VERDICTS = {True: "[green]met[/]", False: "[bold red]missed[/]", None: ""}
+
+
+def table(comparisons: Sequence[Comparison]) -> Table:
+    """One line a comparison, under its subject."""
+    result = Table(box=None, padding=(0, 1), header_style="bold")
+    result.add_column("")
+    for heading in ("plain / first start", "mechanism_fmu / later start", "ratio", "required", "verdict"):
+        result.add_column(heading, justify="right", no_wrap=True)
+    for subject, group in groupby(comparisons, lambda comparison: comparison.subject):
+        result.add_row(f"[bold]{subject}[/]")
+        for c in group:
+            result.add_row(
+                f"  {c.case}", _span(c.slow), _span(c.fast), f"{c.ratio:.0f}", _required(c), _VERDICTS[c.met]
+            )
+    return result
+
+
+def as_json(comparisons: Sequence[Comparison]) -> dict[str, Any]:
+    """Machine and comparisons: times of every round [s]."""
+    return {
+        "machine": machine(),
+        "comparisons": [
+            {
+                "subject": c.subject,
+                "case": c.case,
+                "slow": c.slow,
+                "fast": c.fast,
+                "ratio": c.ratio,
+                "least_ratio": c.least_ratio,
+                "longest": c.longest,
+                "met": c.met,
+            }
+            for c in comparisons
+        ],
+    }
+
+
+def machine() -> dict[str, Any]:
+    """What the times depend on."""
+    return {
+        "date": datetime.now(UTC).date().isoformat(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "cpus": os.cpu_count(),
+        "load": round(os.getloadavg()[0], 1) if hasattr(os, "getloadavg") else None,
+        "python": platform.python_version(),
+        **{package: version(package) for package in _PACKAGES},
+    }
+
+
+def _span(times: Sequence[float]) -> str:
+    """Median and range, in a unit that suits the median."""
+    middle = median(times)
+    name, unit = next((entry for entry in _UNITS if middle >= entry[1]), _UNITS[-1])
+    span = f" [{min(times) / unit:.3g}-{max(times) / unit:.3g}]" if len(times) > 1 else ""
+    return f"{middle / unit:.3g}{span} {name}"
+
+
+def _required(comparison: Comparison) -> str:
+    if comparison.longest is not None:
+        return f"< {comparison.longest:g} s"
+    return "" if comparison.least_ratio is None else f">= {comparison.least_ratio:g}"
