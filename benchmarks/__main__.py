@@ -14,7 +14,7 @@ from rich.console import Console
 from mechanism_fmu.fmu.start import CACHE_VARIABLE
 
 from . import acceleration, fmu_step, fmus, startup, step
-from .table import as_json, machine, table
+from .table import as_json, table, this_machine
 from .timing import Comparison, DisagreementError
 
 _ROUNDS = 9
@@ -33,7 +33,8 @@ def run(
     out, progress = Console(highlight=False), Console(stderr=True, highlight=False)
     if not out.is_terminal:
         out.width = _WIDTH_OF_A_FILE
-    out.print(", ".join(f"{name} {value}" for name, value in machine().items()))
+    machine = this_machine()
+    out.print(", ".join(f"{name} {value}" for name, value in machine.items()), soft_wrap=True)
     try:
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
             comparisons = _compare(Path(folder), progress)
@@ -42,7 +43,7 @@ def run(
         raise typer.Exit(1) from None
     out.print(table(comparisons))
     if json_file is not None:
-        json_file.write_text(json.dumps(as_json(comparisons), indent=1) + "\n", encoding="utf-8")
+        json_file.write_text(json.dumps(as_json(machine, comparisons), indent=1) + "\n", encoding="utf-8")
     if any(comparison.met is False for comparison in comparisons):
         raise typer.Exit(1)
 

@@ -10,7 +10,7 @@ from .step import DRIVES, STEP, WITHIN
 from .timing import Comparison, Timer, in_turns, require_agreement
 
 #: Where the phases begin [s]; the impact comes between 0.8 s and 1 s, depending on the drive torques.
-_PHASES = {"before the impact": 0.0, "after the impact": 1.0}
+_PHASES = {"before impact": 0.0, "after impact": 1.0}
 _LEAST_RATIO = 25.0
 _STEPS = 20
 

@@ -21,7 +21,7 @@ from .reference import FACE, State
 Array = np.ndarray[Any, np.dtype[Any]]
 
 #: Instants to look at [s]: the tip slides towards the face, which it meets at 0.94 s; slope and face are closed.
-INSTANTS = {"before the impact": 0.2, "after the impact": 1.0}
+INSTANTS = {"before impact": 0.2, "after impact": 1.0}
 
 
 class Instance:

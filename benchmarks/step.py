@@ -10,8 +10,8 @@ from .timing import Comparison, batch, in_turns, require_agreement
 STEP = 1e-3
 #: Drive torques [N m], used in turns, so that the engine must drop what it has computed ahead; and one that stays.
 DRIVES = {
-    "input changes at every step": (1.1e-3, 1.2e-3),
-    "input stays": (INPUTS["drive_torque"], INPUTS["drive_torque"]),
+    "new input each step": (1.1e-3, 1.2e-3),
+    "constant input": (INPUTS["drive_torque"], INPUTS["drive_torque"]),
 }
 #: Both integrate with the relative tolerance 1e-9; what they find differs by less [rad, rad/s].
 WITHIN = 1e-8

@@ -7,7 +7,6 @@ import platform
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
-from itertools import groupby
 from statistics import median
 from typing import Any
 
@@ -24,21 +23,21 @@ def table(comparisons: Sequence[Comparison]) -> Table:
     """One line a comparison, under its subject."""
     result = Table(box=None, padding=(0, 1), header_style="bold")
     result.add_column("")
-    for heading in ("plain / first start", "mechanism_fmu / later start", "ratio", "required", "verdict"):
+    for heading in ("baseline", "mechanism_fmu", "ratio", "required", "verdict"):
         result.add_column(heading, justify="right", no_wrap=True)
-    for subject, group in groupby(comparisons, lambda comparison: comparison.subject):
+    for subject in dict.fromkeys(comparison.subject for comparison in comparisons):
         result.add_row(f"[bold]{subject}[/]")
-        for c in group:
+        for c in (comparison for comparison in comparisons if comparison.subject == subject):
             result.add_row(
                 f"  {c.case}", _span(c.slow), _span(c.fast), f"{c.ratio:.0f}", _required(c), _VERDICTS[c.met]
             )
     return result
 
 
-def as_json(comparisons: Sequence[Comparison]) -> dict[str, Any]:
+def as_json(machine: dict[str, Any], comparisons: Sequence[Comparison]) -> dict[str, Any]:
     """Machine and comparisons: times of every round [s]."""
     return {
-        "machine": machine(),
+        "machine": machine,
         "comparisons": [
             {
                 "subject": c.subject,
@@ -55,7 +54,7 @@ def as_json(comparisons: Sequence[Comparison]) -> dict[str, Any]:
     }
 
 
-def machine() -> dict[str, Any]:
+def this_machine() -> dict[str, Any]:
     """What the times depend on."""
     return {
         "date": datetime.now(UTC).date().isoformat(),
@@ -72,7 +71,7 @@ def _span(times: Sequence[float]) -> str:
     middle = median(times)
     name, unit = next((entry for entry in _UNITS if middle >= entry[1]), _UNITS[-1])
     span = f" [{min(times) / unit:.3g}-{max(times) / unit:.3g}]" if len(times) > 1 else ""
-    return f"{middle / unit:.3g}{span} {name}"
+    return f"{middle / unit:.3g} {name}{span}"
 
 
 def _required(comparison: Comparison) -> str:

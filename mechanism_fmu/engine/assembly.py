@@ -8,6 +8,7 @@ from .. import codes
 from . import status
 from .dormand_prince import initial_step_size
 from .events import gap
+from .impact import STICK_SPEED
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
 from .ports import clear_impacts, clear_record, write_inputs
@@ -21,7 +22,8 @@ from .views import bodies, contacts, course, linear_system, loads, options, port
 CLOSED_WITHIN = 1e-12
 #: Start rates agree with the joints within this [m/s, rad/s].
 RATES_WITHIN = 1e-9
-#: A contact point closer to its line than this at the start touches it; farther behind it, it is inside [m].
+#: A contact point closer to its line than this at the start touches it; farther behind it, it is inside [m]. One that
+#: touches and does not move across the line rests on it; one that moves leaves, or strikes at once.
 TOUCHES_WITHIN = 1e-9
 _NEWTON_STEPS = 50
 _HALVINGS = 30
@@ -103,12 +105,14 @@ def start(block: Array, time: float) -> int:
         table.pull_time[c] = math.inf
         table.touching[c] = 0
         if table.mode[c] == codes.OPEN:
-            distance, _ = gap(block, c, now.y_end)
+            distance, rate = gap(block, c, now.y_end)
             if not distance >= -TOUCHES_WITHIN:
                 now.counters[codes.PENDING_CONTACT] = c
                 return status.START_INSIDE
-            if distance <= TOUCHES_WITHIN:
+            if distance <= TOUCHES_WITHIN and abs(rate) < STICK_SPEED:
                 table.mode[c] = codes.CLOSED
+            elif distance <= TOUCHES_WITHIN:
+                table.touching[c] = 1
     for k in range(port.inputs.shape[0]):
         port.held_inputs[k] = port.inputs[k]
     now.clock[codes.TIME] = time

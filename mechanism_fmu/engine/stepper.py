@@ -75,8 +75,10 @@ def resume(block: Array) -> None:
     now = course(block)
     table = contacts(block)
     time = now.clock[codes.TIME]
-    state_at_time(block, now.y_end)
-    now.clock[codes.STEP_END] = time
+    if time < now.clock[codes.STEP_END]:
+        state_at_time(block, now.y_end)
+        release(block, codes.NO_CONTACT)
+        now.clock[codes.STEP_END] = time
     for c in range(table.mode.shape[0]):
         if time < table.pull_time[c] < math.inf:
             table.pull_time[c] = math.inf
@@ -140,7 +142,7 @@ def take_step(block: Array) -> int:
 
 @jit
 def release(block: Array, struck: int) -> None:
-    """Open contacts that touched at the step's start have come off by its end, but for the one that strikes."""
+    """Contacts that touched at the step's start have come off by y_end, but for the one that strikes there."""
     table = contacts(block)
     now = course(block)
     for c in range(table.mode.shape[0]):

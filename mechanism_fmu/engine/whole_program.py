@@ -1,9 +1,9 @@
 """Compile inner functions only as parts of the entry points that use them.
 
 Numba optimises, and turns into machine code, every function by itself together with all that it calls; with functions
-that call each other ten deep, most of that work is thrown away. Here an inner function stops at
-intermediate code, and each entry point is optimised and emitted once, as a whole program. Nothing else changes: the
-numbers are the same with and without this file. It leans on numba's internals, for which numba's minor series is pinned.
+that call each other ten deep, most of that work is thrown away. Here an inner function stops at intermediate code, and
+each entry point is optimised and emitted once, as a whole program. Nothing else changes: the numbers are the same with
+and without this file. It leans on numba's internals, for which numba's minor series is pinned.
 """
 
 from __future__ import annotations

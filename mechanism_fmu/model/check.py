@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from .body import GROUND, Body
 from .contacts import PointLineContact
 from .errors import MechanismError
 from .forces import TorsionSpring
 from .joints import Translational
-from .mechanism import Mechanism
 from .ports import Calculated, Input, Output
 from .sources import resolve_output
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
 
 #: A contact's normal must have unit length to this accuracy.
 _UNIT_LENGTH = 1e-9

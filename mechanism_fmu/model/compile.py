@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import codes
 from .body import GROUND
 from .functions import Number, sqrt
-from .mechanism import Mechanism
 from .sources import resolve_output
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
 
 #: Width of `joint_data`, `force_data` and `contact_data`: the longest row of any kind.
 JOINT_COLUMNS = 8

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from .body import Body
+from .check import check
+from .compile import MechanismTables, compile_tables
 from .contacts import PointLineContact
 from .forces import Force
 from .functions import Number
 from .joints import Joint
 from .ports import Calculated, Input, Output
-
-if TYPE_CHECKING:
-    from .compile import MechanismTables
 
 
 @dataclass(frozen=True)
@@ -57,8 +55,5 @@ class Mechanism:
         Raises:
             MechanismError: a part cannot be right; the message names it and the way out.
         """
-        from .check import check
-        from .compile import compile_tables
-
         check(self)
         return compile_tables(self)

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from .. import codes
 from .errors import MechanismError
-from .mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
 
 _COORDINATES = {"x": 0, "y": 1, "angle": 2}
 _RATES = {"x_rate": 0, "y_rate": 1, "speed": 2}

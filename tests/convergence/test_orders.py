@@ -1,0 +1,109 @@
+"""Measured orders of the step and of its dense output, on a pinned body whose swing is known exactly.
+
+The centre of mass goes round the hinge on a circle, so that the joint's rows take part in every stage; a torsion
+spring about the hinge makes the angle AMPLITUDE cos(FREQUENCY t).
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from mechanism_fmu.engine.acceleration import derivative
+from mechanism_fmu.engine.dormand_prince import interpolate, try_step
+from mechanism_fmu.engine.pack import pack
+from mechanism_fmu.engine.subset import entry
+from mechanism_fmu.engine.views import stages
+from mechanism_fmu.model import GROUND, Body, Mechanism, Output, Revolute, Settings, TorsionSpring
+from mechanism_fmu.simulation import Simulation
+
+MASS, INERTIA, RADIUS = 2.0, 0.3, 0.5
+FREQUENCY, AMPLITUDE = 1.5, 1.2
+END = 2.0
+NAMES = ("x", "y", "angle", "x_rate", "y_rate", "speed")
+#: Where inside a step its dense output is looked at.
+FRACTIONS = np.linspace(0.1, 0.9, 9)
+
+
+def swing(tolerance=1e-9):
+    about_hinge = INERTIA + MASS * RADIUS**2
+    x, y, angle = exact(0.0)[:3]
+    return Mechanism(
+        bodies=(Body("bob", MASS, INERTIA, (x, y, angle)),),
+        joints=(Revolute("hinge", "bob", (-RADIUS, 0.0), GROUND, (0.0, 0.0)),),
+        forces=(TorsionSpring("spring", "bob", stiffness=about_hinge * FREQUENCY**2),),
+        outputs=tuple(Output(name, f"bob.{name}", "") for name in NAMES),
+        settings=Settings(tolerance),
+    )
+
+
+def exact(time):
+    """(x, y, angle) and their rates."""
+    angle = AMPLITUDE * math.cos(FREQUENCY * time)
+    speed = -AMPLITUDE * FREQUENCY * math.sin(FREQUENCY * time)
+    x, y = RADIUS * math.cos(angle), RADIUS * math.sin(angle)
+    return np.array([x, y, angle, -y * speed, x * speed, speed])
+
+
+@entry
+def fixed_steps(block, y, step, count, fractions, inside):
+    """Take `count` steps from y, in place; `inside`, shape (count, fractions, unknowns), is the dense output."""
+    s = stages(block)
+    for k in range(count):
+        s.y_start[:] = y
+        derivative(block, y, s.derivatives[0])
+        try_step(block, step)
+        for f in range(fractions.shape[0]):
+            interpolate(s.new_dense, fractions[f], inside[k, f])
+        y[:] = s.y_new
+
+
+def run(count):
+    """Largest error at the end, and at any time inside the steps, of `count` steps to END."""
+    block = pack(swing().compile())
+    y = np.append(exact(0.0), 0.0)
+    inside = np.zeros((count, len(FRACTIONS), len(y)))
+    step = END / count
+    fixed_steps(block, y, step, count, FRACTIONS, inside)
+    times = step * (np.arange(count)[:, None] + FRACTIONS)
+    between = [inside[place][:6] - exact(time) for place, time in np.ndenumerate(times)]
+    return np.abs(y[:6] - exact(END)).max(), np.abs(between).max()
+
+
+def orders(errors):
+    """Exponents with which errors fall when the step is halved each time."""
+    return np.log2(np.divide(errors[:-1], errors[1:]))
+
+
+def test_order_of_the_step_is_five_and_of_the_dense_output_at_least_four():
+    at_the_end, inside = zip(*(run(count) for count in (128, 256, 512)), strict=True)
+    assert at_the_end[-1] > 1e-12  # truncation, not rounding
+    # from above: while the steps are not small beside 1 / (2 alpha), Baumgarte's terms damp the error
+    assert np.all(orders(at_the_end) > 4.9)
+    assert np.all(orders(at_the_end) < 5.4)
+    assert np.all(orders(inside) > 4.0)
+
+
+@pytest.mark.parametrize("end", [0.5, 2.0, 10.0])
+def test_the_error_is_proportional_to_the_tolerance(end):
+    tolerances = 10.0 ** np.arange(-5, -12, -1)
+    errors = [error_at(end, tolerance) for tolerance in tolerances]
+    slope, _ = np.polyfit(np.log(tolerances), np.log(errors), 1)
+    assert slope == pytest.approx(1.0, abs=0.12)
+    assert np.all(errors < 30 * end * tolerances)
+
+
+def error_at(end, tolerance):
+    simulation = Simulation(swing(tolerance))
+    simulation.advance(end)
+    return np.abs([simulation.read()[name] for name in NAMES] - exact(end)).max()
+
+
+def test_outputs_between_the_engines_steps_are_as_accurate():
+    """The dense output is of lower order than the step; at the engine's own steps it must not show."""
+    simulation = Simulation(swing())
+    errors = []
+    for time in np.linspace(0, 10, 500):
+        simulation.advance(time)
+        errors.append([simulation.read()[name] for name in NAMES] - exact(time))
+    assert np.abs(errors).max() < 1e-7

@@ -1,0 +1,20 @@
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+
+from tests.fmu.conformance.host import Fmu, Instance
+
+
+@pytest.fixture(scope="session")
+def ratchet(ratchet_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The ratchet's FMU, unzipped."""
+    return Fmu.unzip(ratchet_fmu, tmp_path_factory.mktemp("ratchet"))
+
+
+@pytest.fixture
+def instance(ratchet: Fmu) -> Iterator[Callable[..., Instance]]:
+    """A function that makes instances of the ratchet; they are freed after the test."""
+    with ExitStack() as stack:
+        yield lambda *args, **kwargs: stack.enter_context(Instance(ratchet, *args, **kwargs))

@@ -1,0 +1,81 @@
+"""The block: every field has words of its own, and the state is one piece."""
+
+import numpy as np
+from rotor import Stop, rotor
+
+from mechanism_fmu import codes
+from mechanism_fmu.engine.layout import FIELDS, SIZES, allocate, field_of, sizes_of, state_of
+from mechanism_fmu.engine.pack import pack, write_tables
+
+GIVEN = {
+    "bodies": 2,
+    "joints": 3,
+    "forces": 4,
+    "contacts": 5,
+    "held": 1,
+    "inputs": 6,
+    "outputs": 7,
+    "joint_rows": 8,
+}
+HEADER = len(SIZES) + len(FIELDS)
+
+
+def filled():
+    """A block in which every word of every field has a number of its own: its place in the block."""
+    block = allocate(GIVEN)
+    for field in FIELDS:
+        view = field_of(block, field.name)
+        first = (view.__array_interface__["data"][0] - block.__array_interface__["data"][0]) // 8
+        view[...] = np.arange(first, first + view.size).reshape(view.shape)
+    return block
+
+
+def test_sizes_that_follow_from_others():
+    sizes = sizes_of(allocate(GIVEN))
+    assert list(sizes) == list(SIZES)
+    assert sizes.items() >= GIVEN.items()
+    assert (sizes["coordinates"], sizes["columns"], sizes["frames"]) == (6, 9, 3)
+    assert (sizes["rows"], sizes["unknowns"], sizes["buffer"]) == (13, 13, codes.IMPACT_BUFFER_LENGTH)
+    assert sizes["record"] == 6 + 5 + 12  # six columns, an impulse a contact, all rates before and after
+
+
+def test_fields_fill_the_block_behind_the_header_and_none_overlaps_another():
+    block = filled()
+    for field in FIELDS:
+        view = field_of(block, field.name)
+        assert view.dtype == (np.int64 if field.integer else np.float64)
+        assert np.shares_memory(view, block)
+        assert view.ravel()[0] == view.ravel()[-1] - view.size + 1  # nobody wrote here afterwards
+    words = sum(field_of(block, field.name).size for field in FIELDS)
+    assert block.size == HEADER + words
+
+
+def test_the_header_survives_writing_all_fields():
+    np.testing.assert_array_equal(filled()[:HEADER].view(np.int64), allocate(GIVEN)[:HEADER].view(np.int64))
+
+
+def test_a_new_block_is_zero():
+    assert not allocate(GIVEN)[HEADER:].any()
+
+
+def test_the_state_is_the_state_fields_and_nothing_else():
+    block = filled()
+    in_state = [field_of(block, field.name).ravel() for field in FIELDS if field.room == "state"]
+    np.testing.assert_array_equal(state_of(block).view(np.int64), np.concatenate([f.view(np.int64) for f in in_state]))
+
+
+def test_pack_writes_every_table_where_field_of_finds_it():
+    tables = rotor([Stop(1.0)], acceleration=2.0).compile()
+    block = pack(tables)
+    for field in FIELDS:
+        if field.room == "tables":
+            np.testing.assert_array_equal(field_of(block, field.name), getattr(tables, field.name), field.name)
+    np.testing.assert_array_equal(field_of(block, "inputs"), tables.input_start)
+
+
+def test_new_tables_leave_the_state_as_it_is():
+    block = pack(rotor([Stop(1.0)], acceleration=2.0).compile())
+    state_of(block)[:] = 7.0
+    write_tables(block, rotor([Stop(0.5)], acceleration=3.0).compile())
+    assert (state_of(block) == 7.0).all()
+    assert field_of(block, "input_start")[0] == rotor(acceleration=3.0).inputs[0].start

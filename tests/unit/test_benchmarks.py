@@ -1,0 +1,77 @@
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from benchmarks import acceleration, fmu_step, fmus, reference, step
+from benchmarks.table import as_json, table, this_machine
+from benchmarks.timing import Comparison, DisagreementError, in_turns, require_agreement
+
+
+@pytest.mark.parametrize(
+    ("least_ratio", "longest", "met"),
+    [(None, None, None), (3.0, None, True), (3.1, None, False), (None, 2.1, True), (None, 2.0, False)],
+)
+def test_the_ratio_of_the_medians_is_what_is_judged(
+    least_ratio: float | None, longest: float | None, met: bool | None
+) -> None:
+    comparison = Comparison("a", "b", (6.0, 5.0, 90.0), (2.0, 1.0, 2.0), least_ratio, longest)
+    assert comparison.ratio == 3.0
+    assert comparison.met is met
+
+
+def test_rounds_take_turns_and_the_first_does_not_count() -> None:
+    counter = iter(range(6))
+    assert in_turns(lambda: next(counter), lambda: next(counter), 2) == ((2, 4), (3, 5))
+
+
+@pytest.mark.parametrize("other", [1.1, np.nan])
+def test_what_does_not_agree_is_refused(other: float) -> None:
+    require_agreement("x", [1.0, 2.0], [1.05, 2.0], 0.06)
+    with pytest.raises(DisagreementError, match="differ by"):
+        require_agreement("x", [1.0, 2.0], [other, 2.0], 0.06)
+
+
+def test_engine_and_plain_program_agree_and_are_timed() -> None:
+    found = acceleration.compare(1) + step.compare(1)
+    assert [c.case for c in found] == [
+        "before impact",
+        "after impact",
+        "new input each step, before impact",
+        "new input each step, after impact",
+        "constant input, before impact",
+        "constant input, after impact",
+    ]
+    assert all(len(times) == 1 and times[0] > 0 for c in found for times in (c.slow, c.fast))
+
+
+@pytest.mark.parametrize("compare", [acceleration.compare, step.compare])
+def test_a_wrong_acceleration_is_not_timed(
+    compare: Callable[[int], list[Comparison]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    right = reference.acceleration
+    monkeypatch.setattr(reference, "acceleration", lambda *of: right(*of) + 1e-4)
+    with pytest.raises(DisagreementError):
+        compare(1)
+
+
+def test_the_fmus_agree_through_the_impact(ratchet_fmu: Path, tmp_path: Path) -> None:
+    found = fmu_step.compare(fmus.build_plain(tmp_path), ratchet_fmu, tmp_path / "unzipped", 1)
+    assert [c.case for c in found].count("new input each step, after impact") == 2
+
+
+def test_the_table_shows_median_range_ratio_and_verdict() -> None:
+    found = [
+        Comparison("one step", "calm", (2.6e-3, 2e-3, 3e-3), (4e-5, 5e-5, 6e-5), least_ratio=50.0),
+        Comparison("start", "cold", (30.0,), (1.6, 1.7), longest=1.5),
+    ]
+    text = io.StringIO()
+    Console(width=120, file=text).print(table(found))
+    lines = [line.split() for line in text.getvalue().splitlines()]
+    assert lines[2] == ["calm", "2.6", "ms", "[2-3]", "50", "us", "[40-60]", "52", ">=", "50", "met"]
+    assert lines[4] == ["cold", "30", "s", "1.65", "s", "[1.6-1.7]", "18", "<", "1.5", "s", "missed"]
+    assert json.loads(json.dumps(as_json(this_machine(), found)))["comparisons"][0]["slow"] == [2.6e-3, 2e-3, 3e-3]
