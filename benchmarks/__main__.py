@@ -33,6 +33,8 @@ def run(
     out, progress = Console(highlight=False), Console(stderr=True, highlight=False)
     if not out.is_terminal:
         out.width = _WIDTH_OF_A_FILE
+    if json_file is not None:
+        json_file.parent.mkdir(parents=True, exist_ok=True)
     machine = this_machine()
     out.print(", ".join(f"{name} {value}" for name, value in machine.items()), soft_wrap=True)
     try:

@@ -101,7 +101,9 @@ def test_energy_ledger_closes_under_changing_inputs(instance):
     one = instance().begin({"restitution": 0.4})
     initial = one["kinetic_energy"] + one["spring_energy"]
     for k in range(600):
-        one.set({"drive_torque": 1e-3 + 5e-4 * (k % 7), "spring_preload": 1e-4 * (k % 3), "load_torque": 1e-4 * (k % 2)})
+        one.set(
+            {"drive_torque": 1e-3 + 5e-4 * (k % 7), "spring_preload": 1e-4 * (k % 3), "load_torque": 1e-4 * (k % 2)}
+        )
         one.step(0.01)
         ledger = initial + one["work_done"] - one["energy_lost"]
         assert one["kinetic_energy"] + one["spring_energy"] == pytest.approx(ledger, abs=1e-10)

@@ -38,7 +38,7 @@ CONTRACT = {
             ("tooth", "Integer", None),
         )
     },
-    **{name: ("output", "Real", "J", None) for name in ("kinetic_energy", "spring_energy", "work_done", "energy_lost")},
+    **dict.fromkeys(("kinetic_energy", "spring_energy", "work_done", "energy_lost"), ("output", "Real", "J", None)),
     "tooth_count": ("parameter", "Integer", None, 10),
     "tooth_slope_angle": ("parameter", "Real", "rad", 1.5707963267948966),
     "hinge_distance": ("parameter", "Real", "m", 0.130),

@@ -93,8 +93,16 @@ def illegal_calls():
     yield "terminate before begin", "not allowed now", lambda one: one.slave.terminate()
     yield "unknown reference", "no variable with value reference 999999", lambda one: one.slave.getReal([999999])
     yield "unknown reference to set", "no variable with value", lambda one: one.slave.setReal([4294967295], [1.0])
-    yield "Integer as Real", "is of type Integer, not Real", lambda one: one.slave.getReal([one.reference("tooth_count")])
-    yield "Real as Integer", "is of type Real, not Integer", lambda one: one.slave.setInteger([one.reference("drive_torque")], [1])
+    yield (
+        "Integer as Real",
+        "is of type Integer, not Real",
+        lambda one: one.slave.getReal([one.reference("tooth_count")]),
+    )
+    yield (
+        "Real as Integer",
+        "is of type Real, not Integer",
+        lambda one: one.slave.setInteger([one.reference("drive_torque")], [1]),
+    )
     yield "Real as Boolean", "is of type Real", lambda one: one.slave.getBoolean([one.reference("wheel_angle")])
     yield "Real as String", "is of type Real", lambda one: one.slave.getString([one.reference("wheel_angle")])
     yield "set an output", "wheel_angle is of causality output", lambda one: one.set({"wheel_angle": 1.0})

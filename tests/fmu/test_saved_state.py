@@ -83,7 +83,7 @@ def test_state_holds_parameters_before_initialization(instance):
 def test_many_states_at_once(instance):
     one = instance().begin(ROUGH)
     states, wheel = [], []
-    for k in range(200):
+    for _ in range(200):
         states.append(one.save())
         wheel.append(one["wheel_angle"])
         one.step(0.01)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from ctypes import byref, c_void_p
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from ctypes import c_void_p
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any, NamedTuple, Self
