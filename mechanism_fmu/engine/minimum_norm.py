@@ -166,7 +166,6 @@ def _solve_deficient(block: Array, count: int, rank: int) -> None:
 @jit
 def _dot(a: Array, b: Array, length: int) -> float:
     """Scalar product of the first `length` entries."""
-    keep_small()
     total = 0.0
     for k in range(length):
         total += a[k] * b[k]
@@ -176,6 +175,5 @@ def _dot(a: Array, b: Array, length: int) -> float:
 @jit
 def _add_multiple(target: Array, factor: float, source: Array, length: int) -> None:
     """Target += factor * source, in the first `length` entries."""
-    keep_small()
     for k in range(length):
         target[k] += factor * source[k]

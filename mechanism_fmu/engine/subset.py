@@ -14,7 +14,7 @@ import numba
 from numba import types
 from numba.extending import lower_builtin, type_callable
 
-from .whole_program import InnerCompiler
+from .whole_program import InnerCompiler, refuse_python_calls
 
 #: Numba does not notice a change in a callee, so a compilation is kept on disk only for the copy of the library that
 #: an FMU unpacks into a folder named after its contents; that copy has another package name.
@@ -45,19 +45,20 @@ def entry(function: _Function) -> _Function:
 
 def jit(function: _Function) -> _Function:
     """Compile a function that only compiled functions call."""
-    return cast(_Function, numba.njit(**_INNER_OPTIONS)(function))
+    inner = numba.njit(**_INNER_OPTIONS)(function)
+    if inner is not function:  # which it is when NUMBA_DISABLE_JIT=1
+        refuse_python_calls(inner)
+    return cast(_Function, inner)
 
 
 def keep_small() -> None:
-    """Compile the calling function for size, and as one function of its own.
+    """Compile the calling function for size.
 
-    The compiler would otherwise unroll every short loop and copy the larger functions into each of their callers, which
-    makes compilation four times as long and the code no faster.
+    The compiler would otherwise unroll loops over a handful of entries, which costs compilation time and gains nothing.
     """
 
 
 def _mark_small(context: Any, builder: Any, _signature: Any, _args: Any) -> Any:
-    builder.function.attributes.add("noinline")
     builder.function.attributes.add("optsize")
     return context.get_dummy_value()
 

@@ -51,3 +51,16 @@ class InnerCompiler(CompilerBase):
         """Compile `func` into an inner library."""
         self.state.library = _InnerLibrary(self.state.targetctx.codegen(), func.__qualname__)
         return super().compile_extra(func)
+
+
+def refuse_python_calls(inner: Any) -> None:
+    """Make calling a compiled inner function from Python an error instead of a jump to code that does not exist."""
+
+    def refuse(*_arguments: Any, **_keywords: Any) -> None:
+        raise TypeError(
+            f"{inner.py_func.__qualname__} has no machine code of its own: only compiled functions can call it. "
+            "Call it from a function that is decorated with `entry`."
+        )
+
+    inner._insert = lambda *_arguments, **_keywords: None
+    inner._compile_for_args = refuse

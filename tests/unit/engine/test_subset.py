@@ -1,5 +1,6 @@
 """The engine stays in the part of Python that compiles to free-standing code."""
 
+import numba
 import pytest
 from own_process import run_script
 
@@ -51,6 +52,7 @@ def test_the_object_is_the_same_every_time(emitted):
     assert emitted["same"]
 
 
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="there is no compiler to ask")
 def test_whole_numbers_of_seconds_compile_nothing_new():
     """Python's integers are another type to the compiler, which would take its time for each combination."""
     for start, end in ((1.0, 2.0), (1, 2)):
