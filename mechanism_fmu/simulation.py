@@ -69,7 +69,7 @@ class Simulation:
         Raises:
             SimulationError: the motion cannot be continued; the time reached is the last good one.
         """
-        outcome = advance(self._block, target)
+        outcome = advance(self._block, float(target))
         if outcome != status.OK:
             raise SimulationError(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}")
 
@@ -112,7 +112,7 @@ class Simulation:
         ]
 
     def _begin(self, time: float) -> None:
-        outcome = begin(self._block, time)
+        outcome = begin(self._block, float(time))
         if outcome == status.OK:
             return
         details = {status.NOT_ASSEMBLED: self._residuals, status.START_INSIDE: self._penetration}
