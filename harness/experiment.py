@@ -14,7 +14,7 @@ from mechanism_fmu.stress import WedgeTooth
 from .checks import Check, run_checks
 from .clock import TimeGrid, seconds
 from .description import Description, Value
-from .errors import UsageError
+from .errors import FmuError, UsageError
 from .fmu import Fmu, MessageHandler, discard_message
 from .impacts import ImpactCollector
 from .inputs import check_no_overlap, read_inputs
@@ -106,7 +106,7 @@ def perform(
 
     Raises:
         UsageError: a setting that cannot be used.
-        FmuError: the FMU cannot even be instantiated, or describes an impossible tooth.
+        FmuError: the FMU cannot even be instantiated.
     """
     grid = TimeGrid.of(experiment.stop_time, experiment.step)
     inputs = None
@@ -123,7 +123,7 @@ def perform(
         )
         wall_time = time.perf_counter() - began
         messages = tuple(slave.messages)
-    tooth = tooth_of(reader.values) if "velocity" in collector.fields else None
+    tooth, objections = _struck_tooth(reader.values) if "velocity" in collector.fields else (None, [])
     impacts = collector.table() if tooth is None else with_stress(collector.table(), tooth)
     results = recorder.table()
     return Run(
@@ -138,9 +138,17 @@ def perform(
         messages=messages,
         tooth=tooth,
         units=_units(fmu.description, collector, list(impacts.columns)),
-        checks=run_checks(outcome, seconds(grid.stop), results, impacts, collector.lost),
+        checks=[*run_checks(outcome, seconds(grid.stop), results, impacts, collector.lost), *objections],
         wall_time=wall_time,
     )
+
+
+def _struck_tooth(parameters: Mapping[str, Value]) -> tuple[WedgeTooth | None, list[Check]]:
+    """The tooth that impacts strike; for one without a stress model, none, and a verdict that says why."""
+    try:
+        return tooth_of(parameters), []
+    except FmuError as error:
+        return None, [Check("The struck tooth has a stress model", False, str(error))]
 
 
 def default_times(description: Description, stop_time: float | None, step: float | None) -> tuple[float, float]:

@@ -157,8 +157,8 @@ class FmuSlave:
     def free(self) -> None:
         """Terminate if need be, free the instance and unload the library.
 
-        After the status Fatal nothing more may be asked of the FMU (FMI 2.0, section 2.1.3), and pythonfmu 0.7.0 does
-        crash the process then: it has freed the instance already. A little memory is lost instead.
+        After the status Fatal nothing more may be asked of an FMU (FMI 2.0, section 2.1.3), and an FMU of pythonfmu
+        0.7.0 that does not repair its wrapper, as ours do, crashes the process then. A little memory is lost instead.
         """
         if not self._fatal:
             with suppress(FmuError):

@@ -6,10 +6,11 @@ from .. import codes
 from .acceleration import derivative
 from .events import gap
 from .forces import kinetic_energy, spring_energy
+from .ports import feed
 from .room import Array
 from .stepper import state_at_time
-from .subset import entry, jit
-from .views import bodies, contacts, course, forces, linear_system, ports, sizes, stages
+from .subset import entry, jit, keep_small
+from .views import bodies, contacts, course, linear_system, ports, sizes, stages
 
 
 @entry
@@ -73,11 +74,9 @@ def _needs_multipliers(block: Array) -> bool:
 @jit
 def _evaluate_with_present_inputs(block: Array) -> None:
     """Multipliers at the current time; an input that was set after the last step acts on them already."""
+    keep_small()
     table = ports(block)
-    data = forces(block).data
     s = stages(block)
-    for k in range(table.inputs.shape[0]):
-        data[table.input_force[k], table.input_column[k]] = table.inputs[k]
+    feed(block, table.inputs)
     derivative(block, s.y_at, s.dy_at)
-    for k in range(table.inputs.shape[0]):
-        data[table.input_force[k], table.input_column[k]] = table.held_inputs[k]
+    feed(block, table.held_inputs)

@@ -4,22 +4,31 @@ from __future__ import annotations
 
 from .. import codes
 from .room import Array
-from .subset import jit
+from .subset import jit, keep_small
 from .views import course, forces, ports
 
 
 @jit
 def write_inputs(block: Array) -> bool:
-    """Write all inputs into the table entries that they feed; True when one differs from what the motion has used."""
+    """Feed all inputs to the mechanism; True when one differs from what the motion has used."""
+    keep_small()
     table = ports(block)
-    data = forces(block).data
     changed = False
     for k in range(table.inputs.shape[0]):
         if table.inputs[k] != table.held_inputs[k]:
             changed = True
             table.held_inputs[k] = table.inputs[k]
-        data[table.input_force[k], table.input_column[k]] = table.inputs[k]
+    feed(block, table.inputs)
     return changed
+
+
+@jit
+def feed(block: Array, values: Array) -> None:
+    """Write `values`, shape (inputs,), into the table entries that the inputs feed."""
+    table = ports(block)
+    data = forces(block).data
+    for k in range(values.shape[0]):
+        data[table.input_force[k], table.input_column[k]] = values[k]
 
 
 @jit

@@ -17,12 +17,12 @@ def joint_rows(block: Array) -> None:
     at = pose(block)
     table = joints(block)
     out = rows(block)
+    for r in range(sizes(block).joint_rows):
+        clear(out.jacobian[r])
     for k in range(table.kind.shape[0]):
         row = table.row[k]
         i = table.body_i[k]
         j = table.body_j[k]
-        for r in range(row, row + 2):
-            clear(out.jacobian[r])
         if table.kind[k] == codes.REVOLUTE:
             revolute(at, out, row, i, j, table.data[k])
         else:

@@ -107,12 +107,12 @@ def take_step(block: Array) -> int:
     start = now.clock[codes.STEP_END]
     copy(now.y_end, s.y_start)
     copy(now.dy_end, s.derivatives[0])
-    step = now.clock[codes.NEXT_STEP]
+    step = representable(start, now.clock[codes.NEXT_STEP])
     smallest = _SMALLEST_STEP * max(1.0, abs(start))
     error = try_step(block, step)
     grow_most = _GROW_MOST
     while not error <= 1.0:
-        step *= _scale(error, 1.0)
+        step = representable(start, step * _scale(error, 1.0))
         grow_most = 1.0
         if not step > smallest:
             return status.STEP_TOO_SMALL
@@ -150,6 +150,12 @@ def release(block: Array, struck: int) -> None:
             distance, _ = gap(block, c, now.y_end)
             if distance > 0.0:
                 table.touching[c] = 0
+
+
+@jit
+def representable(start: float, step: float) -> float:
+    """The step whose end, start + step, is a floating-point number: late on the clock, rounding would add up."""
+    return (start + step) - start
 
 
 @jit

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from enum import IntEnum
 
-#: A communication point may differ from the time reached by this fraction of max(1 s, |t|): rounding of the host.
+#: A communication point may differ from the time reached by this [s], by 1 % of the step, and by some rounding.
 _SAME_TIME = 1e-9
+_SAME_TIME_OF_STEP = 0.01
+_ROUNDINGS = 8
+#: Beyond this the clock itself resolves no more than 2e-6 s.
+_LATEST_START = 1e10
 
 
 class Phase(IntEnum):
@@ -22,6 +27,46 @@ class FmiError(RuntimeError):
     """A call or a value that is refused; the message is for the user."""
 
 
+@dataclass(frozen=True)
+class Experiment:
+    """What fmi2SetupExperiment says.
+
+    Attributes:
+        start_time: [s].
+        stop_time: [s], infinite when not defined; no step may end later.
+        tolerance: relative, infinite when not defined.
+    """
+
+    start_time: float
+    stop_time: float = math.inf
+    tolerance: float = math.inf
+
+
+def experiment(start_time: float, stop_time: float | None, tolerance: float | None) -> Experiment:
+    """The experiment for the arguments of fmi2SetupExperiment, None where undefined.
+
+    Raises:
+        FmiError: an argument that cannot be.
+    """
+    if not abs(start_time) <= _LATEST_START:
+        raise FmiError(
+            f"fmi2SetupExperiment: the start time {start_time} s must be finite and within +-{_LATEST_START:g} s, "
+            "where the clock still resolves microseconds."
+        )
+    if stop_time is not None and not start_time <= stop_time < math.inf:
+        raise FmiError(
+            f"fmi2SetupExperiment: the stop time {stop_time} s must be finite and not before the start time "
+            f"{start_time} s."
+        )
+    if tolerance is not None and not 0 < tolerance < math.inf:
+        raise FmiError(f"fmi2SetupExperiment: the tolerance {tolerance} must be positive and finite.")
+    return Experiment(
+        start_time,
+        math.inf if stop_time is None else stop_time,
+        math.inf if tolerance is None else tolerance,
+    )
+
+
 def require(phase: Phase, allowed: tuple[Phase, ...], call: str) -> None:
     """Check that `call` is allowed in `phase`.
 
@@ -33,22 +78,24 @@ def require(phase: Phase, allowed: tuple[Phase, ...], call: str) -> None:
         raise FmiError(f"{call} is not allowed now: the instance is in state {phase.name.lower()}, not {names}.")
 
 
-def step_target(reached: float, current_time: float, step_size: float) -> float:
+def step_target(reached: float, current_time: float, step_size: float, stop_time: float) -> float:
     """The end of a communication step [s].
 
     Args:
         reached: end of the last step [s].
         current_time: where the host says the step begins [s].
         step_size: its length [s].
+        stop_time: of the experiment [s].
 
     Raises:
-        FmiError: the step does not begin where the last one ended, or does not lead forward.
+        FmiError: the step does not begin where the last one ended, does not lead forward, or leads past the stop time.
     """
     if not math.isfinite(current_time) or not math.isfinite(step_size):
         raise FmiError(f"fmi2DoStep: time {current_time} s or step size {step_size} s is not a finite number.")
     if not step_size > 0:
         raise FmiError(f"fmi2DoStep: step size {step_size:g} s must be positive; to go back, restore a saved state.")
-    if abs(current_time - reached) > _SAME_TIME * max(1.0, abs(reached)):
+    rounding = _ROUNDINGS * math.ulp(reached)
+    if abs(current_time - reached) > rounding + min(_SAME_TIME, _SAME_TIME_OF_STEP * step_size):
         raise FmiError(
             f"fmi2DoStep: the communication point {current_time:.12g} s is not the time reached, {reached:.12g} s; "
             "steps follow each other without gap, and a step back needs a saved state."
@@ -57,5 +104,10 @@ def step_target(reached: float, current_time: float, step_size: float) -> float:
     if not target > reached:
         raise FmiError(
             f"fmi2DoStep: step size {step_size:g} s is lost in rounding at {reached:.12g} s; take larger steps."
+        )
+    if target > stop_time + _SAME_TIME * max(1.0, abs(stop_time)):
+        raise FmiError(
+            f"fmi2DoStep: the step to {target:.12g} s leads past the stop time {stop_time:.12g} s that "
+            "fmi2SetupExperiment has given; end there, or give a later stop time or none."
         )
     return target

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import struct
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .protocol import Experiment, Phase
+
 _MAGIC = b"MechFMU1"
 _HEAD = struct.Struct("<8s16sIIIQ")  # magic, fingerprint, phase, parameters, inputs, length of the body
 _CHECKSUM = struct.Struct("<I")  # of head and body
-_EXPERIMENT = struct.Struct("<dd")
+_EXPERIMENT = struct.Struct("<ddd")
 
 
 class SavedStateError(ValueError):
@@ -23,16 +26,14 @@ class SavedState:
     """What a slave saves.
 
     Attributes:
-        phase: of the slave (see `slave.Phase`).
-        start_time: [s].
-        tolerance: relative tolerance that the host asked for, or infinity.
+        phase: of the slave.
+        experiment: None before fmi2SetupExperiment.
         parameters, inputs: values in the order of the model.
         words: the engine's state, 8 bytes a word; empty before initialization.
     """
 
-    phase: int
-    start_time: float
-    tolerance: float
+    phase: Phase
+    experiment: Experiment | None
     parameters: tuple[float, ...]
     inputs: tuple[float, ...]
     words: bytes
@@ -46,7 +47,7 @@ def fingerprint(parts: Sequence[str]) -> bytes:
 def encode(state: SavedState, mark: bytes) -> bytes:
     """A saved state as bytes; `mark` is the model's fingerprint."""
     numbers = struct.pack(f"<{len(state.parameters) + len(state.inputs)}d", *state.parameters, *state.inputs)
-    body = _EXPERIMENT.pack(state.start_time, state.tolerance) + numbers + state.words
+    body = _EXPERIMENT.pack(*_numbers(state.experiment)) + numbers + state.words
     head = _HEAD.pack(_MAGIC, mark, state.phase, len(state.parameters), len(state.inputs), len(body))
     return head + body + _CHECKSUM.pack(zlib.crc32(body, zlib.crc32(head)))
 
@@ -83,8 +84,16 @@ def decode(data: bytes, mark: bytes) -> SavedState:
     """
     check(data, mark)
     _, _, phase, parameters, inputs, _ = _HEAD.unpack_from(data)
-    start_time, tolerance = _EXPERIMENT.unpack_from(data, _HEAD.size)
+    start_time, stop_time, tolerance = _EXPERIMENT.unpack_from(data, _HEAD.size)
+    experiment = None if math.isnan(start_time) else Experiment(start_time, stop_time, tolerance)
     first = _HEAD.size + _EXPERIMENT.size
     numbers = struct.unpack_from(f"<{parameters + inputs}d", data, first)
     words = data[first + 8 * len(numbers) : -_CHECKSUM.size]
-    return SavedState(phase, start_time, tolerance, numbers[:parameters], numbers[parameters:], words)
+    return SavedState(Phase(phase), experiment, numbers[:parameters], numbers[parameters:], words)
+
+
+def _numbers(experiment: Experiment | None) -> tuple[float, float, float]:
+    """An experiment as three numbers; that there is none, as NaN."""
+    if experiment is None:
+        return math.nan, math.nan, math.nan
+    return experiment.start_time, experiment.stop_time, experiment.tolerance

@@ -6,19 +6,22 @@ import functools
 import math
 import weakref
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, ClassVar
 from xml.etree.ElementTree import Element
 
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
-from ..engine.layout import FIELDS
+from .. import __version__
+from ..engine.layout import FIELDS, sizes_of
+from ..engine.pack import pack
 from ..model import MechanismError, Model
 from ..model.model import check_value
 from ..simulation import Simulation, SimulationError
 from . import saved_state
 from .news import News
-from .protocol import FmiError, Phase, require, step_target
+from .protocol import Experiment, FmiError, Phase, experiment, require, step_target
 from .saved_state import SavedState, SavedStateError
 from .variables import Variable, variables_of
 from .wrapper import fmi_call, survive_release
@@ -45,8 +48,7 @@ class MechanismSlave(Fmi2Slave):
         self.modelName = self.model.name
         self.description = self.model.description
         self._phase = Phase.INSTANTIATED
-        self._start_time = 0.0
-        self._tolerance = math.inf
+        self._experiment: Experiment | None = None
         self._parameters = [p.start for p in self.model.parameters]
         self._inputs = [float(v.start or 0.0) for v in self.variables if v.causality == "input"]
         self._first_parameter = sum(v.causality in ("input", "output") for v in self.variables)
@@ -61,16 +63,15 @@ class MechanismSlave(Fmi2Slave):
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
         """fmi2SetupExperiment: the tighter of the host's tolerance and `relative_tolerance` will be used."""
         require(self._phase, (Phase.INSTANTIATED,), "fmi2SetupExperiment")
-        if not math.isfinite(start_time):
-            raise FmiError(f"The start time {start_time} s is not a finite number.")
-        if tolerance is not None and tolerance > 0:
-            self._tolerance = max(tolerance, _TIGHTEST)
-        self._start_time = start_time
+        self._experiment = experiment(start_time, stop_time, tolerance)
+        self._forget_simulation()
 
     @fmi_call
     def enter_initialization_mode(self) -> None:
         """fmi2EnterInitializationMode."""
         require(self._phase, (Phase.INSTANTIATED,), "fmi2EnterInitializationMode")
+        if self._experiment is None:
+            raise FmiError("fmi2EnterInitializationMode is not allowed before fmi2SetupExperiment.")
         self._phase = Phase.INITIALIZATION
 
     @fmi_call
@@ -89,11 +90,14 @@ class MechanismSlave(Fmi2Slave):
         """fmi2DoStep."""
         require(self._phase, (Phase.STEPPING,), "fmi2DoStep")
         simulation = self._prepared()
-        target = step_target(simulation.time, current_time, step_size)
+        stop_time = math.inf if self._experiment is None else self._experiment.stop_time
+        target = step_target(simulation.time, current_time, step_size, stop_time)
         simulation.inputs[:] = self._inputs
         self._values = None
-        simulation.advance(target)
-        self._tell()
+        try:
+            simulation.advance(target)
+        finally:
+            self._tell()
         return True
 
     @fmi_call
@@ -157,31 +161,22 @@ class MechanismSlave(Fmi2Slave):
     def _get_fmu_state(self) -> bytes:
         """fmi2GetFMUstate: the saved state, already as the bytes that serialization hands out."""
         words = b"" if self._simulation is None else self._simulation.state.tobytes()
-        return saved_state.encode(
-            SavedState(
-                self._phase, self._start_time, self._tolerance, tuple(self._parameters), tuple(self._inputs), words
-            ),
-            self._mark,
-        )
+        state = SavedState(self._phase, self._experiment, tuple(self._parameters), tuple(self._inputs), words)
+        return saved_state.encode(state, self._mark)
 
     @fmi_call
     def _set_fmu_state(self, state: bytes) -> None:
         """fmi2SetFMUstate: everything is restored; the log does not repeat what it has said."""
         saved = saved_state.decode(state, self._mark)
-        same = self._simulation is not None and (
-            (list(saved.parameters), saved.tolerance) == (self._parameters, self._tolerance)
-        )
-        self._start_time, self._tolerance = saved.start_time, saved.tolerance
-        self._parameters, self._inputs = list(saved.parameters), list(saved.inputs)
+        now = (self._experiment, self._parameters)
+        self._experiment, self._parameters = saved.experiment, list(saved.parameters)
+        self._inputs = list(saved.inputs)
         self._values = None
-        if not saved.words:
+        if not saved.words or now != (self._experiment, self._parameters):
             self._simulation = None
-        elif not same:
-            self._simulation = None
-            self._prepared()
-        if self._simulation is not None:
-            self._simulation.state.data.cast("B")[:] = saved.words
-        self._phase = Phase(saved.phase)
+        if saved.words:
+            self._prepared().state.data.cast("B")[:] = saved.words
+        self._phase = saved.phase
         self._news = News(self._simulation)
 
     @classmethod
@@ -225,15 +220,22 @@ class MechanismSlave(Fmi2Slave):
     def _prepared(self) -> Simulation:
         """The simulation; before the first step it is made anew after each change of a parameter or input."""
         if self._simulation is None:
-            values = self.model.checked(self._parameter_values())
-            if self._tolerance < math.inf:
-                values.relative_tolerance = min(values.relative_tolerance, self._tolerance)
-            self._simulation = Simulation(self.model.build(values), self._start_time, self._inputs)
+            setup = self._experiment or Experiment(0.0)
+            mechanism = self.model.build(self.model.checked(self._parameter_values()))
+            tolerance = min(mechanism.settings.relative_tolerance, max(setup.tolerance, _TIGHTEST))
+            mechanism = replace(mechanism, settings=replace(mechanism.settings, relative_tolerance=tolerance))
+            self._simulation = Simulation(mechanism, setup.start_time, self._inputs)
         return self._simulation
+
+    def _forget_simulation(self) -> None:
+        self._simulation = None
+        self._values = None
 
     def _get(self, kind: str, vrs: Sequence[int]) -> list[float]:
         self._check_types(kind, vrs)
         if self._values is None:
+            if all(self.variables[vr].causality in _SETTABLE for vr in vrs):
+                return [self._setting(vr) for vr in vrs]
             simulation = self._prepared()
             if self._phase is Phase.STEPPING:
                 simulation.inputs[:] = self._inputs
@@ -243,7 +245,12 @@ class MechanismSlave(Fmi2Slave):
         values = self._values
         return [values[vr] for vr in vrs]
 
+    def _setting(self, vr: int) -> float:
+        """The value of an input or parameter."""
+        return self._inputs[vr] if vr < len(self._inputs) else self._parameters[vr - self._first_parameter]
+
     def _set(self, kind: str, vrs: Sequence[int], values: Sequence[float]) -> None:
+        """Set all values, or none when one is refused."""
         self._check_types(kind, vrs)
         for vr, value in zip(vrs, values, strict=True):
             variable = self.variables[vr]
@@ -251,7 +258,8 @@ class MechanismSlave(Fmi2Slave):
                 raise FmiError(f"{variable.name} is of causality {variable.causality} and cannot be set.")
             require(self._phase, _SETTABLE[variable.causality], f"Setting {variable.causality} {variable.name}")
             check_value(variable, value)
-            if variable.causality == "input":
+        for vr, value in zip(vrs, values, strict=True):
+            if vr < len(self._inputs):
                 self._inputs[vr] = value
             else:
                 self._parameters[vr - self._first_parameter] = value
@@ -278,7 +286,9 @@ class MechanismSlave(Fmi2Slave):
 def make_slave_class(model: Model) -> type[MechanismSlave]:
     """The slave class of a model, named after it."""
     variables = variables_of(model)
-    parts = [model.name, *(v.name for v in variables), *(repr(field) for field in FIELDS)]
+    # In an FMU the package's name holds the hash of all sources: a state is for the very same ones.
+    sizes = sizes_of(pack(model.build(model.values()).compile()))
+    parts = [__name__, __version__, model.name, *(v.name for v in variables), *map(repr, FIELDS), repr(sizes)]
     members = {
         "model": model,
         "variables": variables,

@@ -1,5 +1,6 @@
 """What a mechanism is: frozen records with SI units, and no numerics."""
 
+from ..codes import IMPACT_BUFFER_LENGTH
 from .body import GROUND, Body
 from .compile import MechanismTables
 from .contacts import PointLineContact
@@ -12,6 +13,7 @@ from .ports import Calculated, Input, Output, Parameter
 
 __all__ = [
     "GROUND",
+    "IMPACT_BUFFER_LENGTH",
     "Body",
     "Calculated",
     "Input",

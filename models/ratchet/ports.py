@@ -6,11 +6,9 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
-from mechanism_fmu.model import Calculated, Input, Output, Parameter
+from mechanism_fmu.model import IMPACT_BUFFER_LENGTH, Calculated, Input, Output, Parameter
 
 from .start import tooth
-
-_IMPACTS_KEPT = 8
 
 INPUTS = (
     Input(
@@ -144,16 +142,16 @@ OUTPUTS = (
     Output(
         "impacts_in_step",
         "impact.in_step",
-        "Impacts of the last communication step held in impacts[1..8]",
+        f"Impacts of the last communication step held in impacts[1..{IMPACT_BUFFER_LENGTH}]",
         type="Integer",
     ),
     Output(
         "impacts_lost",
         "impact.lost",
-        "Impacts since the start that did not fit into impacts[1..8]",
+        f"Impacts since the start that did not fit into impacts[1..{IMPACT_BUFFER_LENGTH}]",
         type="Integer",
     ),
-    *(output for k in range(1, _IMPACTS_KEPT + 1) for output in _buffered_impact(k)),
+    *(output for k in range(1, IMPACT_BUFFER_LENGTH + 1) for output in _buffered_impact(k)),
     Output("kinetic_energy", "energy.kinetic", "Kinetic energy of all bodies", "J", nominal=1e-4),
     Output("spring_energy", "energy.spring", "Energy of the wheel's spring, without preload", "J", nominal=1e-4),
     Output("work_done", "energy.work", "Work done by the inputs since the start", "J", nominal=1e-4),

@@ -1,6 +1,7 @@
 """What no mechanism may change: energy, momentum, angular momentum."""
 
 import math
+from itertools import product
 
 import numpy as np
 from hypothesis import assume, given, settings
@@ -44,6 +45,11 @@ def four_bar_rates(points, speed):
     return [(*(pin / 2), speed), (*((pin + tip) / 2), coupler), (*(tip / 2), rocker)]
 
 
+def never_flat(*lengths):
+    """All four bars cannot come to lie on one line, where the rows become dependent and the motion may branch."""
+    return all(abs(np.dot(signs, lengths)) > 0.05 for signs in product((1, -1), repeat=4))
+
+
 @st.composite
 def four_bars(draw):
     """A closed four-bar at a random speed, with a spring on the rocker, and perhaps some joints twice."""
@@ -52,6 +58,7 @@ def four_bars(draw):
     b = crank * np.array([math.cos(angle), math.sin(angle)])
     span = math.dist(b, d)
     assume(abs(coupler - rocker) + 0.1 < span < coupler + rocker - 0.1)
+    assume(never_flat(crank, coupler, rocker, 1.0))
     along = (coupler**2 - rocker**2 + span**2) / (2 * span)
     across = math.sqrt(coupler**2 - along**2)
     e = (d - b) / span
@@ -122,7 +129,7 @@ def momenta(mechanism, simulation):
 
 
 @settings(deadline=None, max_examples=30)
-@given(st.floats(0.0, 1.0), st.floats(0.1, 3.0), st.floats(-1.0, 1.0), st.floats(-0.4, 0.4))
+@given(st.just(0.0) | st.floats(0.01, 1.0), st.floats(0.1, 3.0), st.floats(-1.0, 1.0), st.floats(-0.4, 0.4))
 def test_an_impact_between_free_bodies_keeps_their_momenta(restitution, speed, spin, offset):
     """A stone flies into a plate off its centre; the line belongs to the plate."""
     stone = Body("stone", 0.5, 0.02, (-1.0, offset, 0.0), (speed, 0.0, spin))

@@ -1,9 +1,14 @@
 """Bad values and illegal calls: a message that helps, an error status, and an instance that lives on."""
 
 import math
+from copy import copy
+from ctypes import c_char
+from pathlib import Path
 
 import pytest
 from fmpy.fmi1 import FMICallException
+
+from tests.fmu.conformance.host import Fmu, Instance
 
 REFERENCE_TIME = pytest.approx(0.9399211769, rel=1e-9)
 
@@ -87,8 +92,34 @@ def test_impossible_step_is_refused_and_changes_nothing(instance, time, size, me
     assert one["impact_time"] == REFERENCE_TIME
 
 
+def setup(one, **arguments):
+    return one.slave.setupExperiment(**arguments)
+
+
 def illegal_calls():
     yield "doStep before initialization", "fmi2DoStep is not allowed now", lambda one: one.slave.doStep(0.0, 0.1)
+    yield (
+        "enter before setup",
+        "not allowed before fmi2SetupExperiment",
+        lambda one: one.slave.enterInitializationMode(),
+    )
+    yield (
+        "setup at NaN",
+        "the start time nan s must be finite",
+        lambda one: one.slave.setupExperiment(startTime=math.nan),
+    )
+    yield "setup too late", "where the clock still", lambda one: one.slave.setupExperiment(startTime=1e12)
+    yield (
+        "stop before start",
+        "not before the start time 2.0 s",
+        lambda one: one.slave.setupExperiment(startTime=2.0, stopTime=1.0),
+    )
+    yield (
+        "negative tolerance",
+        "the tolerance -1e-06 must be positive",
+        lambda one: one.slave.setupExperiment(tolerance=-1e-6),
+    )
+    yield "set a String", "is of type Real, not String", lambda one: one.slave.setString([0], ["fast"])
     yield "exit before enter", "not allowed now", lambda one: one.slave.exitInitializationMode()
     yield "terminate before begin", "not allowed now", lambda one: one.slave.terminate()
     yield "unknown reference", "no variable with value reference 999999", lambda one: one.slave.getReal([999999])
@@ -136,6 +167,86 @@ def test_illegal_call_during_the_run(instance, message, call):
     assert message in text_of(one)
     one.run(1.0, 0.1)
     assert one["impact_time"] == REFERENCE_TIME
+
+
+def test_no_step_leads_past_the_stop_time(instance):
+    one = instance().begin(stop_time=1.0)
+    one.run(0.9, 0.1)
+    with pytest.raises(FMICallException):
+        one.slave.doStep(one.time, 0.2)
+
+    assert "leads past the stop time 1 s" in text_of(one)
+    one.run(1.0, 0.1)
+    assert one["impact_time"] == REFERENCE_TIME
+
+
+def test_steps_follow_each_other_at_late_times_too(instance):
+    one = instance().begin(start_time=1e6)
+    one.run(1e6 + 0.5, 0.1)
+    for gap in (-5e-4, 5e-4):
+        with pytest.raises(FMICallException):
+            one.slave.doStep(one.time + gap, 0.1)
+    one.run(1e6 + 1, 0.1)
+
+    assert one["impact_time"] - 1e6 == pytest.approx(0.9399211769, abs=1e-9)
+
+
+@pytest.mark.parametrize("when", ["before", "during"])
+def test_a_refused_value_leaves_the_others_unset(instance, when):
+    one = instance()
+    if when == "during":
+        one.begin().run(0.5, 0.1)
+        good, bad = "drive_torque", "load_torque"
+    else:
+        good, bad = "tooth_slope_angle", "crank_length"
+    before = one[good]
+    with pytest.raises(FMICallException):
+        one.set({good: 1.7 * before, bad: math.nan})
+
+    assert one[good] == before
+    if when == "before":
+        one.begin()
+    one.run(1.0, 0.1)
+    assert one["impact_time"] == REFERENCE_TIME
+
+
+def test_what_was_read_before_the_setup_does_not_stay(instance):
+    one = instance()
+    assert one["wheel_angle"] == pytest.approx(math.radians(75))
+    one.begin(start_time=100.0)
+    one.run(101.0, 0.1)
+
+    assert one["impact_time"] - 100 == pytest.approx(0.9399211769, abs=1e-9)
+
+
+def test_a_parameter_can_be_read_while_the_geometry_is_not_complete(instance):
+    one = instance()
+    one.set({"pawl_length": 0.03})
+    assert one["pawl_length"] == 0.03
+    one.set({"pawl_length": 0.1})
+    one.begin().run(1.0, 0.1)
+
+    assert one["impact_time"] == REFERENCE_TIME
+
+
+def test_the_wrapper_accepts_any_guid(ratchet):
+    """Documented in docs/fmu.md: pythonfmu does not look at it."""
+    assert "accepted" in Path(__file__).parents[2].joinpath("docs/fmu.md").read_text(encoding="utf-8")
+    stranger = copy(ratchet.description)
+    stranger.guid = "{00000000-0000-0000-0000-000000000000}"
+    with Instance(Fmu(ratchet.folder, stranger)) as one:
+        one.begin().run(1.0, 0.1)
+        assert one["impact_time"] == REFERENCE_TIME
+
+
+def test_a_serialization_buffer_that_is_too_small_gives_bytes_that_are_refused(instance):
+    one = instance().begin()
+    state = one.save()
+    few = (c_char * 100)()
+    one.slave.fmi2SerializeFMUstate(one.slave.component, state, few, 100)
+    one.slave.freeFMUstate(state)
+    with pytest.raises(FMICallException):
+        one.restore_bytes(bytes(few), 0.0)
 
 
 def test_no_step_after_the_end(instance):

@@ -3,6 +3,7 @@
 import struct
 import subprocess
 import sys
+import zlib
 
 import pytest
 from fmpy.fmi1 import FMICallException
@@ -101,9 +102,19 @@ def damaged(saved):
     yield "one byte short", saved[:-1]
     yield "one byte long", saved + b"\0"
     yield "zeros", bytes(len(saved))
-    yield "another model", saved[:8] + bytes(16) + saved[24:]
     for k in range(0, len(saved), 97):
         yield f"bit of byte {k}", saved[:k] + bytes([saved[k] ^ 0x10]) + saved[k + 1 :]
+
+
+def test_state_of_another_model_is_refused(instance):
+    """The bytes are sound, but the fingerprint (bytes 8 to 24) is another one."""
+    one = instance().begin()
+    saved = one.save_bytes()
+    other = saved[:8] + bytes(16) + saved[24:-4]
+    with pytest.raises(FMICallException):
+        one.restore_bytes(other + struct.pack("<I", zlib.crc32(other)), 0.0)
+
+    assert any("belongs to another model or another version" in message.text for message in one.log)
 
 
 def test_what_is_not_a_state_is_refused_and_survived(instance):

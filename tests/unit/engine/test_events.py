@@ -45,6 +45,18 @@ def test_time_of_an_impact_on_a_spring(share, frequency):
     assert found.time == pytest.approx(expected, rel=1e-11)
 
 
+@settings(deadline=None, max_examples=20)
+@given(st.floats(-0.9, 0.9), positive(0.1, 10.0), st.sampled_from([1e-3, 1e-5, 1e-9]))
+def test_an_impact_happens_on_the_line_however_coarse_the_steps(share, frequency, tolerance):
+    """The root is one of the step itself, not of its interpolant, which is less accurate."""
+    simulation = Simulation(rotor([Stop(0.5 * share, -1, 0.5)], angle=0.5, frequency=frequency, tolerance=tolerance))
+    simulation.advance(1.2 * math.acos(share) / frequency)
+    (hit,) = simulation.impacts_in_step()
+    simulation = Simulation(rotor([Stop(0.5 * share, -1, 0.5)], angle=0.5, frequency=frequency, tolerance=tolerance))
+    simulation.advance(hit.time)
+    assert simulation.field("y_end")[2] == pytest.approx(0.5 * share, abs=1e-15 + 1e-12 * frequency)
+
+
 @settings(deadline=None, max_examples=50)
 @given(positive(1e-10, 0.3), positive(0.1, 10.0), st.floats(0.4, 3.0))
 def test_a_short_visit_behind_the_line_is_not_stepped_over(overshoot, deceleration, highest):

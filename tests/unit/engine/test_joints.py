@@ -63,7 +63,7 @@ def test_rows_are_the_derivatives_of_phi(kind, frames, numbers):
     found = engine_rows(kind, data[:width], frames, q, qd)
     expected = differentiated_rows(kind, data, frames, q, qd)
     for name, value in expected._asdict().items():
-        within = 1e-13 * max(1.0, np.abs(value).max())
+        within = 1e-12 * max(1.0, np.abs(value).max())
         np.testing.assert_allclose(getattr(found, name), value, rtol=0, atol=within, err_msg=name)
     np.testing.assert_allclose(found.rate, found.jacobian @ qd, rtol=0, atol=1e-12)
 

@@ -6,31 +6,11 @@ from exact_pseudoinverse import exact_minimum_norm
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from minimum_norm_solver import solve
 
-from mechanism_fmu.engine.layout import allocate, field_of
-from mechanism_fmu.engine.minimum_norm import RANK_TOLERANCE, minimum_norm
-from mechanism_fmu.engine.subset import entry
+from mechanism_fmu.engine.minimum_norm import RANK_TOLERANCE
 
-BLOCK = allocate(
-    dict.fromkeys(("joints", "forces", "contacts", "held", "inputs", "outputs"), 0) | {"bodies": 4, "joint_rows": 12}
-)
 SMALL = st.integers(-4, 4).map(float)
-
-
-@entry
-def solve_in(block, count, width):
-    return minimum_norm(block, count, width)
-
-
-def solve(D, b):
-    """z, multipliers and rank by the engine, with rubbish left over in everything it need not read."""
-    count, width = D.shape
-    for name in ("scaled", "basis", "triangle", "column_basis", "column_triangle", "multiplier", "solution", "dual"):
-        field_of(BLOCK, name)[...] = np.nan
-    field_of(BLOCK, "scaled")[:count, :width] = D
-    field_of(BLOCK, "right_side")[:count] = b
-    rank = solve_in(BLOCK, count, width)
-    return field_of(BLOCK, "solution")[:width].copy(), field_of(BLOCK, "multiplier")[:count].copy(), rank
 
 
 class Problem(NamedTuple):

@@ -4,19 +4,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mechanism_fmu.fmu.protocol import Experiment, Phase
 from mechanism_fmu.fmu.saved_state import SavedState, SavedStateError, check, decode, encode, fingerprint
 
 MARK = fingerprint(["Ratchet", "a", "b"])
 numbers = st.lists(st.floats(allow_nan=False), max_size=6).map(tuple)
-states = st.builds(
-    SavedState,
-    st.integers(0, 3),
-    st.floats(-1e6, 1e6),
-    st.just(float("inf")) | st.floats(1e-13, 1e-3),
-    numbers,
-    numbers,
-    st.binary(max_size=64).map(lambda b: b[: len(b) // 8 * 8]),
+times = st.floats(-1e6, 1e6)
+experiments = st.builds(
+    Experiment, times, times | st.just(float("inf")), st.floats(1e-13, 1e-3) | st.just(float("inf"))
 )
+words = st.binary(max_size=64).map(lambda b: b[: len(b) // 8 * 8])
+states = st.builds(SavedState, st.sampled_from(Phase), st.none() | experiments, numbers, numbers, words)
 
 
 @given(states)
@@ -43,6 +41,6 @@ def test_any_other_length_is_noticed(state, data):
 
 
 def test_state_of_another_model_is_refused():
-    saved = encode(SavedState(0, 0.0, 1.0, (), (), struct.pack("d", 1.0)), MARK)
+    saved = encode(SavedState(Phase.INSTANTIATED, None, (), (), struct.pack("d", 1.0)), MARK)
     with pytest.raises(SavedStateError, match="another model"):
         check(saved, fingerprint(["Ratchet", "ab", ""]))

@@ -1,0 +1,32 @@
+"""The FMUs that every conformance test runs on: a new model is one more entry of `SUBJECTS`."""
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from typing import Any
+
+import pytest
+
+from tests.fmu.conformance.host import Instance
+from tests.fmu.conformance.subject import Subject
+
+#: By the name of the session fixture that gives the unzipped FMU.
+SUBJECTS: dict[str, dict[str, Any]] = {
+    "ratchet": {
+        "rough": {"restitution": 0.5, "tooth_count": 15},
+        "inputs": {"drive_torque": (5e-4, 3e-3), "spring_preload": (0.0, 1e-3), "load_torque": (-1e-4, 1e-4)},
+        "until": 2.0,
+        "impossible": {"pawl_length": 0.03},
+    },
+}
+
+
+@pytest.fixture(scope="session", params=SUBJECTS)
+def subject(request: pytest.FixtureRequest) -> Subject:
+    return Subject(request.getfixturevalue(request.param), **SUBJECTS[request.param])
+
+
+@pytest.fixture
+def instance(subject: Subject) -> Iterator[Callable[..., Instance]]:
+    """A function that makes instances of the FMU; they are freed after the test."""
+    with ExitStack() as stack:
+        yield lambda *args, **kwargs: stack.enter_context(Instance(subject.fmu, *args, **kwargs))

@@ -1,0 +1,33 @@
+"""The engine's minimum-norm solver as a function of a matrix and a right side."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mechanism_fmu.engine.layout import allocate, field_of
+from mechanism_fmu.engine.minimum_norm import minimum_norm
+from mechanism_fmu.engine.subset import entry
+
+Array = np.ndarray[Any, Any]
+
+BLOCK = allocate(
+    dict.fromkeys(("joints", "forces", "contacts", "held", "inputs", "outputs"), 0) | {"bodies": 4, "joint_rows": 12}
+)
+
+
+@entry
+def _solve_in(block: Array, count: int, width: int) -> int:
+    return minimum_norm(block, count, width)
+
+
+def solve(D: Array, b: Array) -> tuple[Array, Array, int]:
+    """z, multipliers and rank by the engine, with rubbish left over in everything it need not read."""
+    count, width = D.shape
+    for name in ("scaled", "basis", "triangle", "column_basis", "column_triangle", "multiplier", "solution", "dual"):
+        field_of(BLOCK, name)[...] = np.nan
+    field_of(BLOCK, "scaled")[:count, :width] = D
+    field_of(BLOCK, "right_side")[:count] = b
+    rank = _solve_in(BLOCK, count, width)
+    return field_of(BLOCK, "solution")[:width].copy(), field_of(BLOCK, "multiplier")[:count].copy(), rank
