@@ -9,7 +9,7 @@ import pytest
 from fake_slave import FakeFmu, FakeSlave
 
 from harness.description import Variable
-from harness.errors import FmuError, UsageError
+from harness.errors import UsageError
 from harness.experiment import Experiment, Run, default_times, perform
 from harness.messages import Status
 from harness.results import prepare_folder, write_run, write_text
@@ -120,6 +120,10 @@ def test_an_fmu_without_a_tooth_leaves_no_stress() -> None:
     assert "stress_max" not in run.impacts
 
 
-def test_an_impossible_tooth_is_the_fmu_s_fault() -> None:
-    with pytest.raises(FmuError, match="describe no tooth: tooth length = -1 m"):
-        run_of(with_tooth(FakeSlave(), length=-1.0))
+def test_an_impossible_tooth_is_a_verdict_and_costs_no_result() -> None:
+    run = run_of(with_tooth(FakeSlave(impacts=[0.1]), length=-1.0))
+    (verdict,) = [check for check in run.checks if check.claim == "The struck tooth has a stress model"]
+    assert not verdict.passed
+    assert "describe no tooth: tooth length = -1 m" in verdict.evidence
+    assert len(run.impacts) == 1
+    assert not run.results.empty
