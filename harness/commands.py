@@ -10,6 +10,7 @@ from rich.markup import escape
 from .assignments import start_values
 from .checks import Check, all_passed
 from .closing import close_run
+from .errors import FmuError
 from .experiment import Experiment, Run, default_times, perform
 from .fmu import Fmu, open_fmu
 from .interrupt import interruption
@@ -43,7 +44,14 @@ def run_fmu(
         values = start_values(settings, fmu.description)
         experiment = Experiment(*default_times(fmu.description, stop_time, step), values, input_file)
         prepare_folder(folder)
-        run = _performed(fmu, experiment)
+        try:
+            run = _performed(fmu, experiment)
+        except FmuError:
+            if (folder / "summary.json").exists():
+                console.print(
+                    f"[yellow]Nothing was written[/]: the files in {escape(str(folder))} are an earlier run's."
+                )
+            raise
     return _written(run, folder)
 
 

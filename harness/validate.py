@@ -28,7 +28,7 @@ def validate(fmu: Fmu) -> Iterator[Check]:
     conformance = _Conformance(fmu)
     steps: list[tuple[str, Callable[[], str]]] = [
         ("An instance starts with the values of modelDescription.xml", conformance.defaults),
-        ("It runs through its default experiment with finite outputs", conformance.run),
+        ("It runs to the stop time of its default experiment with finite outputs", conformance.run),
         ("After a reset it repeats the run exactly", conformance.reset),
     ]
     if fmu.description.saves_state:

@@ -69,9 +69,14 @@ def _stress(run: Run) -> str:
         return ""
     worst = run.impacts.iloc[int(run.impacts["stress_max"].to_numpy().argmax())]
     note = (
-        f"The worst impact: t = {worst['time']:.9g} s, v_I = {engineering(float(worst['velocity']), 'm/s')}; wedge of "
-        f"length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad, steel, two Ritz modes."
+        f"The impact with the largest stress: t = {worst['time']:.9g} s, "
+        f"v_I = {engineering(float(worst['velocity']), 'm/s')}; wedge of length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad, steel, two Ritz modes."
     )
+    if len(run.impacts) > 1:
+        note += (
+            " v_I is the paper's, wheel speed after the impact times tooth length, meant for a wheel that is struck at "
+            "rest: for later impacts on a wheel that already turns it is an upper bound, not the jump of the speed."
+        )
     return section(
         "Bending stress in the tooth", chart(stress_chart(stress_field(run.tooth, worst["velocity"]))), note=note
     )

@@ -14,5 +14,5 @@ ADVICE = {
     STEP_TOO_SMALL: "The step size has shrunk to nothing: the motion is no longer smooth or finite. Check that inputs "
     "and parameters are of a sensible size, or give a larger relative_tolerance.",
     TOO_MANY_STEPS: "One communication step needed more internal steps than the limit: the motion is very fast for its "
-    "length. Check the size of inputs and parameters, or use a shorter communication step.",
+    "length. Restore a saved state or reset, then check the size of inputs and parameters, or take shorter steps.",
 }

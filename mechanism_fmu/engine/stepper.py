@@ -24,7 +24,7 @@ from .views import contacts, course, stages
 #: Smallest step as a fraction of max(1 s, |t|).
 _SMALLEST_STEP = 1e-15
 #: Most internal steps of one communication step.
-MOST_STEPS = 500_000
+MOST_STEPS = 200_000
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0

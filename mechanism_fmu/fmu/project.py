@@ -11,11 +11,18 @@ _PROJECT = _CHECKOUT / "pyproject.toml"
 
 
 def dependencies() -> list[str]:
-    """Requirements of the library, with their pins, e.g. "numpy>=2.0"."""
+    """Requirements of the library, with their pins, e.g. "numpy>=2.0"; the same from a checkout and when installed."""
     if _PROJECT.is_file():
         pins: list[str] = tomllib.loads(_PROJECT.read_text(encoding="utf-8"))["project"]["dependencies"]
-        return pins
-    return [pin for pin in metadata.requires("mechanism_fmu") or [] if "extra ==" not in pin]
+    else:
+        pins = [pin for pin in metadata.requires("mechanism_fmu") or [] if "extra ==" not in pin]
+    return [_in_order(pin) for pin in pins]
+
+
+def _in_order(pin: str) -> str:
+    """A requirement with its limits sorted: installers write them in an order of their own."""
+    name = pin[: min((pin.index(sign) for sign in "<>=!~" if sign in pin), default=len(pin))]
+    return name + ",".join(sorted(pin[len(name) :].split(",")))
 
 
 def licence_text(distribution: str) -> str:

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from ctypes import c_void_p
+from functools import partial
 from pathlib import Path
 
 from fmpy.fmi1 import FMICallException
@@ -38,6 +39,24 @@ def refused(call: Callable[[], object]) -> bool:
     except FMICallException:
         return True
     return False
+
+
+def refusals(folder: str) -> None:
+    """Refusals of every kind, again and again; the instance goes on, is reset and is freed."""
+    fmu = Fmu.at(folder)
+    name = fmu.named("input")[0]
+    with Instance(fmu) as one, Instance(fmu, "other") as other:
+        for _ in range(20):
+            assert refused(lambda: one.step(0.1))
+            assert refused(lambda: one.set({name: math.nan}))
+            assert refused(lambda: one.slave.getReal([10**6]))
+            one.begin().step(0.1)
+            assert refused(lambda: one.step(-1.0))
+            assert refused(one.begin)
+            assert refused(lambda: one.restore_bytes(b"no state", 0.0))
+            one.step(0.1)
+            one.reset()
+        other.begin().step(0.1)
 
 
 def odd_calls(folder: str) -> None:
@@ -82,7 +101,7 @@ def odd_names(folder: str) -> None:
     for name in ("100 %s %n %d", "Zahnrad ä 齿轮", "", "a" * 5000):
         with Instance(Fmu.at(folder), name, callbacks=defaultCallbacks) as one:
             one.begin()
-            assert refused(lambda one=one: one.step(-1.0))
+            assert refused(partial(one.step, -1.0))
             one.reset().begin().step(0.01)
 
 
@@ -195,9 +214,9 @@ def memory(folder: str) -> None:
             one.reset().begin()
 
         for call in (save, refuse_step, refuse_state, reset):
-            for _ in range(300):
+            for _ in range(100):
                 call()
             before = _resident()
-            for _ in range(1000):
+            for _ in range(500):
                 call()
-            print(call.__name__, (_resident() - before) / 1000)
+            print(call.__name__, (_resident() - before) / 500)

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from tests.fmu.conformance.alone import refusals, run_alone
 from tests.fmu.conformance.host import Instance
 from tests.fmu.conformance.subject import Subject
 
@@ -22,7 +23,10 @@ SUBJECTS: dict[str, dict[str, Any]] = {
 
 @pytest.fixture(scope="session", params=SUBJECTS)
 def subject(request: pytest.FixtureRequest) -> Subject:
-    return Subject(request.getfixturevalue(request.param), **SUBJECTS[request.param])
+    """An FMU that has shown in another process that what it refuses does not end the host."""
+    fmu = request.getfixturevalue(request.param)
+    run_alone(refusals, fmu.folder)
+    return Subject(fmu, **SUBJECTS[request.param])
 
 
 @pytest.fixture

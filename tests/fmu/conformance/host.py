@@ -56,7 +56,10 @@ class Fmu:
 
     def start(self, name: str) -> Value:
         variable = self.variables[name]
-        return {"Real": float, "Integer": int, "Boolean": lambda text: text == "true"}[variable.type](variable.start)
+        text = str(variable.start)
+        if variable.type == "Boolean":
+            return text == "true"
+        return int(text) if variable.type == "Integer" else float(text)
 
 
 class Instance:
@@ -146,7 +149,8 @@ class Instance:
     # --- states ---
 
     def save(self) -> c_void_p:
-        return self.slave.getFMUstate()
+        state: c_void_p = self.slave.getFMUstate()
+        return state
 
     def restore(self, state: c_void_p, time: float) -> None:
         self.slave.setFMUstate(state)

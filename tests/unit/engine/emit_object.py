@@ -2,7 +2,7 @@
 
     python emit_object.py        (prints JSON; a process of its own, because numba reads its settings when imported)
 
-The way of the native library: each entry point behind a C signature, everything else internal, optimised as a whole.
+The way to a native library: the engine behind a C signature, everything else internal, optimised as a whole.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 import os
 import struct
-from collections.abc import Callable
 from typing import Any
 
 if __name__ == "__main__":
@@ -32,26 +31,24 @@ OPTIONS = {"error_model": "numpy", "boundscheck": False, "fastmath": False}
 BLOCK = types.CPointer(types.float64)
 
 
-def c_functions() -> list[Any]:
-    """The engine's entry points with C signatures: block, number of words, and a time where there is one."""
+def engine() -> Any:
+    """All that the engine does, behind one C signature."""
 
-    @numba.cfunc(types.int64(BLOCK, types.int64, types.float64), **OPTIONS)
-    def mechanism_begin(block, words, time):
-        return begin(numba.carray(block, (words,)), time)
+    @numba.cfunc(types.int64(BLOCK, types.int64, types.int64, types.float64), **OPTIONS)
+    def mechanism(block, words, which, time):
+        memory = numba.carray(block, (words,))
+        if which == 0:
+            return begin(memory, time)
+        if which == 1:
+            return advance(memory, time)
+        read_outputs(memory)
+        return 0
 
-    @numba.cfunc(types.int64(BLOCK, types.int64, types.float64), **OPTIONS)
-    def mechanism_advance(block, words, time):
-        return advance(numba.carray(block, (words,)), time)
-
-    @numba.cfunc(types.void(BLOCK, types.int64), **OPTIONS)
-    def mechanism_read(block, words):
-        read_outputs(numba.carray(block, (words,)))
-
-    return [mechanism_begin, mechanism_advance, mechanism_read]
+    return mechanism
 
 
-def function_outside_the_subset() -> list[Any]:
-    """One that allocates."""
+def outside_the_subset() -> Any:
+    """A function that allocates."""
 
     @entry
     def allocating(block):
@@ -61,19 +58,16 @@ def function_outside_the_subset() -> list[Any]:
     def outside(block, words):
         allocating(numba.carray(block, (words,)))
 
-    return [outside]
+    return outside
 
 
-def emit(functions: list[Callable[..., Any]]) -> bytes:
-    """The object file of C functions and all that they call."""
+def emit(function: Any) -> bytes:
+    """The object file of a C function and all that it calls."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    module = llvm.parse_assembly("")
-    names = [function.__name__ for function in functions]
-    for function, name in zip(functions, names, strict=True):
-        module.link_in(llvm.parse_assembly(function.inspect_llvm().replace(function.native_name, name)))
+    module = llvm.parse_assembly(function.inspect_llvm().replace(function.native_name, function.__name__))
     for symbol in (*module.functions, *module.global_variables):
-        if not symbol.is_declaration and symbol.name not in names:
+        if not symbol.is_declaration and symbol.name != function.__name__:
             symbol.linkage = "internal"
     machine = llvm.Target.from_triple(TRIPLE).create_target_machine(
         cpu="x86-64", features="", opt=3, reloc="pic", codemodel="default"
@@ -97,13 +91,13 @@ def undefined_symbols(elf: bytes) -> list[str]:
 
 def main() -> None:
     """Print what the tests look at."""
-    engine = c_functions()
-    first, second = emit(engine), emit(engine)
+    function = engine()
+    first, second = emit(function), emit(function)
     report = {
         "size": len(first),
         "same": first == second,
         "engine": undefined_symbols(first),
-        "outside": undefined_symbols(emit(function_outside_the_subset())),
+        "outside": undefined_symbols(emit(outside_the_subset())),
     }
     print(json.dumps(report))
 
