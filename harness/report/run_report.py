@@ -70,7 +70,9 @@ def _stress(run: Run) -> str:
     worst = run.impacts.iloc[int(run.impacts["stress_max"].to_numpy().argmax())]
     note = (
         f"The impact with the largest stress: t = {worst['time']:.9g} s, "
-        f"v_I = {engineering(float(worst['velocity']), 'm/s')}; wedge of length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad, steel, two Ritz modes."
+        f"v_I = {engineering(float(worst['velocity']), 'm/s')};"
+        f" wedge of length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad, steel,"
+        " two Ritz modes."
     )
     if len(run.impacts) > 1:
         note += (

@@ -271,7 +271,8 @@ class MechanismSlave(Fmi2Slave):
         for vr in vrs:
             if not 0 <= vr < len(self.variables):
                 raise FmiError(
-                    f"There is no variable with value reference {vr % 2**32}; they run from 0 to {len(self.variables) - 1}."
+                    f"There is no variable with value reference {vr % 2**32}; "
+                    f"they run from 0 to {len(self.variables) - 1}."
                 )
             if self.variables[vr].type != kind:
                 variable = self.variables[vr]
