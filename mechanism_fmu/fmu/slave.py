@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import gc
 import math
 import weakref
 from collections.abc import Sequence
@@ -302,6 +303,12 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
 @functools.cache
 def _compile_engine(model: Model) -> None:
     """Compile the engine, or load it from the cache: in the constructor, never in the first step."""
-    simulation = Simulation(model.build(model.values()))
-    simulation.advance(1e-3)
-    simulation.read()
+    collects = gc.isenabled()
+    gc.disable()  # the compiler makes millions of small objects and keeps them: looking for garbage costs a tenth
+    try:
+        simulation = Simulation(model.build(model.values()))
+        simulation.advance(1e-3)
+        simulation.read()
+    finally:
+        if collects:
+            gc.enable()

@@ -18,7 +18,7 @@ def test_an_input_that_is_no_number(torque):
     simulation.advance(0.5)
     good = simulation.read()
     simulation.set_input("torque", torque)
-    with pytest.raises(SimulationError, match=r"t = 0\.5 s: The step size has shrunk to nothing.*Check that inputs"):
+    with pytest.raises(SimulationError, match=r"t = 0\.5 s: The step size has shrunk to nothing"):
         simulation.advance(1.0)
     assert simulation.time == 0.5
     assert simulation.read() == good
@@ -30,7 +30,7 @@ def test_an_input_that_is_no_number(torque):
 
 def test_a_motion_too_fast_for_the_communication_step():
     simulation = Simulation(rotor(angle=1.0, frequency=1e6, outputs=OUTPUTS, tolerance=1e-3))
-    with pytest.raises(SimulationError, match=r"more internal steps than the limit.*shorter communication step"):
+    with pytest.raises(SimulationError, match="more internal steps than the limit"):
         simulation.advance(100.0)
     reached = simulation.time
     assert 0 < reached < 100.0
