@@ -3,6 +3,9 @@
 Plain integers, because compiled code freezes module-level integers as constants.
 """
 
+#: No contact, pattern or logical function.
+NONE = -1
+
 # joint_kind
 REVOLUTE = 0
 TRANSLATIONAL = 1
@@ -10,16 +13,49 @@ TRANSLATIONAL = 1
 # force_kind
 TORQUE = 0
 TORSION_SPRING = 1
+DAMPER = 2
+SHAFT = 3
+FORCE = 4
 
 # force_data columns
 TORQUE_VALUE = 0
 SPRING_STIFFNESS = 0
 SPRING_FREE_ANGLE = 1
 SPRING_PRELOAD = 2
+DAMPING = 0
+SHAFT_STIFFNESS = 0
+SHAFT_DAMPING = 1
+SHAFT_ANGLE = 2
+SHAFT_SPEED = 3
+FORCE_X = 0
+FORCE_Y = 1
 
-# contact_mode (state) and contact_start_mode (tables)
+# contact_kind
+POINT_LINE = 0
+ANGLE_STOP = 1
+ANGLE_LOCK = 2
+
+# contact_data columns: of POINT_LINE the point and (as contact_line) the line; of ANGLE_STOP and ANGLE_LOCK:
+POINT_X = 0
+STOP_ANGLE = 0
+STOP_PITCH = 1
+
+# contact_value columns
+RESTITUTION = 0
+FRICTION = 1
+BEAM_LENGTH = 2
+GUIDED = 3
+ENABLED = 4
+STARTS_CLOSED = 5
+CONTACT_VALUES = 6
+
+# contact_mode (state)
 OPEN = 0
 CLOSED = 1
+
+# function_kind: what a logical function looks at
+ALONG = 0
+ANGLE = 1
 
 # settings columns
 RELATIVE_TOLERANCE = 0
@@ -42,6 +78,12 @@ IMPACTS_LOST = 11
 IMPACT_FLAG = 12
 LAST_IMPACT = 13
 BUFFERED_IMPACT = 14
+CONTACT_CLOSED = 15
+PATTERN_INDEX = 16
+STOP_CLICKS = 17
+STOP_REFERENCE = 18
+SHAFT_TORQUE = 19
+EVENT_COUNT = 20
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before, then after
 RECORD_TIME = 0
@@ -55,24 +97,50 @@ RECORD_CONTACT_IMPULSES = 6
 #: Impacts of one communication step that are kept, oldest first.
 IMPACT_BUFFER_LENGTH = 8
 
+# guards: what an event is about
+GUARD_NONE = -1
+GUARD_GAP = 0  # an open contact's gap reaches 0
+GUARD_PUSH = 1  # a closed contact's force reaches 0
+GUARD_NEXT = 2  # a point leaves its copy of a pattern for the next one
+GUARD_PREVIOUS = 3  # ... or for the previous one
+GUARD_CLICK = 4  # a stop with memory has been passed by one pitch
+GUARD_FUNCTION = 5  # a logical function changes
+GUARD_INPUT = 6  # an input has changed, or the motion begins
+
+# columns of an event record
+EVENT_TIME = 0
+EVENT_GUARD = 1
+EVENT_SUBJECT = 2  # number of the contact, pattern or logical function
+EVENT_OLD_MODE = 3  # sum of 2^c over closed contacts c
+EVENT_NEW_MODE = 4
+EVENT_IMPULSE = 5  # total normal impulse over all contacts [N s]
+EVENT_COLUMNS = 6
+
+#: Events of one communication step that are kept, oldest first.
+EVENT_BUFFER_LENGTH = 16
+
 # columns of the state's clock [s]
 TIME = 0  # up to which the outside has come
 STEP_START = 1  # the engine's own step, which may reach beyond TIME
 STEP_END = 2
 STEP_SIZE = 3
 NEXT_STEP = 4
-CLOCK_LENGTH = 5
+LAST_EVENT = 5  # when the run of events began that PILE counts
+CLOCK_LENGTH = 6
 
 # columns of the state's counters
 COUNT_IMPACTS = 0
 COUNT_IN_STEP = 1
 COUNT_LOST = 2
 COUNT_STEPS = 3  # accepted steps since the start
-PENDING_CONTACT = 4  # contact whose impact waits at STEP_END, or NO_CONTACT
-COUNT_PULLS = 5  # closed contacts that have pulled, as far as the engine has computed
-COUNTERS_LENGTH = 6
-NO_CONTACT = -1
+PENDING_GUARD = 4  # guard of the event that waits at STEP_END, or GUARD_NONE
+PENDING_SUBJECT = 5  # its contact, pattern or logical function
+COUNT_PULLS = 6  # guided contacts that have pulled, as far as the engine has computed
+COUNT_EVENTS = 7
+EVENTS_IN_STEP = 8
+PILE = 9  # events that followed each other without progress
+COUNTERS_LENGTH = 10
 
 # columns of the state's ledger [J]
-LEDGER_LOST = 0
+LEDGER_LOST = 0  # in impacts
 LEDGER_LENGTH = 1

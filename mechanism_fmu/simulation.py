@@ -14,7 +14,7 @@ from .engine.layout import field_of, state_of
 from .engine.outputs import read_outputs
 from .engine.pack import pack
 from .engine.stepper import advance
-from .model import Mechanism, MechanismError
+from .model import Mechanism, MechanismError, PointLineContact
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -29,6 +29,24 @@ class Impact(NamedTuple):
     time: float
     contact: str
     closing_speed: float
+    impulse: float
+
+
+class Event(NamedTuple):
+    """An event: what made it happen, and the mode before and after.
+
+    Attributes:
+        time: [s].
+        guard: e.g. "face.gap", "slope.force", "teeth.next", "teeth.previous", "holding_pawl.click", "pin_in_slot", or
+            "input" when inputs have changed.
+        old_mode, new_mode: names of the closed contacts.
+        impulse: total normal impulse over all contacts [N s].
+    """
+
+    time: float
+    guard: str
+    old_mode: tuple[str, ...]
+    new_mode: tuple[str, ...]
     impulse: float
 
 
@@ -71,7 +89,7 @@ class Simulation:
         """
         outcome = advance(self._block, float(target))
         if outcome != status.OK:
-            raise SimulationError(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}")
+            raise SimulationError(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
 
     def read(self) -> dict[str, float]:
         """All outputs and calculated parameters at the current time, by name (SI units)."""
@@ -111,6 +129,46 @@ class Simulation:
             for record in records
         ]
 
+    def events_in_step(self) -> list[Event]:
+        """The events of the last call of `advance`, oldest first, at most `codes.EVENT_BUFFER_LENGTH`."""
+        records = field_of(self._block, "events")[: int(self.counters[codes.EVENTS_IN_STEP])].tolist()
+        return [
+            Event(
+                record[codes.EVENT_TIME],
+                self._guard(int(record[codes.EVENT_GUARD]), int(record[codes.EVENT_SUBJECT])),
+                self._closed(int(record[codes.EVENT_OLD_MODE])),
+                self._closed(int(record[codes.EVENT_NEW_MODE])),
+                record[codes.EVENT_IMPULSE],
+            )
+            for record in records
+        ]
+
+    def mode(self) -> tuple[str, ...]:
+        """Names of the contacts that are closed now."""
+        modes = field_of(self._block, "contact_mode").tolist()
+        return tuple(c.name for c, mode in zip(self._mechanism.contacts, modes, strict=True) if mode == codes.CLOSED)
+
+    def _guard(self, guard: int, subject: int) -> str:
+        """An event's guard in words."""
+        if guard == codes.GUARD_INPUT:
+            return "input"
+        if guard == codes.GUARD_FUNCTION:
+            return self._mechanism.functions[subject].name
+        if guard in (codes.GUARD_NEXT, codes.GUARD_PREVIOUS):
+            return f"{self._mechanism.patterns[subject].name}.{'next' if guard == codes.GUARD_NEXT else 'previous'}"
+        words = {codes.GUARD_GAP: "gap", codes.GUARD_PUSH: "force", codes.GUARD_CLICK: "click"}
+        return f"{self._mechanism.contacts[subject].name}.{words[guard]}"
+
+    def _closed(self, mode: int) -> tuple[str, ...]:
+        return tuple(contact.name for c, contact in enumerate(self._mechanism.contacts) if mode >> c & 1)
+
+    def _involved(self, outcome: int) -> str:
+        """The contacts that a failed event is about."""
+        if outcome not in (status.CHATTERING, status.NO_CHOICE):
+            return ""
+        names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
+        return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
+
     def _begin(self, time: float) -> None:
         outcome = begin(self._block, float(time))
         if outcome == status.OK:
@@ -125,17 +183,17 @@ class Simulation:
         for joint in self._mechanism.joints:
             parts.append(f"{joint.name} by {np.abs(residual[row : row + joint.rows]).max():.6g}")
             row += joint.rows
-        for contact in self._mechanism.contacts:
-            if contact.closed:
-                parts.append(f"{contact.name} by {abs(residual[row]):.6g}")
-                row += 1
+        for name in self.mode():
+            parts.append(f"{name} by {abs(residual[row]):.6g}")
+            row += 1
         return f" Left open: {', '.join(parts)} (m, or rad between directions)."
 
     def _penetration(self) -> str:
         """Which contact point starts inside, and by how much."""
-        contact = self._mechanism.contacts[self.counters.item(codes.PENDING_CONTACT)]
+        contact = self._mechanism.contacts[self.counters.item(codes.PENDING_SUBJECT)]
         depth = -field_of(self._block, "residual").item(-1)
-        return (
-            f" Contact {contact.name!r}: the point of {contact.body_i!r} is {depth:.6g} m behind the line on "
-            f"{contact.body_j!r}; change the start angles or the lengths."
-        )
+        if isinstance(contact, PointLineContact):
+            where = f"the point of {contact.body_i!r} is {depth:.6g} m behind the line on {contact.body_j!r}"
+        else:
+            where = f"{contact.body_i!r} is {depth:.6g} rad beyond its stop on {contact.body_j!r}"
+        return f" Contact {contact.name!r}: {where}; change the start angles or the lengths."

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
 from .forces import apply_forces
+from .friction import has_friction, resist
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
 from .room import Array
@@ -10,10 +13,14 @@ from .rows import active_rows, stabilise
 from .subset import jit, keep_small
 from .views import bodies, linear_system, loads, rows, sizes
 
+#: Friction and normal forces agree when no multiplier changes by more than this part of the largest one.
+_AGREE = 1e-13
+_ROUNDS = 200
+
 
 @jit
 def derivative(block: Array, y: Array, dy: Array) -> None:
-    """Derivative of y = (q, qd, work done): dy = (qd, qdd, power), all of shape (2 coordinates + 1,).
+    """Derivative of y = (q, qd, work, loss): dy = (qd, qdd, powers), all of shape (2 coordinates + 2,).
 
     qdd = qdd_f + M^-1/2 D^+ (gamma - Phi_q qdd_f), eq (3). `linear_system.multiplier` afterwards holds the force along
     each active row (M qdd = F + Phi_q^T multiplier; for a contact, positive when it pushes).
@@ -23,15 +30,18 @@ def derivative(block: Array, y: Array, dy: Array) -> None:
     place_bodies(block, y)
     count = active_rows(block)
     stabilise(block, count)
-    power = apply_forces(block, y)
+    given, lost = apply_forces(block, y)
     accelerate(block, count)
+    if has_friction(block):
+        lost += _with_friction(block, count)
     free = loads(block).free_acceleration
     root = bodies(block).inverse_root_mass
     correction = linear_system(block).solution
     for k in range(n):
         dy[k] = y[n + k]
         dy[n + k] = free[k] + root[k] * correction[k]
-    dy[2 * n] = power
+    dy[2 * n] = given
+    dy[2 * n + 1] = lost
 
 
 @jit
@@ -65,3 +75,26 @@ def scale_rows(block: Array, count: int) -> None:
     for r in range(count):
         for k in range(n):
             system.scaled[r, k] = row.jacobian[r, k] * root[k]
+
+
+@jit
+def _with_friction(block: Array, count: int) -> float:
+    """Normal forces and friction that agree, by iteration; the power lost, or not a number when they never do."""
+    keep_small()
+    load = loads(block)
+    multiplier = linear_system(block).multiplier
+    for k in range(load.force.shape[0]):
+        load.applied[k] = load.force[k]
+    for _ in range(_ROUNDS):
+        for r in range(count):
+            load.last_multiplier[r] = multiplier[r]
+        lost = resist(block)
+        accelerate(block, count)
+        change = 0.0
+        largest = 0.0
+        for r in range(count):
+            change = max(change, abs(multiplier[r] - load.last_multiplier[r]))
+            largest = max(largest, abs(multiplier[r]))
+        if change <= _AGREE * largest:
+            return lost
+    return math.nan

@@ -6,27 +6,30 @@ import math
 
 from .. import codes
 from . import status
+from .copies import place_contact, place_pattern
 from .dormand_prince import initial_step_size
-from .events import gap
+from .guards import TOUCHES_WITHIN, function_value, gap, guard_value
 from .impact import STICK_SPEED
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
-from .ports import clear_impacts, clear_record, write_inputs
+from .ports import write_inputs
+from .records import clear_impact, clear_records
 from .room import Array
 from .rows import active_rows
 from .stepper import copy, restart
 from .subset import entry, jit, keep_small
-from .views import bodies, contacts, course, linear_system, loads, options, ports, rows, sizes, stages
+from .transition import switch_contacts, transit
+from .views import bodies, contacts, course, functions, linear_system, loads, options, patterns, ports, rows, sizes, stages
 
 #: Position rows are closed when none is off by more than this [m, rad, m^2].
 CLOSED_WITHIN = 1e-12
 #: Start rates agree with the joints within this [m/s, rad/s].
 RATES_WITHIN = 1e-9
-#: A contact point closer to its line than this at the start touches it; farther behind it, it is inside [m]. One that
-#: touches and does not move across the line rests on it; one that moves leaves, or strikes at once.
-TOUCHES_WITHIN = 1e-9
 _NEWTON_STEPS = 50
 _HALVINGS = 30
+#: Copies of a pattern that are passed in search of the one where the point is, and copies that are assembled.
+_MOST_COPIES = 4000
+_MOST_ASSEMBLIES = 100
 
 
 @entry
@@ -34,9 +37,15 @@ def begin(block: Array, time: float) -> int:
     """Assemble the mechanism from its start guess and begin the motion at `time` [s]; return a status.
 
     When the mechanism cannot be assembled, y_end and `rows.residual` hold the closest position and what is left of
-    Phi. When it starts inside, PENDING_CONTACT and the last entry of `rows.residual` hold the contact and its gap [m].
+    Phi. When it starts inside, PENDING_SUBJECT and the last entry of `rows.residual` hold the contact and its gap [m].
     """
-    outcome = assemble(block)
+    _start_guess(block)
+    outcome = status.NO_PLACE
+    for _ in range(_MOST_ASSEMBLIES):
+        outcome = assemble(block)
+        if outcome != status.OK or not _find_copies(block):
+            break
+        outcome = status.NO_PLACE
     if outcome == status.OK:
         outcome = start(block, time)
     return outcome
@@ -52,7 +61,10 @@ def assemble(block: Array) -> int:
     n = sizes(block).coordinates
     now = course(block)
     s = stages(block)
-    _start_guess(block)
+    for i in range(bodies(block).start.shape[0]):
+        for k in range(3):
+            now.y_end[3 * i + k] = bodies(block).start[i, k]
+    place_bodies(block, now.y_end)
     count = active_rows(block)
     worst = _largest(rows(block).residual, count)
     for _ in range(_NEWTON_STEPS):
@@ -93,10 +105,12 @@ def start(block: Array, time: float) -> int:
     write_inputs(block)
     for k in range(codes.COUNTERS_LENGTH):
         now.counters[k] = codes.IMPACT_BUFFER_LENGTH if k == codes.COUNT_IN_STEP else 0
-    clear_impacts(block)
-    clear_record(now.last_impact)
+    now.counters[codes.EVENTS_IN_STEP] = codes.EVENT_BUFFER_LENGTH
+    clear_records(block)
+    clear_impact(now.last_impact)
     now.ledger[codes.LEDGER_LOST] = 0.0
     now.y_end[2 * n] = 0.0
+    now.y_end[2 * n + 1] = 0.0
     place_bodies(block, now.y_end)
     count = active_rows(block)
     if not _largest(rows(block).residual_rate, count) <= RATES_WITHIN:
@@ -104,10 +118,12 @@ def start(block: Array, time: float) -> int:
     for c in range(table.mode.shape[0]):
         table.pull_time[c] = math.inf
         table.touching[c] = 0
-        if table.mode[c] == codes.OPEN:
-            distance, rate = gap(block, c, now.y_end)
+        exists = table.value[c, codes.ENABLED] > 0.5 and table.function[c] == codes.NONE
+        if table.mode[c] == codes.OPEN and exists:
+            distance, rate = gap(block, c)
             if not distance >= -TOUCHES_WITHIN:
-                now.counters[codes.PENDING_CONTACT] = c
+                now.counters[codes.PENDING_SUBJECT] = c
+                rows(block).residual[sizes(block).rows - 1] = distance
                 return status.START_INSIDE
             if distance <= TOUCHES_WITHIN and abs(rate) < STICK_SPEED:
                 table.mode[c] = codes.CLOSED
@@ -117,13 +133,19 @@ def start(block: Array, time: float) -> int:
         port.held_inputs[k] = port.inputs[k]
     now.clock[codes.TIME] = time
     now.clock[codes.STEP_END] = time
-    restart(block)
-    now.clock[codes.NEXT_STEP] = initial_step_size(block)
-    return status.OK
+    now.clock[codes.LAST_EVENT] = time
+    outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
+    if outcome == status.OK:
+        now.counters[codes.COUNT_EVENTS] = 0
+        now.counters[codes.EVENTS_IN_STEP] = 0
+        restart(block)
+        now.clock[codes.NEXT_STEP] = initial_step_size(block)
+    return outcome
 
 
 @jit
 def _start_guess(block: Array) -> None:
+    """The bodies' start guess, copy 0 of all patterns, and the contacts that are closed there."""
     n = sizes(block).coordinates
     body = bodies(block)
     now = course(block)
@@ -137,9 +159,45 @@ def _start_guess(block: Array) -> None:
     held = options(block).held
     for k in range(held.shape[0]):
         weight[held[k]] = 0.0
-    for c in range(table.mode.shape[0]):
-        table.mode[c] = table.start_mode[c]
     place_bodies(block, now.y_end)
+    for p in range(patterns(block).index.shape[0]):
+        patterns(block).index[p] = 0
+        place_pattern(block, p)
+    for c in range(table.mode.shape[0]):
+        table.clicks[c] = 0
+        table.mode[c] = codes.OPEN
+        if table.value[c, codes.STARTS_CLOSED] > 0.5 and table.value[c, codes.ENABLED] > 0.5:
+            table.mode[c] = codes.CLOSED
+        place_contact(block, c)
+    _find_copies(block)
+    for f in range(functions(block).true.shape[0]):
+        functions(block).true[f] = 0
+        if function_value(block, f)[0] < 0.0:
+            functions(block).true[f] = 1
+    switch_contacts(block)
+
+
+@jit
+def _find_copies(block: Array) -> bool:
+    """Go to the copy of each pattern where its point is at y_end; whether any was another than before."""
+    table = patterns(block)
+    first_next = 2 * sizes(block).contacts
+    count = table.index.shape[0]
+    place_bodies(block, course(block).y_end)
+    moved = False
+    for p in range(count):
+        for _ in range(_MOST_COPIES):
+            if table.enabled[p] < 0.5:
+                break
+            if guard_value(block, first_next + p)[0] <= 0.0:
+                table.index[p] += 1
+            elif guard_value(block, first_next + count + p)[0] <= 0.0:
+                table.index[p] -= 1
+            else:
+                break
+            place_pattern(block, p)
+            moved = True
+    return moved
 
 
 @jit

@@ -6,9 +6,11 @@ import math
 
 from .. import codes
 from .acceleration import derivative
+from .complementarity import push_ratio
 from .room import Array
+from .rows import row_count
 from .subset import jit, keep_small
-from .views import course, options, sizes, stages
+from .views import contacts, course, options, sizes, stages
 
 _A21 = 1 / 5
 _A31, _A32 = 3 / 40, 9 / 40
@@ -28,7 +30,7 @@ ABSOLUTE_FRACTION = 1e-3
 def try_step(block: Array, size_: float) -> float:
     """One step of `size_` [s] from y_start with derivatives[0] there; return the error norm (<= 1: accurate enough).
 
-    Writes y_new, all seven derivatives (the last one belongs to y_new) and the dense output.
+    Writes y_new, all seven derivatives (the last one belongs to y_new), the dense output, and `contacts.least_push`.
     """
     keep_small()
     n = sizes(block).unknowns
@@ -36,28 +38,48 @@ def try_step(block: Array, size_: float) -> float:
     k = s.derivatives
     y = s.y_start
     h = size_
+    least = contacts(block).least_push
+    for c in range(least.shape[0]):
+        least[c] = 0.0
     for i in range(n):
         s.y_stage[i] = y[i] + h * _A21 * k[0, i]
     derivative(block, s.y_stage, k[1])
+    _note_pushes(block)
     for i in range(n):
         s.y_stage[i] = y[i] + h * (_A31 * k[0, i] + _A32 * k[1, i])
     derivative(block, s.y_stage, k[2])
+    _note_pushes(block)
     for i in range(n):
         s.y_stage[i] = y[i] + h * (_A41 * k[0, i] + _A42 * k[1, i] + _A43 * k[2, i])
     derivative(block, s.y_stage, k[3])
+    _note_pushes(block)
     for i in range(n):
         s.y_stage[i] = y[i] + h * (_A51 * k[0, i] + _A52 * k[1, i] + _A53 * k[2, i] + _A54 * k[3, i])
     derivative(block, s.y_stage, k[4])
+    _note_pushes(block)
     for i in range(n):
         slope = _A61 * k[0, i] + _A62 * k[1, i] + _A63 * k[2, i] + _A64 * k[3, i] + _A65 * k[4, i]
         s.y_stage[i] = y[i] + h * slope
     derivative(block, s.y_stage, k[5])
+    _note_pushes(block)
     for i in range(n):
         slope = _B1 * k[0, i] + _B3 * k[2, i] + _B4 * k[3, i] + _B5 * k[4, i] + _B6 * k[5, i]
         s.y_new[i] = y[i] + h * slope
     derivative(block, s.y_new, k[6])
+    _note_pushes(block)
     _write_dense(block, h)
     return _error_norm(block, h)
+
+
+@jit
+def _note_pushes(block: Array) -> None:
+    """After an acceleration: keep the least force of every closed contact."""
+    keep_small()
+    table = contacts(block)
+    count = row_count(block)
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED:
+            table.least_push[c] = min(table.least_push[c], push_ratio(block, c, count))
 
 
 @jit

@@ -10,32 +10,61 @@ from .views import forces, loads, sizes
 
 
 @jit
-def apply_forces(block: Array, y: Array) -> float:
-    """Write the generalised forces F [N, N m] to `loads.force`; return the power of external torques [W].
+def apply_forces(block: Array, y: Array) -> tuple[float, float]:
+    """Write the generalised forces F [N, N m] to `loads.force`; return the powers given and lost [W].
 
-    External are all torque elements and the preloads of springs; the linear part of a spring stores energy instead.
+    Given: by torques, forces, shafts, and the preloads of springs (the linear part of a spring stores energy instead).
+    Lost: in dampers.
     """
     keep_small()
     n = sizes(block).coordinates
     force = loads(block).force
     clear(force)
     table = forces(block)
-    power = 0.0
+    rates = y[n:]
+    given = 0.0
+    lost = 0.0
     for k in range(table.kind.shape[0]):
-        on = 3 * table.body[k] + 2
+        kind = table.kind[k]
+        first = 3 * table.body[k]
+        if kind == codes.FORCE:
+            for axis in range(2):
+                force[first + axis] += table.data[k, axis]
+                given += table.data[k, axis] * _entry(rates, first + axis, n)
+            continue
+        on = first + 2
         against = 3 * table.reaction[k] + 2
-        rate = _relative(y[n:], on, against, n)
-        if table.kind[k] == codes.TORQUE:
-            torque = table.data[k, codes.TORQUE_VALUE]
-            power += torque * rate
-        else:
+        rate = _relative(rates, on, against, n)
+        if kind == codes.TORSION_SPRING:
             preload = table.data[k, codes.SPRING_PRELOAD]
             stretch = _relative(y, on, against, n) - table.data[k, codes.SPRING_FREE_ANGLE]
             torque = -(table.data[k, codes.SPRING_STIFFNESS] * stretch + preload)
-            power -= preload * rate
+            given -= preload * rate
+        elif kind == codes.DAMPER:
+            torque = -table.data[k, codes.DAMPING] * rate
+            lost -= torque * rate
+        else:
+            torque = table.data[k, codes.TORQUE_VALUE]
+            if kind == codes.SHAFT:
+                torque = shaft_torque(block, y, k)
+            given += torque * rate
         force[on] += torque
         force[against] -= torque
-    return power
+    return given, lost
+
+
+@jit
+def shaft_torque(block: Array, y: Array, shaft: int) -> float:
+    """Torque of a compliant shaft on its body [N m]."""
+    n = sizes(block).coordinates
+    table = forces(block)
+    data = table.data[shaft]
+    on = 3 * table.body[shaft] + 2
+    against = 3 * table.reaction[shaft] + 2
+    twist = data[codes.SHAFT_ANGLE] - _relative(y, on, against, n)
+    twist_rate = data[codes.SHAFT_SPEED] - _relative(y[n:], on, against, n)
+    torque: float = data[codes.SHAFT_STIFFNESS] * twist + data[codes.SHAFT_DAMPING] * twist_rate
+    return torque
 
 
 @jit
@@ -66,10 +95,14 @@ def kinetic_energy(inverse_mass: Array, rate: Array, count: int) -> float:
 
 @jit
 def _relative(values: Array, on: int, against: int, n: int) -> float:
-    """Difference of two entries; the ground's (index >= n) is zero."""
-    difference = 0.0
-    if on < n:
-        difference += values[on]
-    if against < n:
-        difference -= values[against]
-    return difference
+    """Difference of two entries; the ground's is zero."""
+    return _entry(values, on, n) - _entry(values, against, n)
+
+
+@jit
+def _entry(values: Array, index: int, n: int) -> float:
+    """One entry; the ground's (index >= n) is zero."""
+    if index < n:
+        value: float = values[index]
+        return value
+    return 0.0

@@ -1,95 +1,135 @@
-"""The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7))."""
+"""The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7)), for all touching contacts together.
+
+Joints and closed guided contacts keep their rows, v = 0. Every touching contact that approaches must separate with e times
+its closing speed (with 0 when that is below `STICK_SPEED`), every one at rest must not approach, and impulses only push:
+p >= 0, s'+ >= e |s'-|, p (s'+ - e |s'-|) = 0. One contact alone gives eq (7). Contacts that already separate take no part,
+so that the energy cannot grow (dT = -1/2 sum p (1 - e) |s'-|); when the impact turns one of them round, it strikes
+in the next round, at the same instant.
+"""
 
 from __future__ import annotations
 
 from .. import codes
-from .acceleration import scale_rows
-from .forces import kinetic_energy
+from .complementarity import push_impulses
+from .guards import TOUCHES_WITHIN, gap
+from .friction_impulse import rub
 from .kinematics import place_bodies
-from .minimum_norm import minimum_norm
+from .records import keep_impact
 from .room import Array
-from .rows import active_rows
+from .rows import contact_row, spare_row
 from .subset import jit, keep_small
-from .views import bodies, contacts, course, linear_system, rows, sizes
+from .views import bodies, contacts, course, linear_system, rows, sizes, strikes
 
 #: A contact that would come apart more slowly than this stays closed [m/s]: it ends the bouncing of e > 0.
 STICK_SPEED = 1e-6
+#: A touching contact whose gap changes more slowly than this is at rest [m/s].
+RESTS_BELOW = 1e-9
+#: From this round at the same instant on, all impacts are plastic and all touching contacts take part: that ends it.
+_PLASTIC_FROM = 32
+MOST_ROUNDS = 40
+
+# strikes.role
+ABSENT = 0
+KEPT = 1
+DECIDED = 2
 
 
 @jit
-def strike(block: Array, contact: int) -> None:
-    """Let `contact` impact at the end of the engine's step: y_end = x- becomes x+, and a record is kept.
+def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
+    """One round of impacts at y_end: x- becomes x+, and a record is kept of each contact that strikes.
 
-    The kept rows get v = 0 and the struck one -(1 + e) s' (eq (6)); dqd = M^-1/2 D_1^+ v (eq (7)). The contact then
-    stays closed when e times its closing speed is below `STICK_SPEED` (e = 0 always), and is open with zero gap
-    otherwise.
+    `struck` is the contact whose gap has just become zero, or `codes.NONE`. Return whether any contact approached (else
+    nothing is changed), and a status.
     """
     keep_small()
     n = sizes(block).coordinates
     table = contacts(block)
-    now = course(block)
-    rate = now.y_end[n:]
-    place_bodies(block, now.y_end)
-    table.mode[contact] = codes.CLOSED
-    count = active_rows(block)
-    struck = table.row[contact]
-    closing_speed = -rows(block).residual_rate[struck]
-    restitution = table.restitution[contact]
-    sticks = restitution * closing_speed < STICK_SPEED
-    if sticks:
-        restitution = 0.0
-
-    system = linear_system(block)
-    scale_rows(block, count)
-    for r in range(count):
-        system.right_side[r] = 0.0
-    system.right_side[struck] = (1.0 + restitution) * closing_speed
-    minimum_norm(block, count, n)
-
-    record = now.last_impact
-    record[codes.RECORD_TIME] = now.clock[codes.STEP_END]
-    record[codes.RECORD_CONTACT] = contact
-    record[codes.RECORD_TOOTH] = table.tooth[contact]
-    record[codes.RECORD_CLOSING_SPEED] = closing_speed
-    record[codes.RECORD_IMPULSE] = system.multiplier[struck]
-    first = codes.RECORD_CONTACT_IMPULSES
+    taking_part = strikes(block)
+    rate = course(block).y_end[n:]
+    place_bodies(block, course(block).y_end)
+    if not _cast(block, struck, round_ >= _PLASTIC_FROM):
+        return False, 0
+    count = 0
     for c in range(table.mode.shape[0]):
-        record[first + c] = 0.0
-        if table.mode[c] == codes.CLOSED:
-            record[first + c] = system.multiplier[table.row[c]]
-    first += table.mode.shape[0]
-
-    mass = bodies(block)
-    now.ledger[codes.LEDGER_LOST] += kinetic_energy(mass.inverse_mass, rate, n)
+        if taking_part.role[c] == DECIDED:
+            taking_part.candidates[count] = c
+            count += 1
+        if taking_part.role[c] != ABSENT:
+            table.mode[c] = codes.CLOSED
+    outcome = push_impulses(block, count)
     for k in range(n):
-        record[first + k] = rate[k]
-        rate[k] += mass.inverse_root_mass[k] * system.solution[k]
-        record[first + n + k] = rate[k]
-    now.ledger[codes.LEDGER_LOST] -= kinetic_energy(mass.inverse_mass, rate, n)
-
-    record[codes.RECORD_VELOCITY] = 0.0
-    struck_body = table.body_j[contact]
-    if 3 * struck_body < n:
-        record[codes.RECORD_VELOCITY] = table.beam_length[contact] * rate[3 * struck_body + 2]
-    if not sticks:
-        table.mode[contact] = codes.OPEN
-    table.touching[contact] = 1
-    keep_record(block)
+        taking_part.rates_before[k] = rate[k]
+        rate[k] += bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
+    for c in range(table.mode.shape[0]):
+        taking_part.impulse[c] = 0.0
+        if table.mode[c] == codes.CLOSED:
+            taking_part.impulse[c] = linear_system(block).multiplier[table.row[c]]
+    rub(block)
+    for c in range(table.mode.shape[0]):
+        if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
+            keep_impact(block, c)
+    _open_what_leaves(block)
+    return True, outcome
 
 
 @jit
-def keep_record(block: Array) -> None:
-    """Append the last impact to the buffer of this communication step; when it is full, the oldest is lost."""
-    now = course(block)
-    now.counters[codes.COUNT_IMPACTS] += 1
-    place = now.counters[codes.COUNT_IN_STEP]
-    if place == codes.IMPACT_BUFFER_LENGTH:
-        now.counters[codes.COUNT_LOST] += 1
-        place -= 1
-        for b in range(place):
-            for k in range(now.impacts.shape[1]):
-                now.impacts[b, k] = now.impacts[b + 1, k]
-    else:
-        now.counters[codes.COUNT_IN_STEP] = place + 1
-    for k in range(now.impacts.shape[1]):
-        now.impacts[place, k] = now.last_impact[k]
+def _cast(block: Array, struck: int, plastic: bool) -> bool:
+    """Give every contact its role, closing speed and target; whether any of them approaches."""
+    keep_small()
+    table = contacts(block)
+    taking_part = strikes(block)
+    approached = False
+    for c in range(table.mode.shape[0]):
+        taking_part.role[c] = ABSENT
+        taking_part.closing[c] = 0.0
+        taking_part.target[c] = 0.0
+        if table.value[c, codes.ENABLED] < 0.5:
+            continue
+        closed = table.mode[c] == codes.CLOSED
+        guided = table.value[c, codes.GUIDED] > 0.5
+        switched = table.function[c] != codes.NONE
+        if closed and guided:
+            taking_part.role[c] = KEPT
+            continue
+        distance, rate = gap(block, c)
+        if switched:
+            if closed:
+                taking_part.role[c] = KEPT
+                taking_part.target[c] = -rate
+                approached = approached or abs(rate) > RESTS_BELOW
+            continue
+        touches = closed or c == struck or distance <= TOUCHES_WITHIN
+        approaches = not closed and (rate < -RESTS_BELOW or (c == struck and guided and rate < 0.0))
+        if not touches or not (closed or plastic or approaches or rate <= RESTS_BELOW):
+            continue
+        taking_part.role[c] = KEPT if guided else DECIDED
+        if guided and not approaches:
+            taking_part.role[c] = ABSENT
+        taking_part.target[c] = -rate
+        if approaches:
+            approached = True
+            taking_part.closing[c] = -rate
+            restitution = table.value[c, codes.RESTITUTION]
+            if not plastic and restitution * -rate >= STICK_SPEED:
+                taking_part.target[c] = (1.0 + restitution) * -rate
+    return approached
+
+
+@jit
+def _open_what_leaves(block: Array) -> None:
+    """After the impact: what comes apart faster than `STICK_SPEED` is open, what rests is closed for the time being."""
+    keep_small()
+    table = contacts(block)
+    taking_part = strikes(block)
+    place_bodies(block, course(block).y_end)
+    for c in range(table.mode.shape[0]):
+        if taking_part.role[c] == ABSENT or table.function[c] != codes.NONE:
+            continue
+        if taking_part.role[c] == KEPT and taking_part.closing[c] == 0.0:
+            continue
+        contact_row(block, c, spare_row(block))
+        if rows(block).residual_rate[spare_row(block)] < STICK_SPEED:
+            table.mode[c] = codes.CLOSED
+        else:
+            table.mode[c] = codes.OPEN
+            table.touching[c] = 1

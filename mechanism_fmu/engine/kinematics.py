@@ -19,6 +19,7 @@ def place_bodies(block: Array, y: Array) -> None:
         k = 3 * i
         at.x[i] = y[k]
         at.y[i] = y[k + 1]
+        at.phi[i] = y[k + 2]
         at.cosine[i] = math.cos(y[k + 2])
         at.sine[i] = math.sin(y[k + 2])
         k += 3 * bodies
@@ -27,6 +28,7 @@ def place_bodies(block: Array, y: Array) -> None:
         at.phi_rate[i] = y[k + 2]
     at.x[bodies] = 0.0
     at.y[bodies] = 0.0
+    at.phi[bodies] = 0.0
     at.cosine[bodies] = 1.0
     at.sine[bodies] = 0.0
     at.x_rate[bodies] = 0.0

@@ -24,12 +24,15 @@ SIZES = (
     "joints",
     "forces",
     "contacts",
+    "patterns",
+    "functions",
     "held",
     "inputs",
     "outputs",
     "joint_rows",
-    "rows",  # joint rows, and one a contact
-    "unknowns",  # positions, rates, work done
+    "rows",  # joint rows, one a contact, and a spare one
+    "unknowns",  # positions, rates, work done, energy lost in dampers and friction
+    "guards",  # two a contact, two a pattern, one a logical function
     "record",  # columns of an impact record
     "buffer",  # impacts that are kept of one communication step
 )
@@ -54,17 +57,27 @@ FIELDS = (
     Field("tables", "joint_body_j", ("joints",), True),
     Field("tables", "joint_row", ("joints",), True),
     Field("tables", "joint_data", ("joints", 8)),
+    Field("tables", "joint_friction", ("joints",)),
     Field("tables", "force_kind", ("forces",), True),
     Field("tables", "force_body", ("forces",), True),
     Field("tables", "force_reaction", ("forces",), True),
-    Field("tables", "force_data", ("forces", 3)),
+    Field("tables", "force_data", ("forces", 4)),
+    Field("tables", "contact_kind", ("contacts",), True),
     Field("tables", "contact_body_i", ("contacts",), True),
     Field("tables", "contact_body_j", ("contacts",), True),
-    Field("tables", "contact_start_mode", ("contacts",), True),
-    Field("tables", "contact_tooth", ("contacts",), True),
+    Field("tables", "contact_pattern", ("contacts",), True),
+    Field("tables", "contact_function", ("contacts",), True),
+    Field("tables", "contact_closes_when", ("contacts",), True),
     Field("tables", "contact_data", ("contacts", 6)),
-    Field("tables", "contact_restitution", ("contacts",)),
-    Field("tables", "contact_beam_length", ("contacts",)),
+    Field("tables", "contact_value", ("contacts", codes.CONTACT_VALUES)),
+    Field("tables", "pattern_body_i", ("patterns",), True),
+    Field("tables", "pattern_body_j", ("patterns",), True),
+    Field("tables", "pattern_data", ("patterns", 6)),
+    Field("tables", "pattern_pitch", ("patterns",)),
+    Field("tables", "pattern_enabled", ("patterns",)),
+    Field("tables", "function_kind", ("functions",), True),
+    Field("tables", "function_index", ("functions",), True),
+    Field("tables", "function_limit", ("functions",)),
     Field("tables", "held", ("held",), True),
     Field("tables", "input_force", ("inputs",), True),
     Field("tables", "input_column", ("inputs",), True),
@@ -84,17 +97,36 @@ FIELDS = (
     Field("state", "dense", (5, "unknowns")),
     Field("state", "contact_mode", ("contacts",), True),
     Field("state", "contact_touching", ("contacts",), True),
+    Field("state", "contact_clicks", ("contacts",), True),
+    Field("state", "contact_line", ("contacts", 4)),
+    Field("state", "pattern_index", ("patterns",), True),
+    Field("state", "pattern_line", ("patterns", 8)),
+    Field("state", "function_true", ("functions",), True),
     Field("state", "pull_time", ("contacts",)),
     Field("state", "last_impact", ("record",)),
     Field("state", "impacts", ("buffer", "record")),
+    Field("state", "events", (codes.EVENT_BUFFER_LENGTH, codes.EVENT_COLUMNS)),
     Field("work", "x", ("frames",)),
     Field("work", "y", ("frames",)),
+    Field("work", "phi", ("frames",)),
     Field("work", "cosine", ("frames",)),
     Field("work", "sine", ("frames",)),
     Field("work", "x_rate", ("frames",)),
     Field("work", "y_rate", ("frames",)),
     Field("work", "phi_rate", ("frames",)),
     Field("work", "contact_row", ("contacts",), True),
+    Field("work", "contact_role", ("contacts",), True),
+    Field("work", "contact_target", ("contacts",)),
+    Field("work", "contact_closing", ("contacts",)),
+    Field("work", "contact_impulse", ("contacts",)),
+    Field("work", "least_push", ("contacts",)),
+    Field("work", "candidates", ("contacts",), True),
+    Field("work", "guard_watched", ("guards",), True),
+    Field("work", "guard_armed", ("guards",), True),
+    Field("work", "guard_floor", ("guards",)),
+    Field("work", "guard_now", ("guards", 2)),
+    Field("work", "guard_next", ("guards", 2)),
+    Field("work", "line", (4,)),
     Field("work", "residual", ("rows",)),
     Field("work", "residual_rate", ("rows",)),
     Field("work", "gamma", ("rows",)),
@@ -112,6 +144,8 @@ FIELDS = (
     Field("work", "coefficient", ("rows",)),
     Field("work", "dual", ("rows",)),
     Field("work", "force", ("columns",)),
+    Field("work", "applied", ("columns",)),
+    Field("work", "last_multiplier", ("rows",)),
     Field("work", "weight", ("columns",)),
     Field("work", "free_acceleration", ("columns",)),
     Field("work", "stages", (7, "unknowns")),
@@ -121,6 +155,7 @@ FIELDS = (
     Field("work", "y_at", ("unknowns",)),
     Field("work", "dy_at", ("unknowns",)),
     Field("work", "new_dense", (5, "unknowns")),
+    Field("work", "rates_before", ("coordinates",)),
     Field("work", "outputs", ("outputs",)),
 )
 
@@ -143,7 +178,7 @@ def allocate(sizes: dict[str, int]) -> Array:
     """A zeroed block with its header filled in.
 
     Args:
-        sizes: bodies, joints, forces, contacts, held, inputs, outputs and joint_rows; the others follow.
+        sizes: bodies, joints, forces, contacts, patterns, functions, held, inputs, outputs and joint_rows; the others follow.
 
     Returns:
         The block, float64 of shape (words,).
@@ -196,8 +231,9 @@ def _complete(sizes: dict[str, int]) -> dict[str, int]:
         "coordinates": coordinates,
         "columns": coordinates + 3,
         "frames": sizes["bodies"] + 1,
-        "rows": sizes["joint_rows"] + sizes["contacts"],
-        "unknowns": 2 * coordinates + 1,
+        "rows": sizes["joint_rows"] + sizes["contacts"] + 1,
+        "unknowns": 2 * coordinates + 2,
+        "guards": 2 * sizes["contacts"] + 2 * sizes["patterns"] + sizes["functions"],
         "record": codes.RECORD_CONTACT_IMPULSES + sizes["contacts"] + 2 * coordinates,
         "buffer": codes.IMPACT_BUFFER_LENGTH,
     }

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from .. import codes
 from .acceleration import derivative
-from .events import gap
-from .forces import kinetic_energy, spring_energy
+from .forces import kinetic_energy, shaft_torque, spring_energy
+from .guards import gap
+from .kinematics import place_bodies
 from .ports import feed
 from .room import Array
 from .stepper import state_at_time
 from .subset import entry, jit, keep_small
-from .views import bodies, contacts, course, linear_system, ports, sizes, stages
+from .views import bodies, contacts, course, linear_system, patterns, ports, sizes, stages
 
 
 @entry
@@ -22,8 +23,9 @@ def read_outputs(block: Array) -> None:
     s = stages(block)
     contact = contacts(block)
     state_at_time(block, s.y_at)
+    feed(block, table.inputs)  # one that was set after the last step acts already
     if _needs_multipliers(block):
-        _evaluate_with_present_inputs(block)
+        derivative(block, s.y_at, s.dy_at)
     for o in range(table.outputs.shape[0]):
         kind = table.output_kind[o]
         index = table.output_index[o]
@@ -37,7 +39,8 @@ def read_outputs(block: Array) -> None:
                 value = linear_system(block).multiplier[contact.row[index]]
         elif kind == codes.CONTACT_GAP:
             if contact.mode[index] == codes.OPEN:
-                value, _ = gap(block, index, s.y_at)
+                place_bodies(block, s.y_at)
+                value, _ = gap(block, index)
         elif kind == codes.KINETIC_ENERGY:
             value = kinetic_energy(bodies(block).inverse_mass, s.y_at[n:], n)
         elif kind == codes.SPRING_ENERGY:
@@ -45,7 +48,7 @@ def read_outputs(block: Array) -> None:
         elif kind == codes.WORK_DONE:
             value = s.y_at[2 * n]
         elif kind == codes.ENERGY_LOST:
-            value = now.ledger[codes.LEDGER_LOST]
+            value = now.ledger[codes.LEDGER_LOST] + s.y_at[2 * n + 1]
         elif kind == codes.IMPACT_COUNT:
             value = float(now.counters[codes.COUNT_IMPACTS])
         elif kind == codes.IMPACTS_IN_STEP:
@@ -58,7 +61,20 @@ def read_outputs(block: Array) -> None:
             value = now.last_impact[index]
         elif kind == codes.BUFFERED_IMPACT:
             value = now.impacts[table.output_slot[o], index]
+        elif kind == codes.CONTACT_CLOSED:
+            value = float(contact.mode[index])
+        elif kind == codes.PATTERN_INDEX:
+            value = float(patterns(block).index[index])
+        elif kind == codes.STOP_CLICKS:
+            value = float(contact.clicks[index])
+        elif kind == codes.STOP_REFERENCE:
+            value = contact.line[index, 0]
+        elif kind == codes.SHAFT_TORQUE:
+            value = shaft_torque(block, s.y_at, index)
+        elif kind == codes.EVENT_COUNT:
+            value = float(now.counters[codes.COUNT_EVENTS])
         table.outputs[o] = value
+    feed(block, table.held_inputs)
 
 
 @jit
@@ -69,14 +85,3 @@ def _needs_multipliers(block: Array) -> bool:
         if table.output_kind[o] == codes.CONTACT_FORCE and contact.mode[table.output_index[o]] == codes.CLOSED:
             return True
     return False
-
-
-@jit
-def _evaluate_with_present_inputs(block: Array) -> None:
-    """Multipliers at the current time; an input that was set after the last step acts on them already."""
-    keep_small()
-    table = ports(block)
-    s = stages(block)
-    feed(block, table.inputs)
-    derivative(block, s.y_at, s.dy_at)
-    feed(block, table.held_inputs)

@@ -24,6 +24,8 @@ def pack(tables: Any) -> Array:
             "joints": len(tables.joint_kind),
             "forces": len(tables.force_kind),
             "contacts": len(tables.contact_body_i),
+            "patterns": len(tables.pattern_pitch),
+            "functions": len(tables.function_kind),
             "held": len(tables.held),
             "inputs": len(tables.input_force),
             "outputs": len(tables.output_kind),

@@ -23,7 +23,8 @@ def watch_at(block: Array, time: float) -> None:
     table = contacts(block)
     system = linear_system(block)
     for c in range(table.mode.shape[0]):
-        pulls = table.mode[c] == codes.CLOSED and system.multiplier[table.row[c]] < _PULLS_BELOW
+        held = table.mode[c] == codes.CLOSED and table.value[c, codes.GUIDED] > 0.5
+        pulls = held and system.multiplier[table.row[c]] < _PULLS_BELOW
         if pulls and table.pull_time[c] == math.inf:
             table.pull_time[c] = time
             course(block).counters[codes.COUNT_PULLS] += 1

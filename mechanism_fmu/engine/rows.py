@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .. import codes
+from .angle_row import angle_row
 from .joints.revolute import revolute
 from .joints.translational import translational
 from .point_line import point_line
@@ -36,7 +37,43 @@ def contact_row(block: Array, contact: int, row: int) -> None:
     table = contacts(block)
     out = rows(block)
     clear(out.jacobian[row])
-    point_line(pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact])
+    i = table.body_i[contact]
+    j = table.body_j[contact]
+    if table.kind[contact] == codes.POINT_LINE:
+        point_line(pose(block), out, row, i, j, table.data[contact], table.line[contact])
+    else:
+        angle_row(pose(block), out, row, i, j, table.line[contact])
+
+
+@jit
+def spare_row(block: Array) -> int:
+    """The number of a row that no joint or contact uses."""
+    return sizes(block).rows - 1
+
+
+@jit
+def tangent_row(block: Array, contact: int, line: Array) -> None:
+    """Write to the spare row how a point slides along its line: distance from the line's point, slip speed, Jacobian.
+
+    `line`, shape (4,), is scratch. The row of a point against the line turned by 90 deg is just that.
+    """
+    keep_small()
+    table = contacts(block)
+    along_line(block, contact, line)
+    out = rows(block)
+    row = spare_row(block)
+    clear(out.jacobian[row])
+    point_line(pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
+
+
+@jit
+def along_line(block: Array, contact: int, line: Array) -> None:
+    """`line` = the line of a contact with its normal turned by -90 deg, so that it points along."""
+    own = contacts(block).line[contact]
+    line[0] = own[0]
+    line[1] = own[1]
+    line[2] = own[3]
+    line[3] = -own[2]
 
 
 @jit
@@ -56,6 +93,16 @@ def active_rows(block: Array) -> int:
             count += 1
         else:
             table.row[c] = -1
+    return count
+
+
+@jit
+def row_count(block: Array) -> int:
+    """The number of active rows."""
+    mode = contacts(block).mode
+    count: int = sizes(block).joint_rows
+    for c in range(mode.shape[0]):
+        count += mode[c]
     return count
 
 

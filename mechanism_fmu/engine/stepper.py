@@ -13,12 +13,16 @@ from .. import codes
 from . import status
 from .acceleration import derivative
 from .dormand_prince import initial_step_size, interpolate, try_step
-from .events import first_impact, gap, refine
-from .impact import strike
-from .ports import clear_impacts, write_inputs
+from .drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
+from .events import GAP_NOISE, first_event, refine
+from .guards import gap
+from .kinematics import place_bodies
+from .ports import write_inputs
 from .pulling import watch_at, watch_step
+from .records import clear_records
 from .room import Array
 from .subset import entry, jit, keep_small
+from .transition import transit
 from .views import contacts, course, stages
 
 #: Smallest step as a fraction of max(1 s, |t|).
@@ -34,9 +38,11 @@ _GROW_MOST = 5.0
 def advance(block: Array, target: float) -> int:
     """Bring TIME to `target` [s]; return a status. On failure TIME and all outputs stay at the last good instant."""
     now = course(block)
-    clear_impacts(block)
+    clear_records(block)
     if write_inputs(block):
-        resume(block)
+        outcome = resume(block)
+        if outcome != status.OK:
+            return outcome
     for _ in range(MOST_STEPS):
         if now.clock[codes.TIME] >= now.clock[codes.STEP_END]:
             if now.clock[codes.TIME] >= target:
@@ -48,9 +54,11 @@ def advance(block: Array, target: float) -> int:
             now.clock[codes.TIME] = target
             return status.OK
         now.clock[codes.TIME] = now.clock[codes.STEP_END]
-        contact = now.counters[codes.PENDING_CONTACT]
-        if contact != codes.NO_CONTACT:
-            strike(block, contact)
+        guard = now.counters[codes.PENDING_GUARD]
+        if guard != codes.GUARD_NONE:
+            outcome = transit(block, guard, now.counters[codes.PENDING_SUBJECT])
+            if outcome != status.OK:
+                return outcome
             restart(block)
             now.clock[codes.NEXT_STEP] = initial_step_size(block)
     return status.TOO_MANY_STEPS
@@ -63,27 +71,30 @@ def restart(block: Array) -> None:
     now = course(block)
     now.clock[codes.STEP_START] = now.clock[codes.STEP_END]
     now.clock[codes.STEP_SIZE] = 0.0
-    now.counters[codes.PENDING_CONTACT] = codes.NO_CONTACT
+    now.counters[codes.PENDING_GUARD] = codes.GUARD_NONE
+    now.counters[codes.PENDING_SUBJECT] = codes.NONE
     derivative(block, now.y_end, now.dy_end)
     watch_at(block, now.clock[codes.STEP_END])
 
 
 @jit
-def resume(block: Array) -> None:
-    """Drop what lies ahead of TIME, because the inputs have changed."""
+def resume(block: Array) -> int:
+    """Drop what lies ahead of TIME, because the inputs have changed; return a status."""
     keep_small()
     now = course(block)
     table = contacts(block)
     time = now.clock[codes.TIME]
     if time < now.clock[codes.STEP_END]:
         state_at_time(block, now.y_end)
-        release(block, codes.NO_CONTACT)
+        release(block, codes.NONE)
         now.clock[codes.STEP_END] = time
     for c in range(table.mode.shape[0]):
         if time < table.pull_time[c] < math.inf:
             table.pull_time[c] = math.inf
             now.counters[codes.COUNT_PULLS] -= 1
+    outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
     restart(block)
+    return outcome
 
 
 @jit
@@ -100,7 +111,7 @@ def state_at_time(block: Array, y: Array) -> None:
 
 @jit
 def take_step(block: Array) -> int:
-    """One accepted step from STEP_END on, cut at the first impact, which then waits as PENDING_CONTACT."""
+    """One accepted step from STEP_END on, cut at the first event, which then waits as PENDING_GUARD."""
     keep_small()
     now = course(block)
     s = stages(block)
@@ -119,14 +130,19 @@ def take_step(block: Array) -> int:
         error = try_step(block, step)
     now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
 
-    contact, fraction = first_impact(block)
-    if contact != codes.NO_CONTACT:
+    guard, subject, fraction = first_event(block)
+    if guard != codes.GUARD_NONE:
         step *= fraction
         if not step > smallest:
-            now.counters[codes.PENDING_CONTACT] = contact
+            now.counters[codes.PENDING_GUARD] = guard
+            now.counters[codes.PENDING_SUBJECT] = subject
             return status.OK
-        step = refine(block, contact, step)
-    now.counters[codes.PENDING_CONTACT] = contact
+        if guard == codes.GUARD_GAP:
+            step = refine(block, subject, step)
+        else:
+            try_step(block, step)
+    now.counters[codes.PENDING_GUARD] = guard
+    now.counters[codes.PENDING_SUBJECT] = subject
     now.counters[codes.COUNT_STEPS] += 1
     now.clock[codes.STEP_START] = start
     now.clock[codes.STEP_SIZE] = step
@@ -136,19 +152,25 @@ def take_step(block: Array) -> int:
     for r in range(5):
         copy(s.new_dense[r], now.dense[r])
     watch_step(block)
-    release(block, contact)
+    struck = codes.NONE
+    if guard == codes.GUARD_GAP:
+        struck = subject
+    release(block, struck)
+    if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
+        derivative(block, now.y_end, now.dy_end)
     return status.OK
 
 
 @jit
 def release(block: Array, struck: int) -> None:
     """Contacts that touched at the step's start have come off by y_end, but for the one that strikes there."""
+    keep_small()
     table = contacts(block)
-    now = course(block)
+    place_bodies(block, course(block).y_end)
     for c in range(table.mode.shape[0]):
         if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
-            distance, _ = gap(block, c, now.y_end)
-            if distance > 0.0:
+            distance, _ = gap(block, c)
+            if distance > GAP_NOISE:
                 table.touching[c] = 0
 
 

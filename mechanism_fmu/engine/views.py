@@ -17,12 +17,15 @@ class Sizes(NamedTuple):
     joints: int
     forces: int
     contacts: int
+    patterns: int
+    functions: int
     held: int
     inputs: int
     outputs: int
     joint_rows: int
     rows: int
     unknowns: int
+    guards: int
     record: int
     buffer: int
 
@@ -50,9 +53,10 @@ class Joints(NamedTuple):
     body_j: Array
     row: Array
     data: Array
+    friction: Array
 
 
-joints = room(Joints, "joint_kind", "joint_body_i", "joint_body_j", "joint_row", "joint_data")
+joints = room(Joints, "joint_kind", "joint_body_i", "joint_body_j", "joint_row", "joint_data", "joint_friction")
 
 
 class Forces(NamedTuple):
@@ -70,37 +74,124 @@ forces = room(Forces, "force_kind", "force_body", "force_reaction", "force_data"
 class Contacts(NamedTuple):
     """The contacts' specifications and state.
 
-    State is the mode (`codes.OPEN` or `CLOSED`), whether the gap was zero when the step began, and the first time at
-    which a closed contact pulled [s] (infinity: never).
+    `value` holds numbers by column (`codes.RESTITUTION` ...). State is the mode (`codes.OPEN` or `CLOSED`), whether the gap
+    was zero when the step began, the clicks of a stop with memory, the line of the present copy (of stops and locks: the
+    present angle), and the first time at which a guided contact pulled [s] (infinity: never). `row` is the constraint row
+    of a closed contact; `least_push` the least contact force of the step last tried, over its tolerance.
     """
 
+    kind: Array
     body_i: Array
     body_j: Array
-    start_mode: Array
-    tooth: Array
+    pattern: Array
+    function: Array
+    closes_when: Array
     data: Array
-    restitution: Array
-    beam_length: Array
+    value: Array
     mode: Array
     touching: Array
+    clicks: Array
+    line: Array
     pull_time: Array
     row: Array
+    least_push: Array
 
 
 contacts = room(
     Contacts,
+    "contact_kind",
     "contact_body_i",
     "contact_body_j",
-    "contact_start_mode",
-    "contact_tooth",
+    "contact_pattern",
+    "contact_function",
+    "contact_closes_when",
     "contact_data",
-    "contact_restitution",
-    "contact_beam_length",
+    "contact_value",
     "contact_mode",
     "contact_touching",
+    "contact_clicks",
+    "contact_line",
     "pull_time",
     "contact_row",
+    "least_push",
 )
+
+
+class Patterns(NamedTuple):
+    """The circular patterns; state: the index of the present copy, and its two boundaries as lines (4 numbers each)."""
+
+    body_i: Array
+    body_j: Array
+    data: Array
+    pitch: Array
+    enabled: Array
+    index: Array
+    line: Array
+
+
+patterns = room(
+    Patterns,
+    "pattern_body_i",
+    "pattern_body_j",
+    "pattern_data",
+    "pattern_pitch",
+    "pattern_enabled",
+    "pattern_index",
+    "pattern_line",
+)
+
+
+class Functions(NamedTuple):
+    """The logical functions that switch contacts; state: their values."""
+
+    kind: Array
+    index: Array
+    limit: Array
+    true: Array
+
+
+functions = room(Functions, "function_kind", "function_index", "function_limit", "function_true")
+
+
+class Strikes(NamedTuple):
+    """Scratch of an impact.
+
+    What each contact is in it (`impact.ABSENT` ...), the separation speed it must reach, its closing speed and impulse;
+    the contacts that a complementarity problem decides about; all rates before the impact; a line.
+    """
+
+    role: Array
+    target: Array
+    closing: Array
+    impulse: Array
+    candidates: Array
+    rates_before: Array
+    line: Array
+
+
+strikes = room(
+    Strikes,
+    "contact_role",
+    "contact_target",
+    "contact_closing",
+    "contact_impulse",
+    "candidates",
+    "rates_before",
+    "line",
+)
+
+
+class Watch(NamedTuple):
+    """Scratch of the search for events: which guards are looked at, and their values and rates at two looks."""
+
+    watched: Array
+    armed: Array
+    floor: Array
+    now: Array
+    next: Array
+
+
+watch = room(Watch, "guard_watched", "guard_armed", "guard_floor", "guard_now", "guard_next")
 
 
 class Ports(NamedTuple):
@@ -136,8 +227,8 @@ ports = room(
 class Course(NamedTuple):
     """How far the motion has come.
 
-    Clock, counters and ledger (columns in `codes`); y = (q, qd, work) and its derivative at the end of the engine's own
-    step, and the step's dense output; the last impact, and those of the last communication step.
+    Clock, counters and ledger (columns in `codes`); y = (q, qd, work, loss) and its derivative at the end of the engine's
+    own step, and the step's dense output; the last impact, and impacts and events of the last communication step.
     """
 
     clock: Array
@@ -148,9 +239,10 @@ class Course(NamedTuple):
     dense: Array
     last_impact: Array
     impacts: Array
+    events: Array
 
 
-course = room(Course, "clock", "counters", "ledger", "y_end", "dy_end", "dense", "last_impact", "impacts")
+course = room(Course, "clock", "counters", "ledger", "y_end", "dy_end", "dense", "last_impact", "impacts", "events")
 
 
 class Pose(NamedTuple):
@@ -158,6 +250,7 @@ class Pose(NamedTuple):
 
     x: Array
     y: Array
+    phi: Array
     cosine: Array
     sine: Array
     x_rate: Array
@@ -165,7 +258,7 @@ class Pose(NamedTuple):
     phi_rate: Array
 
 
-pose = room(Pose, "x", "y", "cosine", "sine", "x_rate", "y_rate", "phi_rate")
+pose = room(Pose, "x", "y", "phi", "cosine", "sine", "x_rate", "y_rate", "phi_rate")
 
 
 class Rows(NamedTuple):
@@ -215,14 +308,20 @@ linear_system = room(
 
 
 class Loads(NamedTuple):
-    """Applied generalised forces [N, N m], the accelerations that they alone would give, and assembly weights."""
+    """Generalised forces [N, N m].
+
+    `force` acts; `applied` is its part without friction; the accelerations that it alone would give; assembly weights;
+    the multipliers of the last round of the friction iteration.
+    """
 
     force: Array
+    applied: Array
+    last_multiplier: Array
     free_acceleration: Array
     weight: Array
 
 
-loads = room(Loads, "force", "free_acceleration", "weight")
+loads = room(Loads, "force", "applied", "last_multiplier", "free_acceleration", "weight")
 
 
 class Stages(NamedTuple):

@@ -3,20 +3,30 @@
 from ..codes import IMPACT_BUFFER_LENGTH
 from .body import GROUND, Body
 from .compile import MechanismTables
-from .contacts import PointLineContact
+from .contacts import AngleLock, AngleStop, Contact, PointLineContact
 from .errors import MechanismError
-from .forces import Torque, TorsionSpring
+from .forces import CompliantShaft, Damper, Force, Torque, TorsionSpring
 from .joints import Revolute, Translational
+from .logic import LogicalFunction
 from .mechanism import Mechanism, Settings
 from .model import Model
+from .patterns import CircularPattern
 from .ports import Calculated, Input, Output, Parameter
 
 __all__ = [
     "GROUND",
     "IMPACT_BUFFER_LENGTH",
+    "AngleLock",
+    "AngleStop",
     "Body",
     "Calculated",
+    "CircularPattern",
+    "CompliantShaft",
+    "Contact",
+    "Damper",
+    "Force",
     "Input",
+    "LogicalFunction",
     "Mechanism",
     "MechanismError",
     "MechanismTables",

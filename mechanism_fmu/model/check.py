@@ -7,18 +7,15 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from .body import GROUND, Body
-from .contacts import PointLineContact
+from .check_contacts import check_contacts
 from .errors import MechanismError
-from .forces import TorsionSpring
+from .forces import CompliantShaft, Damper, TorsionSpring
 from .joints import Translational
 from .ports import Calculated, Input, Output
 from .sources import resolve_output
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
-
-#: A contact's normal must have unit length to this accuracy.
-_UNIT_LENGTH = 1e-9
 
 
 def check(mechanism: Mechanism) -> None:
@@ -31,8 +28,8 @@ def check(mechanism: Mechanism) -> None:
         *_names(mechanism),
         *(p for body in mechanism.bodies for p in _body(body)),
         *_references(mechanism),
-        *(p for contact in mechanism.contacts for p in _contact(contact)),
-        *_springs(mechanism),
+        *check_contacts(mechanism),
+        *_coefficients(mechanism),
         *_numbers(mechanism),
         *_axes(mechanism),
         *_ports(mechanism),
@@ -46,7 +43,8 @@ def _names(mechanism: Mechanism) -> Iterator[str]:
     if not mechanism.bodies:
         yield "The mechanism has no body; give at least one."
     seen: dict[str, str] = {GROUND: "the fixed frame"}
-    for part in (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.contacts):
+    parts = (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.contacts)
+    for part in (*parts, *mechanism.patterns, *mechanism.functions):
         what = type(part).__name__
         if not part.name or "." in part.name or ":" in part.name:
             yield f"{what} {part.name!r}: a name must not be empty or hold '.' or ':'; choose another."
@@ -71,7 +69,8 @@ def _body(body: Body) -> Iterator[str]:
 
 def _references(mechanism: Mechanism) -> Iterator[str]:
     known = [body.name for body in mechanism.bodies]
-    users = [(p, (p.body_i, p.body_j)) for p in (*mechanism.joints, *mechanism.contacts)]
+    pairs = (*mechanism.joints, *mechanism.contacts, *mechanism.patterns)
+    users = [(p, (p.body_i, p.body_j)) for p in pairs]
     forces = [(f, (f.body, f.reaction)) for f in mechanism.forces]
     for part, bodies in (*users, *forces):
         label = f"{type(part).__name__} {part.name!r}"
@@ -82,24 +81,24 @@ def _references(mechanism: Mechanism) -> Iterator[str]:
             yield f"{label} joins {bodies[0]!r} to itself; attach it to two different bodies."
 
 
-def _contact(contact: PointLineContact) -> Iterator[str]:
-    length = math.hypot(*contact.normal)
-    if not abs(length - 1) < _UNIT_LENGTH:
-        yield f"Contact {contact.name!r}: its normal has length {length:g}, but it must be a unit vector."
-    if not 0 <= contact.restitution <= 1:
-        yield f"Contact {contact.name!r}: restitution = {contact.restitution:g} is outside 0..1."
-    if not (math.isfinite(contact.beam_length) and contact.beam_length >= 0):
-        yield f"Contact {contact.name!r}: beam_length = {contact.beam_length:g} m must be finite and not negative."
-
-
-def _springs(mechanism: Mechanism) -> Iterator[str]:
+def _coefficients(mechanism: Mechanism) -> Iterator[str]:
     for force in mechanism.forces:
-        if isinstance(force, TorsionSpring) and not force.stiffness >= 0:
-            yield f"Spring {force.name!r}: stiffness = {force.stiffness:g} N.m/rad, but it must not be negative."
+        values = []
+        if isinstance(force, (TorsionSpring, CompliantShaft)):
+            values.append(("stiffness", force.stiffness, "N.m/rad"))
+        if isinstance(force, (Damper, CompliantShaft)):
+            values.append(("damping", force.damping, "N.m.s/rad"))
+        for what, value, unit in values:
+            if not value >= 0:
+                label = f"{type(force).__name__} {force.name!r}"
+                yield f"{label}: {what} = {value:g} {unit}, but it must not be negative."
+    for joint in mechanism.joints:
+        if not (math.isfinite(joint.friction) and joint.friction >= 0):
+            yield f"Joint {joint.name!r}: its friction, {joint.friction:g}, must be finite and not negative."
 
 
 def _numbers(mechanism: Mechanism) -> Iterator[str]:
-    for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts):
+    for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts, *mechanism.patterns):
         if not all(math.isfinite(number) for number in part.data()):
             yield f"{type(part).__name__} {part.name!r} holds a number that is not finite; give finite ones."
     for port in mechanism.inputs:

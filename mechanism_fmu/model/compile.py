@@ -11,15 +11,16 @@ import numpy as np
 from .. import codes
 from .body import GROUND
 from .functions import Number, sqrt
+from .logic import resolve_function, switch
 from .sources import resolve_output
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-#: Width of `joint_data`, `force_data` and `contact_data`: the longest row of any kind.
+#: Width of `joint_data`, `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
 JOINT_COLUMNS = 8
-FORCE_COLUMNS = 3
-CONTACT_COLUMNS = 6
+FORCE_COLUMNS = 4
+LINE_COLUMNS = 6
 
 #: A one- or two-dimensional table of numbers; of dtype object when the numbers are symbolic.
 Table = np.ndarray[Any, np.dtype[Any]]
@@ -44,17 +45,27 @@ class MechanismTables:
     joint_row: Table
     joint_rows: int
     joint_data: Table
+    joint_friction: Table
     force_kind: Table
     force_body: Table
     force_reaction: Table
     force_data: Table
+    contact_kind: Table
     contact_body_i: Table
     contact_body_j: Table
-    contact_start_mode: Table
-    contact_tooth: Table
+    contact_pattern: Table
+    contact_function: Table
+    contact_closes_when: Table
     contact_data: Table
-    contact_restitution: Table
-    contact_beam_length: Table
+    contact_value: Table
+    pattern_body_i: Table
+    pattern_body_j: Table
+    pattern_data: Table
+    pattern_pitch: Table
+    pattern_enabled: Table
+    function_kind: Table
+    function_index: Table
+    function_limit: Table
     held: Table
     input_force: Table
     input_column: Table
@@ -71,6 +82,11 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     bodies = {body.name: i for i, body in enumerate(mechanism.bodies)} | {GROUND: len(mechanism.bodies)}
     forces = {force.name: i for i, force in enumerate(mechanism.forces)}
     contacts = mechanism.contacts
+    patterns = {pattern.name: i for i, pattern in enumerate(mechanism.patterns)}
+    functions = {function.name: i for i, function in enumerate(mechanism.functions)}
+    contact_numbers = {contact.name: i for i, contact in enumerate(contacts)}
+    watched = [resolve_function(function, contact_numbers, bodies) for function in mechanism.functions]
+    switches = [switch(contact.closed_while) for contact in contacts]
     masses = [m for body in mechanism.bodies for m in (body.mass, body.mass, body.inertia)]
     first_rows = np.cumsum([0, *(joint.rows for joint in mechanism.joints)])
     targets = [i.target.split(".") for i in mechanism.inputs]
@@ -87,17 +103,30 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         joint_row=_integers(list(first_rows[:-1])),
         joint_rows=int(first_rows[-1]),
         joint_data=_rows([j.data() for j in mechanism.joints], JOINT_COLUMNS),
+        joint_friction=_numbers([j.friction for j in mechanism.joints]),
         force_kind=_integers([f.kind for f in mechanism.forces]),
         force_body=_integers([bodies[f.body] for f in mechanism.forces]),
         force_reaction=_integers([bodies[f.reaction] for f in mechanism.forces]),
         force_data=_rows([f.data() for f in mechanism.forces], FORCE_COLUMNS),
+        contact_kind=_integers([c.kind for c in contacts]),
         contact_body_i=_integers([bodies[c.body_i] for c in contacts]),
         contact_body_j=_integers([bodies[c.body_j] for c in contacts]),
-        contact_start_mode=_integers([codes.CLOSED if c.closed else codes.OPEN for c in contacts]),
-        contact_tooth=_integers([c.tooth for c in contacts]),
-        contact_data=_rows([c.data() for c in contacts], CONTACT_COLUMNS),
-        contact_restitution=_numbers([c.restitution for c in contacts]),
-        contact_beam_length=_numbers([c.beam_length for c in contacts]),
+        contact_pattern=_integers([codes.NONE if c.pattern is None else patterns[c.pattern] for c in contacts]),
+        contact_function=_integers([codes.NONE if f is None else functions[f] for f, _ in switches]),
+        contact_closes_when=_integers([int(value) for _, value in switches]),
+        contact_data=_rows([c.data() for c in contacts], LINE_COLUMNS),
+        contact_value=_rows(
+            [(c.restitution, c.friction, c.beam_length, c.guided, c.enabled, c.closed) for c in contacts],
+            codes.CONTACT_VALUES,
+        ),
+        pattern_body_i=_integers([bodies[p.body_i] for p in mechanism.patterns]),
+        pattern_body_j=_integers([bodies[p.body_j] for p in mechanism.patterns]),
+        pattern_data=_rows([p.data() for p in mechanism.patterns], LINE_COLUMNS),
+        pattern_pitch=_numbers([p.pitch for p in mechanism.patterns]),
+        pattern_enabled=_numbers([p.enabled for p in mechanism.patterns]),
+        function_kind=_integers([kind for kind, _ in watched]),
+        function_index=_integers([index for _, index in watched]),
+        function_limit=_numbers([function.below for function in mechanism.functions]),
         held=_integers([coordinate_index(h, mechanism) for h in mechanism.held]),
         input_force=_integers([forces[force] for force, _ in targets]),
         input_column=_integers([mechanism.forces[forces[force]].columns[entry] for force, entry in targets]),
@@ -127,7 +156,7 @@ def _integers(values: Sequence[int]) -> Table:
 
 
 def _numbers(values: Sequence[Number]) -> Table:
-    symbolic = any(not isinstance(v, (int, float, np.number)) for v in values)
+    symbolic = any(not isinstance(v, (int, float, np.number, np.bool_)) for v in values)
     return np.array(values, dtype=object if symbolic else np.float64)
 
 

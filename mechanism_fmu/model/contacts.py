@@ -1,9 +1,11 @@
-"""Contacts."""
+"""Contacts: one-sided constraints that open and close."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
+from .. import codes
 from .body import Point
 from .functions import Number
 
@@ -12,22 +14,27 @@ from .functions import Number
 class PointLineContact:
     """A point of one body against a straight line fixed in another (Pennestrì et al., Fig. 1).
 
-    The gap is s = normal . (A_j^T (r_i^P - r_j) - line_point), positive when open. A contact that is closed is a
-    constraint row like a joint's ("guided": it pushes and pulls, as in the paper); one that is open is watched, and
-    s = 0 is an impact by eq (7). With `restitution` = 0 the contact stays closed after the impact; with more, the
-    point comes back until its closing speed falls below the engine's stick speed.
+    The gap is s = normal . (A_j^T (r_i^P - r_j) - line_point), positive when open. An open contact whose gap reaches
+    zero impacts by eq (7); one that is closed is a constraint row that can only push, and opens when it would pull. With
+    `closed_while` it is no one-sided contact but a row that a logical function switches on and off.
 
     Attributes:
         name: unique within the mechanism.
         body_i: the body that carries the point; point_i: the point in its frame [m].
         body_j: the body that carries the line; line_point: a point of the line in its frame [m].
         normal: unit normal of the line in the frame of `body_j`, towards the open side.
-        closed: whether the contact is closed at the start.
-        restitution: e of eq (4), 0..1.
+        closed: whether assembly puts the point on the line.
+        restitution: e of eq (4), 0..1. Below the engine's stick speed, and with 0, the contact stays closed.
+        friction: coefficient of Coulomb friction along the line.
         beam_length: length l of the struck tooth as a beam [m]; the impact velocity of the stress recovery is
             v_I = l * (rate of `body_j` after the impact).
-        tooth: index of the tooth that the line belongs to.
+        guided: whether the contact, once closed, also pulls and never opens, as in the paper.
+        enabled: whether the contact exists; a number, so that a parameter can switch it off.
+        pattern: name of the `CircularPattern` that repeats the line around `body_j`, or None.
+        closed_while: "<function>" or "not <function>": the logical function that closes and opens it, or None.
     """
+
+    kind: ClassVar[int] = codes.POINT_LINE
 
     name: str
     body_i: str
@@ -35,11 +42,93 @@ class PointLineContact:
     body_j: str
     line_point: Point
     normal: Point
-    closed: bool = False
+    closed: Number = False
     restitution: Number = 0.0
+    friction: Number = 0.0
     beam_length: Number = 0.0
-    tooth: int = 0
+    guided: Number = False
+    enabled: Number = True
+    pattern: str | None = None
+    closed_while: str | None = None
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: point_i, line_point, normal."""
         return (*self.point_i, *self.line_point, *self.normal)
+
+
+@dataclass(frozen=True)
+class AngleStop:
+    """A stop for the relative angle of two bodies, with the memory of a ratchet: gap s = phi_i - phi_j - latched angle.
+
+    The latched angle is `angle` at first. Each time the relative angle has gone one pitch beyond it, the stop clicks: the
+    latched angle grows by one pitch, as when a holding pawl drops behind the next tooth. It never goes back.
+
+    Attributes:
+        name: unique within the mechanism.
+        body_i, body_j: the bodies.
+        angle: latched angle at the start [rad].
+        pitch: from one latched angle to the next [rad], > 0; None for a plain stop.
+        restitution: e of eq (4), 0..1.
+        enabled: as of `PointLineContact`.
+    """
+
+    kind: ClassVar[int] = codes.ANGLE_STOP
+    closed: ClassVar[Number] = False
+    friction: ClassVar[Number] = 0.0
+    beam_length: ClassVar[Number] = 0.0
+    guided: ClassVar[Number] = False
+    pattern: ClassVar[str | None] = None
+    closed_while: ClassVar[str | None] = None
+
+    name: str
+    body_i: str
+    body_j: str
+    angle: Number
+    pitch: Number | None = None
+    restitution: Number = 0.0
+    enabled: Number = True
+
+    def data(self) -> tuple[Number, ...]:
+        """The contact's row of the table `contact_data`: angle, pitch (0: none)."""
+        return (self.angle, 0.0 if self.pitch is None else self.pitch)
+
+
+@dataclass(frozen=True)
+class AngleLock:
+    """A lock that a logical function closes, as the locking arc of a Geneva drive.
+
+    While closed, it holds the relative angle at the nearest of `angle` + k `pitch`, in both directions.
+
+    Attributes:
+        name: unique within the mechanism.
+        body_i, body_j: the bodies.
+        angle: one of the locked relative angles [rad].
+        pitch: between neighbouring locked angles [rad], > 0.
+        closed_while: "<function>" or "not <function>", the logical function that closes it.
+        closed: whether assembly turns the bodies to the locked angle nearest to their guess.
+        enabled: as of `PointLineContact`.
+    """
+
+    kind: ClassVar[int] = codes.ANGLE_LOCK
+    restitution: ClassVar[Number] = 0.0
+    friction: ClassVar[Number] = 0.0
+    beam_length: ClassVar[Number] = 0.0
+    guided: ClassVar[Number] = False
+    pattern: ClassVar[str | None] = None
+
+    name: str
+    body_i: str
+    body_j: str
+    angle: Number
+    pitch: Number
+    closed_while: str
+    closed: Number = False
+    enabled: Number = True
+
+    def data(self) -> tuple[Number, ...]:
+        """The contact's row of the table `contact_data`: angle, pitch."""
+        return (self.angle, self.pitch)
+
+
+#: Any contact.
+Contact = PointLineContact | AngleStop | AngleLock

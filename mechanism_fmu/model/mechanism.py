@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from .body import Body
 from .check import check
 from .compile import MechanismTables, compile_tables
-from .contacts import PointLineContact
-from .forces import Force
+from .contacts import Contact
+from .forces import ForceElement
 from .functions import Number
 from .joints import Joint
+from .logic import LogicalFunction
+from .patterns import CircularPattern
 from .ports import Calculated, Input, Output
 
 
@@ -33,7 +35,7 @@ class Mechanism:
     """A planar mechanism with its ports.
 
     Attributes:
-        bodies, joints, forces, contacts: the parts; names are unique over all of them.
+        bodies, joints, forces, contacts, patterns, functions: the parts; names are unique over all of them.
         inputs, outputs, calculated: what the outside sees.
         held: coordinates, as "<body>.x|y|angle", that `assemble` must not move.
         settings: how the engine integrates.
@@ -41,8 +43,10 @@ class Mechanism:
 
     bodies: tuple[Body, ...]
     joints: tuple[Joint, ...] = ()
-    forces: tuple[Force, ...] = ()
-    contacts: tuple[PointLineContact, ...] = ()
+    forces: tuple[ForceElement, ...] = ()
+    contacts: tuple[Contact, ...] = ()
+    patterns: tuple[CircularPattern, ...] = ()
+    functions: tuple[LogicalFunction, ...] = ()
     inputs: tuple[Input, ...] = ()
     outputs: tuple[Output, ...] = ()
     calculated: tuple[Calculated, ...] = ()

@@ -28,6 +28,8 @@ class Sawtooth:
         apex: T [m].
         slope_direction, slope_normal: unit vectors along the slope away from the root, and out of the tooth.
         face_direction, face_normal: unit vectors along the face away from the root, and out of its tooth.
+        boundary_normal: unit normal, towards the next tooth (clockwise), of the line that runs outwards from T and
+            bisects the free angle there: on it, the slope before T and the face behind T are equally far.
     """
 
     pitch: Number
@@ -42,6 +44,7 @@ class Sawtooth:
     slope_normal: Point
     face_direction: Point
     face_normal: Point
+    boundary_normal: Point
 
 
 def sawtooth(tooth_count: Number, slope_angle: Number, inner_radius: Number, slope_ratio: Number) -> Sawtooth:
@@ -65,6 +68,11 @@ def sawtooth(tooth_count: Number, slope_angle: Number, inner_radius: Number, slo
     dx, dy = apex[0] - r * cos(theta), apex[1] + r * sin(theta)
     F = sqrt(dx * dx + dy * dy)
     face = ((dx * cos(theta) - dy * sin(theta)) / F, (dx * sin(theta) + dy * cos(theta)) / F)
+    slope_normal, face_normal = (sin(slope_angle), -cos(slope_angle)), (face[1], -face[0])
+    # Normal of the next tooth's face, which begins in T, minus normal of the slope, which ends there.
+    bx = cos(theta) * face_normal[0] + sin(theta) * face_normal[1] - slope_normal[0]
+    by = cos(theta) * face_normal[1] - sin(theta) * face_normal[0] - slope_normal[1]
+    B = sqrt(bx * bx + by * by)
     # L cos(alpha): from the apex to the foot of the perpendicular from P0 on the line of the face. The foot
     # lies beyond the next root when alpha + alpha_2 < 90 deg; the beam then ends at that root (Fig. 7, left).
     foot = L * (L - h * cos(alpha_2)) / F
@@ -78,9 +86,10 @@ def sawtooth(tooth_count: Number, slope_angle: Number, inner_radius: Number, slo
         beam_length=where_positive(foot - F, F, foot),
         apex=apex,
         slope_direction=slope,
-        slope_normal=(sin(slope_angle), -cos(slope_angle)),
+        slope_normal=slope_normal,
         face_direction=face,
-        face_normal=(face[1], -face[0]),
+        face_normal=face_normal,
+        boundary_normal=(bx / B, by / B),
     )
 
 

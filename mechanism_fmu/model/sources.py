@@ -25,6 +25,13 @@ _COUNTERS = {
     "lost": codes.IMPACTS_LOST,
     "any": codes.IMPACT_FLAG,
 }
+_OF_CONTACT = {
+    "force": codes.CONTACT_FORCE,
+    "gap": codes.CONTACT_GAP,
+    "closed": codes.CONTACT_CLOSED,
+    "clicks": codes.STOP_CLICKS,
+    "latched": codes.STOP_REFERENCE,
+}
 _FIELDS = {
     "time": codes.RECORD_TIME,
     "contact": codes.RECORD_CONTACT,
@@ -46,13 +53,17 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         _of_impact(part, quantity, mechanism)
         or _of_body(part, quantity, mechanism)
         or _of_contact(part, quantity, mechanism)
+        or _of_pattern(part, quantity, mechanism)
+        or _of_force(part, quantity, mechanism)
     )
     if part == "energy" and quantity in _ENERGIES:
         found = (_ENERGIES[quantity], 0, 0)
+    if source == "event.count":
+        found = (codes.EVENT_COUNT, 0, 0)
     if found is None:
         raise MechanismError(
-            f"output source {source!r} is unknown; use <body>.x|y|angle|x_rate|y_rate|speed, <contact>.force|gap, "
-            f"energy.{'|'.join(_ENERGIES)}, impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
+            f"output source {source!r} is unknown; use <body>.x|y|angle|x_rate|y_rate|speed, "
+            f"<contact>.{'|'.join(_OF_CONTACT)}, <pattern>.index, <shaft>.torque, event.count, energy.{'|'.join(_ENERGIES)}, impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
             f"bodies {', '.join(b.name for b in mechanism.bodies)} and contacts "
             f"{', '.join(c.name for c in mechanism.contacts) or '(none)'}."
         )
@@ -73,10 +84,24 @@ def _of_body(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, 
 
 def _of_contact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     names = [c.name for c in mechanism.contacts]
-    kinds = {"force": codes.CONTACT_FORCE, "gap": codes.CONTACT_GAP}
-    if part not in names or quantity not in kinds:
+    if part not in names or quantity not in _OF_CONTACT:
         return None
-    return kinds[quantity], names.index(part), 0
+    is_stop = mechanism.contacts[names.index(part)].kind == codes.ANGLE_STOP
+    if quantity in ("clicks", "latched") and not is_stop:
+        return None
+    return _OF_CONTACT[quantity], names.index(part), 0
+
+
+def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    names = [p.name for p in mechanism.patterns]
+    return (codes.PATTERN_INDEX, names.index(part), 0) if part in names and quantity == "index" else None
+
+
+def _of_force(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    names = [f.name for f in mechanism.forces]
+    if part not in names or quantity != "torque" or mechanism.forces[names.index(part)].kind != codes.SHAFT:
+        return None
+    return codes.SHAFT_TORQUE, names.index(part), 0
 
 
 def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

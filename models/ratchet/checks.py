@@ -17,17 +17,14 @@ _USEFUL_GAIN = 0.1
 
 def objections(values: SimpleNamespace) -> list[str]:
     """Why the ratchet cannot be built or cannot start: value, limit and way out, one message each."""
-    if not values.guided:
-        return [
-            "guided = false is not available in this version, which simulates the paper's ratchet: its pawl "
-            "is guided along the slope of one tooth. Set guided = true."
-        ]
     # A start position has a meaning only on teeth that exist.
-    return list(_profile(values)) or list(_start(values))
+    return list(_profile(values)) or list(_start(values) if values.guided else _free_start(values))
 
 
 def warnings(values: SimpleNamespace) -> list[str]:
     """What is legal, but not what a real ratchet would do. `values` must be free of objections."""
+    if not values.guided:
+        return []
     tip, slope = tip_distance(values), tooth(values).slope_length
     if tip <= slope:
         return []
@@ -86,6 +83,25 @@ def _start(values: SimpleNamespace) -> Iterator[str]:
             f"pawl_length = {b:.6g} m is {b - farthest:.6g} m too long: its tip would start inside the "
             f"tooth, {-gap:.6g} m behind the face, {at}. Give at least {nearest:.6g} m and less than "
             f"{farthest:.6g} m, the distance from the crank pin to the root of the tooth."
+        )
+
+
+def _free_start(values: SimpleNamespace) -> Iterator[str]:
+    """A free pawl must reach the circle of the roots; where exactly it rests, assembly finds."""
+    pin, b, r = crank_pin(values), values.pawl_length, values.wheel_inner_radius
+    distance = math.hypot(pin.x, pin.y)
+    at = f"the crank pin starts {distance:.6g} m from the wheel's hinge"
+    if values.pawl_angle_start:
+        return
+    if b < distance - r:
+        yield (
+            f"pawl_length = {b:.6g} m is {distance - r - b:.6g} m too short: {at}, and the roots of the teeth are at "
+            f"{r:.6g} m. Give at least {distance - r:.6g} m, or change crank_angle_start."
+        )
+    elif b > distance + r or distance < abs(b - r):
+        yield (
+            f"pawl_length = {b:.6g} m does not fit: {at}, and its tip cannot come to the roots of the teeth at {r:.6g} m. "
+            f"Give between {abs(distance - r):.6g} m and {distance + r:.6g} m, or change crank_angle_start."
         )
 
 

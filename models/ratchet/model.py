@@ -1,4 +1,4 @@
-"""The ratchet of Pennestrì, Valentini and Vita, with the pawl guided along the slope of one tooth.
+"""The ratchet of Pennestrì, Valentini and Vita: guided along the slope of one tooth, or free on the whole wheel.
 
 Frame: the wheel's hinge at the origin, the crank's hinge at (d, 0). The wheel's x axis passes through the
 root of the tooth that is struck, so that its angle is psi. Equations and sources: README.md beside this file.
@@ -10,7 +10,12 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
+    AngleStop,
     Body,
+    CircularPattern,
+    CompliantShaft,
+    Contact,
+    Damper,
     Mechanism,
     Model,
     PointLineContact,
@@ -23,18 +28,19 @@ from mechanism_fmu.model.functions import cos, sin
 
 from .checks import objections, warnings
 from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
-from .start import crank_pin, pawl_angle, tooth
+from .start import crank_pin, pawl_angle, starts_on_slope, tooth
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:
     """The ratchet for parameter values that raise no objection."""
     half_crank, half_pawl = values.crank_length / 2, values.pawl_length / 2
+    rubbing = values.joint_friction_radius
     return Mechanism(
         bodies=_bodies(values),
         joints=(
-            Revolute("crank_hinge", "crank", (-half_crank, 0.0), GROUND, (values.hinge_distance, 0.0)),
-            Revolute("pin", "pawl", (-half_pawl, 0.0), "crank", (half_crank, 0.0)),
-            Revolute("wheel_hinge", "wheel", (0.0, 0.0), GROUND, (0.0, 0.0)),
+            Revolute("crank_hinge", "crank", (-half_crank, 0.0), GROUND, (values.hinge_distance, 0.0), rubbing),
+            Revolute("pin", "pawl", (-half_pawl, 0.0), "crank", (half_crank, 0.0), rubbing),
+            Revolute("wheel_hinge", "wheel", (0.0, 0.0), GROUND, (0.0, 0.0), rubbing),
         ),
         forces=(
             Torque("drive", "crank"),
@@ -45,8 +51,12 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
                 stiffness=values.spring_stiffness,
                 free_angle=values.spring_free_angle,
             ),
+            CompliantShaft("shaft", "crank", stiffness=values.drive_stiffness, damping=values.drive_damping),
+            Torque("pawl_spring", "pawl", "crank", torque=values.pawl_spring_torque),
+            Damper("wheel_damper", "wheel", damping=values.wheel_damping),
         ),
         contacts=_contacts(values),
+        patterns=(_teeth(values),),
         inputs=INPUTS,
         outputs=OUTPUTS,
         calculated=calculated(values),
@@ -75,11 +85,24 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
     )
 
 
-def _contacts(values: SimpleNamespace) -> tuple[PointLineContact, ...]:
+def _contacts(values: SimpleNamespace) -> tuple[Contact, ...]:
     geometry = tooth(values)
     tip, root = (values.pawl_length / 2, 0.0), (values.wheel_inner_radius, 0.0)
+    free = 1 - values.guided
     return (
-        PointLineContact("slope", "pawl", tip, "wheel", root, geometry.slope_normal, closed=True),
+        PointLineContact(
+            "slope",
+            "pawl",
+            tip,
+            "wheel",
+            root,
+            geometry.slope_normal,
+            closed=starts_on_slope(values),
+            restitution=values.restitution,
+            friction=values.friction,
+            guided=values.guided,
+            pattern="teeth",
+        ),
         PointLineContact(
             "face",
             "pawl",
@@ -88,14 +111,41 @@ def _contacts(values: SimpleNamespace) -> tuple[PointLineContact, ...]:
             root,
             geometry.face_normal,
             restitution=values.restitution,
+            friction=values.friction,
             beam_length=geometry.beam_length,
+            guided=values.guided,
+            pattern="teeth",
         ),
+        AngleStop(
+            "holding_pawl",
+            "wheel",
+            GROUND,
+            values.wheel_angle_start,
+            geometry.pitch,
+            restitution=values.holding_pawl_restitution,
+            enabled=free * values.holding_pawl,
+        ),
+    )
+
+
+def _teeth(values: SimpleNamespace) -> CircularPattern:
+    """The teeth, counted clockwise: as the wheel turns forwards, the pawl comes to teeth 1, 2, 3 ..."""
+    geometry = tooth(values)
+    return CircularPattern(
+        "teeth",
+        "pawl",
+        (values.pawl_length / 2, 0.0),
+        "wheel",
+        -geometry.pitch,
+        geometry.apex,
+        geometry.boundary_normal,
+        enabled=1 - values.guided,
     )
 
 
 MODEL = Model(
     name="Ratchet",
-    description="Ratchet of Pennestrì, Valentini and Vita: crank, guided pawl, toothed wheel with spring",
+    description="Ratchet of Pennestrì, Valentini and Vita: crank, pawl, toothed wheel with spring",
     parameters=PARAMETERS,
     mechanism=mechanism,
     objections=objections,

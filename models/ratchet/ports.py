@@ -38,7 +38,32 @@ INPUTS = (
         -1e6,
         1e6,
     ),
+    Input(
+        "drive_angle",
+        "shaft.angle",
+        math.radians(77),
+        "Angle of the driven end of the compliant drive shaft (it acts when drive_stiffness > 0)",
+        "rad",
+        -1e6,
+        1e6,
+        "deg",
+    ),
+    Input(
+        "drive_speed",
+        "shaft.speed",
+        0.0,
+        "Speed of the driven end of the compliant drive shaft (it acts when drive_damping > 0)",
+        "rad/s",
+        -1e6,
+        1e6,
+        "rpm",
+    ),
 )
+_ALL_INPUTS = tuple(port.name for port in INPUTS)
+
+
+def _closed(name: str, contact: str, description: str) -> Output:
+    return Output(f"{name}_active", f"{contact}.closed", description, type="Boolean")
 
 
 def _angle(name: str, body: str, symbol: str) -> Output:
@@ -54,6 +79,9 @@ def _angle(name: str, body: str, symbol: str) -> Output:
 
 def _speed(name: str, source: str, description: str) -> Output:
     return Output(name, source, description, "rad/s", "rpm", nominal=0.1)
+
+
+_CONTACTS = "Struck contact (0 slope, 1 face, 2 holding pawl)"
 
 
 def _buffered_impact(k: int) -> tuple[Output, ...]:
@@ -74,9 +102,10 @@ def _buffered_impact(k: int) -> tuple[Output, ...]:
             "m/s",
             nominal=0.1,
         ),
-        Output(f"{prefix}.impulse", f"{prefix}.impulse", f"Impulse on the tooth face {of}", "N.s", nominal=0.01),
+        Output(f"{prefix}.impulse", f"{prefix}.impulse", f"Impulse on the struck contact {of}", "N.s", nominal=0.01),
         _speed(f"{prefix}.wheel_speed", f"{prefix}.speed:wheel", f"Wheel speed just after {of[3:]}"),
         Output(f"{prefix}.tooth", f"{prefix}.tooth", f"Index of the tooth struck {of}", type="Integer"),
+        Output(f"{prefix}.contact", f"{prefix}.contact", f"{_CONTACTS} {of}", type="Integer"),
     )
 
 
@@ -93,9 +122,41 @@ OUTPUTS = (
         "Normal force of the pawl on the tooth face, 0 when open",
         "N",
         nominal=0.1,
-        feedthrough=("drive_torque", "spring_preload", "load_torque"),
+        feedthrough=_ALL_INPUTS,
+    ),
+    Output(
+        "slope_force",
+        "slope.force",
+        "Normal force of the pawl on the tooth slope, 0 when open",
+        "N",
+        nominal=0.1,
+        feedthrough=_ALL_INPUTS,
+    ),
+    Output(
+        "holding_pawl_torque",
+        "holding_pawl.force",
+        "Torque of the holding pawl on the wheel, 0 when open",
+        "N.m",
+        nominal=0.01,
+        feedthrough=_ALL_INPUTS,
+    ),
+    Output(
+        "drive_shaft_torque",
+        "shaft.torque",
+        "Torque of the compliant drive shaft on the crank, added to drive_torque",
+        "N.m",
+        nominal=0.01,
+        feedthrough=("drive_angle", "drive_speed"),
     ),
     Output("face_gap", "face.gap", "Distance of the pawl's tip from the tooth face", "m", nominal=0.01),
+    Output("slope_gap", "slope.gap", "Distance of the pawl's tip from the tooth slope", "m", nominal=0.01),
+    Output("tooth_index", "teeth.index", "Index of the tooth at which the pawl stands, counted forwards", type="Integer"),
+    Output("latched_angle", "holding_pawl.latched", "Wheel angle below which the holding pawl holds", "rad", "deg", nominal=1.0),
+    Output("clicks", "holding_pawl.clicks", "Teeth that the holding pawl has passed since the start", type="Integer"),
+    _closed("slope", "slope", "The pawl's tip slides on the tooth slope"),
+    _closed("face", "face", "The pawl's tip stands on the tooth face"),
+    _closed("holding_pawl", "holding_pawl", "The holding pawl holds the wheel"),
+    Output("event_count", "event.count", "Changes of the mechanism's mode since the start, impacts included", type="Integer"),
     Output("impact_count", "impact.count", "Impacts since the start", type="Integer"),
     Output("impact", "impact.any", "At least one impact in the last communication step", type="Boolean"),
     Output("impact_time", "impact.time", "Time of the last impact; -1 before the first", "s"),
@@ -116,7 +177,7 @@ OUTPUTS = (
     Output(
         "impact_impulse",
         "impact.impulse",
-        "Impulse on the tooth face at the last impact",
+        "Impulse on the struck contact at the last impact",
         "N.s",
         nominal=0.01,
     ),
@@ -139,6 +200,7 @@ OUTPUTS = (
         "Index of the tooth struck at the last impact; -1 before the first",
         type="Integer",
     ),
+    Output("impact_contact", "impact.contact", f"{_CONTACTS} at the last impact; -1 before the first", type="Integer"),
     Output(
         "impacts_in_step",
         "impact.in_step",
@@ -154,8 +216,8 @@ OUTPUTS = (
     *(output for k in range(1, IMPACT_BUFFER_LENGTH + 1) for output in _buffered_impact(k)),
     Output("kinetic_energy", "energy.kinetic", "Kinetic energy of all bodies", "J", nominal=1e-4),
     Output("spring_energy", "energy.spring", "Energy of the wheel's spring, without preload", "J", nominal=1e-4),
-    Output("work_done", "energy.work", "Work done by the inputs since the start", "J", nominal=1e-4),
-    Output("energy_lost", "energy.lost", "Energy lost in impacts since the start", "J", nominal=1e-4),
+    Output("work_done", "energy.work", "Work done by inputs and pawl spring since the start", "J", nominal=1e-4),
+    Output("energy_lost", "energy.lost", "Energy lost in impacts, friction and dampers since the start", "J", nominal=1e-4),
 )
 
 
@@ -199,7 +261,7 @@ PARAMETERS = (
     _inertia("wheel_inertia", 32.7948e-3, "Moment of inertia of the wheel"),
     Parameter("spring_stiffness", 15e-3, "Stiffness of the wheel's torsion spring", "N.m/rad", 0.0, 1e6),
     _start_angle("spring_free_angle", 75, "Wheel angle at which the torsion spring is relaxed"),
-    Parameter("restitution", 0.0, "Coefficient of restitution between pawl and tooth face (e)", "1", 0.0, 1.0),
+    Parameter("restitution", 0.0, "Coefficient of restitution between pawl and tooth, face and slope (e)", "1", 0.0, 1.0),
     _start_angle("crank_angle_start", 77, "Crank angle at the start (phi)"),
     _start_angle("wheel_angle_start", 75, "Wheel angle at the start (psi)"),
     Parameter("baumgarte_alpha", 10.0, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
@@ -208,9 +270,30 @@ PARAMETERS = (
     Parameter(
         "guided",
         1.0,
-        "Whether the slope guides the pawl's tip in both directions, as in the paper",
+        "Whether the slope of one tooth guides the pawl's tip, as in the paper; false: a free pawl on all teeth",
         type="Boolean",
     ),
+    Parameter("holding_pawl", 1.0, "Whether a holding pawl keeps the wheel from turning back (free pawl)", type="Boolean"),
+    Parameter(
+        "holding_pawl_restitution", 0.0, "Coefficient of restitution between holding pawl and wheel", "1", 0.0, 1.0
+    ),
+    Parameter(
+        "pawl_angle_start",
+        0.0,
+        "Pawl angle at the start (gamma) of a free pawl; 0: solved, so that the tip rests on the teeth",
+        "rad",
+        -1e3,
+        1e3,
+        display_unit="deg",
+    ),
+    Parameter(
+        "pawl_spring_torque", 0.0, "Torque of the pawl's spring, counter-clockwise on the pawl", "N.m", -1e6, 1e6
+    ),
+    Parameter("wheel_damping", 0.0, "Damping of the wheel's rotation", "N.m.s/rad", 0.0, 1e6),
+    Parameter("drive_stiffness", 0.0, "Stiffness of the compliant drive shaft", "N.m/rad", 0.0, 1e9),
+    Parameter("drive_damping", 0.0, "Damping of the compliant drive shaft", "N.m.s/rad", 0.0, 1e9),
+    Parameter("friction", 0.0, "Coefficient of friction between pawl and teeth", "1", 0.0, 10.0),
+    Parameter("joint_friction_radius", 0.0, "Coefficient of friction times pin radius, of every hinge", "m", 0.0, 1.0),
 )
 
 

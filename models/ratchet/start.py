@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt
+from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
 from mechanism_fmu.model.sawtooth import Sawtooth, sawtooth
 
 
@@ -43,17 +43,42 @@ def crank_pin(values: SimpleNamespace) -> Pin:
 
 
 def pawl_angle(values: SimpleNamespace) -> Number:
-    """Start angle gamma [rad]: the tip lies on the line of the slope, the pawl points towards the face.
+    """Start angle gamma [rad] of the pawl: given, or on the slope (guided), or near the wheel (free; then assembly closes it)."""
+    guided = where_positive(values.guided, angle_on_slope(values), angle_near_wheel(values))
+    given = values.pawl_angle_start * values.pawl_angle_start * (1 - values.guided)
+    return where_positive(given, values.pawl_angle_start, guided)
+
+
+def starts_on_slope(values: SimpleNamespace) -> Number:
+    """1 when assembly puts the pawl's tip on a slope, 0 when the pawl's start angle is given (free pawl only)."""
+    return where_positive(values.pawl_angle_start * values.pawl_angle_start * (1 - values.guided), 0.0, 1.0)
+
+
+def angle_on_slope(values: SimpleNamespace) -> Number:
+    """Pawl angle [rad] with the tip on the line of the slope of tooth 0, the pawl pointing towards the face.
 
     The normal of the slope has the polar angle psi + beta_0 - pi/2, and the tip lies on the slope when
     height + b cos(gamma - that angle) = 0. Needs |height| <= b.
     """
     height, b = crank_pin(values).height, values.pawl_length
     normal_angle = values.wheel_angle_start + values.tooth_slope_angle - math.pi / 2
-    return normal_angle + atan2(sqrt(b * b - height * height), -height)
+    rest = b * b - height * height
+    return normal_angle + atan2(sqrt(where_positive(rest, rest, 0.0)), -height)
+
+
+def angle_near_wheel(values: SimpleNamespace) -> Number:
+    """Pawl angle [rad] with the tip on the circle of the roots, where turning counter-clockwise presses it on the wheel.
+
+    From the pin at the distance D of the wheel's hinge: cos(angle between pawl and centre) = (D^2 + b^2 - r^2) / (2 D b).
+    """
+    pin, b, r = crank_pin(values), values.pawl_length, values.wheel_inner_radius
+    square = pin.x * pin.x + pin.y * pin.y
+    adjacent = square + b * b - r * r
+    rest = 4 * square * b * b - adjacent * adjacent
+    return atan2(-pin.y, -pin.x) - atan2(sqrt(where_positive(rest, rest, 0.0)), adjacent)
 
 
 def tip_distance(values: SimpleNamespace) -> Number:
-    """Start distance of the pawl's tip from the struck root, along the slope [m]. Needs |height| <= b."""
+    """Start distance of the guided pawl's tip from the struck root, along the slope [m]. Needs |height| <= b."""
     pin, b = crank_pin(values), values.pawl_length
     return pin.distance - sqrt(b * b - pin.height * pin.height)

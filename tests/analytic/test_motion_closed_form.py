@@ -79,7 +79,7 @@ def test_a_free_scotch_yoke_turns_by_an_elliptic_integral(mass_ratio, speed):
             Translational("guide", "yoke", ORIGIN, (1.0, 0.0), GROUND, ORIGIN, (1.0, 0.0)),
         ),
         # the crank's pin stays in the yoke's slot, which is the line x = 0 of the yoke
-        contacts=(PointLineContact("slot", "crank", (arm, 0.0), "yoke", ORIGIN, (1.0, 0.0), closed=True),),
+        contacts=(PointLineContact("slot", "crank", (arm, 0.0), "yoke", ORIGIN, (1.0, 0.0), closed=True, guided=True),),
         outputs=(*angle_outputs("crank", "yoke"), Output("x", "yoke.x", "")),
         settings=PRECISE,
     )
@@ -102,8 +102,8 @@ def test_a_rod_on_two_rails_turns_at_constant_speed(angle):
     mechanism = Mechanism(
         bodies=(Body("rod", 1.5, 0.4, (half * c, half * s, -angle), (-half * s * speed, half * c * speed, -speed)),),
         contacts=(
-            PointLineContact("floor", "rod", (half, 0.0), GROUND, ORIGIN, (0.0, 1.0), closed=True),
-            PointLineContact("wall", "rod", (-half, 0.0), GROUND, ORIGIN, (1.0, 0.0), closed=True),
+            PointLineContact("floor", "rod", (half, 0.0), GROUND, ORIGIN, (0.0, 1.0), closed=True, guided=True),
+            PointLineContact("wall", "rod", (-half, 0.0), GROUND, ORIGIN, (1.0, 0.0), closed=True, guided=True),
         ),
         outputs=angle_outputs("rod"),
         settings=PRECISE,
@@ -147,8 +147,8 @@ def test_force_that_a_guide_carries():
         bodies=(Body("plate", 1.0, 1.0),),
         forces=(Torque("twist", "plate", torque=3.0),),
         contacts=(
-            PointLineContact("left", "plate", (-0.5, 0.0), GROUND, ORIGIN, (0.0, 1.0), closed=True),
-            PointLineContact("right", "plate", (0.5, 0.0), GROUND, ORIGIN, (0.0, 1.0), closed=True),
+            PointLineContact("left", "plate", (-0.5, 0.0), GROUND, ORIGIN, (0.0, 1.0), closed=True, guided=True),
+            PointLineContact("right", "plate", (0.5, 0.0), GROUND, ORIGIN, (0.0, 1.0), closed=True, guided=True),
         ),
         outputs=(Output("left", "left.force", ""), Output("right", "right.force", "")),
     )

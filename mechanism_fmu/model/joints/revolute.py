@@ -18,6 +18,7 @@ class Revolute:
         name: unique within the mechanism.
         body_i, body_j: names of the two bodies (or `GROUND`).
         point_i, point_j: P in the frame of each body [m].
+        friction_radius: coefficient of friction times radius of the pin [m]; friction torque = it times the pin force.
     """
 
     kind: ClassVar[int] = codes.REVOLUTE
@@ -28,6 +29,12 @@ class Revolute:
     point_i: Point
     body_j: str
     point_j: Point
+    friction_radius: Number = 0.0
+
+    @property
+    def friction(self) -> Number:
+        """The joint's entry in the table `joint_friction`."""
+        return self.friction_radius
 
     def data(self) -> tuple[Number, ...]:
         """The joint's row of the table `joint_data`: point_i, point_j."""

@@ -19,6 +19,7 @@ class Translational:
         body_i, body_j: names of the two bodies (or `GROUND`).
         point_i, point_j: a point of the axis in the frame of each body [m].
         axis_i, axis_j: direction of the axis in the frame of each body (any length > 0).
+        friction: coefficient of friction; friction force = it times the force across the axis.
     """
 
     kind: ClassVar[int] = codes.TRANSLATIONAL
@@ -31,6 +32,7 @@ class Translational:
     body_j: str
     point_j: Point
     axis_j: Point
+    friction: Number = 0.0
 
     def data(self) -> tuple[Number, ...]:
         """The joint's row of the table `joint_data`: point_i, point_j, axis_i, axis_j."""

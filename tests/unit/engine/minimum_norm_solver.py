@@ -13,7 +13,8 @@ from mechanism_fmu.engine.subset import entry
 Array = np.ndarray[Any, Any]
 
 BLOCK = allocate(
-    dict.fromkeys(("joints", "forces", "contacts", "held", "inputs", "outputs"), 0) | {"bodies": 4, "joint_rows": 12}
+    dict.fromkeys(("joints", "forces", "contacts", "patterns", "functions", "held", "inputs", "outputs"), 0)
+    | {"bodies": 4, "joint_rows": 12}
 )
 
 

@@ -12,6 +12,8 @@ GIVEN = {
     "joints": 3,
     "forces": 4,
     "contacts": 5,
+    "patterns": 2,
+    "functions": 3,
     "held": 1,
     "inputs": 6,
     "outputs": 7,
@@ -35,7 +37,8 @@ def test_sizes_that_follow_from_others():
     assert list(sizes) == list(SIZES)
     assert sizes.items() >= GIVEN.items()
     assert (sizes["coordinates"], sizes["columns"], sizes["frames"]) == (6, 9, 3)
-    assert (sizes["rows"], sizes["unknowns"], sizes["buffer"]) == (13, 13, codes.IMPACT_BUFFER_LENGTH)
+    assert (sizes["rows"], sizes["unknowns"], sizes["buffer"]) == (14, 14, codes.IMPACT_BUFFER_LENGTH)
+    assert sizes["guards"] == 2 * 5 + 2 * 2 + 3  # gap and click of a contact, both ends of a pattern, functions
     assert sizes["record"] == 6 + 5 + 12  # six columns, an impulse a contact, all rates before and after
 
 

@@ -8,14 +8,22 @@ from mechanism_fmu.engine.layout import FIELDS, SIZES, allocate, field_of
 from mechanism_fmu.engine.subset import entry
 
 SIZES_GIVEN = dict(
-    zip(("bodies", "joints", "forces", "contacts", "held", "inputs", "outputs"), range(2, 9), strict=True)
+    zip(
+        ("bodies", "joints", "forces", "contacts", "patterns", "functions", "held", "inputs", "outputs"),
+        range(2, 11),
+        strict=True,
+    )
 )
-BLOCK = allocate(SIZES_GIVEN | {"joint_rows": 9})
+BLOCK = allocate(SIZES_GIVEN | {"joint_rows": 11})
 NAMES = (
     "bodies",
     "joints",
     "forces",
     "contacts",
+    "patterns",
+    "functions",
+    "strikes",
+    "watch",
     "ports",
     "course",
     "pose",

@@ -1,0 +1,152 @@
+"""Which of several touching contacts push: p >= 0, s' >= target, p (s' - target) = 0, beside the rows that are kept.
+
+Solved exactly, by principal pivoting: each contact is in (closed, a row like a joint's) or out (open), and as long as one
+of them violates its inequality, the first such contact changes sides (least-index rule, Murty 1974). When that does not
+end, as it may when rows depend on each other, all combinations of the first contacts are tried. The same solution
+procedure serves impulses and accelerations; only the two kinds of trial differ.
+"""
+
+from __future__ import annotations
+
+from .. import codes
+from . import status
+from .acceleration import derivative, scale_rows
+from .minimum_norm import minimum_norm
+from .room import Array
+from .rows import active_rows, contact_row, row_count, spare_row
+from .subset import jit, keep_small
+from .views import bodies, contacts, course, linear_system, rows, sizes, strikes
+
+#: A force [N] or a share of the largest one that may be missing: rounding. It opens at twice that (`push_ratio`).
+_FORCE = 1e-9
+_FORCE_SHARE = 1e-11
+#: An acceleration [m/s2], or a share of its terms, that may be missing.
+_ACCELERATION = 1e-8
+#: An impulse may be missing this share of the largest one, a separation speed this much [m/s] or share of its terms.
+_IMPULSE_SHARE = 1e-11
+_SPEED = 1e-11
+_SHARE = 1e-12
+_MOST_PIVOTS = 64
+#: All combinations of more contacts than these are not tried.
+MOST_COMBINED = 12
+
+
+@jit
+def push_impulses(block: Array, count: int) -> int:
+    """Decide about the first `count` of `strikes.candidates` in an impact at y_end; return a status.
+
+    Afterwards their modes say which push; the linear system holds impulses and the change of rates of that choice.
+    """
+    return _choose(block, count, True)
+
+
+@jit
+def push_forces(block: Array, count: int) -> int:
+    """Decide about the first `count` of `strikes.candidates`, all at rest at y_end; return a status.
+
+    Afterwards their modes say which push; dy_end is the derivative of that choice.
+    """
+    return _choose(block, count, False)
+
+
+@jit
+def push_ratio(block: Array, contact: int, count: int) -> float:
+    """A closed contact's force over the tolerance; it pulls below -1, and opens below -2."""
+    keep_small()
+    multiplier = linear_system(block).multiplier
+    ratio: float = multiplier[contacts(block).row[contact]] / (_FORCE + _FORCE_SHARE * _largest(multiplier, count))
+    return ratio
+
+
+@jit
+def _choose(block: Array, count: int, impulses: bool) -> int:
+    mode = contacts(block).mode
+    candidates = strikes(block).candidates
+    for _ in range(_MOST_PIVOTS):
+        wrong = _first_wrong(block, count, impulses)
+        if wrong == codes.NONE:
+            return status.OK
+        mode[candidates[wrong]] = codes.CLOSED - mode[candidates[wrong]]
+    if count <= MOST_COMBINED:
+        for combination in range(1 << count):
+            for k in range(count):
+                mode[candidates[k]] = (combination >> k) & 1
+            if _first_wrong(block, count, impulses) == codes.NONE:
+                return status.OK
+    return status.NO_CHOICE
+
+
+@jit
+def _first_wrong(block: Array, count: int, impulses: bool) -> int:
+    """The first candidate that pulls although closed, or goes in although open; `codes.NONE` when all is well."""
+    keep_small()
+    mode = contacts(block).mode
+    candidates = strikes(block).candidates
+    if impulses:
+        active = _try_impulses(block)
+    else:
+        derivative(block, course(block).y_end, course(block).dy_end)
+        active = row_count(block)
+    for k in range(count):
+        c = candidates[k]
+        if mode[c] == codes.CLOSED:
+            if impulses:
+                multiplier = linear_system(block).multiplier
+                pulls = multiplier[contacts(block).row[c]] < -_IMPULSE_SHARE * _largest(multiplier, active)
+            else:
+                pulls = push_ratio(block, c, active) < -1.0
+            if pulls:
+                return k
+        elif _goes_in(block, c, impulses):
+            return k
+    return codes.NONE
+
+
+@jit
+def _try_impulses(block: Array) -> int:
+    """Impulses and change of rates for the present modes, eq (7) with the targets of all closed contacts."""
+    keep_small()
+    table = contacts(block)
+    strike = strikes(block)
+    system = linear_system(block)
+    count = active_rows(block)
+    scale_rows(block, count)
+    for r in range(count):
+        system.right_side[r] = 0.0
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED:
+            system.right_side[table.row[c]] = strike.target[c]
+    minimum_norm(block, count, sizes(block).coordinates)
+    return count
+
+
+@jit
+def _goes_in(block: Array, contact: int, impulses: bool) -> bool:
+    """Whether an open candidate misses its separation speed, or accelerates into the other body."""
+    keep_small()
+    n = sizes(block).coordinates
+    spare = spare_row(block)
+    contact_row(block, contact, spare)
+    row = rows(block)
+    left = -row.gamma[spare]
+    tolerance = _ACCELERATION
+    if impulses:
+        left = -strikes(block).target[contact]
+        tolerance = _SPEED
+    size = abs(left)
+    for k in range(n):
+        change = course(block).dy_end[n + k]
+        if impulses:
+            change = bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
+        left += row.jacobian[spare, k] * change
+        size += abs(row.jacobian[spare, k] * change)
+    return left < -(tolerance + _SHARE * size)
+
+
+@jit
+def _largest(values: Array, count: int) -> float:
+    """Largest magnitude of the first `count` values."""
+    found = 0.0
+    for k in range(count):
+        found = max(found, abs(values[k]))
+    return found

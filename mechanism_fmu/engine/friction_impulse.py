@@ -1,0 +1,48 @@
+"""Coulomb friction in an impact: the tangential impulse that the normal one allows."""
+
+from __future__ import annotations
+
+from .. import codes
+from .acceleration import scale_rows
+from .kinematics import place_bodies
+from .minimum_norm import minimum_norm
+from .room import Array
+from .rows import active_rows, spare_row, tangent_row
+from .subset import jit, keep_small
+from .views import bodies, contacts, course, linear_system, rows, sizes, strikes
+
+
+@jit
+def rub(block: Array) -> None:
+    """Slow down the slip of every contact that has just had a normal impulse p (`strikes.impulse`), at y_end.
+
+    The tangential impulse is what ends the slip while all closed rows keep their rates, or coefficient * p when that is
+    less. It follows the normal impulses, contact by contact; being a part of a projection, it never adds energy.
+    """
+    keep_small()
+    n = sizes(block).coordinates
+    table = contacts(block)
+    system = linear_system(block)
+    y = course(block).y_end
+    for c in range(table.mode.shape[0]):
+        most = table.value[c, codes.FRICTION] * strikes(block).impulse[c]
+        if not most > 0.0 or table.kind[c] != codes.POINT_LINE:
+            continue
+        place_bodies(block, y)
+        count = active_rows(block)
+        tangent_row(block, c, strikes(block).line)
+        row = rows(block)
+        spare = spare_row(block)
+        for k in range(n):
+            row.jacobian[count, k] = row.jacobian[spare, k]
+        for r in range(count):
+            system.right_side[r] = 0.0
+        system.right_side[count] = -row.residual_rate[spare]
+        scale_rows(block, count + 1)
+        minimum_norm(block, count + 1, n)
+        stops = abs(system.multiplier[count])
+        share = 1.0
+        if stops > most:
+            share = most / stops
+        for k in range(n):
+            y[n + k] += share * bodies(block).inverse_root_mass[k] * system.solution[k]

@@ -1,0 +1,40 @@
+"""Repetition of contacts around a body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .body import Point
+from .functions import Number
+
+
+@dataclass(frozen=True)
+class CircularPattern:
+    """Teeth or slots that repeat around the centre of a body; the engine keeps the copy that is near a point.
+
+    Copy k of every contact of the pattern is the contact's own line, turned by k * pitch. Between the copies 0 and 1 lies
+    a straight boundary; when the point crosses it (or one of its copies), the contacts of the pattern open and stand at
+    the next copy. The free space of one copy must be convex: for teeth, the boundary runs outwards from the apex.
+
+    Attributes:
+        name: unique within the mechanism.
+        body_i, point_i: the body that carries the point, and the point in its frame [m].
+        body_j: the body around whose centre of mass the copies stand.
+        pitch: from one copy to the next [rad], negative when the copies are counted clockwise.
+        boundary_point: a point of the boundary between copies 0 and 1, in the frame of `body_j` [m].
+        boundary_normal: unit normal of the boundary, towards copy 1.
+        enabled: whether the contacts repeat; a number, so that a parameter can switch it off.
+    """
+
+    name: str
+    body_i: str
+    point_i: Point
+    body_j: str
+    pitch: Number
+    boundary_point: Point
+    boundary_normal: Point
+    enabled: Number = True
+
+    def data(self) -> tuple[Number, ...]:
+        """The pattern's row of the table `pattern_data`: point_i, boundary_point, boundary_normal."""
+        return (*self.point_i, *self.boundary_point, *self.boundary_normal)
