@@ -12,14 +12,14 @@ from .guards import TOUCHES_WITHIN, function_value, gap, guard_value
 from .impact import STICK_SPEED
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
-from .ports import write_inputs
+from .ports import take_inputs
 from .records import clear_impact, clear_records
 from .room import Array
 from .rows import active_rows
 from .stepper import copy, restart
 from .subset import entry, jit, keep_small
 from .transition import switch_contacts, transit
-from .views import bodies, contacts, course, functions, linear_system, loads, options, patterns, ports, rows, sizes, stages
+from .views import bodies, contacts, course, functions, linear_system, loads, options, patterns, rows, sizes, stages
 
 #: Position rows are closed when none is off by more than this [m, rad, m^2].
 CLOSED_WITHIN = 1e-12
@@ -27,9 +27,9 @@ CLOSED_WITHIN = 1e-12
 RATES_WITHIN = 1e-9
 _NEWTON_STEPS = 50
 _HALVINGS = 30
-#: Copies of a pattern that are passed in search of the one where the point is, and copies that are assembled.
+#: Copies of a pattern that are passed in search of the one where the point is, and copies that are assembled: this one and four on either side.
 _MOST_COPIES = 4000
-_MOST_ASSEMBLIES = 100
+_MOST_ASSEMBLIES = 9
 
 
 @entry
@@ -39,16 +39,39 @@ def begin(block: Array, time: float) -> int:
     When the mechanism cannot be assembled, y_end and `rows.residual` hold the closest position and what is left of
     Phi. When it starts inside, PENDING_SUBJECT and the last entry of `rows.residual` hold the contact and its gap [m].
     """
-    _start_guess(block)
-    outcome = status.NO_PLACE
-    for _ in range(_MOST_ASSEMBLIES):
+    outcome = status.NOT_ASSEMBLED
+    for k in range(_MOST_ASSEMBLIES):
+        _start_guess(block, _neighbour(k))
         outcome = assemble(block)
-        if outcome != status.OK or not _find_copies(block):
-            break
-        outcome = status.NO_PLACE
+        if outcome == status.OK and not _find_copies(block) and not _is_inside(block):
+            return start(block, time)
+    _start_guess(block, 0)
+    outcome = assemble(block)
     if outcome == status.OK:
         outcome = start(block, time)
+    if outcome == status.OK:
+        outcome = status.NO_PLACE
     return outcome
+
+
+@jit
+def _neighbour(k: int) -> int:
+    """0, -1, 1, -2, 2 ... for k = 0, 1, 2 ...: copies near the guess first."""
+    if k % 2 == 1:
+        return -((k + 1) // 2)
+    return k // 2
+
+
+@jit
+def _is_inside(block: Array) -> bool:
+    """Whether a point of a pattern is behind one of the other lines there."""
+    table = contacts(block)
+    inside = False
+    for c in range(table.mode.shape[0]):
+        if table.pattern[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5 and table.mode[c] == codes.OPEN:
+            if patterns(block).enabled[table.pattern[c]] > 0.5:
+                inside = inside or gap(block, c)[0] < -TOUCHES_WITHIN
+    return inside
 
 
 @jit
@@ -101,8 +124,7 @@ def start(block: Array, time: float) -> int:
     n = sizes(block).coordinates
     now = course(block)
     table = contacts(block)
-    port = ports(block)
-    write_inputs(block)
+    take_inputs(block)
     for k in range(codes.COUNTERS_LENGTH):
         now.counters[k] = codes.IMPACT_BUFFER_LENGTH if k == codes.COUNT_IN_STEP else 0
     now.counters[codes.EVENTS_IN_STEP] = codes.EVENT_BUFFER_LENGTH
@@ -129,8 +151,6 @@ def start(block: Array, time: float) -> int:
                 table.mode[c] = codes.CLOSED
             elif distance <= TOUCHES_WITHIN:
                 table.touching[c] = 1
-    for k in range(port.inputs.shape[0]):
-        port.held_inputs[k] = port.inputs[k]
     now.clock[codes.TIME] = time
     now.clock[codes.STEP_END] = time
     now.clock[codes.LAST_EVENT] = time
@@ -144,8 +164,8 @@ def start(block: Array, time: float) -> int:
 
 
 @jit
-def _start_guess(block: Array) -> None:
-    """The bodies' start guess, copy 0 of all patterns, and the contacts that are closed there."""
+def _start_guess(block: Array, offset: int) -> None:
+    """The bodies' start guess, the contacts that are closed there, and patterns `offset` copies beside where it is."""
     n = sizes(block).coordinates
     body = bodies(block)
     now = course(block)
@@ -170,6 +190,10 @@ def _start_guess(block: Array) -> None:
             table.mode[c] = codes.CLOSED
         place_contact(block, c)
     _find_copies(block)
+    for p in range(patterns(block).index.shape[0]):
+        if patterns(block).enabled[p] > 0.5:
+            patterns(block).index[p] += offset
+            place_pattern(block, p)
     for f in range(functions(block).true.shape[0]):
         functions(block).true[f] = 0
         if function_value(block, f)[0] < 0.0:

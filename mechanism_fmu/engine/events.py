@@ -4,8 +4,8 @@ An event is the first fraction in (0, 1] of the step at which a guard, positive 
 position are looked at on the dense output, the forces of closed contacts at the step's stages. The root of a gap is then
 refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the interpolant's.
 
-A gap that is zero at the step's start counts only after it has opened. One that neither opens nor closes there (a contact
-that has just been let go) is left alone within `GAP_NOISE`, which is above rounding.
+A gap that is zero at the step's start counts only after it has opened (`armed`). One that neither opens nor closes there
+(a contact that has just been let go) is left alone within `GAP_NOISE`, which is above rounding.
 """
 
 from __future__ import annotations
@@ -139,12 +139,11 @@ def _begin(block: Array, number: int) -> bool:
         return False
     if rate < -RESTS_BELOW:
         return True
-    look_at.armed[number] = 0
-    if rate <= RESTS_BELOW:
-        look_at.armed[number] = 1
-        look_at.floor[number] = -GAP_NOISE
-        return value <= -GAP_NOISE
-    return False
+    look_at.floor[number] = -GAP_NOISE
+    if rate > RESTS_BELOW:
+        look_at.armed[number] = 0
+        look_at.floor[number] += min(value, 0.0)
+    return value <= look_at.floor[number]
 
 
 @jit
@@ -157,15 +156,22 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     next_rate = look_at.next[number, 1]
     floor = look_at.floor[number]
     fraction = 2.0
-    if next_value <= floor:
-        if look_at.armed[number] == 0:
+    if look_at.armed[number] == 0:
+        if next_value <= 0.0 and next_rate <= 0.0:
             before = _after_opening(block, number, after)
+            if before > 0.0:
+                fraction = _bisect(block, number, before, after, 0.0)
+            elif next_value <= floor:
+                fraction = _bisect(block, number, before, after, floor)
+    elif next_value <= floor:
         fraction = _bisect(block, number, before, after, floor)
     elif rate < 0.0 < next_rate and floor == 0.0:
         bottom = _bottom(block, number, before, after)
         if _value_at(block, number, bottom)[0] <= 0.0:
             fraction = _bisect(block, number, before, bottom, floor)
-    look_at.armed[number] = 1
+    if next_value > 0.0 and look_at.armed[number] == 0:
+        look_at.armed[number] = 1
+        look_at.floor[number] = 0.0
     if next_value > GAP_NOISE:
         look_at.floor[number] = 0.0
     look_at.now[number, 0] = next_value

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 from .room import Array
-from .subset import jit, keep_small
+from .subset import jit
 from .views import forces, ports
 
 
 @jit
-def write_inputs(block: Array) -> bool:
-    """Feed all inputs to the mechanism; True when one differs from what the motion has used."""
-    keep_small()
+def inputs_changed(block: Array) -> bool:
+    """Whether an input differs from what the motion has used so far."""
     table = ports(block)
-    changed = False
     for k in range(table.inputs.shape[0]):
         if table.inputs[k] != table.held_inputs[k]:
-            changed = True
-            table.held_inputs[k] = table.inputs[k]
+            return True
+    return False
+
+
+@jit
+def take_inputs(block: Array) -> None:
+    """Let the present inputs act from now on."""
+    table = ports(block)
+    for k in range(table.inputs.shape[0]):
+        table.held_inputs[k] = table.inputs[k]
     feed(block, table.inputs)
-    return changed
 
 
 @jit

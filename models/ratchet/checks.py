@@ -87,16 +87,16 @@ def _start(values: SimpleNamespace) -> Iterator[str]:
 
 
 def _free_start(values: SimpleNamespace) -> Iterator[str]:
-    """A free pawl must reach the circle of the roots; where exactly it rests, assembly finds."""
+    """A free pawl must reach the teeth; where exactly it rests, assembly finds."""
     pin, b, r = crank_pin(values), values.pawl_length, values.wheel_inner_radius
-    distance = math.hypot(pin.x, pin.y)
+    distance, tips = math.hypot(pin.x, pin.y), math.hypot(*tooth(values).apex)
     at = f"the crank pin starts {distance:.6g} m from the wheel's hinge"
     if values.pawl_angle_start:
         return
-    if b < distance - r:
+    if b < distance - tips:
         yield (
-            f"pawl_length = {b:.6g} m is {distance - r - b:.6g} m too short: {at}, and the roots of the teeth are at "
-            f"{r:.6g} m. Give at least {distance - r:.6g} m, or change crank_angle_start."
+            f"pawl_length = {b:.6g} m is {distance - tips - b:.6g} m too short: {at}, and the tips of the teeth at "
+            f"{tips:.6g} m. Give more than {distance - tips:.6g} m, or change crank_angle_start."
         )
     elif b > distance + r or distance < abs(b - r):
         yield (
