@@ -4,6 +4,7 @@ from ..codes import IMPACT_BUFFER_LENGTH
 from .body import GROUND, Body
 from .compile import MechanismTables
 from .contacts import PointLineContact
+from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
 from .errors import MechanismError
 from .forces import Torque, TorsionSpring
 from .joints import Revolute, Translational
@@ -14,8 +15,11 @@ from .ports import Calculated, Input, Output, Parameter
 __all__ = [
     "GROUND",
     "IMPACT_BUFFER_LENGTH",
+    "Bar",
     "Body",
     "Calculated",
+    "Disc",
+    "Hinge",
     "Input",
     "Mechanism",
     "MechanismError",
@@ -26,7 +30,10 @@ __all__ = [
     "PointLineContact",
     "Revolute",
     "Settings",
+    "Shape",
+    "Striker",
     "Torque",
     "TorsionSpring",
     "Translational",
+    "Wheel",
 ]

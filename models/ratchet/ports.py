@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from mechanism_fmu.model import IMPACT_BUFFER_LENGTH, Calculated, Input, Output, Parameter
+from mechanism_fmu.model.functions import atan2, sqrt
 
 from .start import tooth
 
@@ -217,13 +218,22 @@ PARAMETERS = (
 def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
     """The tooth geometry that stress recovery and drawings need."""
     geometry = tooth(values)
+    x, y = geometry.apex
     lengths: tuple[tuple[str, Any, str], ...] = (
         ("tooth_length", geometry.beam_length, "Length of a tooth as a beam (l)"),
         ("tooth_slope_length", geometry.slope_length, "Length of a tooth's slope (L)"),
         ("tooth_face_length", geometry.face_length, "Length of a tooth's face (F)"),
+        ("tooth_apex_radius", sqrt(x * x + y * y), "Distance of a tooth's apex from the wheel's hinge"),
     )
     return (
         Calculated("tooth_pitch", geometry.pitch, "Angle between two teeth (theta)", "rad", "deg"),
         Calculated("tooth_apex_angle", geometry.apex_angle, "Angle at a tooth's apex (alpha)", "rad", "deg"),
+        Calculated(
+            "tooth_apex_offset",
+            atan2(y, x),
+            "Angle from a tooth's root to its apex, seen from the wheel's hinge; clockwise negative",
+            "rad",
+            "deg",
+        ),
         *(Calculated(name, length, description, "m") for name, length, description in lengths),
     )
