@@ -28,6 +28,11 @@ _MOST_IMPACTS = 400
 #: Parts of a picture's size that nobody sees, and the same as an angle [rad].
 _FINENESS, _ANGLE_DECIMALS = 1e-4, 4
 
+#: Nothing smaller is drawn [m].
+_LEAST_SIZE = 1e-12
+#: More teeth than this are no picture.
+_MOST_TEETH = 10_000
+
 #: A run plays within these times [s] unless told otherwise; the speeds to choose from reach at least from 0.1 to 10.
 _SHORTEST, _LONGEST = 2.0, 20.0
 
@@ -72,11 +77,13 @@ def animation_data(run: Run) -> dict[str, Any] | None:
     frames = table[rows]
     time, columns = frames[:, 0], dict(zip(moving, frames.T[1:], strict=True))
     constants = {name: float(run.parameters[name]) for name in names if name not in columns}
+    if not all(map(math.isfinite, constants.values())):
+        return None
     scene = Scene(run.drawing.shapes, columns, constants)
     with np.errstate(over="ignore", invalid="ignore"):
         left, bottom, right, top = box = bounds(scene)
     size = max(right - left, top - bottom)
-    if not all(map(math.isfinite, (*box, size))) or size <= 0:
+    if not all(map(math.isfinite, (*box, size))) or size < _LEAST_SIZE:
         return None
     span = float(time[-1] - time[0])
     speeds, speed = playing_speeds(span)
@@ -148,7 +155,7 @@ def _shapes(scene: Scene, moving: list[str]) -> list[dict[str, Any]]:
         if shape.kind == "bar":
             record["pointed"] = shape.name in struck_with
         if shape.kind == "wheel":
-            count = max(1, round(scene.at_start(shape.quantities["count"])))
+            count = round(min(max(scene.at_start(shape.quantities["count"]), 1), _MOST_TEETH))
             record["count"] = count
             record["pitch"] = (-1 if shape.clockwise else 1) * 2 * math.pi / count
             record["outline"] = [[scene.at_start(radius), scene.at_start(angle)] for radius, angle in shape.outline]
