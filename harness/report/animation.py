@@ -9,6 +9,7 @@ from importlib.resources import files
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from ..drawing import Quantity, Shape
 from ..experiment import Run
@@ -73,6 +74,7 @@ def animation_data(run: Run) -> dict[str, Any] | None:
         return None
     table, results = table[usable], run.results[usable]
     impacts = strongest(run.impacts, _MOST_IMPACTS)
+    impacts = impacts[np.isfinite(impacts)]
     rows = frame_rows(table[:, 0], impacts, _MOST_FRAMES)
     frames = table[rows]
     time, columns = frames[:, 0], dict(zip(moving, frames.T[1:], strict=True))
@@ -97,11 +99,7 @@ def animation_data(run: Run) -> dict[str, Any] | None:
         "view": list(box),
         "impacts": _rounded(impacts, 9),
         "contacts": [
-            {
-                "name": contact.name,
-                "colour": contact.colour,
-                "active": "".join("01"[bool(flag)] for flag in results[contact.variable].to_numpy()[rows]),
-            }
+            {"name": contact.name, "colour": contact.colour, "active": _flags(results[contact.variable].iloc[rows])}
             for contact in contacts(run)
         ],
         "speeds": speeds,
@@ -123,6 +121,10 @@ def playing_speeds(span: float) -> tuple[list[float], float]:
     speeds = [float(f"{digit}e{power}") for power in range(slow, fast) for digit in (1, 2, 5)] + [10.0**fast]
     fitting = [speed for speed in speeds if span / _LONGEST <= speed <= span / _SHORTEST]
     return speeds, min(fitting, key=lambda speed: abs(math.log(speed)), default=1.0)
+
+
+def _flags(signal: pd.Series[bool]) -> str:
+    return "".join("01"[bool(flag)] for flag in signal)
 
 
 def _is_angle(name: str, run: Run) -> bool:

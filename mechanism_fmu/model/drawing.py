@@ -39,6 +39,8 @@ class Bar:
 class Wheel:
     """A wheel whose rim repeats itself: gears, ratchet wheels, cams (a count of 1).
 
+    Its form does not move: an output that count or outline name counts with its value at the start.
+
     Attributes:
         name: as of `Bar`.
         at: its centre.

@@ -107,6 +107,13 @@ def test_frames_that_are_not_finite_are_left_out() -> None:
     assert "nothing to draw" in animation(replace(run, results=run.results.assign(wheel_angle=np.nan)))
 
 
+def test_an_impact_without_a_time_is_left_out() -> None:
+    run = run_of(FakeSlave(impacts=[0.25, 0.5]))
+    data = animation_data(replace(run, impacts=run.impacts.assign(time=[np.nan, 0.5])))
+    assert data is not None
+    assert data["impacts"] == [0.5]
+
+
 @pytest.mark.parametrize("radius", [0.0, 1e308, 1e-320])
 def test_what_has_no_size_is_a_note(radius: float) -> None:
     disc = Shape("disc", (0.0, 0.0), "d", {"radius": radius})
