@@ -14,6 +14,7 @@ from mechanism_fmu.stress import WedgeTooth
 from .checks import Check, run_checks
 from .clock import TimeGrid, seconds
 from .description import Description, Value
+from .drawing import Drawing, read_drawing
 from .errors import FmuError, UsageError
 from .fmu import Fmu, MessageHandler, discard_message
 from .impacts import ImpactCollector
@@ -61,6 +62,7 @@ class Run:
         units: by name, for "results", "impacts" and "parameters" each ("1" when dimensionless).
         checks: verdicts.
         wall_time: of the simulation [s].
+        drawing: how the mechanism is drawn.
     """
 
     fmu: Path
@@ -76,6 +78,7 @@ class Run:
     units: Mapping[str, Mapping[str, str]]
     checks: Sequence[Check]
     wall_time: float
+    drawing: Drawing = field(default_factory=Drawing)
 
 
 class _ParameterReader:
@@ -140,6 +143,7 @@ def perform(
         units=_units(fmu.description, collector, list(impacts.columns)),
         checks=[*run_checks(outcome, seconds(grid.stop), results, impacts, collector.lost), *objections],
         wall_time=wall_time,
+        drawing=read_drawing(fmu.folder, fmu.description),
     )
 
 

@@ -12,8 +12,9 @@ from plotly.subplots import make_subplots
 from ..checks import energy_residual
 from ..description import Variable
 from ..experiment import Run
+from .modes import add_lanes, contacts
 from .style import COLOURS, IMPACT_COLOUR, layout
-from .thin import thin
+from .thin import strongest, thin
 
 _QUANTITIES = {
     "rad": "Angles",
@@ -25,9 +26,8 @@ _QUANTITIES = {
     "J": "Energies",
 }
 
-_ROW_HEIGHT = 215
-#: Between two rows, as a part of a row.
-_SPACING = 0.28
+#: Heights [px]: a row of curves, a lane of a contact, between two rows, and what lies around them all.
+_ROW, _LANE, _GAP, _AROUND = 168, 26, 47, 90
 #: More vertical lines than this hide the curves.
 _MOST_MARKS = 150
 
@@ -43,12 +43,17 @@ class _Row:
 def motion_chart(run: Run) -> go.Figure | None:
     """All continuous outputs, the energy balance, and the inputs that vary, with every impact marked.
 
+    Under them a band for each contact shows when it is active.
+
     None when there is nothing of that kind.
     """
     rows = _rows(run)
-    if not rows:
+    lanes = [] if run.results.empty else contacts(run)
+    heights = [_ROW] * len(rows) + ([_LANE * len(lanes)] if lanes else [])
+    if not heights:
         return None
-    figure = make_subplots(rows=len(rows), shared_xaxes=True, vertical_spacing=_SPACING / len(rows))
+    height = sum(heights) + _GAP * (len(heights) - 1)
+    figure = make_subplots(rows=len(heights), shared_xaxes=True, row_heights=heights, vertical_spacing=_GAP / height)
     time = run.results["time"].to_numpy()
     for number, row in enumerate(rows, start=1):
         legend = "legend" if number == 1 else f"legend{number}"
@@ -59,9 +64,11 @@ def motion_chart(run: Run) -> go.Figure | None:
         top = figure.layout[f"yaxis{number if number > 1 else ''}"].domain[1]
         figure.update_layout({legend: {"x": 1.01, "y": top, "yanchor": "top", "xanchor": "left"}})
         figure.update_yaxes(title_text=row.title, exponentformat="power", title_standoff=8, row=number, col=1)
+    if lanes:
+        add_lanes(figure, run, row=len(heights))
     _mark_impacts(figure, run)
-    figure.update_xaxes(title_text="time [s]", row=len(rows), col=1)
-    figure.update_layout(layout(height=_ROW_HEIGHT * len(rows) + 90, hovermode="x unified"))
+    figure.update_xaxes(title_text="time [s]", row=len(heights), col=1)
+    figure.update_layout(layout(height=height + _AROUND, hovermode="x unified", barmode="overlay"))
     return figure
 
 
@@ -104,11 +111,6 @@ def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
 
 
 def _mark_impacts(figure: go.Figure, run: Run) -> None:
-    if run.impacts.empty:
-        return
-    times = run.impacts["time"]
-    if len(times) > _MOST_MARKS and "velocity" in run.impacts:
-        times = times[run.impacts["velocity"].abs().nlargest(_MOST_MARKS).index]
     lines = [
         {
             "type": "line",
@@ -120,6 +122,6 @@ def _mark_impacts(figure: go.Figure, run: Run) -> None:
             "yref": "paper",
             "line": {"color": IMPACT_COLOUR, "width": 1, "dash": "dot"},
         }
-        for instant in times
+        for instant in strongest(run.impacts, _MOST_MARKS)
     ]
     figure.update_layout(shapes=lines)

@@ -12,6 +12,8 @@ from ..master import Ending
 from ..numbers import engineering, shown
 from ..results import write_text
 from ..tooth_stress import stress_field
+from .animation import animation
+from .modes import contacts
 from .motion import motion_chart
 from .page import cards, chart, checks_list, page, section, table
 from .stress import stress_chart
@@ -34,7 +36,7 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    body += [_motion(run), _stress(run), _impacts(run), _parameters(run), _messages(run)]
+    body += [animation(run), _motion(run), _stress(run), _impacts(run), _parameters(run), _messages(run)]
     return page(description.model, subtitle, [part for part in body if part])
 
 
@@ -60,8 +62,11 @@ def _key_figures(run: Run) -> list[tuple[str, str]]:
 
 def _motion(run: Run) -> str:
     figure = motion_chart(run)
-    note = "Dotted red lines mark impacts. Drag to zoom, double-click to return."
-    return "" if figure is None else section("Motion", chart(figure), note=note)
+    if figure is None:
+        return ""
+    bands = "Bands below the curves show which contacts are active. " if contacts(run) else ""
+    note = f"Dotted red lines mark impacts. {bands}Drag to zoom, double-click to return."
+    return section("Motion", chart(figure), note=note)
 
 
 def _stress(run: Run) -> str:

@@ -44,6 +44,25 @@ th.number {{ vertical-align: bottom; }}
 tr.changed td {{ background: #fff8e6; }}
 code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
 .banner {{ background: #fdecea; border-color: {IMPACT_COLOUR}; }}
+.animation svg {{ display: block; width: 100%; max-height: 560px; background: #fbfcfd; border-radius: 8px; }}
+.animation ul {{ list-style: none; display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 0; padding: 0; }}
+.animation .legend {{ display: flex; flex-wrap: wrap; justify-content: space-between; gap: 6px 28px;
+  margin: 10px 0; font-size: 13px; color: var(--soft); }}
+.animation .legend i {{ display: inline-block; width: 12px; height: 12px; border-radius: 3px; margin-right: 6px;
+  vertical-align: -1px; }}
+.animation .lamp {{ padding: 0 9px; border: 1px solid var(--line); border-radius: 9px; color: #8793a0; }}
+.animation .lamp.lit {{ background: var(--lamp); border-color: var(--lamp); color: #fff; font-weight: 600; }}
+.animation .timeline {{ position: relative; }}
+.animation input[type=range] {{ width: 100%; margin: 14px 0 8px; }}
+.animation .marks {{ position: absolute; left: 8px; right: 8px; top: 0; height: 14px; pointer-events: none; }}
+.animation .marks i {{ position: absolute; width: 2px; height: 9px; margin-left: -1px; top: 4px; opacity: 0.75; }}
+.animation .marks i.now {{ width: 8px; height: 14px; margin-left: -4px; top: 0; border-radius: 3px; opacity: 1; }}
+.animation .controls {{ display: flex; flex-wrap: wrap; align-items: center; gap: 8px 14px; }}
+.animation button, .animation select {{ font: inherit; padding: 4px 12px; border: 1px solid #b6c0ca;
+  border-radius: 6px; background: #fff; color: inherit; cursor: pointer; }}
+.animation .play {{ min-width: 76px; }}
+.animation .time {{ font-weight: 650; font-variant-numeric: tabular-nums; min-width: 8em; }}
+.animation .struck {{ color: {IMPACT_COLOUR}; font-variant-numeric: tabular-nums; }}
 @media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }} }}
 """
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from .. import codes
 from .complementarity import push_impulses
-from .guards import TOUCHES_WITHIN, gap
 from .friction_impulse import rub
+from .guards import TOUCHES_WITHIN, gap
 from .kinematics import place_bodies
 from .records import keep_impact
 from .room import Array

@@ -10,7 +10,7 @@ from .kinematics import place_bodies
 from .ports import feed
 from .room import Array
 from .stepper import state_at_time
-from .subset import entry, jit, keep_small
+from .subset import entry, jit
 from .views import bodies, contacts, course, linear_system, patterns, ports, sizes, stages
 
 

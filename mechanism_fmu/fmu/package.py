@@ -17,6 +17,7 @@ from ..model import MechanismError, Model
 from .archive import content_hash, read_entries, with_guid, write_archive
 from .closure import Home, closure
 from .documentation import documentation
+from .drawing import drawing
 from .project import dependencies
 
 _LIBRARY = Path(__file__).parents[1]
@@ -76,7 +77,7 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
             **{f"{package}/{name}": contents for name, contents in code.items()},
         },
     )
-    entries |= documentation(model, folder)
+    entries |= documentation(model, folder) | drawing(model)
     entries["model.png"] = _icon(folder)
     path = destination / f"{model.name}.fmu"
     write_archive(with_guid(entries), path)

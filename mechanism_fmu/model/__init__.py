@@ -4,6 +4,7 @@ from ..codes import IMPACT_BUFFER_LENGTH
 from .body import GROUND, Body
 from .compile import MechanismTables
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
+from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
 from .errors import MechanismError
 from .forces import CompliantShaft, Damper, Force, Torque, TorsionSpring
 from .joints import Revolute, Translational
@@ -18,13 +19,16 @@ __all__ = [
     "IMPACT_BUFFER_LENGTH",
     "AngleLock",
     "AngleStop",
+    "Bar",
     "Body",
     "Calculated",
     "CircularPattern",
     "CompliantShaft",
     "Contact",
     "Damper",
+    "Disc",
     "Force",
+    "Hinge",
     "Input",
     "LogicalFunction",
     "Mechanism",
@@ -36,7 +40,10 @@ __all__ = [
     "PointLineContact",
     "Revolute",
     "Settings",
+    "Shape",
+    "Striker",
     "Torque",
     "TorsionSpring",
     "Translational",
+    "Wheel",
 ]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Protocol
 
+from .drawing import Shape
 from .errors import MechanismError
 from .mechanism import Mechanism
 from .ports import Parameter
@@ -31,6 +32,7 @@ class Model:
             before the mechanism is assembled and may use any Python.
         warnings: likewise, for what is legal but deserves a line in the log.
         stop_time, step_size: default experiment [s].
+        drawing: how its FMU can be drawn, in terms of the FMU's variables; () when it cannot.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Model:
     warnings: Callable[[SimpleNamespace], list[str]] = _no_objection
     stop_time: float = 1.0
     step_size: float = 1e-3
+    drawing: tuple[Shape, ...] = ()
 
     def values(self, **changes: float) -> SimpleNamespace:
         """Parameter values: the defaults with `changes`.

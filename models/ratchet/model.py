@@ -28,6 +28,7 @@ from mechanism_fmu.model.functions import cos, sin
 
 from .checks import objections, warnings
 from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
+from .shapes import SHAPES
 from .start import crank_pin, pawl_angle, starts_on_slope, tooth
 
 
@@ -152,4 +153,5 @@ MODEL = Model(
     warnings=warnings,
     stop_time=6.0,
     step_size=1e-2,
+    drawing=SHAPES,
 )

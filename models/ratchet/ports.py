@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from mechanism_fmu.model import IMPACT_BUFFER_LENGTH, Calculated, Input, Output, Parameter
+from mechanism_fmu.model.functions import atan2, sqrt
 
 from .start import tooth
 
@@ -150,13 +151,27 @@ OUTPUTS = (
     ),
     Output("face_gap", "face.gap", "Distance of the pawl's tip from the tooth face", "m", nominal=0.01),
     Output("slope_gap", "slope.gap", "Distance of the pawl's tip from the tooth slope", "m", nominal=0.01),
-    Output("tooth_index", "teeth.index", "Index of the tooth at which the pawl stands, counted forwards", type="Integer"),
-    Output("latched_angle", "holding_pawl.latched", "Wheel angle below which the holding pawl holds", "rad", "deg", nominal=1.0),
+    Output(
+        "tooth_index", "teeth.index", "Index of the tooth at which the pawl stands, counted forwards", type="Integer"
+    ),
+    Output(
+        "latched_angle",
+        "holding_pawl.latched",
+        "Wheel angle below which the holding pawl holds",
+        "rad",
+        "deg",
+        nominal=1.0,
+    ),
     Output("clicks", "holding_pawl.clicks", "Teeth that the holding pawl has passed since the start", type="Integer"),
     _closed("slope", "slope", "The pawl's tip slides on the tooth slope"),
     _closed("face", "face", "The pawl's tip stands on the tooth face"),
     _closed("holding_pawl", "holding_pawl", "The holding pawl holds the wheel"),
-    Output("event_count", "event.count", "Changes of the mechanism's mode since the start, impacts included", type="Integer"),
+    Output(
+        "event_count",
+        "event.count",
+        "Changes of the mechanism's mode since the start, impacts included",
+        type="Integer",
+    ),
     Output("impact_count", "impact.count", "Impacts since the start", type="Integer"),
     Output("impact", "impact.any", "At least one impact in the last communication step", type="Boolean"),
     Output("impact_time", "impact.time", "Time of the last impact; -1 before the first", "s"),
@@ -217,7 +232,9 @@ OUTPUTS = (
     Output("kinetic_energy", "energy.kinetic", "Kinetic energy of all bodies", "J", nominal=1e-4),
     Output("spring_energy", "energy.spring", "Energy of the wheel's spring, without preload", "J", nominal=1e-4),
     Output("work_done", "energy.work", "Work done by inputs and pawl spring since the start", "J", nominal=1e-4),
-    Output("energy_lost", "energy.lost", "Energy lost in impacts, friction and dampers since the start", "J", nominal=1e-4),
+    Output(
+        "energy_lost", "energy.lost", "Energy lost in impacts, friction and dampers since the start", "J", nominal=1e-4
+    ),
 )
 
 
@@ -261,7 +278,9 @@ PARAMETERS = (
     _inertia("wheel_inertia", 32.7948e-3, "Moment of inertia of the wheel"),
     Parameter("spring_stiffness", 15e-3, "Stiffness of the wheel's torsion spring", "N.m/rad", 0.0, 1e6),
     _start_angle("spring_free_angle", 75, "Wheel angle at which the torsion spring is relaxed"),
-    Parameter("restitution", 0.0, "Coefficient of restitution between pawl and tooth, face and slope (e)", "1", 0.0, 1.0),
+    Parameter(
+        "restitution", 0.0, "Coefficient of restitution between pawl and tooth, face and slope (e)", "1", 0.0, 1.0
+    ),
     _start_angle("crank_angle_start", 77, "Crank angle at the start (phi)"),
     _start_angle("wheel_angle_start", 75, "Wheel angle at the start (psi)"),
     Parameter("baumgarte_alpha", 10.0, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
@@ -273,7 +292,9 @@ PARAMETERS = (
         "Whether the slope of one tooth guides the pawl's tip, as in the paper; false: a free pawl on all teeth",
         type="Boolean",
     ),
-    Parameter("holding_pawl", 1.0, "Whether a holding pawl keeps the wheel from turning back (free pawl)", type="Boolean"),
+    Parameter(
+        "holding_pawl", 1.0, "Whether a holding pawl keeps the wheel from turning back (free pawl)", type="Boolean"
+    ),
     Parameter(
         "holding_pawl_restitution", 0.0, "Coefficient of restitution between holding pawl and wheel", "1", 0.0, 1.0
     ),
@@ -300,13 +321,22 @@ PARAMETERS = (
 def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
     """The tooth geometry that stress recovery and drawings need."""
     geometry = tooth(values)
+    x, y = geometry.apex
     lengths: tuple[tuple[str, Any, str], ...] = (
         ("tooth_length", geometry.beam_length, "Length of a tooth as a beam (l)"),
         ("tooth_slope_length", geometry.slope_length, "Length of a tooth's slope (L)"),
         ("tooth_face_length", geometry.face_length, "Length of a tooth's face (F)"),
+        ("tooth_apex_radius", sqrt(x * x + y * y), "Distance of a tooth's apex from the wheel's hinge"),
     )
     return (
         Calculated("tooth_pitch", geometry.pitch, "Angle between two teeth (theta)", "rad", "deg"),
         Calculated("tooth_apex_angle", geometry.apex_angle, "Angle at a tooth's apex (alpha)", "rad", "deg"),
+        Calculated(
+            "tooth_apex_offset",
+            atan2(y, x),
+            "Angle from a tooth's root to its apex, seen from the wheel's hinge; clockwise negative",
+            "rad",
+            "deg",
+        ),
         *(Calculated(name, length, description, "m") for name, length, description in lengths),
     )

@@ -123,8 +123,9 @@ class FakeFmu:
 
     path = Path("Fake.fmu")
 
-    def __init__(self, slave: FakeSlave) -> None:
+    def __init__(self, slave: FakeSlave, folder: Path = Path("nowhere")) -> None:
         self.description = slave.description
+        self.folder = folder
         self._slave = slave
 
     @contextmanager

@@ -4,6 +4,7 @@ import json
 import math
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 from typer.testing import CliRunner
@@ -12,6 +13,7 @@ from harness.cli import main
 from harness.experiment import Experiment, Run, perform
 from harness.fmu import Fmu, open_fmu
 from harness.master import Ending
+from harness.report.animation import animation, animation_data
 from harness.study import ratchet_study
 from harness.validate import validate
 
@@ -52,6 +54,25 @@ def test_the_base_case(base_case: Run) -> None:
     assert first["impulse"] == pytest.approx(7.7895902699e-3, rel=1e-7)
     assert first["stress_max"] == pytest.approx(STRESSES[10, 90], rel=1e-4)
     assert all(check.passed for check in base_case.checks)
+
+
+def test_the_animation_puts_the_pawl_into_the_root_when_they_meet(base_case: Run) -> None:
+    data = animation_data(base_case)
+    assert data is not None
+    after = int(np.searchsorted(data["time"], data["impacts"][0]))
+    columns = [column[after] for column in data["columns"]]
+    wheel, crank, pawl = (shape for shape in data["shapes"] if "angle" in shape)
+    psi, phi, gamma = (columns[shape["angle"][0]] for shape in (wheel, crank, pawl))
+    tip = crank["at"][0] + crank["length"] * np.exp(1j * phi) + pawl["length"] * np.exp(1j * gamma)
+    root = wheel["outline"][0][0] * np.exp(1j * psi)
+    # angles are rounded to 1e-4 rad
+    assert abs(tip - root) < 2e-5
+    assert (wheel["count"], pawl["at"], data["shapes"][-1]) == (
+        10,
+        "crank",
+        {"kind": "striker", "name": "", "at": "pawl"},
+    )
+    assert len(animation(base_case)) < 300_000
 
 
 def test_impact_velocity_is_wheel_speed_times_tooth_length(base_case: Run) -> None:
@@ -116,7 +137,7 @@ def test_the_report_works_offline(ratchet_fmu: Path, tmp_path: Path) -> None:
     assert "plotly.js" in html
     assert "<script src=" not in html
     assert "<link" not in html
-    for heading in ("Verdicts", "Motion", "Bending stress in the tooth", "Impacts", "Parameters"):
+    for heading in ("Verdicts", "Mechanism", "Motion", "Bending stress in the tooth", "Impacts", "Parameters"):
         assert f"<h2>{heading}</h2>" in html
 
 

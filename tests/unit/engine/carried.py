@@ -45,7 +45,9 @@ def carried(press: float, *, tolerance: float = 1e-9) -> Mechanism:
             TorsionSpring("spring", "carrier", stiffness=inertia * FREQUENCY**2),
         ),
         # the open side is counter-clockwise of the radial line on the carrier
-        contacts=(PointLineContact("seat", "rider", (ARM, 0.0), "carrier", (0.0, 0.0), (0.0, 1.0), closed=True, guided=True),),
+        contacts=(
+            PointLineContact("seat", "rider", (ARM, 0.0), "carrier", (0.0, 0.0), (0.0, 1.0), closed=True, guided=True),
+        ),
         inputs=(Input("torque", "press.torque", -press * LARGEST, "", "N.m"),),
         outputs=(Output("force", "seat.force", "", "N", feedthrough=("torque",)), Output("gap", "seat.gap", "", "m")),
         settings=Settings(relative_tolerance=tolerance),

@@ -65,5 +65,13 @@ def rotor(
 def _contact(name: str, stop: Stop) -> PointLineContact:
     normal = (stop.sign * math.sin(stop.angle), -stop.sign * math.cos(stop.angle))
     return PointLineContact(
-        name, "rotor", (ARM, 0.0), GROUND, (0.0, 0.0), normal, closed=stop.closed, restitution=stop.restitution, guided=True
+        name,
+        "rotor",
+        (ARM, 0.0),
+        GROUND,
+        (0.0, 0.0),
+        normal,
+        closed=stop.closed,
+        restitution=stop.restitution,
+        guided=True,
     )
