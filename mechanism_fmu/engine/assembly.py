@@ -19,7 +19,19 @@ from .rows import active_rows
 from .stepper import copy, restart
 from .subset import entry, jit, keep_small
 from .transition import switch_contacts, transit
-from .views import bodies, contacts, course, functions, linear_system, loads, options, patterns, rows, sizes, stages
+from .views import (
+    bodies,
+    contacts,
+    course,
+    functions,
+    linear_system,
+    loads,
+    options,
+    patterns,
+    rows,
+    sizes,
+    stages,
+)
 
 #: Position rows are closed when none is off by more than this [m, rad, m^2].
 CLOSED_WITHIN = 1e-12
@@ -27,7 +39,8 @@ CLOSED_WITHIN = 1e-12
 RATES_WITHIN = 1e-9
 _NEWTON_STEPS = 50
 _HALVINGS = 30
-#: Copies of a pattern that are passed in search of the one where the point is, and copies that are assembled: this one and four on either side.
+#: Copies of a pattern that are passed in search of the one where the point is, and copies that are tried: that one and
+#: four on either side.
 _MOST_COPIES = 4000
 _MOST_ASSEMBLIES = 9
 
@@ -68,9 +81,11 @@ def _is_inside(block: Array) -> bool:
     table = contacts(block)
     inside = False
     for c in range(table.mode.shape[0]):
-        if table.pattern[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5 and table.mode[c] == codes.OPEN:
-            if patterns(block).enabled[table.pattern[c]] > 0.5:
-                inside = inside or gap(block, c)[0] < -TOUCHES_WITHIN
+        pattern = table.pattern[c]
+        if pattern == codes.NONE or table.mode[c] == codes.CLOSED or table.value[c, codes.ENABLED] < 0.5:
+            continue
+        if patterns(block).enabled[pattern] > 0.5:
+            inside = inside or gap(block, c)[0] < -TOUCHES_WITHIN
     return inside
 
 
@@ -180,8 +195,8 @@ def _start_guess(block: Array, offset: int) -> None:
     for k in range(held.shape[0]):
         weight[held[k]] = 0.0
     place_bodies(block, now.y_end)
-    for p in range(patterns(block).index.shape[0]):
-        patterns(block).index[p] = 0
+    for p in range(patterns(block).copy.shape[0]):
+        patterns(block).copy[p] = 0
         place_pattern(block, p)
     for c in range(table.mode.shape[0]):
         table.clicks[c] = 0
@@ -190,9 +205,9 @@ def _start_guess(block: Array, offset: int) -> None:
             table.mode[c] = codes.CLOSED
         place_contact(block, c)
     _find_copies(block)
-    for p in range(patterns(block).index.shape[0]):
+    for p in range(patterns(block).copy.shape[0]):
         if patterns(block).enabled[p] > 0.5:
-            patterns(block).index[p] += offset
+            patterns(block).copy[p] += offset
             place_pattern(block, p)
     for f in range(functions(block).true.shape[0]):
         functions(block).true[f] = 0
@@ -206,7 +221,7 @@ def _find_copies(block: Array) -> bool:
     """Go to the copy of each pattern where its point is at y_end; whether any was another than before."""
     table = patterns(block)
     first_next = 2 * sizes(block).contacts
-    count = table.index.shape[0]
+    count = table.copy.shape[0]
     place_bodies(block, course(block).y_end)
     moved = False
     for p in range(count):
@@ -214,9 +229,9 @@ def _find_copies(block: Array) -> bool:
             if table.enabled[p] < 0.5:
                 break
             if guard_value(block, first_next + p)[0] <= 0.0:
-                table.index[p] += 1
+                table.copy[p] += 1
             elif guard_value(block, first_next + count + p)[0] <= 0.0:
-                table.index[p] -= 1
+                table.copy[p] -= 1
             else:
                 break
             place_pattern(block, p)

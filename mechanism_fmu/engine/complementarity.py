@@ -1,8 +1,8 @@
 """Which of several touching contacts push: p >= 0, s' >= target, p (s' - target) = 0, beside the rows that are kept.
 
-Solved exactly, by principal pivoting: each contact is in (closed, a row like a joint's) or out (open), and as long as one
-of them violates its inequality, the first such contact changes sides (least-index rule, Murty 1974). When that does not
-end, as it may when rows depend on each other, all combinations of the first contacts are tried. The same solution
+Solved exactly, by principal pivoting: each contact is in (closed, a row like a joint's) or out (open), and as long as
+one of them violates its inequality, the first such contact changes sides (least-index rule, Murty 1974). When that does
+not end, as it may when rows depend on each other, all combinations of the contacts are tried. The same solution
 procedure serves impulses and accelerations; only the two kinds of trial differ.
 """
 
@@ -140,7 +140,8 @@ def _goes_in(block: Array, contact: int, impulses: bool) -> bool:
             change = bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
         left += row.jacobian[spare, k] * change
         size += abs(row.jacobian[spare, k] * change)
-    return left < -(tolerance + _SHARE * size)
+    goes_in: bool = left < -(tolerance + _SHARE * size)
+    return goes_in
 
 
 @jit

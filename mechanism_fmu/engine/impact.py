@@ -1,10 +1,10 @@
 """The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7)), for all touching contacts together.
 
-Joints and closed guided contacts keep their rows, v = 0. Every touching contact that approaches must separate with e times
-its closing speed (with 0 when that is below `STICK_SPEED`), every one at rest must not approach, and impulses only push:
-p >= 0, s'+ >= e |s'-|, p (s'+ - e |s'-|) = 0. One contact alone gives eq (7). Contacts that already separate take no part,
-so that the energy cannot grow (dT = -1/2 sum p (1 - e) |s'-|); when the impact turns one of them round, it strikes
-in the next round, at the same instant.
+Joints and closed guided contacts keep their rows, v = 0. Every touching contact that approaches must separate with e
+times its closing speed (with 0 when that is below `STICK_SPEED`), every one at rest must not approach, and impulses
+only push: p >= 0, s'+ >= e |s'-|, p (s'+ - e |s'-|) = 0. One contact alone gives eq (7). Contacts that already separate take
+no part, so that the energy cannot grow (dT = -1/2 sum p (1 - e) |s'-|); when the impact turns one of them round, it
+strikes in the next round, at the same instant.
 """
 
 from __future__ import annotations

@@ -178,7 +178,8 @@ def allocate(sizes: dict[str, int]) -> Array:
     """A zeroed block with its header filled in.
 
     Args:
-        sizes: bodies, joints, forces, contacts, patterns, functions, held, inputs, outputs and joint_rows; the others follow.
+        sizes: bodies, joints, forces, contacts, patterns, functions, held, inputs, outputs and joint_rows; the others
+            follow.
 
     Returns:
         The block, float64 of shape (words,).

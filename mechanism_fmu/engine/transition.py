@@ -79,7 +79,7 @@ def _take_effect(block: Array, guard: int, subject: int) -> None:
         move = 1
         if guard == codes.GUARD_PREVIOUS:
             move = -1
-        patterns(block).index[subject] += move
+        patterns(block).copy[subject] += move
         place_pattern(block, subject)
         for c in range(table.mode.shape[0]):
             if table.pattern[c] == subject and table.function[c] == codes.NONE:
