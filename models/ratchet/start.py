@@ -75,7 +75,7 @@ def angle_near_wheel(values: SimpleNamespace) -> Number:
     square = pin.x * pin.x + pin.y * pin.y
     adjacent = square + b * b - r * r
     rest = 4 * square * b * b - adjacent * adjacent
-    return atan2(-pin.y, -pin.x) - atan2(sqrt(where_positive(rest, rest, 0.0)), adjacent)
+    return 2 * math.pi + atan2(-pin.y, -pin.x) - atan2(sqrt(where_positive(rest, rest, 0.0)), adjacent)
 
 
 def tip_distance(values: SimpleNamespace) -> Number:
