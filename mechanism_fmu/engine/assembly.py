@@ -7,7 +7,6 @@ import math
 from .. import codes
 from . import status
 from .copies import place_contact, place_pattern
-from .dormand_prince import initial_step_size
 from .guards import TOUCHES_WITHIN, function_value, gap, guard_value
 from .impact import STICK_SPEED
 from .kinematics import place_bodies
@@ -16,9 +15,9 @@ from .ports import take_inputs
 from .records import clear_impact, clear_records
 from .room import Array
 from .rows import active_rows
-from .stepper import copy, restart
 from .subset import entry, jit, keep_small
-from .transition import switch_contacts, transit
+from .transition import switch_contacts
+from .vectors import copy
 from .views import (
     bodies,
     contacts,
@@ -47,20 +46,20 @@ _MOST_ASSEMBLIES = 9
 
 @entry
 def begin(block: Array, time: float) -> int:
-    """Assemble the mechanism from its start guess and begin the motion at `time` [s]; return a status.
+    """Assemble the mechanism from its start guess and make ready to begin at `time` [s]; return a status.
 
     When the mechanism cannot be assembled, y_end and `rows.residual` hold the closest position and what is left of
     Phi. When it starts inside, PENDING_SUBJECT and the last entry of `rows.residual` hold the contact and its gap [m].
     """
     outcome = status.NOT_ASSEMBLED
-    for k in range(_MOST_ASSEMBLIES):
+    for k in range(_MOST_ASSEMBLIES + 1):
         _start_guess(block, _neighbour(k))
         outcome = assemble(block)
+        if k == _MOST_ASSEMBLIES:
+            break
         if outcome == status.OK and not _find_copies(block) and not _is_inside(block):
             return start(block, time)
-    _start_guess(block, 0)
-    outcome = assemble(block)
-    if outcome == status.OK:
+    if outcome == status.OK:  # nowhere: say what is wrong with the nearest place
         outcome = start(block, time)
     if outcome == status.OK:
         outcome = status.NO_PLACE
@@ -69,7 +68,9 @@ def begin(block: Array, time: float) -> int:
 
 @jit
 def _neighbour(k: int) -> int:
-    """0, -1, 1, -2, 2 ... for k = 0, 1, 2 ...: copies near the guess first."""
+    """0, -1, 1, -2, 2 ... for k = 0, 1, 2 ...: copies near the guess first, and at last the guess once more."""
+    if k == _MOST_ASSEMBLIES:
+        return 0
     if k % 2 == 1:
         return -((k + 1) // 2)
     return k // 2
@@ -135,7 +136,10 @@ def assemble(block: Array) -> int:
 
 @jit
 def start(block: Array, time: float) -> int:
-    """Begin the motion at `time` [s] from the assembled position, with all counters at zero."""
+    """Make ready to begin at `time` [s] from the assembled position, with all counters at zero.
+
+    The first `stepper.advance`, to `time` itself, chooses the contacts that push.
+    """
     n = sizes(block).coordinates
     now = course(block)
     table = contacts(block)
@@ -169,13 +173,11 @@ def start(block: Array, time: float) -> int:
     now.clock[codes.TIME] = time
     now.clock[codes.STEP_END] = time
     now.clock[codes.LAST_EVENT] = time
-    outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
-    if outcome == status.OK:
-        now.counters[codes.COUNT_EVENTS] = 0
-        now.counters[codes.EVENTS_IN_STEP] = 0
-        restart(block)
-        now.clock[codes.NEXT_STEP] = initial_step_size(block)
-    return outcome
+    now.clock[codes.STEP_START] = time
+    now.clock[codes.STEP_SIZE] = 0.0
+    now.counters[codes.PENDING_GUARD] = codes.GUARD_BEGIN
+    now.counters[codes.PENDING_SUBJECT] = codes.NONE
+    return status.OK
 
 
 @jit

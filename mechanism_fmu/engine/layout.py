@@ -121,6 +121,7 @@ FIELDS = (
     Field("work", "contact_impulse", ("contacts",)),
     Field("work", "least_push", ("contacts",)),
     Field("work", "candidates", ("contacts",), True),
+    Field("work", "problem", (2,), True),
     Field("work", "guard_watched", ("guards",), True),
     Field("work", "guard_armed", ("guards",), True),
     Field("work", "guard_floor", ("guards",)),

@@ -157,7 +157,8 @@ class Strikes(NamedTuple):
     """Scratch of an impact.
 
     What each contact is in it (`impact.ABSENT` ...), the separation speed it must reach, its closing speed and impulse;
-    the contacts that a complementarity problem decides about; all rates before the impact; a line.
+    the contacts that a complementarity problem decides about, and which problem it is (columns in `complementarity`);
+    all rates before the impact; a line.
     """
 
     role: Array
@@ -165,6 +166,7 @@ class Strikes(NamedTuple):
     closing: Array
     impulse: Array
     candidates: Array
+    problem: Array
     rates_before: Array
     line: Array
 
@@ -176,6 +178,7 @@ strikes = room(
     "contact_closing",
     "contact_impulse",
     "candidates",
+    "problem",
     "rates_before",
     "line",
 )

@@ -114,8 +114,8 @@ def test_active_contacts_agree_with_forces_and_gaps(instance):
                 "contact_force",
                 "slope_gap",
                 "face_gap",
+                "holding_pawl_torque",
             )
-            + ("holding_pawl_torque",)
         )
         for contact, force, gap in (("slope", "slope_force", "slope_gap"), ("face", "contact_force", "face_gap")):
             if found[f"{contact}_active"]:
