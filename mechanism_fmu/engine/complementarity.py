@@ -78,7 +78,10 @@ def _choose(block: Array, count: int, impulses: bool) -> int:
 
 @jit
 def _first_wrong(block: Array, count: int, impulses: bool) -> int:
-    """The first candidate that pulls although closed, or goes in although open; `codes.NONE` when all is well."""
+    """The first candidate that pulls or comes off although closed, or goes in although open; `codes.NONE` when all is well.
+
+    A closed one comes off when rows that depend on each other contradict each other: the solution is then a compromise.
+    """
     keep_small()
     mode = contacts(block).mode
     candidates = strikes(block).candidates
@@ -95,7 +98,7 @@ def _first_wrong(block: Array, count: int, impulses: bool) -> int:
                 pulls = multiplier[contacts(block).row[c]] < -_IMPULSE_SHARE * _largest(multiplier, active)
             else:
                 pulls = push_ratio(block, c, active) < -1.0
-            if pulls:
+            if pulls or _comes_off(block, c, impulses):
                 return k
         elif _goes_in(block, c, impulses):
             return k
@@ -121,14 +124,27 @@ def _try_impulses(block: Array) -> int:
 
 
 @jit
+def _comes_off(block: Array, contact: int, impulses: bool) -> bool:
+    """Whether a closed candidate exceeds its separation speed, or accelerates away from the other body."""
+    left, tolerance = _excess(block, contact, contacts(block).row[contact], impulses)
+    return left > tolerance
+
+
+@jit
 def _goes_in(block: Array, contact: int, impulses: bool) -> bool:
     """Whether an open candidate misses its separation speed, or accelerates into the other body."""
+    contact_row(block, contact, spare_row(block))
+    left, tolerance = _excess(block, contact, spare_row(block), impulses)
+    return left < -tolerance
+
+
+@jit
+def _excess(block: Array, contact: int, r: int, impulses: bool) -> tuple[float, float]:
+    """A candidate's separation speed or acceleration, by its row `r`, beyond what it must at least be; and its rounding."""
     keep_small()
     n = sizes(block).coordinates
-    spare = spare_row(block)
-    contact_row(block, contact, spare)
     row = rows(block)
-    left = -row.gamma[spare]
+    left = -row.gamma[r]
     tolerance = _ACCELERATION
     if impulses:
         left = -strikes(block).target[contact]
@@ -138,9 +154,9 @@ def _goes_in(block: Array, contact: int, impulses: bool) -> bool:
         change = course(block).dy_end[n + k]
         if impulses:
             change = bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
-        left += row.jacobian[spare, k] * change
-        size += abs(row.jacobian[spare, k] * change)
-    return left < -(tolerance + _SHARE * size)
+        left += row.jacobian[r, k] * change
+        size += abs(row.jacobian[r, k] * change)
+    return left, tolerance + _SHARE * size
 
 
 @jit

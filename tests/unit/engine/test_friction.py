@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from touching import touching
 
@@ -23,7 +23,7 @@ from mechanism_fmu.model import (
     TorsionSpring,
     Translational,
 )
-from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.simulation import Simulation, SimulationError
 
 GRAVITY = 9.81
 MASS, INERTIA = 1.5, 0.2
@@ -263,7 +263,10 @@ def test_impacts_with_friction_never_add_energy(seed, bodies, contacts, friction
     heap = touching(seed, bodies=bodies, contacts=contacts, moving=True, friction=friction)
     simulation = Simulation(heap.mechanism)
     before = simulation.read()["kinetic"]
-    simulation.advance(1e-12)
+    try:
+        simulation.advance(1e-12)
+    except SimulationError:  # what is wedged in afterwards may have no acceleration that agrees with friction
+        assume(False)
     n = len(heap.masses)
     rates = simulation.field("dense")[0, n : 2 * n]
     after = heap.masses @ rates**2 / 2
