@@ -14,12 +14,14 @@ from mechanism_fmu.model import (
     Body,
     CircularPattern,
     Force,
+    Input,
     LogicalFunction,
     Mechanism,
     Output,
     PointLineContact,
     Revolute,
     Torque,
+    TorsionSpring,
 )
 from mechanism_fmu.simulation import Event, Simulation
 
@@ -126,8 +128,6 @@ def test_the_communication_steps_do_not_change_the_log():
 
 def test_a_contact_that_lets_go_is_an_event_without_impulse():
     """A block that lies on the floor is lifted by an input."""
-    from mechanism_fmu.model import Input
-
     floor = PointLineContact("floor", "block", (0.0, 0.0), GROUND, (0.0, 0.0), (0.0, 1.0))
     lift = Input("lift", "weight.y", -1.0, "", "N")
     block = Mechanism((Body("block", 1.0, 1.0),), forces=(Force("weight", "block"),), contacts=(floor,), inputs=(lift,))
@@ -151,32 +151,26 @@ def test_an_input_that_changes_no_mode_is_no_event():
 
 
 def test_a_force_that_ends_is_an_event_at_the_closed_form_instant():
-    """A ball in a groove that turns over: a guide carries the arm, m x phi'^2 grows until the seat lets go."""
-    speed, angle = 0.5, 0.3
-    # a block on a seat, pressed down by a spring-like torque that a turning rotor takes away: T = k (angle - phi)
-    from mechanism_fmu.model import TorsionSpring
-
+    """A flap is pressed on its seat by a spring to a turning rotor, J phi'' = -k (phi - angle), until phi = angle."""
+    speed, angle, stiffness = 0.5, 0.3, 0.1
     mechanism = Mechanism(
         bodies=(Body("rotor", 1.0, INERTIA, (0.0, 0.0, 0.0), (0.0, 0.0, speed)), Body("flap", 1.0, 0.1)),
         joints=(
             Revolute("hinge", "rotor", (0.0, 0.0), GROUND, (0.0, 0.0)),
             Revolute("flap_hinge", "flap", (0.0, 0.0), GROUND, (0.0, 0.0)),
         ),
-        # tiny against the rotor, which therefore goes on at its speed
-        forces=(TorsionSpring("spring", "flap", "rotor", stiffness=1e-9, free_angle=-angle),),
-        contacts=(PointLineContact("seat", "flap", (1.0, 0.0), GROUND, (0.0, 0.0), (0.0, 1.0)),),
+        forces=(TorsionSpring("spring", "flap", "rotor", stiffness=stiffness, free_angle=-angle),),
+        contacts=(PointLineContact("seat", "flap", (ARM, 0.0), GROUND, (0.0, 0.0), (0.0, 1.0)),),
         outputs=(Output("force", "seat.force", ""),),
     )
-    stiff = 1e4
-    spring = TorsionSpring("spring", "flap", "rotor", stiffness=stiff * 1e-9 * 1e4, free_angle=-angle)
-    mechanism = Mechanism(mechanism.bodies, mechanism.joints, (spring,), mechanism.contacts, outputs=mechanism.outputs)
-    simulation = Simulation(mechanism)
-    # the spring turns the rotor back: J phi'' = -k (phi - angle)
-    frequency = math.sqrt(stiff * 1e-5 / INERTIA)
-    # phi = angle + A cos(w t) + B sin(w t) with phi(0) = 0; the seat's force is k (angle - phi) / 1 m
+    frequency = math.sqrt(stiffness / INERTIA)
     expected = math.atan2(angle, speed / frequency) / frequency
-    simulation.advance(0.5 * expected)
-    assert simulation.read()["force"] > 0
+    simulation = Simulation(mechanism)
+    for share in (0.25, 0.5, 0.9):
+        simulation.advance(share * expected)
+        turned = frequency * share * expected
+        left = angle * math.cos(turned) - speed / frequency * math.sin(turned)
+        assert simulation.read()["force"] == pytest.approx(stiffness * left / ARM, rel=1e-7)
     simulation.advance(1.1 * expected)
     (event,) = simulation.events_in_step()
     assert event == Event(pytest.approx(expected, abs=1e-7), "seat.force", ("seat",), (), 0.0)

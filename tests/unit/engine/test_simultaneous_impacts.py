@@ -132,6 +132,26 @@ def test_energy_never_grows_and_nothing_goes_on_approaching(seed, bodies, contac
     assert heap.masses @ rates**2 / 2 + found["lost"] == pytest.approx(before, rel=1e-10)
 
 
+@pytest.mark.parametrize(("seed", "contacts"), [(22638, 7), (3168, 6)])
+def test_a_body_caged_by_its_contacts_comes_to_rest(seed, contacts):
+    """Leftovers of the rounds before, below the stick speed, must not leave the last rounds without a solution."""
+    heap = touching(seed, bodies=1, contacts=contacts, moving=True)
+    _, _, rates = after_the_impacts(heap)
+    np.testing.assert_allclose(rates, 0.0, atol=1e-9)
+
+
+def test_of_rows_that_contradict_each_other_the_one_that_comes_off_is_open():
+    """Four contacts of a body with three coordinates cannot all return with their own e: s'+ >= e |s'-|."""
+    heap = touching(4846990, bodies=1, contacts=4, moving=True)
+    simulation, _, _ = after_the_impacts(heap)
+    _, _, before, after, _ = np.split(
+        simulation.field("impacts")[0], np.cumsum([codes.RECORD_CONTACT_IMPULSES, 4, 3, 3])
+    )
+    restitution = np.array([contact.restitution for contact in heap.mechanism.contacts])
+    assert np.all(heap.rows @ before < 0)
+    assert np.all(heap.rows @ after >= -restitution * (heap.rows @ before) - 1e-10)
+
+
 @settings(deadline=None, max_examples=200)
 @given(st.integers(0, 2**32), st.integers(1, 3), st.integers(2, 8))
 def test_the_first_round_obeys_newtons_law_with_impulses_that_only_push(seed, bodies, contacts):
