@@ -78,7 +78,7 @@ def _choose(block: Array, count: int, impulses: bool) -> int:
 
 @jit
 def _first_wrong(block: Array, count: int, impulses: bool) -> int:
-    """The first candidate that pulls or comes off although closed, or goes in although open; `codes.NONE` when all is well.
+    """The first candidate that pulls or comes off although closed, or goes in although open; `codes.NONE`: none.
 
     A closed one comes off when rows that depend on each other contradict each other: the solution is then a compromise.
     """
@@ -140,7 +140,7 @@ def _goes_in(block: Array, contact: int, impulses: bool) -> bool:
 
 @jit
 def _excess(block: Array, contact: int, r: int, impulses: bool) -> tuple[float, float]:
-    """A candidate's separation speed or acceleration, by its row `r`, beyond what it must at least be; and its rounding."""
+    """A candidate's separation speed or acceleration, by row `r`, beyond what it must at least be; and its rounding."""
     keep_small()
     n = sizes(block).coordinates
     row = rows(block)
