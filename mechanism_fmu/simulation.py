@@ -164,7 +164,7 @@ class Simulation:
 
     def _involved(self, outcome: int) -> str:
         """The contacts that a failed event is about."""
-        if outcome not in (status.CHATTERING, status.NO_CHOICE):
+        if outcome not in (status.CHATTERING, status.NO_CHOICE, status.JAMMED):
             return ""
         names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
         return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."

@@ -88,7 +88,10 @@ def _choose(block: Array) -> int:
 
 @jit
 def _first_wrong(block: Array) -> int:
-    """The first candidate that pulls although closed, or goes in although open; `codes.NONE` when all is well."""
+    """The first candidate that pulls or comes off although closed, or goes in although open; `codes.NONE`: none.
+
+    A closed one comes off when rows that depend on each other contradict each other: the solution is then a compromise.
+    """
     keep_small()
     mode = contacts(block).mode
     candidates = strikes(block).candidates
@@ -106,7 +109,7 @@ def _first_wrong(block: Array) -> int:
                 pulls = multiplier[contacts(block).row[c]] < -_IMPULSE_SHARE * largest(multiplier, active)
             else:
                 pulls = push_ratio(block, c, active) < -1.0
-            if pulls:
+            if pulls or _comes_off(block, c):
                 return k
         elif _goes_in(block, c):
             return k
@@ -132,15 +135,30 @@ def _try_impulses(block: Array) -> int:
 
 
 @jit
+def _comes_off(block: Array, contact: int) -> bool:
+    """Whether a closed candidate exceeds its separation speed, or accelerates away from the other body."""
+    left, tolerance = _excess(block, contact, contacts(block).row[contact])
+    comes_off: bool = left > tolerance
+    return comes_off
+
+
+@jit
 def _goes_in(block: Array, contact: int) -> bool:
     """Whether an open candidate misses its separation speed, or accelerates into the other body."""
+    contact_row(block, contact, spare_row(block))
+    left, tolerance = _excess(block, contact, spare_row(block))
+    goes_in: bool = left < -tolerance
+    return goes_in
+
+
+@jit
+def _excess(block: Array, contact: int, r: int) -> tuple[float, float]:
+    """A candidate's separation speed or acceleration, by row `r`, beyond what it must at least be; and its rounding."""
     keep_small()
     n = sizes(block).coordinates
     impulses = strikes(block).problem[KIND] == IMPULSES
-    spare = spare_row(block)
-    contact_row(block, contact, spare)
     row = rows(block)
-    left = -row.gamma[spare]
+    left = -row.gamma[r]
     tolerance = _ACCELERATION
     if impulses:
         left = -strikes(block).target[contact]
@@ -150,7 +168,6 @@ def _goes_in(block: Array, contact: int) -> bool:
         change = course(block).dy_end[n + k]
         if impulses:
             change = bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
-        left += row.jacobian[spare, k] * change
-        size += abs(row.jacobian[spare, k] * change)
-    goes_in: bool = left < -(tolerance + _SHARE * size)
-    return goes_in
+        left += row.jacobian[r, k] * change
+        size += abs(row.jacobian[r, k] * change)
+    return left, tolerance + _SHARE * size

@@ -107,6 +107,10 @@ def _cast(block: Array, struck: int, plastic: bool) -> bool:
         if guided and not approaches:
             taking_part.role[c] = ABSENT
         taking_part.target[c] = -rate
+        if rate > 0.0 and not plastic:
+            # At rest but for a leftover of less than `STICK_SPEED`: it may turn round, as an elastic contact would.
+            # That keeps the problem solvable (by reversing all rates) and the energy from growing.
+            taking_part.target[c] = -2.0 * rate
         if approaches:
             approached = True
             taking_part.closing[c] = -rate

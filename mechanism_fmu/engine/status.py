@@ -9,6 +9,7 @@ TOO_MANY_STEPS = 5
 NO_CHOICE = 6
 CHATTERING = 7
 NO_PLACE = 8
+JAMMED = 9
 
 ADVICE = {
     NOT_ASSEMBLED: "The joints cannot be closed from the given start positions.",
@@ -18,9 +19,11 @@ ADVICE = {
     "and parameters are of a sensible size, or give a larger relative_tolerance.",
     TOO_MANY_STEPS: "One communication step needed more internal steps than the limit: the motion is very fast for its "
     "length. Restore a saved state or reset, then check the size of inputs and parameters, or take shorter steps.",
-    NO_CHOICE: "No set of pushing contacts agrees with the motion: friction may jam the mechanism, or more contacts "
-    "touch at once than can be resolved. Give less friction, or change lengths a little.",
+    NO_CHOICE: "No set of pushing contacts agrees with the motion: more contacts touch at once than can be "
+    "resolved. Change lengths or start positions a little.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
+    JAMMED: "No normal forces agree with their friction: the mechanism jams itself. Give less friction, or a line of action "
+    "farther from the friction cone.",
     NO_PLACE: "No copy of a pattern was found on which the point can start.",
 }

@@ -145,7 +145,7 @@ def take_step(block: Array) -> int:
         step = representable(start, step * _scale(error, 1.0))
         grow_most = 1.0
         if not step > smallest:
-            return status.STEP_TOO_SMALL
+            return _why_no_step(block)
         error = try_step(block, step)
     now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
 
@@ -178,6 +178,17 @@ def take_step(block: Array) -> int:
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
     return status.OK
+
+
+@jit
+def _why_no_step(block: Array) -> int:
+    """What has made the step shrink to nothing: the power lost is not a number where friction found no agreement."""
+    s = stages(block)
+    last = s.derivatives.shape[1] - 1
+    for k in range(1, s.derivatives.shape[0]):
+        if math.isnan(s.derivatives[k, last]) and not math.isnan(s.derivatives[k, 0]):
+            return status.JAMMED
+    return status.STEP_TOO_SMALL
 
 
 @jit

@@ -41,7 +41,24 @@ def point_line(i: Frame, j: Frame, data: Array) -> tuple[Jet]:
     return (_dot(_turned(j[2], data[4:6]), _difference(_point(i, data[0:2]), _point(j, data[2:4]))),)
 
 
-STATEMENTS: dict[str, Any] = {"revolute": revolute, "translational": translational, "point_line": point_line}
+def along_line(i: Frame, j: Frame, data: Array) -> tuple[Jet]:
+    """Distance of the point from the line's point along the line, to the right of the normal."""
+    normal = _turned(j[2], data[4:6])
+    return (_dot((normal[1], normal[0] * -1.0), _difference(_point(i, data[0:2]), _point(j, data[2:4]))),)
+
+
+def angle(i: Frame, j: Frame, data: Array) -> tuple[Jet]:
+    """Relative angle beyond a given one."""
+    return (i[2] - j[2] - data[0],)
+
+
+STATEMENTS: dict[str, Any] = {
+    "revolute": revolute,
+    "translational": translational,
+    "point_line": point_line,
+    "along_line": along_line,
+    "angle": angle,
+}
 
 
 def differentiated_rows(kind: str, data: Array, frames: tuple[int, int], q: Array, qd: Array) -> Rows:

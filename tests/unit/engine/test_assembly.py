@@ -138,4 +138,4 @@ def test_rates_that_disagree_with_a_closed_contact_are_refused():
 
 def test_rates_that_agree_are_kept():
     simulation = Simulation(rotor(speed=2.5))
-    np.testing.assert_array_equal(simulation.field("y_end"), [0, 0, 0, 0, 0, 2.5, 0])
+    np.testing.assert_array_equal(simulation.field("y_end"), [0, 0, 0, 0, 0, 2.5, 0, 0])

@@ -21,7 +21,7 @@ def test_an_input_that_is_no_number(torque):
     with pytest.raises(SimulationError, match=r"t = 0\.5 s: The step size has shrunk to nothing"):
         simulation.advance(1.0)
     assert simulation.time == 0.5
-    assert simulation.read() == good
+    assert simulation.read() == pytest.approx(good, rel=4e-16)  # by a true step: the dense output rounds otherwise
 
     simulation.set_input("torque", 0.0)
     simulation.advance(1.5)

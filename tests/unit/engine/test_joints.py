@@ -16,17 +16,29 @@ from mechanism_fmu import codes
 from mechanism_fmu.engine.kinematics import place_bodies
 from mechanism_fmu.engine.layout import field_of
 from mechanism_fmu.engine.pack import pack
-from mechanism_fmu.engine.rows import active_rows
+from mechanism_fmu.engine.rows import active_rows, spare_row, tangent_row
 from mechanism_fmu.engine.subset import entry
-from mechanism_fmu.model import GROUND, Body, Mechanism, PointLineContact, Revolute, Translational
+from mechanism_fmu.engine.views import strikes
+from mechanism_fmu.model import GROUND, AngleStop, Body, Mechanism, PointLineContact, Revolute, Translational
 
 NAMES = ("a", "b", GROUND)
+
+
+#: How many numbers each part has; a contact's point stands in `contact_data`, its line or angle in `contact_line`.
+WIDTHS = {"revolute": 4, "translational": 8, "point_line": 6, "along_line": 6, "angle": 1}
 
 
 @entry
 def evaluate(block, y):
     place_bodies(block, y)
     return active_rows(block)
+
+
+@entry
+def evaluate_tangent(block, y):
+    place_bodies(block, y)
+    tangent_row(block, 0, strikes(block).line)
+    return spare_row(block)
 
 
 @cache
@@ -37,7 +49,9 @@ def block_with(kind, frames):
         "revolute": {"joints": (Revolute("part", i, (0, 0), j, (0, 0)),)},
         "translational": {"joints": (Translational("part", i, (0, 0), (1, 0), j, (0, 0), (1, 0)),)},
         "point_line": {"contacts": (PointLineContact("part", i, (0, 0), j, (0, 0), (1, 0)),)},
+        "angle": {"contacts": (AngleStop("part", i, j, 0.0),)},
     }
+    parts["along_line"] = parts["point_line"]
     block = pack(Mechanism(bodies=(Body("a", 1.0, 1.0), Body("b", 1.0, 1.0)), **parts[kind]).compile())
     field_of(block, "contact_mode")[:] = codes.CLOSED
     return block
@@ -45,11 +59,20 @@ def block_with(kind, frames):
 
 def engine_rows(kind, data, frames, q, qd):
     block = block_with(kind, frames)
-    table = field_of(block, "contact_data" if kind == "point_line" else "joint_data")
-    table[0, : len(data)] = data
-    count = evaluate(block, np.array([*q, *qd, 0.0]))
+    if kind in ("revolute", "translational"):
+        field_of(block, "joint_data")[0, : len(data)] = data
+    elif kind == "angle":
+        field_of(block, "contact_line")[0, 0] = data[0]
+    else:
+        field_of(block, "contact_data")[0, :2] = data[:2]
+        field_of(block, "contact_line")[0] = data[2:]
+    y = np.array([*q, *qd, 0.0, 0.0])
+    wanted = slice(0, evaluate(block, y))
+    if kind == "along_line":
+        spare = evaluate_tangent(block, y)
+        wanted = slice(spare, spare + 1)
     fields = ("residual", "residual_rate", "gamma", "jacobian")
-    phi, rate, gamma, jacobian = (field_of(block, name)[:count] for name in fields)
+    phi, rate, gamma, jacobian = (field_of(block, name)[wanted] for name in fields)
     return Rows(phi, rate, gamma, jacobian[:, : len(q)])
 
 
@@ -59,8 +82,7 @@ def engine_rows(kind, data, frames, q, qd):
 @pytest.mark.parametrize("kind", STATEMENTS)
 def test_rows_are_the_derivatives_of_phi(kind, frames, numbers):
     q, qd, data = np.split(numbers, [6, 12])
-    width = {"revolute": 4, "translational": 8, "point_line": 6}[kind]
-    found = engine_rows(kind, data[:width], frames, q, qd)
+    found = engine_rows(kind, data[: WIDTHS[kind]], frames, q, qd)
     expected = differentiated_rows(kind, data, frames, q, qd)
     for name, value in expected._asdict().items():
         within = 1e-12 * max(1.0, np.abs(value).max())

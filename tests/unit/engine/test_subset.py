@@ -9,22 +9,30 @@ from mechanism_fmu.engine.stepper import advance
 from mechanism_fmu.model import Body, Mechanism
 from mechanism_fmu.simulation import Simulation
 
-#: What any platform's C library has, and nothing else.
+#: Functions of double precision that any platform's C library has (C99, 7.12, and sincos), and nothing else.
 MATHEMATICS = {
     "acos",
     "asin",
     "atan",
     "atan2",
+    "ceil",
     "cos",
+    "cosh",
     "exp",
+    "fabs",
+    "floor",
     "fmod",
     "hypot",
     "log",
     "pow",
+    "round",
     "sin",
     "sincos",
+    "sinh",
     "sqrt",
     "tan",
+    "tanh",
+    "trunc",
 }
 MEMORY = {"memcpy", "memmove", "memset"}
 

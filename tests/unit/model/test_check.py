@@ -5,9 +5,15 @@ import pytest
 
 from mechanism_fmu.model import (
     GROUND,
+    AngleLock,
+    AngleStop,
     Body,
     Calculated,
+    CircularPattern,
+    CompliantShaft,
+    Damper,
     Input,
+    LogicalFunction,
     Mechanism,
     MechanismError,
     Output,
@@ -36,6 +42,11 @@ ARM, SLIDER = GOOD.bodies
 HINGE, GUIDE = GOOD.joints
 DRIVE, SPRING = GOOD.forces
 STOP = GOOD.contacts[0]
+TEETH = CircularPattern("teeth", "arm", (0.5, 0.0), "slider", 0.3, (1.0, 0.0), (0.0, 1.0))
+LATCH = AngleStop("latch", "arm", "slider", 0.1, 0.5)
+LOCK = AngleLock("lock", "arm", GROUND, 0.0, 0.5, "low")
+LOW = LogicalFunction("low", "arm.angle", 1.0)
+SHAFT = CompliantShaft("shaft", "arm", stiffness=1.0, damping=1.0)
 TORQUE, ANGLE = GOOD.inputs[0], GOOD.outputs[0]
 
 REFUSALS = {
@@ -81,6 +92,75 @@ REFUSALS = {
     "tolerance too small": ({"settings": Settings(relative_tolerance=1e-16)}, ["1e-16", "1e-13..1e-3"]),
     "tolerance not a number": ({"settings": Settings(relative_tolerance=math.nan)}, ["relative_tolerance = nan"]),
     "negative gain": ({"settings": Settings(baumgarte_alpha=-1.0)}, ["baumgarte_alpha = -1", "not negative"]),
+    "too many contacts": (
+        {"contacts": tuple(replace(STOP, name=f"stop{k}") for k in range(51))},
+        ["has 51 contacts", "at most 50"],
+    ),
+    "negative friction of a contact": ({"contacts": (replace(STOP, friction=-0.1),)}, ["'stop'", "friction = -0.1"]),
+    "infinite friction of a contact": ({"contacts": (replace(STOP, friction=math.inf),)}, ["'stop'", "friction = inf"]),
+    "unknown pattern": (
+        {"contacts": (replace(STOP, pattern="cogs"),), "patterns": (TEETH,)},
+        ["'stop'", "pattern 'cogs'", "does not exist", "patterns: teeth"],
+    ),
+    "a pattern where there is none": ({"contacts": (replace(STOP, pattern="cogs"),)}, ["'cogs'", "patterns: none"]),
+    "pattern of another body": (
+        {"contacts": (replace(STOP, pattern="teeth"),), "patterns": (replace(TEETH, body_j=GROUND),)},
+        ["Contact 'stop' lies on 'slider'", "repeats around 'ground'"],
+    ),
+    "pattern on nothing": (
+        {"patterns": (replace(TEETH, body_i="pawl"),)},
+        ["CircularPattern 'teeth'", "unknown body 'pawl'"],
+    ),
+    "pattern of one body": ({"patterns": (replace(TEETH, body_i="slider"),)}, ["'teeth'", "'slider' to itself"]),
+    "boundary normal too short": (
+        {"patterns": (replace(TEETH, boundary_normal=(0.6, 0.0)),)},
+        ["'teeth'", "boundary normal has length 0.6", "unit vector"],
+    ),
+    "pattern without pitch": ({"patterns": (replace(TEETH, pitch=0.0),)}, ["'teeth'", "pitch = 0 rad", "not zero"]),
+    "pitch not a number": ({"patterns": (replace(TEETH, pitch=math.nan),)}, ["'teeth'", "pitch = nan", "finite"]),
+    "boundary not finite": (
+        {"patterns": (replace(TEETH, boundary_point=(math.inf, 0.0)),)},
+        ["CircularPattern 'teeth'", "not finite"],
+    ),
+    "pattern named like a contact": ({"patterns": (replace(TEETH, name="stop"),)}, ["CircularPattern 'stop'", "own"]),
+    "stop with pitch zero": ({"contacts": (replace(LATCH, pitch=0.0),)}, ["'latch'", "pitch = 0 rad", "positive"]),
+    "stop with pitch backwards": ({"contacts": (replace(LATCH, pitch=-0.5),)}, ["'latch'", "pitch = -0.5 rad"]),
+    "lock with pitch zero": (
+        {"contacts": (replace(LOCK, pitch=0.0),), "functions": (LOW,)},
+        ["'lock'", "pitch = 0 rad", "positive"],
+    ),
+    "stop at no angle": ({"contacts": (replace(LATCH, angle=math.nan),)}, ["AngleStop 'latch'", "not finite"]),
+    "stop bouncing too much": ({"contacts": (replace(LATCH, restitution=1.5),)}, ["'latch'", "1.5", "0..1"]),
+    "unknown logical function": (
+        {"contacts": (replace(STOP, closed_while="not high"),), "functions": (LOW,)},
+        ["'stop'", "closed while 'not high'", "functions: low"],
+    ),
+    "a function where there is none": ({"contacts": (LOCK,)}, ["'lock'", "closed while 'low'", "functions: none"]),
+    "function of an unknown quantity": (
+        {"functions": (replace(LOW, of="arm.speed"),)},
+        ["'low'", "'arm.speed'", "stop.along, arm.angle, slider.angle"],
+    ),
+    "function of an unknown part": ({"functions": (replace(LOW, of="leg.angle"),)}, ["'low'", "'leg.angle'"]),
+    "function along a stop": (
+        {"contacts": (STOP, LATCH), "functions": (replace(LOW, of="latch.along"),)},
+        ["'low'", "'latch.along'", "choose among stop.along, arm.angle"],
+    ),
+    "function with no limit": ({"functions": (replace(LOW, below=math.nan),)}, ["'low'", "limit nan", "not finite"]),
+    "function named like a body": ({"functions": (replace(LOW, name="arm"),)}, ["LogicalFunction 'arm'", "(Body)"]),
+    "negative damper": (
+        {"forces": (DRIVE, SPRING, Damper("oil", "arm", damping=-2.0))},
+        ["Damper 'oil'", "damping = -2 N.m.s/rad", "not be negative"],
+    ),
+    "negative stiffness of a shaft": (
+        {"forces": (DRIVE, SPRING, replace(SHAFT, stiffness=-3.0))},
+        ["CompliantShaft 'shaft'", "stiffness = -3 N.m/rad"],
+    ),
+    "negative damping of a shaft": (
+        {"forces": (DRIVE, SPRING, replace(SHAFT, damping=-4.0))},
+        ["CompliantShaft 'shaft'", "damping = -4 N.m.s/rad"],
+    ),
+    "negative pin friction": ({"joints": (replace(HINGE, friction_radius=-0.01), GUIDE)}, ["'hinge'", "-0.01"]),
+    "infinite slider friction": ({"joints": (HINGE, replace(GUIDE, friction=math.inf))}, ["'guide'", "inf", "finite"]),
     "infinite gain": ({"settings": Settings(baumgarte_beta=math.inf)}, ["baumgarte_beta = inf", "finite"]),
 }
 
@@ -98,6 +178,11 @@ UNKNOWN_SOURCES = [
     "leg.angle",
     "arm.phi",
     "stop.gab",
+    "stop.clicks",
+    "stop.latched",
+    "drive.torque",
+    "arm.index",
+    "event.number",
     "energy.heat",
     "impact.speed",
     "impact.speed:leg",
@@ -124,3 +209,25 @@ def test_all_problems_are_told_at_once():
 
 def test_a_good_mechanism_passes():
     assert GOOD.compile().joint_rows == 4
+
+
+def test_a_good_mechanism_with_all_kinds_of_contacts_passes():
+    latch, lock = replace(LATCH, pitch=None), replace(LOCK, closed_while="not low")
+    good = replace(
+        GOOD,
+        contacts=(replace(STOP, pattern="teeth", friction=0.3), latch, lock),
+        patterns=(replace(TEETH, pitch=-0.3),),
+        functions=(LOW, LogicalFunction("near", "stop.along", 0.0)),
+        forces=(*GOOD.forces, SHAFT, Damper("oil", "arm", damping=0.0)),
+        outputs=(
+            Output("clicks", "latch.clicks", "x"),
+            Output("index", "teeth.index", "x"),
+            Output("twist", "shaft.torque", "x"),
+        ),
+    )
+    assert len(good.compile().contact_kind) == 3
+
+
+def test_fifty_contacts_are_not_too_many():
+    contacts = tuple(replace(STOP, name=f"stop{k}") for k in range(50))
+    assert len(replace(GOOD, contacts=contacts).compile().contact_kind) == 50

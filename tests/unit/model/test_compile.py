@@ -7,9 +7,16 @@ import pytest
 from mechanism_fmu import codes
 from mechanism_fmu.model import (
     GROUND,
+    AngleLock,
+    AngleStop,
     Body,
     Calculated,
+    CircularPattern,
+    CompliantShaft,
+    Damper,
+    Force,
     Input,
+    LogicalFunction,
     Mechanism,
     Output,
     PointLineContact,
@@ -23,23 +30,54 @@ from mechanism_fmu.model import (
 TABLES = Mechanism(
     bodies=(Body("arm", 4.0, 0.25, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), Body("slider", 16.0, 1.0)),
     joints=(
-        Revolute("hinge", "arm", (1.0, 2.0), GROUND, (3.0, 4.0)),
-        Translational("guide", "slider", (1.0, 2.0), (3.0, 4.0), "arm", (5.0, 6.0), (7.0, 8.0)),
+        Revolute("hinge", "arm", (1.0, 2.0), GROUND, (3.0, 4.0), 0.03),
+        Translational("guide", "slider", (1.0, 2.0), (3.0, 4.0), "arm", (5.0, 6.0), (7.0, 8.0), 0.2),
     ),
     forces=(
         Torque("drive", "slider", reaction="arm", torque=9.0),
         TorsionSpring("spring", "arm", stiffness=1.0, free_angle=2.0, preload=3.0),
+        Damper("oil", "arm", "slider", 0.5),
+        CompliantShaft("shaft", "slider", stiffness=7.0, damping=8.0, angle=0.1, speed=0.2),
+        Force("weight", "arm", (-3.0, -4.0)),
     ),
     contacts=(
         PointLineContact("rest", "arm", (1.0, 2.0), "slider", (3.0, 4.0), (0.6, 0.8), closed=True),
-        PointLineContact("stop", "arm", (1.0, 2.0), GROUND, (3.0, 4.0), (0.0, 1.0), False, 0.5, 0.02, 7),
+        PointLineContact(
+            "stop",
+            "arm",
+            (1.0, 2.0),
+            GROUND,
+            (3.0, 4.0),
+            (0.0, 1.0),
+            False,
+            0.5,
+            0.3,
+            0.02,
+            True,
+            closed_while="not near",
+        ),
+        PointLineContact("tooth", "slider", (1.0, 2.0), "arm", (3.0, 4.0), (1.0, 0.0), enabled=False, pattern="teeth"),
+        AngleStop("click", "arm", GROUND, 0.4, 0.5, 0.25),
+        AngleStop("end", "slider", "arm", -0.4),
+        AngleLock("lock", "arm", "slider", 0.6, 0.7, "turned", True),
     ),
+    patterns=(
+        CircularPattern("holes", "arm", (1.0, 2.0), GROUND, 0.5, (3.0, 4.0), (0.0, 1.0), enabled=False),
+        CircularPattern("teeth", "slider", (5.0, 6.0), "arm", -0.25, (7.0, 8.0), (0.6, -0.8)),
+    ),
+    functions=(LogicalFunction("turned", "slider.angle", 1.5), LogicalFunction("near", "tooth.along", -0.5)),
     inputs=(Input("preload", "spring.preload", 0.1, "x"), Input("torque", "drive.torque", 0.2, "x")),
     outputs=(
         Output("angle", "slider.angle", "x"),
         Output("rate", "arm.y_rate", "x"),
         Output("force", "stop.force", "x"),
         Output("gap", "rest.gap", "x"),
+        Output("closed", "stop.closed", "x", type="Boolean"),
+        Output("clicks", "click.clicks", "x", type="Integer"),
+        Output("latched", "end.latched", "x"),
+        Output("index", "teeth.index", "x", type="Integer"),
+        Output("twist", "shaft.torque", "x"),
+        Output("events", "event.count", "x", type="Integer"),
         Output("work", "energy.work", "x"),
         Output("count", "impact.count", "x", type="Integer"),
         Output("time", "impact.time", "x"),
@@ -73,21 +111,77 @@ def test_joints_follow_each_other_in_the_rows():
 
 
 def test_forces():
-    assert list(TABLES.force_kind) == [codes.TORQUE, codes.TORSION_SPRING]
-    assert list(TABLES.force_body) == [1, 0]
-    assert list(TABLES.force_reaction) == [0, 2]
-    np.testing.assert_array_equal(TABLES.force_data, [[9, 0, 0], [1, 2, 3]])
+    assert list(TABLES.force_kind) == [codes.TORQUE, codes.TORSION_SPRING, codes.DAMPER, codes.SHAFT, codes.FORCE]
+    assert list(TABLES.force_body) == [1, 0, 0, 1, 0]
+    assert list(TABLES.force_reaction) == [0, 2, 1, 2, 2]
+    np.testing.assert_array_equal(
+        TABLES.force_data,
+        [
+            [9, 0, 0, 0],
+            [1, 2, 3, 0],
+            [0.5, 0, 0, 0],
+            [7, 8, 0.1, 0.2],
+            [-3, -4, 0, 0],
+        ],
+    )
     columns = [codes.SPRING_STIFFNESS, codes.SPRING_FREE_ANGLE, codes.SPRING_PRELOAD]
     np.testing.assert_array_equal(TABLES.force_data[1, columns], [1, 2, 3])
+    assert TABLES.force_data[2, codes.DAMPING] == 0.5
+    columns = [codes.SHAFT_STIFFNESS, codes.SHAFT_DAMPING, codes.SHAFT_ANGLE, codes.SHAFT_SPEED]
+    np.testing.assert_array_equal(TABLES.force_data[3, columns], [7, 8, 0.1, 0.2])
+    np.testing.assert_array_equal(TABLES.force_data[4, [codes.FORCE_X, codes.FORCE_Y]], [-3, -4])
 
 
 def test_contacts():
-    assert list(TABLES.contact_start_mode) == [codes.CLOSED, codes.OPEN]
-    assert list(TABLES.contact_body_j) == [1, 2]
-    assert list(TABLES.contact_tooth) == [0, 7]
-    np.testing.assert_array_equal(TABLES.contact_data, [[1, 2, 3, 4, 0.6, 0.8], [1, 2, 3, 4, 0, 1]])
-    np.testing.assert_array_equal(TABLES.contact_restitution, [0, 0.5])
-    np.testing.assert_array_equal(TABLES.contact_beam_length, [0, 0.02])
+    assert list(TABLES.contact_kind) == [codes.POINT_LINE] * 3 + [codes.ANGLE_STOP] * 2 + [codes.ANGLE_LOCK]
+    assert list(TABLES.contact_body_i) == [0, 0, 1, 0, 1, 0]
+    assert list(TABLES.contact_body_j) == [1, 2, 0, 2, 0, 1]
+    np.testing.assert_array_equal(
+        TABLES.contact_data,
+        [
+            [1, 2, 3, 4, 0.6, 0.8],
+            [1, 2, 3, 4, 0, 1],
+            [1, 2, 3, 4, 1, 0],
+            [0.4, 0.5, 0, 0, 0, 0],
+            [-0.4, 0, 0, 0, 0, 0],  # pitch 0: a plain stop
+            [0.6, 0.7, 0, 0, 0, 0],
+        ],
+    )
+    columns = ["RESTITUTION", "FRICTION", "BEAM_LENGTH", "GUIDED", "ENABLED", "STARTS_CLOSED"]
+    values = TABLES.contact_value[:, [getattr(codes, name) for name in columns]]
+    np.testing.assert_array_equal(
+        values,
+        [
+            [0, 0, 0, 0, 1, 1],
+            [0.5, 0.3, 0.02, 1, 1, 0],
+            [0, 0, 0, 0, 0, 0],
+            [0.25, 0, 0, 0, 1, 0],
+            [0, 0, 0, 0, 1, 0],
+            [0, 0, 0, 0, 1, 1],
+        ],
+    )
+
+
+def test_patterns_repeat_the_contacts_that_name_them():
+    assert list(TABLES.contact_pattern) == [codes.NONE, codes.NONE, 1, codes.NONE, codes.NONE, codes.NONE]
+    assert list(TABLES.pattern_body_i) == [0, 1]
+    assert list(TABLES.pattern_body_j) == [2, 0]
+    np.testing.assert_array_equal(TABLES.pattern_data, [[1, 2, 3, 4, 0, 1], [5, 6, 7, 8, 0.6, -0.8]])
+    np.testing.assert_array_equal(TABLES.pattern_pitch, [0.5, -0.25])
+    np.testing.assert_array_equal(TABLES.pattern_enabled, [0, 1])
+
+
+def test_logical_functions_switch_the_contacts_that_name_them():
+    assert list(TABLES.function_kind) == [codes.ANGLE, codes.ALONG]
+    assert list(TABLES.function_index) == [1, 2]
+    np.testing.assert_array_equal(TABLES.function_limit, [1.5, -0.5])
+    none = codes.NONE
+    assert list(TABLES.contact_function) == [none, 1, none, none, none, 0]
+    assert [TABLES.contact_closes_when[c] for c in (1, 5)] == [0, 1]
+
+
+def test_friction_of_joints():
+    np.testing.assert_array_equal(TABLES.joint_friction, [0.03, 0.2])
 
 
 def test_inputs_write_entries_of_the_force_table():
@@ -97,13 +191,19 @@ def test_inputs_write_entries_of_the_force_table():
 
 
 def test_outputs_and_calculated_values():
-    contacts, bodies = 2, 2
+    contacts, bodies = 6, 2
     impulses = codes.RECORD_CONTACT_IMPULSES
     expected = [
         (codes.COORDINATE, 5, 0),
         (codes.RATE, 1, 0),
         (codes.CONTACT_FORCE, 1, 0),
         (codes.CONTACT_GAP, 0, 0),
+        (codes.CONTACT_CLOSED, 1, 0),
+        (codes.STOP_CLICKS, 3, 0),
+        (codes.STOP_REFERENCE, 4, 0),
+        (codes.PATTERN_INDEX, 1, 0),
+        (codes.SHAFT_TORQUE, 3, 0),
+        (codes.EVENT_COUNT, 0, 0),
         (codes.WORK_DONE, 0, 0),
         (codes.IMPACT_COUNT, 0, 0),
         (codes.LAST_IMPACT, codes.RECORD_TIME, 0),
@@ -114,7 +214,7 @@ def test_outputs_and_calculated_values():
     ]
     found = zip(TABLES.output_kind, TABLES.output_index, TABLES.output_slot, strict=True)
     assert [tuple(map(int, row)) for row in found] == expected
-    np.testing.assert_array_equal(TABLES.output_value, [0.0] * 10 + [2.5])
+    np.testing.assert_array_equal(TABLES.output_value, [0.0] * 16 + [2.5])
 
 
 def test_held_coordinates_and_settings():
@@ -133,7 +233,10 @@ def test_structure_is_integer_and_numbers_are_floats():
 def test_a_single_free_body_has_tables_of_the_right_width():
     tables = Mechanism(bodies=(Body("stone", 1.0, 1.0, (0.0, 1.0, math.pi)),)).compile()
     assert tables.joint_data.shape == (0, 8)
-    assert tables.force_data.shape == (0, 3)
+    assert tables.force_data.shape == (0, 4)
     assert tables.contact_data.shape == (0, 6)
+    assert tables.contact_value.shape == (0, codes.CONTACT_VALUES)
+    assert tables.pattern_data.shape == (0, 6)
+    assert tables.function_limit.shape == (0,)
     assert tables.joint_rows == 0
     assert tables.body_start[0, 2] == pytest.approx(math.pi)
