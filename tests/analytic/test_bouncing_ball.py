@@ -80,7 +80,7 @@ def test_any_ball_comes_to_rest_when_the_series_says(restitution, height, mass):
     assert simulation.counters[codes.COUNT_IMPACTS] == len(bounces(height, restitution))
     found = simulation.read()
     assert found["lost"] == pytest.approx(mass * GRAVITY * height, rel=1e-9)
-    assert found["kinetic"] == 0.0
+    assert found["kinetic"] <= 1e-15 * found["lost"]
 
 
 def test_a_ball_on_the_same_floor_three_times_bounces_like_one():
