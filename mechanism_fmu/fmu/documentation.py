@@ -91,8 +91,8 @@ def _modes(model: Model, folder: Path) -> str:
         return ""
     return (
         "<h2>Modes and transitions</h2>\n<p>With the default values; those of other values are in "
-        "<code>resources/logic.json</code>, and <code>mechanism-fmu modes</code> shows them. The charts run beside each "
-        "other; an arrow has its event, [its guard] and / what it resets.</p>\n"
+        "<code>resources/logic.json</code>, and <code>mechanism-fmu modes</code> shows them. The charts run beside "
+        "each other; an arrow has its event, [its guard] and / what it resets.</p>\n"
         f"{diagram(logic)}{_markdown(markdown(logic), folder)}{_markdown(definitions_table(logic), folder)}"
     )
 

@@ -1,7 +1,7 @@
 """The logic that travels in an FMU, for tools that show modes, transitions and events: `resources/logic.json`.
 
-Parameters can choose between mechanisms (a guided pawl or a free one). Those that change the logic when they are switched
-between zero and not zero are its switches; the file holds every variant and says which switches choose which.
+Parameters can choose between mechanisms (a guided pawl or a free one). Those that change the logic when they are
+switched between zero and not zero are its switches; the file holds every variant and says which switches choose which.
 """
 
 from __future__ import annotations
@@ -30,9 +30,10 @@ MOST_SWITCHES = 8
 def logic(model: Model) -> dict[str, bytes]:
     """The file by its path within the FMU: the same bytes for the same model; none when it has no contacts.
 
-    `{"format": 1, "contacts": [name, ...], "events": [{"guard": 0, "subject": 0, "name": "face.gap"}, ...], "switches":
-    [parameter, ...], "choices": {"10": 0, ...}, "variants": [...]}`: a key of the choices has a 1 for each switch that is
-    true or not zero, its value is the place of the variant, whose keys are as in `mechanism_fmu.statechart.Logic`.
+    `{"format": 1, "contacts": [name, ...], "events": [{"guard": 0, "subject": 0, "name": "face.gap"}, ...],
+    "switches": [parameter, ...], "choices": {"10": 0, ...}, "variants": [...]}`: a key of the choices has a 1 for each
+    switch that is true or not zero, its value is the place of the variant, whose keys are as in
+    `mechanism_fmu.statechart.Logic`.
     """
     mechanism = model.mechanism(model.values())
     if not mechanism.contacts:

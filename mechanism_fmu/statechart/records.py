@@ -82,7 +82,7 @@ class Transition:
     def condition(self) -> str:
         """The guard as a product, with what must hold after the reset."""
         before, after = " and ".join(self.guard), " and ".join(self.after)
-        return "; then ".join(filter(None, (before, after)))
+        return "; ".join(filter(None, (before, f"then {after}" if after else "")))
 
 
 @dataclass(frozen=True)
