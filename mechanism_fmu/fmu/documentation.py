@@ -24,7 +24,7 @@ table { border-collapse: collapse; margin: 1rem 0; font-size: .9rem; }
 th, td { border-bottom: 1px solid #ddd; padding: .25rem .6rem; text-align: left; vertical-align: top; }
 code, pre { font-family: ui-monospace, monospace; font-size: .9em; }
 pre { background: #f6f6f6; padding: .8rem; overflow-x: auto; }
-img, svg { max-width: 100%; height: auto; }
+img { max-width: 100%; }
 """
 
 #: What pythonfmu's wrapper decides by itself, whatever the model does.

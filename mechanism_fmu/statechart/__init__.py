@@ -3,10 +3,10 @@
 It knows neither the model room, which derives it, nor the FMU and the harness, which carry and show it.
 """
 
-from .diagram import diagram
+from .follow import taken
 from .records import ANY, Definition, Logic, Region, Transition
+from .svg import diagram
 from .table import definition_rows, definitions_table, kept_parts, markdown, rows
-from .taken import taken
 
 __all__ = [
     "ANY",

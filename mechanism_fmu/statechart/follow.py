@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from .records import ANY, Logic, Region, Transition
+from .records import ANY, Logic, Region
 
 
 def taken(logic: Logic, event: str, old_mode: Collection[str], new_mode: Collection[str], impulse: float) -> list[int]:
@@ -13,7 +13,8 @@ def taken(logic: Logic, event: str, old_mode: Collection[str], new_mode: Collect
     Args:
         logic: of the mechanism.
         event: what fired, e.g. "face.gap" (`Event.guard`).
-        old_mode, new_mode: names of the closed contacts before and after.
+        old_mode: names of the closed contacts before.
+        new_mode: names of the closed contacts after.
         impulse: total impulse of the event [N s]; 0 when there was no impact.
     """
     found = []
@@ -28,15 +29,6 @@ def taken(logic: Logic, event: str, old_mode: Collection[str], new_mode: Collect
                 found.append(place)
                 break
     return found
-
-
-def unexplained(
-    logic: Logic, transitions: Collection[Transition], old_mode: Collection[str], new_mode: Collection[str]
-) -> set[str]:
-    """Contacts that changed their state without one of these transitions."""
-    moved = {t.part for t in transitions}
-    known = {region.part for region in logic.regions if region.is_contact}
-    return {name for name in set(old_mode) ^ set(new_mode) if name not in moved or name not in known}
 
 
 def _state(region: Region, mode: Collection[str]) -> str:

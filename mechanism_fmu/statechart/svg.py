@@ -20,14 +20,29 @@ _LEAST_WAY = 150  # between two boxes
 _ARROWS_APART = 20
 _TITLE = 46
 
-_STYLE = (
-    "text{font:11px ui-monospace,'DejaVu Sans Mono',Menlo,Consolas,monospace;fill:#1c2733}"
-    ".part{font-weight:700;font-size:14px}.kind,.guard{fill:#5b6875}.event{font-weight:700}"
-    ".state{font-size:13px;font-weight:600;text-anchor:middle}"
-    "rect.frame{fill:#fff;stroke:#8793a0}rect.box{fill:#eef3f7;stroke:#1c2733;stroke-width:1.4}"
-    "path.arrow{fill:none;stroke:#1c2733;stroke-width:1.4}path.rule{stroke:#8793a0;stroke-dasharray:6 5;fill:none}"
-    ".never .event,.never .guard{fill:#8d98a3}path.never{stroke:#b6c0ca}"
-    ".live .event{fill:#0072B2}path.live{stroke:#0072B2;stroke-width:2.4}"
+#: Selectors are led by the class of the picture, because a style in a page acts on the whole page.
+_STYLE = "".join(
+    f"{','.join(f'svg.statechart {selector}' for selector in selectors.split(','))}{{{rules}}}"
+    for selectors, rules in (
+        ("text", "font:11px ui-monospace,'DejaVu Sans Mono',Menlo,Consolas,monospace;fill:#1c2733"),
+        ("text.part", "font-weight:700;font-size:14px"),
+        ("text.guard,.kind", "fill:#5b6875"),
+        ("text.event", "font-weight:700"),
+        ("text.state", "font-size:13px;font-weight:600;text-anchor:middle"),
+        ("rect.frame", "fill:#fff;stroke:#8793a0"),
+        ("rect.box", "fill:#eef3f7;stroke:#1c2733;stroke-width:1.4"),
+        ("path.arrow", "fill:none;stroke:#1c2733;stroke-width:1.4"),
+        ("path.rule", "fill:none;stroke:#8793a0;stroke-dasharray:6 5"),
+        (".never text.event,.never text.guard", "fill:#8d98a3"),
+        ("path.never", "stroke:#b6c0ca"),
+        (".live text.event", "fill:#0072B2"),
+        ("path.live", "stroke:#0072B2;stroke-width:2.4"),
+    )
+)
+
+_HEAD = (
+    '<defs><marker id="statechart-head" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="9" markerHeight="9" '
+    'markerUnits="userSpaceOnUse" orient="auto"><path d="M0 0L10 5L0 10z" fill="#1c2733"/></marker></defs>'
 )
 
 
@@ -66,11 +81,10 @@ def diagram(logic: Logic, counts: Mapping[int, int] | None = None) -> str:
         drawn, height = _draw(row, first, way, y)
         parts += drawn
         y += height
+    size = f'viewBox="-1 -1 {width + 2:g} {y + 2:g}" width="{width + 2:g}" height="{y + 2:g}"'
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-1 -1 {width + 2:g} {y + 2:g}" width="{width + 2:g}" '
-        f'height="{y + 2:g}" role="img"><title>Modes and transitions</title><style>{_STYLE}</style>'
-        '<defs><marker id="head" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="9" markerHeight="9" '
-        'markerUnits="userSpaceOnUse" orient="auto"><path d="M0 0L10 5L0 10z" fill="#1c2733"/></marker></defs>\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="statechart" style="max-width:100%;height:auto" {size} '
+        f'role="img"><title>Modes and transitions</title><style>{_STYLE}</style>{_HEAD}\n'
         f'<rect class="frame" width="{width:g}" height="{y:g}" rx="12"/>\n' + "\n".join(parts) + "\n</svg>\n"
     )
 
@@ -173,7 +187,7 @@ def _loop(x: float, middle: float, side: int, lines: Sequence[tuple[str, str]], 
 
 
 def _arrow(path: str, tone: str) -> str:
-    return f'<path class="{f"arrow {tone}".strip()}" d="{path}" marker-end="url(#head)"/>'
+    return f'<path class="{f"arrow {tone}".strip()}" d="{path}" marker-end="url(#statechart-head)"/>'
 
 
 def _text(lines: Sequence[tuple[str, str]], x: float, y: float) -> Iterator[str]:
