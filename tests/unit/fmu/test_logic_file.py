@@ -40,7 +40,8 @@ def test_every_choice_of_the_ratchet_is_the_logic_of_those_values():
     assert len(data["choices"]) == 16
     for key, place in data["choices"].items():
         values = {
-            name: 0.5 * int(bit) if "restitution" in name else int(bit) for name, bit in zip(data["switches"], key)
+            name: 0.5 * int(bit) if "restitution" in name else int(bit)
+            for name, bit in zip(data["switches"], key, strict=True)
         }
         assert decode(data["variants"][place]) == logic_of(RATCHET.build(RATCHET.values(**values)))
     assert len(data["variants"]) < len(data["choices"])
