@@ -1,7 +1,7 @@
 """One vocabulary for events: the quantity that reaches zero, or the logical function that changes.
 
-"face.gap" and "slope.force" are also the names of these quantities in `Output.source`; a pattern, a stop with memory and a
-declared logical function give the names of their functions: "teeth.next", "holding_pawl.click", "pin_in_slot".
+"face.gap" and "slope.force" are also the names of these quantities in `Output.source`; a pattern, a stop with memory
+and a declared logical function give the names of their functions: "teeth.next", "holding_pawl.click", "pin_in_slot".
 """
 
 from __future__ import annotations

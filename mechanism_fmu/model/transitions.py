@@ -2,10 +2,11 @@
 
 What is stated here is what `engine.transition`, `engine.impact` and `engine.events` do:
 
-- An open contact whose gap reaches 0 strikes, eq (7). Afterwards it is closed if it then pushes; a bounce, and an impact
-  after which it would pull, leave it open. A guided contact (the paper's) need not push.
-- A closed contact opens when its multiplier reaches 0. At any other event the contacts that push are chosen afresh among
-  those that touch and rest, so that an impact elsewhere can open it, and one that touches can close without an impact.
+- An open contact whose gap reaches 0 strikes, eq (7). Afterwards it is closed if it then pushes; a bounce, and an
+  impact after which it would pull, leave it open. A guided contact (the paper's) need not push.
+- A closed contact opens when its multiplier reaches 0. At any other event the contacts that push are chosen afresh
+  among those that touch and rest, so that an impact elsewhere can open it, and one that touches can close without an
+  impact.
 - Beyond a boundary the contacts of a pattern open and stand at its next copy, where they may touch at once.
 - A stop with memory clicks. A declared logical function switches its rows.
 """
@@ -16,7 +17,6 @@ from collections.abc import Iterator, Mapping
 
 from ..statechart import ANY, Logic, Region, Transition, diagram, markdown
 from .contacts import AngleStop, Contact, PointLineContact
-from .event_names import INPUT
 from .logic import switch
 from .logical_functions import definitions, exists, is_kept
 from .mechanism import Mechanism
@@ -174,6 +174,3 @@ def _unused(mechanism: Mechanism) -> list[str]:
 
 def _impact(contact: Contact) -> str:
     return f"impact, eq (7), e {'> 0' if contact.restitution > 0 else '= 0'}"
-
-
-__all__ = ["CLOSED", "INPUT", "OPEN", "logic_of", "memory_of", "transition_diagram", "transition_table"]
