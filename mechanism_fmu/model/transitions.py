@@ -141,7 +141,8 @@ def _carried_along(contact: Contact, mechanism: Mechanism) -> Iterator[Transitio
     guided = contact.guided > 0.5
     pushes = () if guided else (f"{name}.pushes",)
     if _others_strike(contact, mechanism):
-        yield Transition(name, OPEN, CLOSED, ANY, (touches,), pushes, "struck at the same instant", impact=True)
+        guard = (touches, approaches) if guided else (touches,)
+        yield Transition(name, OPEN, CLOSED, ANY, guard, pushes, "struck at the same instant", impact=True)
         if not guided:
             yield Transition(
                 name, CLOSED, OPEN, ANY, (), (f"not {name}.pushes",), "row off: the impact parts it", impact=True
