@@ -88,7 +88,7 @@ def run(
         "result"
     ),
 ) -> None:
-    """Run an FMU and write results.csv, impacts.csv, summary.json and report.html.
+    """Run an FMU and write results.csv, impacts.csv, events.csv, summary.json and report.html.
 
     Try:
 
@@ -109,6 +109,44 @@ def run(
 
     with user_errors():
         raise typer.Exit(run_fmu(fmu, settings or [], stop_time, step, input_file, output))
+
+
+@main.command()
+def modes(
+    fmu: FmuPath,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="NAME=VALUE[UNIT]", help="Set a parameter: some of them choose among mechanisms."
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE.svg",
+            help="File for the diagram.",
+            show_default="<FMU>_modes.svg",
+            dir_okay=False,
+        ),
+    ] = None,
+) -> None:
+    """Print the modes and transitions of an FMU's mechanism as a table, and draw them as a state chart.
+
+    Try:
+
+        mechanism-fmu modes build/Ratchet.fmu
+
+        mechanism-fmu modes build/Ratchet.fmu --set guided=false -o modes.svg
+
+    Exit code: 0 all well, 2 wrong use, or an FMU that tells none.
+    """
+    from .commands import show_modes
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(show_modes(fmu, settings or [], output))
 
 
 @main.command()

@@ -10,13 +10,14 @@ from rich.markup import escape
 from .assignments import start_values
 from .checks import Check, all_passed
 from .closing import close_run
-from .errors import FmuError
+from .errors import FmuError, UsageError
 from .experiment import Experiment, Run, default_times, perform
 from .fmu import Fmu, open_fmu
 from .interrupt import interruption
+from .logic import default_parameters, read_logic
 from .paper import base_case_checks
-from .results import prepare_folder, write_run
-from .terminal import FAILED, RunDisplay, console, show_checks, show_files, show_table, show_warning
+from .results import prepare_folder, write_run, write_text
+from .terminal import FAILED, RunDisplay, console, show_checks, show_files, show_table, show_warning, show_wide_table
 
 #: The base case of the paper is the FMU's default; the pawl strikes at 0.94 s and swings back at 4.9 s.
 _DEMO = Experiment(stop_time=6.0, step=1e-3)
@@ -67,6 +68,28 @@ def run_fmu(
                 )
             raise
     return _written(run, folder)
+
+
+def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:
+    """Show the modes and transitions of an FMU's mechanism for parameter values, and draw them."""
+    from mechanism_fmu.statechart import definition_rows, diagram, kept_parts, rows
+    from mechanism_fmu.statechart.table import DEFINITION_HEADINGS, HEADINGS
+
+    with open_fmu(path) as fmu:
+        values = start_values(settings, fmu.description)
+        file = read_logic(fmu.folder)
+    logic = file.chosen(default_parameters(fmu.description, values))
+    if file.objection or logic is None:
+        why = "for these parameter values" if file.variants else "in this FMU"
+        raise UsageError(file.objection or f"{path.name} tells no modes and transitions {why}.")
+    show_wide_table("Transitions", HEADINGS, rows(logic))
+    for name in kept_parts(logic):
+        console.print(f"[bold]{escape(name)}[/] is closed throughout.")
+    show_wide_table("Logical functions", DEFINITION_HEADINGS, definition_rows(logic))
+    output = Path(f"{path.stem}_modes.svg") if output is None else output
+    prepare_folder(output.parent)
+    show_files([write_text(output, lambda file: file.write(diagram(logic)))])
+    return 0
 
 
 def validate_fmu(path: Path) -> int:

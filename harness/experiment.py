@@ -16,9 +16,12 @@ from .clock import TimeGrid, seconds
 from .description import Description, Value
 from .drawing import Drawing, read_drawing
 from .errors import FmuError, UsageError
+from .events import UNITS as EVENT_UNITS
+from .events import EventCollector
 from .fmu import Fmu, MessageHandler, discard_message
 from .impacts import ImpactCollector
 from .inputs import check_no_overlap, read_inputs
+from .logic import LogicFile, read_logic
 from .master import Outcome, never, run_fixed_step
 from .messages import LogMessage
 from .observers import Observer
@@ -59,10 +62,14 @@ class Run:
         parameters: parameters and calculated parameters after the initialization.
         messages: everything the FMU said.
         tooth: what the impacts strike; None when the FMU does not describe one.
-        units: by name, for "results", "impacts" and "parameters" each ("1" when dimensionless).
+        units: by name, for "results", "impacts", "events" and "parameters" each ("1" when dimensionless).
         checks: verdicts.
         wall_time: of the simulation [s].
         drawing: how the mechanism is drawn.
+        events: a row for each event, in words (`events.EventCollector`).
+        events_lost: events that the FMU could not report.
+        tells_events: whether the FMU reports events at all.
+        logic: the modes and transitions that the FMU tells.
     """
 
     fmu: Path
@@ -79,6 +86,10 @@ class Run:
     checks: Sequence[Check]
     wall_time: float
     drawing: Drawing = field(default_factory=Drawing)
+    events: pd.DataFrame = field(default_factory=lambda: pd.DataFrame(columns=list(EVENT_UNITS)))
+    events_lost: int = 0
+    tells_events: bool = False
+    logic: LogicFile = field(default_factory=LogicFile)
 
 
 class _ParameterReader:
@@ -118,11 +129,18 @@ def perform(
         check_no_overlap(inputs, experiment.start_values)
     recorder = Recorder(recorded_variables(fmu.description))
     collector = ImpactCollector(fmu.description)
+    event_collector = EventCollector(fmu.description)
+    logic = read_logic(fmu.folder)
     reader = _ParameterReader(fmu.description)
     with fmu.instantiate(fmu.description.model, on_message) as slave:
         began = time.perf_counter()
         outcome = run_fixed_step(
-            slave, grid, experiment.start_values, [reader, recorder, collector, *observers], inputs, stop_requested
+            slave,
+            grid,
+            experiment.start_values,
+            [reader, recorder, collector, event_collector, *observers],
+            inputs,
+            stop_requested,
         )
         wall_time = time.perf_counter() - began
         messages = tuple(slave.messages)
@@ -144,6 +162,10 @@ def perform(
         checks=[*run_checks(outcome, seconds(grid.stop), results, impacts, collector.lost), *objections],
         wall_time=wall_time,
         drawing=read_drawing(fmu.folder, fmu.description),
+        events=event_collector.table(logic),
+        events_lost=event_collector.lost,
+        tells_events=event_collector.tells,
+        logic=logic,
     )
 
 
@@ -176,5 +198,6 @@ def _units(
     return {
         "results": {"time": "s"} | {v.name: v.unit or "1" for v in recorded_variables(description)},
         "impacts": {name: impact_units[name] for name in impact_columns},
+        "events": dict(EVENT_UNITS),
         "parameters": {v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter")},
     }

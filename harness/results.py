@@ -1,4 +1,4 @@
-"""The files of a run: results.csv, impacts.csv, summary.json."""
+"""The files of a run: results.csv, impacts.csv, events.csv, summary.json."""
 
 from __future__ import annotations
 
@@ -69,8 +69,16 @@ def write_run(run: Run, folder: Path) -> list[Path]:
     return [
         write_text(folder / "results.csv", lambda file: run.results.to_csv(file, index=False, lineterminator="\n")),
         write_text(folder / "impacts.csv", lambda file: run.impacts.to_csv(file, index=False, lineterminator="\n")),
+        *_events_file(run, folder),
         write_json(folder / "summary.json", summary(run)),
     ]
+
+
+def _events_file(run: Run, folder: Path) -> list[Path]:
+    """events.csv; an FMU that tells no events has none."""
+    if not run.tells_events:
+        return []
+    return [write_text(folder / "events.csv", lambda file: run.events.to_csv(file, index=False, lineterminator="\n"))]
 
 
 def summary(run: Run) -> dict[str, Any]:
@@ -98,6 +106,7 @@ def summary(run: Run) -> dict[str, Any]:
         "final_values": final_values(run),
         "parameters": dict(run.parameters),
         "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost},
+        "events": {"collected": len(run.events), "lost": run.events_lost},
         "units": run.units,
         "checks": [asdict(check) for check in run.checks],
         "messages": [asdict(m) | {"status": m.status.name.lower()} for m in run.messages],

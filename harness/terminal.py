@@ -76,6 +76,16 @@ def show_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]
     console.print(table)
 
 
+def show_wide_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """A table of texts that fold where the terminal is narrow."""
+    table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="dim", show_lines=False)
+    for heading in headings:
+        table.add_column(escape(heading), overflow="fold")
+    for row in rows:
+        table.add_row(*map(escape, row))
+    console.print(table)
+
+
 class RunDisplay:
     """An observer that says what is going on: a spinner until the first step, a bar when the steps take long."""
 

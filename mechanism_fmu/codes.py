@@ -84,6 +84,8 @@ STOP_CLICKS = 17
 STOP_REFERENCE = 18
 SHAFT_TORQUE = 19
 EVENT_COUNT = 20
+EVENTS_IN_STEP_OUT = 21
+BUFFERED_EVENT = 22
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before, then after
 RECORD_TIME = 0

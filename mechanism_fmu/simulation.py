@@ -15,6 +15,7 @@ from .engine.outputs import read_outputs
 from .engine.pack import pack
 from .engine.stepper import advance
 from .model import Mechanism, MechanismError, PointLineContact
+from .model.event_names import event_name
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -38,7 +39,7 @@ class Event(NamedTuple):
     Attributes:
         time: [s].
         guard: e.g. "face.gap", "slope.force", "teeth.next", "teeth.previous", "holding_pawl.click", "pin_in_slot", or
-            "input" when inputs have changed.
+            "input" when inputs have changed (`mechanism_fmu.model.event_names`).
         old_mode, new_mode: names of the closed contacts.
         impulse: total normal impulse over all contacts [N s].
     """
@@ -135,7 +136,7 @@ class Simulation:
         return [
             Event(
                 record[codes.EVENT_TIME],
-                self._guard(int(record[codes.EVENT_GUARD]), int(record[codes.EVENT_SUBJECT])),
+                event_name(self._mechanism, int(record[codes.EVENT_GUARD]), int(record[codes.EVENT_SUBJECT])),
                 self._closed(int(record[codes.EVENT_OLD_MODE])),
                 self._closed(int(record[codes.EVENT_NEW_MODE])),
                 record[codes.EVENT_IMPULSE],
@@ -147,17 +148,6 @@ class Simulation:
         """Names of the contacts that are closed now."""
         modes = field_of(self._block, "contact_mode").tolist()
         return tuple(c.name for c, mode in zip(self._mechanism.contacts, modes, strict=True) if mode == codes.CLOSED)
-
-    def _guard(self, guard: int, subject: int) -> str:
-        """An event's guard in words."""
-        if guard == codes.GUARD_INPUT:
-            return "input"
-        if guard == codes.GUARD_FUNCTION:
-            return self._mechanism.functions[subject].name
-        if guard in (codes.GUARD_NEXT, codes.GUARD_PREVIOUS):
-            return f"{self._mechanism.patterns[subject].name}.{'next' if guard == codes.GUARD_NEXT else 'previous'}"
-        words = {codes.GUARD_GAP: "gap", codes.GUARD_PUSH: "force", codes.GUARD_CLICK: "click"}
-        return f"{self._mechanism.contacts[subject].name}.{words[guard]}"
 
     def _closed(self, mode: int) -> tuple[str, ...]:
         return tuple(contact.name for c, contact in enumerate(self._mechanism.contacts) if mode >> c & 1)

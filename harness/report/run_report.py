@@ -13,6 +13,7 @@ from ..numbers import engineering, shown
 from ..results import write_text
 from ..tooth_stress import stress_field
 from .animation import animation
+from .logic import events_section, modes_section
 from .modes import contacts
 from .motion import motion_chart
 from .page import cards, chart, checks_list, page, section, table
@@ -36,7 +37,8 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    body += [animation(run), _motion(run), _stress(run), _impacts(run), _parameters(run), _messages(run)]
+    body += [animation(run), _motion(run), _stress(run), _impacts(run), modes_section(run), events_section(run)]
+    body += [_parameters(run), _messages(run)]
     return page(description.model, subtitle, [part for part in body if part])
 
 

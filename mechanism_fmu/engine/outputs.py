@@ -73,8 +73,24 @@ def read_outputs(block: Array) -> None:
             value = shaft_torque(block, s.y_at, index)
         elif kind == codes.EVENT_COUNT:
             value = float(now.counters[codes.COUNT_EVENTS])
+        elif kind == codes.EVENTS_IN_STEP_OUT:
+            value = float(now.counters[codes.EVENTS_IN_STEP])
+        elif kind == codes.BUFFERED_EVENT:
+            value = _buffered_event(block, table.output_slot[o], index)
         table.outputs[o] = value
     feed(block, table.held_inputs)
+
+
+@jit
+def _buffered_event(block: Array, slot: int, column: int) -> float:
+    """A field of an event of the last communication step; in an empty slot time, guard and subject are -1."""
+    now = course(block)
+    if slot < now.counters[codes.EVENTS_IN_STEP]:
+        value: float = now.events[slot, column]
+        return value
+    if column <= codes.EVENT_SUBJECT:
+        return -1.0
+    return 0.0
 
 
 @jit

@@ -12,6 +12,8 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from ..model import Model
+from ..statechart import definitions_table, diagram, markdown
+from .logic import default_logic
 from .project import licence_text
 from .units import display_factor
 from .variables import Variable, variables_of
@@ -76,8 +78,22 @@ def page(model: Model, folder: Path) -> str:
         f"<h1>{escape(model.name)}</h1>\n<p>{escape(model.description)}</p>\n"
         f"{_markdown(readme.read_text(encoding='utf-8'), folder) if readme.is_file() else ''}"
         f"<h2>Variables</h2>\n{tables}"
+        f"{_modes(model, folder)}"
         f"<h2>Running this FMU</h2>\n<ul>\n{''.join(f'<li>{fact}</li>{chr(10)}' for fact in _WRAPPER)}</ul>\n"
         "</body></html>\n"
+    )
+
+
+def _modes(model: Model, folder: Path) -> str:
+    """The modes and transitions for the default values; "" of a mechanism without any."""
+    logic = default_logic(model)
+    if not logic.regions:
+        return ""
+    return (
+        "<h2>Modes and transitions</h2>\n<p>With the default values; those of other values are in "
+        "<code>resources/logic.json</code>, and <code>mechanism-fmu modes</code> shows them. The charts run beside "
+        "each other; an arrow has its event, [its guard] and / what it resets.</p>\n"
+        f"{diagram(logic)}{_markdown(markdown(logic), folder)}{_markdown(definitions_table(logic), folder)}"
     )
 
 

@@ -17,7 +17,7 @@ from .variables import Variable, variables_of
 
 #: FMI log categories (section 2.2.4) and when a message falls into one.
 LOG_CATEGORIES = {
-    "logEvents": "Impacts and what follows from them.",
+    "logEvents": "Impacts and events: what fired, closed contacts before and after, impulse.",
     "logStatusWarning": "Legal, but worth a look.",
     "logStatusDiscard": "A step that could not be made.",
     "logStatusError": "A call or a value that was refused.",

@@ -28,15 +28,20 @@ class News:
 
     def __init__(self, simulation: Simulation | None = None) -> None:
         self._impacts = 0 if simulation is None else simulation.counters.item(codes.COUNT_IMPACTS)
+        self._events = 0 if simulation is None else simulation.counters.item(codes.COUNT_EVENTS)
         self._lost = 0 if simulation is None else simulation.counters.item(codes.COUNT_LOST)
         self._pulls = set[str]() if simulation is None else set(simulation.pulling_contacts())
 
     def since_last(self, simulation: Simulation) -> Iterator[Message]:
-        """Impacts of the step, impacts that the buffer lost, contacts that have begun to pull."""
+        """Impacts and events of the step, those that the buffers lost, contacts that have begun to pull."""
         counters = simulation.counters
         if counters.item(codes.COUNT_IMPACTS) != self._impacts:
             self._impacts = counters.item(codes.COUNT_IMPACTS)
             yield from _impacts(simulation)
+        if counters.item(codes.COUNT_EVENTS) != self._events:
+            new = counters.item(codes.COUNT_EVENTS) - self._events
+            self._events += new
+            yield from _events(simulation, new)
         if counters.item(codes.COUNT_LOST) != self._lost:
             lost = counters.item(codes.COUNT_LOST) - self._lost
             self._lost += lost
@@ -62,6 +67,29 @@ def _impacts(simulation: Simulation) -> Iterator[Message]:
             Fmi2Status.ok,
             "logEvents",
         )
+
+
+def _events(simulation: Simulation, new: int) -> Iterator[Message]:
+    """What is known of the `new` events; of a step with many, the last ones."""
+    known = simulation.events_in_step()
+    if new > len(known):
+        yield Message(
+            f"{new - len(known)} events of the step to t = {simulation.time:.9g} s are not told one by one; the last "
+            f"{len(known)} follow.",
+            Fmi2Status.ok,
+            "logEvents",
+        )
+    for event in known:
+        yield Message(
+            f"Event {event.guard} at t = {event.time:.12g} s: {_mode(event.old_mode)} -> {_mode(event.new_mode)}, "
+            f"total impulse {event.impulse:.6g} N.s.",
+            Fmi2Status.ok,
+            "logEvents",
+        )
+
+
+def _mode(closed: tuple[str, ...]) -> str:
+    return "+".join(closed) or "all open"
 
 
 def _pull(contact: str, time: float) -> Message:

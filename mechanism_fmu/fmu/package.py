@@ -18,6 +18,7 @@ from .archive import content_hash, read_entries, with_guid, write_archive
 from .closure import Home, closure
 from .documentation import documentation
 from .drawing import drawing
+from .logic import logic
 from .project import dependencies
 
 _LIBRARY = Path(__file__).parents[1]
@@ -77,7 +78,7 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
             **{f"{package}/{name}": contents for name, contents in code.items()},
         },
     )
-    entries |= documentation(model, folder) | drawing(model)
+    entries |= documentation(model, folder) | drawing(model) | logic(model)
     entries["model.png"] = _icon(folder)
     path = destination / f"{model.name}.fmu"
     write_archive(with_guid(entries), path)

@@ -14,8 +14,9 @@ Causality = Literal["input", "output", "parameter", "calculatedParameter"]
 Variability = Literal["fixed", "discrete", "continuous"]
 Initial = Literal["exact", "calculated"]
 
-#: An output source that changes at impacts only (see `mechanism_fmu.model.Output`).
-_OF_IMPACT = re.compile(r"impacts?(\[\d+\])?\.")
+#: An output source that changes at impacts and events only, and says nothing at the start (see
+#: `mechanism_fmu.model.Output`).
+_OF_IMPACT = re.compile(r"impacts?(\[\d+\])?\.|events\[\d+\]\.|event\.in_step$")
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """What a mechanism is: frozen records with SI units, and no numerics."""
 
-from ..codes import IMPACT_BUFFER_LENGTH
+from ..codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH
 from .body import GROUND, Body
 from .compile import MechanismTables
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
@@ -15,6 +15,7 @@ from .patterns import CircularPattern
 from .ports import Calculated, Input, Output, Parameter
 
 __all__ = [
+    "EVENT_BUFFER_LENGTH",
     "GROUND",
     "IMPACT_BUFFER_LENGTH",
     "AngleLock",

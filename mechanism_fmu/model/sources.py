@@ -40,6 +40,16 @@ _FIELDS = {
     "impulse": codes.RECORD_IMPULSE,
     "velocity": codes.RECORD_VELOCITY,
 }
+_EVENT_FIELDS = {
+    "time": codes.EVENT_TIME,
+    "guard": codes.EVENT_GUARD,
+    "subject": codes.EVENT_SUBJECT,
+    "old_mode": codes.EVENT_OLD_MODE,
+    "new_mode": codes.EVENT_NEW_MODE,
+    "impulse": codes.EVENT_IMPULSE,
+}
+#: A mode is a sum of 2^c over closed contacts c; as an Integer of FMI it has 31 bits.
+MOST_CONTACTS_OF_A_MODE = 31
 
 
 def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
@@ -51,6 +61,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
     part, _, quantity = source.partition(".")
     found = (
         _of_impact(part, quantity, mechanism)
+        or _of_event(part, quantity, mechanism)
         or _of_body(part, quantity, mechanism)
         or _of_contact(part, quantity, mechanism)
         or _of_pattern(part, quantity, mechanism)
@@ -58,13 +69,12 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
     )
     if part == "energy" and quantity in _ENERGIES:
         found = (_ENERGIES[quantity], 0, 0)
-    if source == "event.count":
-        found = (codes.EVENT_COUNT, 0, 0)
     if found is None:
         raise MechanismError(
             f"output source {source!r} is unknown; use <body>.x|y|angle|x_rate|y_rate|speed, "
-            f"<contact>.{'|'.join(_OF_CONTACT)}, <pattern>.index, <shaft>.torque, event.count, "
-            f"energy.{'|'.join(_ENERGIES)}, impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
+            f"<contact>.{'|'.join(_OF_CONTACT)}, <pattern>.index, <shaft>.torque, event.count|in_step, "
+            f"events[k].{'|'.join(_EVENT_FIELDS)}, energy.{'|'.join(_ENERGIES)}, "
+            f"impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
             f"bodies {', '.join(b.name for b in mechanism.bodies)} and contacts "
             f"{', '.join(c.name for c in mechanism.contacts) or '(none)'}."
         )
@@ -116,6 +126,21 @@ def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int
         column = _record_column(quantity, mechanism)
         return None if column is None else (codes.BUFFERED_IMPACT, column, int(match[1]) - 1)
     return None
+
+
+def _of_event(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    if part == "event":
+        kinds = {"count": codes.EVENT_COUNT, "in_step": codes.EVENTS_IN_STEP_OUT}
+        return (kinds[quantity], 0, 0) if quantity in kinds else None
+    match = re.fullmatch(r"events\[(\d+)\]", part)
+    if match is None or quantity not in _EVENT_FIELDS or not 1 <= int(match[1]) <= codes.EVENT_BUFFER_LENGTH:
+        return None
+    if quantity.endswith("_mode") and len(mechanism.contacts) > MOST_CONTACTS_OF_A_MODE:
+        raise MechanismError(
+            f"output source {part}.{quantity} needs a bit for each of {len(mechanism.contacts)} contacts, and an "
+            f"Integer of FMI has {MOST_CONTACTS_OF_A_MODE}; leave this output out."
+        )
+    return codes.BUFFERED_EVENT, _EVENT_FIELDS[quantity], int(match[1]) - 1
 
 
 def _record_column(field: str, mechanism: Mechanism) -> int | None:

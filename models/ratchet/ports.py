@@ -6,7 +6,7 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
-from mechanism_fmu.model import IMPACT_BUFFER_LENGTH, Calculated, Input, Output, Parameter
+from mechanism_fmu.model import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH, Calculated, Input, Output, Parameter
 from mechanism_fmu.model.functions import atan2, sqrt
 
 from .start import tooth
@@ -107,6 +107,27 @@ def _buffered_impact(k: int) -> tuple[Output, ...]:
         _speed(f"{prefix}.wheel_speed", f"{prefix}.speed:wheel", f"Wheel speed just after {of[3:]}"),
         Output(f"{prefix}.tooth", f"{prefix}.tooth", f"Index of the tooth struck {of}", type="Integer"),
         Output(f"{prefix}.contact", f"{prefix}.contact", f"{_CONTACTS} {of}", type="Integer"),
+    )
+
+
+_GUARDS = "0 gap closed, 1 force gone, 2 next tooth, 3 previous tooth, 4 click, 6 inputs changed"
+_MODE = "sum of 1 slope, 2 face, 4 holding pawl"
+
+
+def _buffered_event(k: int) -> tuple[Output, ...]:
+    """An event of the last communication step."""
+    prefix, of = f"events[{k}]", f"of event {k} of the last communication step"
+
+    def whole(field: str, what: str) -> Output:
+        return Output(f"{prefix}.{field}", f"{prefix}.{field}", what, type="Integer")
+
+    return (
+        Output(f"{prefix}.time", f"{prefix}.time", f"Time {of}; -1 when there was none", "s"),
+        whole("guard", f"What fired ({_GUARDS}; -1 none) {of}"),
+        whole("subject", f"Number of the contact {_CONTACTS.removeprefix('Struck contact ')}, or 0 the teeth, {of}"),
+        whole("old_mode", f"Closed contacts ({_MODE}) before {of[3:]}"),
+        whole("new_mode", f"Closed contacts ({_MODE}) after {of[3:]}"),
+        Output(f"{prefix}.impulse", f"{prefix}.impulse", f"Impulse of all contacts {of}", "N.s", nominal=0.01),
     )
 
 
@@ -229,6 +250,13 @@ OUTPUTS = (
         type="Integer",
     ),
     *(output for k in range(1, IMPACT_BUFFER_LENGTH + 1) for output in _buffered_impact(k)),
+    Output(
+        "events_in_step",
+        "event.in_step",
+        f"Events of the last communication step held in events[1..{EVENT_BUFFER_LENGTH}]",
+        type="Integer",
+    ),
+    *(output for k in range(1, EVENT_BUFFER_LENGTH + 1) for output in _buffered_event(k)),
     Output("kinetic_energy", "energy.kinetic", "Kinetic energy of all bodies", "J", nominal=1e-4),
     Output("spring_energy", "energy.spring", "Energy of the wheel's spring, without preload", "J", nominal=1e-4),
     Output("work_done", "energy.work", "Work done by inputs and pawl spring since the start", "J", nominal=1e-4),

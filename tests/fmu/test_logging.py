@@ -9,14 +9,38 @@ def said(one, category):
     return [message for message in one.log if message.category == category]
 
 
-def test_an_impact_is_an_event(instance):
+def test_an_impact_is_told_and_so_is_the_event(instance):
     one = instance().begin()
     one.run(2.0, 0.1)
 
-    (event,) = said(one, "logEvents")
-    assert event.status == fmi2OK
-    assert "Impact on face at t = 0.9399211769" in event.text
-    assert "closing speed 0.0675769 m/s, impulse 0.00778959 N.s" in event.text
+    impact, event = said(one, "logEvents")
+    assert impact.status == event.status == fmi2OK
+    assert "Impact on face at t = 0.9399211769" in impact.text
+    assert "closing speed 0.0675769 m/s, impulse 0.00778959 N.s" in impact.text
+    assert "Event face.gap at t = 0.9399211769" in event.text
+    assert "slope -> slope+face, total impulse 0.00892176 N.s" in event.text
+
+
+def test_events_beyond_the_buffer_are_counted_and_not_told(instance):
+    one = instance().begin({"restitution": 0.5})
+    one.step(3.0)
+
+    told = [message.text for message in said(one, "logEvents") if "vent" in message.text]
+    assert len(told) == 17
+    assert "events of the step to t = 3 s are not told one by one; the last 16 follow." in told[0]
+    assert int(told[0].split()[0]) + 16 == one["event_count"]
+    assert one["events_in_step"] == 16
+
+
+def test_events_are_among_the_outputs(instance):
+    one = instance().begin()
+    assert [one[f"events[1].{field}"] for field in ("time", "guard", "subject", "new_mode")] == [-1, -1, -1, 0]
+    one.step(2.0)
+    assert one["events_in_step"] == 1
+    assert abs(one["events[1].time"] - 0.9399211769) < 1e-9
+    assert [one[f"events[1].{field}"] for field in ("guard", "subject", "old_mode", "new_mode")] == [0, 1, 1, 3]
+    assert abs(one["events[1].impulse"] - 8.9217627508e-3) < 1e-9
+    assert one["events[2].time"] == -1
 
 
 def test_a_guided_contact_that_pulls_is_a_warning_once(instance):

@@ -53,6 +53,7 @@ def test_nothing_is_inside_that_does_not_belong_there(entries: dict[str, bytes],
         f"resources/Ratchet_{digest}.py",
         f"resources/start_{digest}.py",
         "resources/drawing.json",
+        "resources/logic.json",
         "resources/requirements.txt",
         "resources/slavemodule.txt",
     }

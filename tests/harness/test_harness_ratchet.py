@@ -123,7 +123,7 @@ def test_run_writes_everything_and_says_so(ratchet_fmu: Path, tmp_path: Path) ->
     code, text = invoke("run", ratchet_fmu, *settings, "-o", tmp_path)
     assert code == 0
     assert "0.927714437" in text
-    assert "results.csv, impacts.csv, summary.json, report.html" in text
+    assert "results.csv, impacts.csv, events.csv, summary.json, report.html" in text
     summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
     assert summary["parameters"]["tooth_slope_angle"] == pytest.approx(math.radians(95), rel=1e-15)
     assert summary["final_time"] == 1.5
@@ -137,8 +137,37 @@ def test_the_report_works_offline(ratchet_fmu: Path, tmp_path: Path) -> None:
     assert "plotly.js" in html
     assert "<script src=" not in html
     assert "<link" not in html
-    for heading in ("Verdicts", "Mechanism", "Motion", "Bending stress in the tooth", "Impacts", "Parameters"):
+    for heading in (
+        "Verdicts",
+        "Mechanism",
+        "Motion",
+        "Bending stress in the tooth",
+        "Impacts",
+        "Modes and transitions",
+        "Events",
+    ):
         assert f"<h2>{heading}</h2>" in html
+
+
+def test_modes_are_printed_and_drawn(ratchet_fmu: Path, tmp_path: Path) -> None:
+    code, text = invoke("modes", ratchet_fmu, "-o", tmp_path / "guided.svg")
+    assert code == 0
+    assert "face.touches and face.approaches" in text
+    assert "slope is closed throughout." in text
+    code, text = invoke("modes", ratchet_fmu, "--set", "guided=false", "-o", tmp_path / "free.svg")
+    assert code == 0
+    assert "holding_pawl.click" in text
+    assert "teeth.next" in (tmp_path / "free.svg").read_text(encoding="utf-8")
+    code, text = invoke("modes", ratchet_fmu, "--set", "guided=maybe")
+    assert code == 2
+
+
+def test_the_events_of_the_base_case(base_case: Run) -> None:
+    first = base_case.events.iloc[0]
+    assert first["time"] == base_case.impacts["time"].iloc[0]
+    assert list(first[["guard", "old_mode", "new_mode"]]) == ["face.gap", "slope", "slope+face"]
+    assert base_case.events_lost == 0
+    assert len(base_case.events) == base_case.results["event_count"].iloc[-1]
 
 
 def test_the_study_command_writes_table_and_charts(ratchet_fmu: Path, tmp_path: Path) -> None:
@@ -155,7 +184,7 @@ def test_the_demo_is_one_command(tmp_path: Path) -> None:
     assert code == 0
     assert text.count("agrees with the reference") == 3
     assert {path.name for path in tmp_path.iterdir()} == {
-        *("Ratchet.fmu", "results.csv", "impacts.csv", "summary.json", "report.html"),
+        *("Ratchet.fmu", "results.csv", "impacts.csv", "events.csv", "summary.json", "report.html"),
     }
 
 

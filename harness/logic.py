@@ -1,0 +1,127 @@
+"""Modes and transitions of an FMU's mechanism: `resources/logic.json`, when the FMU has one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mechanism_fmu.statechart import Logic
+from mechanism_fmu.statechart.codec import decode
+
+from .assignments import parse_value
+from .description import Description, Value
+from .errors import UsageError
+
+#: The format of logic.json that is understood.
+_FORMAT = 1
+
+
+@dataclass(frozen=True)
+class LogicFile:
+    """What an FMU tells about its logic.
+
+    Attributes:
+        contacts: names, in the order of the bits of a mode; () when the FMU tells nothing.
+        events: names of events by (guard, subject).
+        switches: parameters that choose the variant by being zero (false) or not.
+        choices: place of the variant by a text of 0 and 1, one for each switch.
+        variants: the logic of each.
+        objection: why it cannot be used, for the user; "" when nothing is wrong.
+    """
+
+    contacts: tuple[str, ...] = ()
+    events: Mapping[tuple[int, int], str] = field(default_factory=dict)
+    switches: tuple[str, ...] = ()
+    choices: Mapping[str, int] = field(default_factory=dict)
+    variants: tuple[Logic, ...] = ()
+    objection: str = ""
+
+    def chosen(self, parameters: Mapping[str, Value]) -> Logic | None:
+        """The logic for parameter values; None when the FMU tells nothing about these."""
+        key = "".join("1" if parameters.get(name) else "0" for name in self.switches)
+        return self.variants[self.choices[key]] if key in self.choices else None
+
+    def event(self, guard: int, subject: int) -> str:
+        """An event in words."""
+        return self.events.get((guard, subject), f"guard {guard} of {subject}")
+
+    def mode(self, number: int) -> str:
+        """Names of the closed contacts, joined by "+"; the number itself when the FMU gives no names."""
+        if not self.contacts:
+            return str(number)
+        return "+".join(name for bit, name in enumerate(self.contacts) if number >> bit & 1)
+
+
+def read_logic(folder: Path) -> LogicFile:
+    """The logic in the extracted FMU `folder`; one that cannot be used is an objection and never an error."""
+    path = folder / "resources" / "logic.json"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return LogicFile()
+    except (OSError, UnicodeDecodeError) as error:
+        return _objection(f"it cannot be read ({error})")
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        return _objection(f"it is no JSON ({error})")
+    try:
+        return _checked(data)
+    except ValueError as error:
+        return _objection(str(error))
+
+
+def default_parameters(description: Description, settings: Mapping[str, Value]) -> dict[str, Value]:
+    """All parameters at their default values, but for the settings."""
+    values: dict[str, Value] = {}
+    for variable in description.of("parameter"):
+        try:
+            values[variable.name] = parse_value(variable.start or "", variable, description)
+        except UsageError:
+            continue  # an odd start value decides nothing here
+    return values | dict(settings)
+
+
+def _objection(problem: str) -> LogicFile:
+    return LogicFile(
+        objection=f"The FMU's modes (resources/logic.json) cannot be shown: {problem}. Build the FMU again."
+    )
+
+
+def _checked(data: Any) -> LogicFile:
+    if not isinstance(data, dict) or not isinstance(data.get("variants"), list):
+        raise ValueError("it holds no list of variants")
+    if data.get("format") != _FORMAT:
+        raise ValueError(f"its format is {data.get('format')!r:.60}, and this harness knows format {_FORMAT}")
+    variants = tuple(decode(variant) for variant in data["variants"])
+    choices = data.get("choices")
+    if not isinstance(choices, dict) or not all(_is_place(place, len(variants)) for place in choices.values()):
+        raise ValueError("its choices name variants that are not there")
+    return LogicFile(_names(data, "contacts"), _events(data), _names(data, "switches"), choices, variants)
+
+
+def _is_place(place: Any, count: int) -> bool:
+    return isinstance(place, int) and not isinstance(place, bool) and 0 <= place < count
+
+
+def _names(data: dict[str, Any], key: str) -> tuple[str, ...]:
+    names = data.get(key)
+    if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
+        raise ValueError(f"it has no list of {key}")
+    return tuple(names)
+
+
+def _events(data: dict[str, Any]) -> dict[tuple[int, int], str]:
+    raw = data.get("events")
+    if not isinstance(raw, list):
+        raise ValueError("it has no list of events")
+    events: dict[tuple[int, int], str] = {}
+    for entry in raw:
+        guard, subject, name = (entry.get(k) if isinstance(entry, dict) else None for k in ("guard", "subject", "name"))
+        if not (isinstance(guard, int) and isinstance(subject, int) and isinstance(name, str)):
+            raise ValueError("an event has no guard, subject and name")
+        events[guard, subject] = name
+    return events

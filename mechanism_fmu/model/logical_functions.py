@@ -1,0 +1,94 @@
+"""All logical functions of a mechanism: those that every contact, pattern and stop has, and the declared ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ..statechart import Definition
+from .contacts import AngleLock, AngleStop, Contact, PointLineContact
+from .patterns import CircularPattern
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
+
+# The engine's tolerances, for the reader; `model` may not import `engine`, and a test compares them.
+#: A gap below this touches [m, rad]; the instant is found to `INSTANT` [s].
+TOUCHES_WITHIN = 1e-9
+INSTANT = 1e-13
+#: A gap that closes more slowly than this is at rest [m/s, rad/s].
+RESTS_BELOW = 1e-9
+#: What would come apart more slowly than this after an impact stays closed [m/s, rad/s].
+STICK_SPEED = 1e-6
+#: A multiplier that is missing less than this [N, N.m], or this share of the largest, pushes; it opens at twice that.
+PUSHES_WITHIN = 1e-9
+PUSHES_SHARE = 1e-11
+#: How far a boundary, a pitch or a limit is passed before it counts [m, rad].
+MARGIN = 1e-10
+
+
+def exists(part: Contact | CircularPattern) -> bool:
+    """Whether a part is there at all, for plain numbers."""
+    return bool(part.enabled > 0.5)
+
+
+def is_kept(contact: Contact, mechanism: Mechanism) -> bool:
+    """Whether a contact is closed from the start to the end: guided, closed, and on no pattern that could move it."""
+    moved = any(p.name == contact.pattern and exists(p) for p in mechanism.patterns)
+    return bool(contact.guided > 0.5 and contact.closed > 0.5 and contact.closed_while is None and not moved)
+
+
+def definitions(mechanism: Mechanism) -> Iterator[Definition]:
+    """The logical functions of what exists and can change, each with the event that it fires."""
+    for contact in filter(exists, mechanism.contacts):
+        if contact.closed_while is None and not is_kept(contact, mechanism):
+            yield from _of_contact(contact)
+        if isinstance(contact, AngleStop) and contact.pitch is not None:
+            yield Definition(
+                f"{contact.name}.click",
+                "gap s >= pitch: the next latched angle is passed",
+                "rad",
+                f"{MARGIN:g} rad",
+                f"{contact.name}.click",
+            )
+    for pattern in filter(exists, mechanism.patterns):
+        for verb, copy in (("next", "k + 1"), ("previous", "k - 1")):
+            yield Definition(
+                f"{pattern.name}.{verb}",
+                f"the point of {pattern.body_i} is beyond the boundary from copy k to copy {copy}",
+                "m",
+                f"{MARGIN:g} m",
+                f"{pattern.name}.{verb}",
+            )
+    for function in mechanism.functions:
+        unit = "rad" if function.of.endswith(".angle") else "m"
+        meaning = f"{function.of} < {function.below:.9g}"
+        yield Definition(function.name, meaning, unit, f"{MARGIN:g} {unit}", function.name)
+
+
+def _of_contact(contact: PointLineContact | AngleStop | AngleLock) -> Iterator[Definition]:
+    name = contact.name
+    length, force = ("m", "N") if isinstance(contact, PointLineContact) else ("rad", "N.m")
+    speed = f"{length}/s"
+    yield Definition(
+        f"{name}.touches",
+        "gap s <= 0",
+        length,
+        f"{TOUCHES_WITHIN:g} {length}; the instant to {INSTANT:g} s",
+        f"{name}.gap",
+    )
+    yield Definition(f"{name}.approaches", "gap rate s' < 0", speed, f"{RESTS_BELOW:g} {speed}")
+    yield Definition(
+        f"{name}.leaves",
+        "gap rate s' > 0, after an impact at least the stick speed",
+        speed,
+        f"{RESTS_BELOW:g} {speed}; after an impact {STICK_SPEED:g} {speed}",
+    )
+    if not contact.guided > 0.5:
+        yield Definition(
+            f"{name}.pushes",
+            "multiplier > 0",
+            force,
+            f"{PUSHES_WITHIN:g} {force} + {PUSHES_SHARE:g} of the largest",
+            f"{name}.force",
+        )
