@@ -64,12 +64,12 @@ def _neighbour(k: int) -> int:
 
 @jit
 def _is_inside(block: Array) -> bool:
-    """Whether a point of a pattern is behind one of the other lines there."""
+    """Whether a point of a pattern is behind one of the other lines there, which logical functions do not switch."""
     table = contacts(block)
     inside = False
     for c in range(table.mode.shape[0]):
         if table.pattern[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5 and table.mode[c] == codes.OPEN:
-            if patterns(block).enabled[table.pattern[c]] > 0.5:
+            if table.function[c] == codes.NONE and patterns(block).enabled[table.pattern[c]] > 0.5:
                 inside = inside or gap(block, c)[0] < -TOUCHES_WITHIN
     return inside
 
