@@ -15,7 +15,7 @@ from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt
 from .geometry import geneva
 
 #: Where polar points stand, in the order from the x axis outwards.
-_WHEEL_POINTS = ("slot_end", "slot_side", "mouth", "rim", "arc", "arc_middle")
+_WHEEL_POINTS = ("slot_end", "slot_side", "mouth", "rim", "arc", "inner_arc", "arc_middle")
 _RELIEF_POINTS = ("relief_bottom", "relief", "disc_edge", "disc")
 
 _WHEEL_HINGE, _DRIVER_HINGE = (0.0, 0.0), ("centre_distance", 0.0)
@@ -66,13 +66,14 @@ def _wheel(values: SimpleNamespace) -> dict[str, tuple[Number, Number]]:
     R, r, away = geometry.mouth_radius, geometry.locking_radius, geometry.pitch / 2
     inner = c - geometry.pin_radius
     opening = _opening(values)
-    arc = _seen(c, r, opening / 2)
+    arc, inner_arc = _seen(c, r, 2 * opening / 3), _seen(c, r, opening / 3)
     return {
         "slot_end": (inner - half, 0.0),
         "slot_side": (sqrt(inner * inner + half * half), atan2(half, inner)),
         "mouth": (R, atan2(half, R)),
         "rim": (R, away - _seen(c, r, opening)[1]),
         "arc": (arc[0], away - arc[1]),
+        "inner_arc": (inner_arc[0], away - inner_arc[1]),
         "arc_middle": (c - r, away),
     }
 
