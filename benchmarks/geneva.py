@@ -1,7 +1,7 @@
 """The external Geneva drive in closed form: known kinematics and the motion of its one degree of freedom.
 
-Independent of the library: formulas of J. H. Bickford, Mechanisms for Intermittent Motion, 1972, and scipy. With n slots,
-mu = sin(pi/n), and phi the driver's angle from the line of centres, the wheel's angle from it is
+Independent of the library: formulas of J. H. Bickford, Mechanisms for Intermittent Motion, 1972, and scipy. With n
+slots, mu = sin(pi/n), and phi the driver's angle from the line of centres, the wheel's angle from it is
 
     beta = atan2(mu sin(phi), 1 - mu cos(phi))        |phi| <= phi_0 = pi/2 - pi/n
 
@@ -88,7 +88,6 @@ def motion(masses: Masses, slots: int, theta: float, speed: float, time: float) 
     (I_d + I_w beta'^2) theta'' + I_w beta' beta'' theta'^2 = T_d - beta' (T_w + d beta' theta'), because psi' = -beta'
     theta'; integrated from one entry or exit to the next, where its right side jumps.
     """
-
     limit = math.sin(math.pi / slots)
 
     def acceleration(theta: float, speed: float, moving: bool) -> float:
@@ -109,7 +108,9 @@ def motion(masses: Masses, slots: int, theta: float, speed: float, time: float) 
             return (-math.cos(y[0]) - limit) * (1.0 if moving else -1.0)
 
         mouth.terminal, mouth.direction = True, -1.0  # type: ignore[attr-defined]
-        done = solve_ivp(derivative, (now, time), (theta, speed), "DOP853", rtol=1e-13, atol=1e-14, events=mouth)
+        done = solve_ivp(
+            derivative, (now, time), (theta, speed), "DOP853", rtol=1e-13, atol=1e-14, events=mouth, max_step=0.01
+        )
         now, theta, speed = float(done.t[-1]), float(done.y[0, -1]), float(done.y[1, -1])
     return theta, speed
 
