@@ -29,8 +29,7 @@ _NOTE = 'font-style="normal" font-family="Helvetica, Arial, DejaVu Sans, sans-se
 def drawing(values: SimpleNamespace) -> str:
     """The drive just as the pin enters a slot, and half-way through it, as SVG text."""
     c = values.centre_distance
-    left = View((250, 270), 2400 * 0.1 / c)
-    right = View((860, 270), 2400 * 0.1 / c)
+    left, right = View((190, 270), 230 / c), View((790, 270), 230 / c)
     entry = math.pi - geneva(values).engagement
     parts = [
         *_at(left, values, entry),
@@ -69,7 +68,7 @@ def _at(view: View, values: SimpleNamespace, theta: float) -> list[str]:
     return [
         view.path(wheel, f'fill="{WHEEL}" {_EDGE}', closed=True),
         view.path(disc, f'fill="{DRIVER}" {_EDGE}', closed=True),
-        view.path([(-0.9 * c, 0.0), (1.8 * c, 0.0)], _AXIS),
+        view.path([(-0.75 * c, 0.0), (1.7 * c, 0.0)], _AXIS),
         view.path([origin, polar(origin, geometry.mouth_radius, psi)], _AXIS),
         view.path([hinge, pin], f'stroke="{INK}" stroke-width="8"'),
         view.circle(pin, values.pin_diameter / 2 * view.scale, f'fill="#fff" {_EDGE}'),
