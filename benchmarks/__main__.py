@@ -13,7 +13,7 @@ from rich.console import Console
 
 from mechanism_fmu.fmu.start import CACHE_VARIABLE
 
-from . import acceleration, fmu_step, fmus, startup, step
+from . import acceleration, cycle, fmu_step, fmus, impacts, startup, step
 from .table import as_json, table, this_machine
 from .timing import Comparison, DisagreementError
 
@@ -52,14 +52,18 @@ def run(
 
 def _compare(folder: Path, progress: Console) -> list[Comparison]:
     cache = folder / "cache"
-    progress.print("1/4  one acceleration (compiles the engine first)")
+    progress.print("1/6  one acceleration (compiles the engine first)")
     comparisons = acceleration.compare(_ROUNDS)
-    progress.print("2/4  one step")
+    progress.print("2/6  one step")
     comparisons += step.compare(_ROUNDS)
-    progress.print("3/4  start of the FMU (builds it; the first start compiles the engine)")
+    progress.print("3/6  one impact")
+    comparisons += impacts.compare(_ROUNDS)
+    progress.print("4/6  one simulated second of the free ratchet")
+    comparisons += cycle.compare(_ROUNDS)
+    progress.print("5/6  start of the FMU (builds it; the first start compiles the engine)")
     ratchet, plain = fmus.build_ratchet(folder), fmus.build_plain(folder)
     starts = startup.compare(ratchet, folder, cache)
-    progress.print("4/4  one step of the FMU")
+    progress.print("6/6  one step of the FMU")
     os.environ[CACHE_VARIABLE] = str(cache)
     return [*comparisons, *fmu_step.compare(plain, ratchet, folder, _ROUNDS), *starts]
 

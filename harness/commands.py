@@ -20,6 +20,7 @@ from .terminal import FAILED, RunDisplay, console, show_checks, show_files, show
 
 #: The base case of the paper is the FMU's default; the pawl strikes at 0.94 s and swings back at 4.9 s.
 _DEMO = Experiment(stop_time=6.0, step=1e-3)
+_CYCLE_STEP = 5e-3
 
 
 def run_demo(folder: Path) -> int:
@@ -29,6 +30,19 @@ def run_demo(folder: Path) -> int:
     with open_fmu(path) as fmu:
         run = _performed(fmu, _DEMO)
     return _written(run, folder, base_case_checks(run.impacts))
+
+
+def run_cycle(folder: Path) -> int:
+    """Build the ratchet, run a whole indexing cycle of its free pawl, check it, write everything."""
+    from . import cycle
+
+    prepare_folder(folder)
+    path = _built_ratchet(folder)
+    drive = cycle.write_drive(folder / "drive.csv")
+    experiment = Experiment(cycle.STOP_TIME, _CYCLE_STEP, cycle.VALUES, drive)
+    with open_fmu(path) as fmu:
+        run = _performed(fmu, experiment)
+    return _written(run, folder, cycle.cycle_checks(run.results))
 
 
 def run_fmu(

@@ -105,7 +105,8 @@ GUARD_NEXT = 2  # a point leaves its copy of a pattern for the next one
 GUARD_PREVIOUS = 3  # ... or for the previous one
 GUARD_CLICK = 4  # a stop with memory has been passed by one pitch
 GUARD_FUNCTION = 5  # a logical function changes
-GUARD_INPUT = 6  # an input has changed, or the motion begins
+GUARD_INPUT = 6  # an input has changed
+GUARD_BEGIN = 7  # the motion begins
 
 # columns of an event record
 EVENT_TIME = 0

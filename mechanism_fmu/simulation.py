@@ -170,7 +170,7 @@ class Simulation:
         return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
 
     def _begin(self, time: float) -> None:
-        outcome = begin(self._block, float(time))
+        outcome = begin(self._block, float(time)) or advance(self._block, float(time))
         if outcome == status.OK:
             return
         details = {status.NOT_ASSEMBLED: self._residuals, status.START_INSIDE: self._penetration}

@@ -7,7 +7,6 @@ import math
 from .. import codes
 from . import status
 from .copies import place_contact, place_pattern
-from .dormand_prince import initial_step_size
 from .guards import TOUCHES_WITHIN, function_value, gap, guard_value
 from .impact import STICK_SPEED
 from .kinematics import place_bodies
@@ -16,10 +15,22 @@ from .ports import take_inputs
 from .records import clear_impact, clear_records
 from .room import Array
 from .rows import active_rows
-from .stepper import copy, restart
 from .subset import entry, jit, keep_small
-from .transition import switch_contacts, transit
-from .views import bodies, contacts, course, functions, linear_system, loads, options, patterns, rows, sizes, stages
+from .transition import switch_contacts
+from .vectors import copy
+from .views import (
+    bodies,
+    contacts,
+    course,
+    functions,
+    linear_system,
+    loads,
+    options,
+    patterns,
+    rows,
+    sizes,
+    stages,
+)
 
 #: Position rows are closed when none is off by more than this [m, rad, m^2].
 CLOSED_WITHIN = 1e-12
@@ -27,27 +38,28 @@ CLOSED_WITHIN = 1e-12
 RATES_WITHIN = 1e-9
 _NEWTON_STEPS = 50
 _HALVINGS = 30
-#: Copies of a pattern that are passed in search of the one where the point is, and copies that are assembled: this one and four on either side.
+#: Copies of a pattern that are passed in search of the one where the point is, and copies that are tried: that one and
+#: four on either side.
 _MOST_COPIES = 4000
 _MOST_ASSEMBLIES = 9
 
 
 @entry
 def begin(block: Array, time: float) -> int:
-    """Assemble the mechanism from its start guess and begin the motion at `time` [s]; return a status.
+    """Assemble the mechanism from its start guess and make ready to begin at `time` [s]; return a status.
 
     When the mechanism cannot be assembled, y_end and `rows.residual` hold the closest position and what is left of
     Phi. When it starts inside, PENDING_SUBJECT and the last entry of `rows.residual` hold the contact and its gap [m].
     """
     outcome = status.NOT_ASSEMBLED
-    for k in range(_MOST_ASSEMBLIES):
+    for k in range(_MOST_ASSEMBLIES + 1):
         _start_guess(block, _neighbour(k))
         outcome = assemble(block)
+        if k == _MOST_ASSEMBLIES:
+            break
         if outcome == status.OK and not _find_copies(block) and not _is_inside(block):
             return start(block, time)
-    _start_guess(block, 0)
-    outcome = assemble(block)
-    if outcome == status.OK:
+    if outcome == status.OK:  # nowhere: say what is wrong with the nearest place
         outcome = start(block, time)
     if outcome == status.OK:
         outcome = status.NO_PLACE
@@ -56,7 +68,9 @@ def begin(block: Array, time: float) -> int:
 
 @jit
 def _neighbour(k: int) -> int:
-    """0, -1, 1, -2, 2 ... for k = 0, 1, 2 ...: copies near the guess first."""
+    """0, -1, 1, -2, 2 ... for k = 0, 1, 2 ...: copies near the guess first, and at last the guess once more."""
+    if k == _MOST_ASSEMBLIES:
+        return 0
     if k % 2 == 1:
         return -((k + 1) // 2)
     return k // 2
@@ -68,9 +82,11 @@ def _is_inside(block: Array) -> bool:
     table = contacts(block)
     inside = False
     for c in range(table.mode.shape[0]):
-        if table.pattern[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5 and table.mode[c] == codes.OPEN:
-            if table.function[c] == codes.NONE and patterns(block).enabled[table.pattern[c]] > 0.5:
-                inside = inside or gap(block, c)[0] < -TOUCHES_WITHIN
+        pattern = table.pattern[c]
+        if pattern == codes.NONE or table.mode[c] == codes.CLOSED or table.value[c, codes.ENABLED] < 0.5:
+            continue
+        if table.function[c] == codes.NONE and patterns(block).enabled[pattern] > 0.5:
+            inside = inside or gap(block, c)[0] < -TOUCHES_WITHIN
     return inside
 
 
@@ -120,7 +136,10 @@ def assemble(block: Array) -> int:
 
 @jit
 def start(block: Array, time: float) -> int:
-    """Begin the motion at `time` [s] from the assembled position, with all counters at zero."""
+    """Make ready to begin at `time` [s] from the assembled position, with all counters at zero.
+
+    The first `stepper.advance`, to `time` itself, chooses the contacts that push.
+    """
     n = sizes(block).coordinates
     now = course(block)
     table = contacts(block)
@@ -154,13 +173,11 @@ def start(block: Array, time: float) -> int:
     now.clock[codes.TIME] = time
     now.clock[codes.STEP_END] = time
     now.clock[codes.LAST_EVENT] = time
-    outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
-    if outcome == status.OK:
-        now.counters[codes.COUNT_EVENTS] = 0
-        now.counters[codes.EVENTS_IN_STEP] = 0
-        restart(block)
-        now.clock[codes.NEXT_STEP] = initial_step_size(block)
-    return outcome
+    now.clock[codes.STEP_START] = time
+    now.clock[codes.STEP_SIZE] = 0.0
+    now.counters[codes.PENDING_GUARD] = codes.GUARD_BEGIN
+    now.counters[codes.PENDING_SUBJECT] = codes.NONE
+    return status.OK
 
 
 @jit
@@ -180,8 +197,8 @@ def _start_guess(block: Array, offset: int) -> None:
     for k in range(held.shape[0]):
         weight[held[k]] = 0.0
     place_bodies(block, now.y_end)
-    for p in range(patterns(block).index.shape[0]):
-        patterns(block).index[p] = 0
+    for p in range(patterns(block).copy.shape[0]):
+        patterns(block).copy[p] = 0
         place_pattern(block, p)
     for c in range(table.mode.shape[0]):
         table.clicks[c] = 0
@@ -190,9 +207,9 @@ def _start_guess(block: Array, offset: int) -> None:
             table.mode[c] = codes.CLOSED
         place_contact(block, c)
     _find_copies(block)
-    for p in range(patterns(block).index.shape[0]):
+    for p in range(patterns(block).copy.shape[0]):
         if patterns(block).enabled[p] > 0.5:
-            patterns(block).index[p] += offset
+            patterns(block).copy[p] += offset
             place_pattern(block, p)
     for f in range(functions(block).true.shape[0]):
         functions(block).true[f] = 0
@@ -206,7 +223,7 @@ def _find_copies(block: Array) -> bool:
     """Go to the copy of each pattern where its point is at y_end; whether any was another than before."""
     table = patterns(block)
     first_next = 2 * sizes(block).contacts
-    count = table.index.shape[0]
+    count = table.copy.shape[0]
     place_bodies(block, course(block).y_end)
     moved = False
     for p in range(count):
@@ -214,9 +231,9 @@ def _find_copies(block: Array) -> bool:
             if table.enabled[p] < 0.5:
                 break
             if guard_value(block, first_next + p)[0] <= 0.0:
-                table.index[p] += 1
+                table.copy[p] += 1
             elif guard_value(block, first_next + count + p)[0] <= 0.0:
-                table.index[p] -= 1
+                table.copy[p] -= 1
             else:
                 break
             place_pattern(block, p)

@@ -1,8 +1,8 @@
 """Which of several touching contacts push: p >= 0, s' >= target, p (s' - target) = 0, beside the rows that are kept.
 
-Solved exactly, by principal pivoting: each contact is in (closed, a row like a joint's) or out (open), and as long as one
-of them violates its inequality, the first such contact changes sides (least-index rule, Murty 1974). When that does not
-end, as it may when rows depend on each other, all combinations of the first contacts are tried. The same solution
+Solved exactly, by principal pivoting: each contact is in (closed, a row like a joint's) or out (open), and as long as
+one of them violates its inequality, the first such contact changes sides (least-index rule, Murty 1974). When that does
+not end, as it may when rows depend on each other, all combinations of the contacts are tried. The same solution
 procedure serves impulses and accelerations; only the two kinds of trial differ.
 """
 
@@ -15,6 +15,7 @@ from .minimum_norm import minimum_norm
 from .room import Array
 from .rows import active_rows, contact_row, row_count, spare_row
 from .subset import jit, keep_small
+from .vectors import largest
 from .views import bodies, contacts, course, linear_system, rows, sizes, strikes
 
 #: A force [N] or a share of the largest one that may be missing: rounding. It opens at twice that (`push_ratio`).
@@ -30,23 +31,31 @@ _MOST_PIVOTS = 64
 #: All combinations of more contacts than these are not tried.
 MOST_COMBINED = 12
 
+# strikes.problem: how many candidates there are, and what is decided. (Not arguments: each literal is compiled anew.)
+COUNT = 0
+KIND = 1
+FORCES = 0
+IMPULSES = 1
+
 
 @jit
-def push_impulses(block: Array, count: int) -> int:
-    """Decide about the first `count` of `strikes.candidates` in an impact at y_end; return a status.
+def push_impulses(block: Array) -> int:
+    """Decide about `strikes.candidates` in an impact at y_end; return a status.
 
     Afterwards their modes say which push; the linear system holds impulses and the change of rates of that choice.
     """
-    return _choose(block, count, True)
+    strikes(block).problem[KIND] = IMPULSES
+    return _choose(block)
 
 
 @jit
-def push_forces(block: Array, count: int) -> int:
-    """Decide about the first `count` of `strikes.candidates`, all at rest at y_end; return a status.
+def push_forces(block: Array) -> int:
+    """Decide about `strikes.candidates`, all at rest at y_end; return a status.
 
     Afterwards their modes say which push; dy_end is the derivative of that choice.
     """
-    return _choose(block, count, False)
+    strikes(block).problem[KIND] = FORCES
+    return _choose(block)
 
 
 @jit
@@ -54,16 +63,17 @@ def push_ratio(block: Array, contact: int, count: int) -> float:
     """A closed contact's force over the tolerance; it pulls below -1, and opens below -2."""
     keep_small()
     multiplier = linear_system(block).multiplier
-    ratio: float = multiplier[contacts(block).row[contact]] / (_FORCE + _FORCE_SHARE * _largest(multiplier, count))
+    ratio: float = multiplier[contacts(block).row[contact]] / (_FORCE + _FORCE_SHARE * largest(multiplier, count))
     return ratio
 
 
 @jit
-def _choose(block: Array, count: int, impulses: bool) -> int:
+def _choose(block: Array) -> int:
+    count = strikes(block).problem[COUNT]
     mode = contacts(block).mode
     candidates = strikes(block).candidates
     for _ in range(_MOST_PIVOTS):
-        wrong = _first_wrong(block, count, impulses)
+        wrong = _first_wrong(block)
         if wrong == codes.NONE:
             return status.OK
         mode[candidates[wrong]] = codes.CLOSED - mode[candidates[wrong]]
@@ -71,33 +81,34 @@ def _choose(block: Array, count: int, impulses: bool) -> int:
         for combination in range(1 << count):
             for k in range(count):
                 mode[candidates[k]] = (combination >> k) & 1
-            if _first_wrong(block, count, impulses) == codes.NONE:
+            if _first_wrong(block) == codes.NONE:
                 return status.OK
     return status.NO_CHOICE
 
 
 @jit
-def _first_wrong(block: Array, count: int, impulses: bool) -> int:
+def _first_wrong(block: Array) -> int:
     """The first candidate that pulls although closed, or goes in although open; `codes.NONE` when all is well."""
     keep_small()
     mode = contacts(block).mode
     candidates = strikes(block).candidates
+    impulses = strikes(block).problem[KIND] == IMPULSES
     if impulses:
         active = _try_impulses(block)
     else:
         derivative(block, course(block).y_end, course(block).dy_end)
         active = row_count(block)
-    for k in range(count):
+    for k in range(strikes(block).problem[COUNT]):
         c = candidates[k]
         if mode[c] == codes.CLOSED:
             if impulses:
                 multiplier = linear_system(block).multiplier
-                pulls = multiplier[contacts(block).row[c]] < -_IMPULSE_SHARE * _largest(multiplier, active)
+                pulls = multiplier[contacts(block).row[c]] < -_IMPULSE_SHARE * largest(multiplier, active)
             else:
                 pulls = push_ratio(block, c, active) < -1.0
             if pulls:
                 return k
-        elif _goes_in(block, c, impulses):
+        elif _goes_in(block, c):
             return k
     return codes.NONE
 
@@ -121,10 +132,11 @@ def _try_impulses(block: Array) -> int:
 
 
 @jit
-def _goes_in(block: Array, contact: int, impulses: bool) -> bool:
+def _goes_in(block: Array, contact: int) -> bool:
     """Whether an open candidate misses its separation speed, or accelerates into the other body."""
     keep_small()
     n = sizes(block).coordinates
+    impulses = strikes(block).problem[KIND] == IMPULSES
     spare = spare_row(block)
     contact_row(block, contact, spare)
     row = rows(block)
@@ -140,13 +152,5 @@ def _goes_in(block: Array, contact: int, impulses: bool) -> bool:
             change = bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
         left += row.jacobian[spare, k] * change
         size += abs(row.jacobian[spare, k] * change)
-    return left < -(tolerance + _SHARE * size)
-
-
-@jit
-def _largest(values: Array, count: int) -> float:
-    """Largest magnitude of the first `count` values."""
-    found = 0.0
-    for k in range(count):
-        found = max(found, abs(values[k]))
-    return found
+    goes_in: bool = left < -(tolerance + _SHARE * size)
+    return goes_in

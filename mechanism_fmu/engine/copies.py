@@ -24,7 +24,7 @@ def place_contact(block: Array, contact: int) -> None:
         pattern = table.pattern[contact]
         angle = 0.0
         if pattern != codes.NONE:
-            angle = patterns(block).index[pattern] * patterns(block).pitch[pattern]
+            angle = patterns(block).copy[pattern] * patterns(block).pitch[pattern]
         turn_line(data[2:], angle, line)
     else:
         turns = float(table.clicks[contact])
@@ -41,7 +41,7 @@ def place_pattern(block: Array, pattern: int) -> None:
     """Write the boundaries of a pattern's present copy, to the next and to the previous one, and its contacts."""
     keep_small()
     table = patterns(block)
-    index = table.index[pattern]
+    index = table.copy[pattern]
     pitch = table.pitch[pattern]
     boundary = table.data[pattern, 2:]
     turn_line(boundary, index * pitch, table.line[pattern, :4])

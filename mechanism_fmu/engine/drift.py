@@ -8,6 +8,7 @@ from .minimum_norm import minimum_norm
 from .room import Array
 from .rows import active_rows
 from .subset import jit, keep_small
+from .vectors import largest
 from .views import bodies, course, linear_system, rows, sizes
 
 #: Active rows may be off by this: in position [m, rad, m2], and in their rates [m/s, rad/s].
@@ -53,12 +54,3 @@ def _correct(block: Array, count: int, left: Array, values: Array) -> None:
     minimum_norm(block, count, n)
     for k in range(n):
         values[k] += root[k] * system.solution[k]
-
-
-@jit
-def largest(values: Array, count: int) -> float:
-    """Largest magnitude of the first `count` values."""
-    found = 0.0
-    for k in range(count):
-        found = max(found, abs(values[k]))
-    return found

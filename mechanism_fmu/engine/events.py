@@ -1,11 +1,11 @@
 """Where inside a step the first event happens.
 
 An event is the first fraction in (0, 1] of the step at which a guard, positive before, reaches zero. Guards of the
-position are looked at on the dense output, the forces of closed contacts at the step's stages. The root of a gap is then
-refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the interpolant's.
+position are looked at on the dense output, the forces of closed contacts at the step's stages. The root of a gap is
+then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the interpolant's.
 
-A gap that is zero at the step's start counts only after it has opened (`armed`). One that neither opens nor closes there
-(a contact that has just been let go) is left alone within `GAP_NOISE`, which is above rounding.
+A gap that is zero at the step's start counts only after it has opened (`armed`). One that neither opens nor closes
+there (a contact that has just been let go) is left alone within `GAP_NOISE`, which is above rounding.
 """
 
 from __future__ import annotations
@@ -143,7 +143,8 @@ def _begin(block: Array, number: int) -> bool:
     if rate > RESTS_BELOW:
         look_at.armed[number] = 0
         look_at.floor[number] += min(value, 0.0)
-    return value <= look_at.floor[number]
+    fires: bool = value <= look_at.floor[number]
+    return fires
 
 
 @jit

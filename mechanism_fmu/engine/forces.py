@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from .. import codes
 from .room import Array
-from .rows import clear
 from .subset import jit, keep_small
+from .vectors import clear
 from .views import forces, loads, sizes
 
 

@@ -69,7 +69,8 @@ def _contact(block: Array, contact: int) -> float:
     friction = -table.value[contact, codes.FRICTION] * normal * math.tanh(slip / SLIP_SPEED)
     for k in range(sizes(block).coordinates):
         force[k] += friction * rows(block).jacobian[spare, k]
-    return -friction * slip
+    lost: float = -friction * slip
+    return lost
 
 
 @jit
@@ -87,7 +88,8 @@ def _pin(block: Array, joint: int) -> float:
     torque = -table.friction[joint] * normal * math.tanh(slip / SLIP_RATE)
     force[3 * i + 2] += torque
     force[3 * j + 2] -= torque
-    return -torque * slip
+    lost: float = -torque * slip
+    return lost
 
 
 @jit
@@ -118,4 +120,5 @@ def _slider(block: Array, joint: int) -> float:
     force[3 * i] -= friction * vx
     force[3 * i + 1] -= friction * vy
     force[3 * i + 2] -= friction * (cx * vy - cy * vx)
-    return -friction * slip
+    lost: float = -friction * slip
+    return lost

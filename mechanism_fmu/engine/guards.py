@@ -104,7 +104,7 @@ def function_value(block: Array, function: int) -> tuple[float, float]:
     keep_small()
     table = functions(block)
     at = pose(block)
-    index = table.index[function]
+    index = table.subject[function]
     limit = table.limit[function]
     if table.kind[function] == codes.ANGLE:
         return at.phi[index] - limit, at.phi_rate[index]

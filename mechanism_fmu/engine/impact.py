@@ -1,16 +1,16 @@
 """The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7)), for all touching contacts together.
 
-Joints and closed guided contacts keep their rows, v = 0. Every touching contact that approaches must separate with e times
-its closing speed (with 0 when that is below `STICK_SPEED`), every one at rest must not approach, and impulses only push:
-p >= 0, s'+ >= e |s'-|, p (s'+ - e |s'-|) = 0. One contact alone gives eq (7). Contacts that already separate take no part,
-so that the energy cannot grow (dT = -1/2 sum p (1 - e) |s'-|); when the impact turns one of them round, it strikes
-in the next round, at the same instant.
+Joints and closed guided contacts keep their rows, v = 0. Every touching contact that approaches must separate with e
+times its closing speed (with 0 when that is below `STICK_SPEED`), every one at rest must not approach, and impulses
+only push: p >= 0, s'+ >= e |s'-|, p (s'+ - e |s'-|) = 0. One contact alone gives eq (7). Contacts that already separate
+take no part, so that the energy cannot grow (dT = -1/2 sum p (1 - e) |s'-|); when the impact turns one of them round,
+it strikes in the next round, at the same instant.
 """
 
 from __future__ import annotations
 
 from .. import codes
-from .complementarity import push_impulses
+from .complementarity import COUNT, push_impulses
 from .friction_impulse import rub
 from .guards import TOUCHES_WITHIN, gap
 from .kinematics import place_bodies
@@ -56,7 +56,8 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
             count += 1
         if taking_part.role[c] != ABSENT:
             table.mode[c] = codes.CLOSED
-    outcome = push_impulses(block, count)
+    taking_part.problem[COUNT] = count
+    outcome = push_impulses(block)
     for k in range(n):
         taking_part.rates_before[k] = rate[k]
         rate[k] += bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]

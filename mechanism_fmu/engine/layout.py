@@ -121,6 +121,7 @@ FIELDS = (
     Field("work", "contact_impulse", ("contacts",)),
     Field("work", "least_push", ("contacts",)),
     Field("work", "candidates", ("contacts",), True),
+    Field("work", "problem", (2,), True),
     Field("work", "guard_watched", ("guards",), True),
     Field("work", "guard_armed", ("guards",), True),
     Field("work", "guard_floor", ("guards",)),
@@ -178,7 +179,8 @@ def allocate(sizes: dict[str, int]) -> Array:
     """A zeroed block with its header filled in.
 
     Args:
-        sizes: bodies, joints, forces, contacts, patterns, functions, held, inputs, outputs and joint_rows; the others follow.
+        sizes: bodies, joints, forces, contacts, patterns, functions, held, inputs, outputs and joint_rows; the others
+            follow.
 
     Returns:
         The block, float64 of shape (words,).

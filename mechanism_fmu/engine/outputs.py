@@ -64,7 +64,7 @@ def read_outputs(block: Array) -> None:
         elif kind == codes.CONTACT_CLOSED:
             value = float(contact.mode[index])
         elif kind == codes.PATTERN_INDEX:
-            value = float(patterns(block).index[index])
+            value = float(patterns(block).copy[index])
         elif kind == codes.STOP_CLICKS:
             value = float(contact.clicks[index])
         elif kind == codes.STOP_REFERENCE:

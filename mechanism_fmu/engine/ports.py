@@ -11,10 +11,10 @@ from .views import forces, ports
 def inputs_changed(block: Array) -> bool:
     """Whether an input differs from what the motion has used so far."""
     table = ports(block)
+    changed = False
     for k in range(table.inputs.shape[0]):
-        if table.inputs[k] != table.held_inputs[k]:
-            return True
-    return False
+        changed = changed or table.inputs[k] != table.held_inputs[k]
+    return changed
 
 
 @jit

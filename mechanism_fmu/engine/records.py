@@ -10,7 +10,10 @@ from .views import contacts, course, patterns, sizes, strikes
 
 @jit
 def keep_impact(block: Array, contact: int) -> None:
-    """Record the impact of one contact from `strikes` and the rates at y_end; when the buffer is full, the oldest is lost."""
+    """Record the impact of one contact from `strikes` and the rates at y_end.
+
+    When the buffer is full, the oldest is lost.
+    """
     keep_small()
     n = sizes(block).coordinates
     table = contacts(block)
@@ -112,7 +115,7 @@ def _copy(block: Array, contact: int) -> int:
     if pattern == codes.NONE:
         clicks: int = table.clicks[contact]
         return clicks
-    index: int = patterns(block).index[pattern]
+    index: int = patterns(block).copy[pattern]
     return index
 
 

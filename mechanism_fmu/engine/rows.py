@@ -9,6 +9,7 @@ from .joints.translational import translational
 from .point_line import point_line
 from .room import Array
 from .subset import jit, keep_small
+from .vectors import clear
 from .views import contacts, joints, options, pose, rows, sizes
 
 
@@ -115,11 +116,3 @@ def stabilise(block: Array, count: int) -> None:
     out = rows(block)
     for r in range(count):
         out.gamma[r] -= 2.0 * alpha * out.residual_rate[r] + beta * beta * out.residual[r]
-
-
-@jit
-def clear(vector: Array) -> None:
-    """Set all entries to zero."""
-    keep_small()
-    for k in range(vector.shape[0]):
-        vector[k] = 0.0

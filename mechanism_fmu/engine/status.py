@@ -18,8 +18,8 @@ ADVICE = {
     "and parameters are of a sensible size, or give a larger relative_tolerance.",
     TOO_MANY_STEPS: "One communication step needed more internal steps than the limit: the motion is very fast for its "
     "length. Restore a saved state or reset, then check the size of inputs and parameters, or take shorter steps.",
-    NO_CHOICE: "No set of pushing contacts agrees with the motion: friction may jam the mechanism, or more contacts touch "
-    "at once than can be resolved. Give less friction, or change lengths a little.",
+    NO_CHOICE: "No set of pushing contacts agrees with the motion: friction may jam the mechanism, or more contacts "
+    "touch at once than can be resolved. Give less friction, or change lengths a little.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
     NO_PLACE: "No copy of a pattern was found on which the point can start.",

@@ -23,6 +23,7 @@ from .records import clear_records
 from .room import Array
 from .subset import entry, jit, keep_small
 from .transition import transit
+from .vectors import copy
 from .views import contacts, course, ports, sizes, stages
 
 #: Smallest step as a fraction of max(1 s, |t|).
@@ -48,7 +49,8 @@ def advance(block: Array, target: float) -> int:
         if outcome != status.OK:
             return outcome
     for _ in range(MOST_STEPS):
-        if now.clock[codes.TIME] >= now.clock[codes.STEP_END]:
+        begins = now.counters[codes.PENDING_GUARD] == codes.GUARD_BEGIN
+        if now.clock[codes.TIME] >= now.clock[codes.STEP_END] and not begins:
             if now.clock[codes.TIME] >= target:
                 return status.OK
             outcome = take_step(block)
@@ -223,11 +225,3 @@ def _scale(error: float, most: float) -> float:
     if not error < math.inf:
         return _SHRINK_MOST
     return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -0.2)))
-
-
-@jit
-def copy(source: Array, target: Array) -> None:
-    """Target = source."""
-    keep_small()
-    for k in range(source.shape[0]):
-        target[k] = source[k]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from .. import codes
 from . import status
-from .complementarity import push_forces
+from .complementarity import COUNT, push_forces
 from .copies import place_contact, place_pattern
 from .drift import LEAST_DRIFT, mend
 from .events import GAP_NOISE, can_open
@@ -30,10 +30,11 @@ PILE_TIME = 1e-9
 def transit(block: Array, guard: int, subject: int) -> int:
     """Let an event happen at y_end and STEP_END; return a status.
 
-    `guard` is `codes.GUARD_INPUT` when an input has changed or the motion begins: then only the contacts that push are
-    chosen afresh.
+    `guard` is `codes.GUARD_BEGIN` when the motion begins and `codes.GUARD_INPUT` when an input has changed: then only
+    the contacts that push are chosen afresh.
     """
     keep_small()
+    only_choose = guard == codes.GUARD_INPUT or guard == codes.GUARD_BEGIN
     n = sizes(block).coordinates
     now = course(block)
     rate = now.y_end[n:]
@@ -44,10 +45,11 @@ def transit(block: Array, guard: int, subject: int) -> int:
     struck = codes.NONE
     if guard == codes.GUARD_GAP:
         struck = subject
+    fired = struck
     impulse = 0.0
     hits = 0
     for round_ in range(MOST_ROUNDS):
-        if guard == codes.GUARD_INPUT:
+        if only_choose:
             break
         approached, outcome = strike(block, struck, round_)
         if outcome != status.OK:
@@ -58,15 +60,15 @@ def transit(block: Array, guard: int, subject: int) -> int:
         for c in range(strikes(block).impulse.shape[0]):
             impulse += strikes(block).impulse[c]
         struck = codes.NONE
-    outcome = _settle(block, guard, subject, hits > 0)
+    outcome = _settle(block, fired, only_choose, hits > 0)
     if outcome != status.OK:
         return outcome
     now.ledger[codes.LEDGER_LOST] += energy - kinetic_energy(inverse_mass, rate, n)
-    if guard != codes.GUARD_INPUT or mode_number(block) != old_mode:
+    if not only_choose or (guard == codes.GUARD_INPUT and mode_number(block) != old_mode):
         keep_event(block, guard, subject, old_mode, impulse)
-    if guard != codes.GUARD_INPUT:
-        return _progress(block)
-    return status.OK
+    if only_choose:
+        return status.OK
+    return _progress(block)
 
 
 @jit
@@ -79,7 +81,7 @@ def _take_effect(block: Array, guard: int, subject: int) -> None:
         move = 1
         if guard == codes.GUARD_PREVIOUS:
             move = -1
-        patterns(block).index[subject] += move
+        patterns(block).copy[subject] += move
         place_pattern(block, subject)
         for c in range(table.mode.shape[0]):
             if table.pattern[c] == subject and table.function[c] == codes.NONE:
@@ -111,8 +113,8 @@ def switch_contacts(block: Array) -> None:
 
 
 @jit
-def _settle(block: Array, guard: int, subject: int, hit: bool) -> int:
-    """Choose, among the contacts that touch and rest, those that push."""
+def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
+    """Choose, among the contacts that touch and rest, those that push; `fired` is the one whose gap has become zero."""
     keep_small()
     table = contacts(block)
     near = GAP_NOISE
@@ -127,17 +129,17 @@ def _settle(block: Array, guard: int, subject: int, hit: bool) -> int:
             continue
         if table.mode[c] == codes.OPEN:
             distance, rate = gap(block, c)
-            fired = guard == codes.GUARD_GAP and subject == c
-            if (distance > near and not fired) or not abs(rate) < slow:
+            if (distance > near and c != fired) or not abs(rate) < slow:
                 continue
             table.mode[c] = codes.CLOSED
         strikes(block).candidates[count] = c
         count += 1
-    if guard != codes.GUARD_INPUT:
+    if not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # also of what is about to open: a gap must not be left below zero
     if count == 0:
         return status.OK
-    outcome = push_forces(block, count)
+    strikes(block).problem[COUNT] = count
+    outcome = push_forces(block)
     for k in range(count):
         c = strikes(block).candidates[k]
         table.touching[c] = 1 - table.mode[c]

@@ -74,10 +74,10 @@ forces = room(Forces, "force_kind", "force_body", "force_reaction", "force_data"
 class Contacts(NamedTuple):
     """The contacts' specifications and state.
 
-    `value` holds numbers by column (`codes.RESTITUTION` ...). State is the mode (`codes.OPEN` or `CLOSED`), whether the gap
-    was zero when the step began, the clicks of a stop with memory, the line of the present copy (of stops and locks: the
-    present angle), and the first time at which a guided contact pulled [s] (infinity: never). `row` is the constraint row
-    of a closed contact; `least_push` the least contact force of the step last tried, over its tolerance.
+    `value` holds numbers by column (`codes.RESTITUTION` ...). State is the mode (`codes.OPEN` or `CLOSED`), whether the
+    gap was zero when the step began, the clicks of a stop with memory, the line of the present copy (of stops and
+    locks: the present angle), and the first time at which a guided contact pulled [s] (infinity: never). `row` is the
+    constraint row of a closed contact; `least_push` the least contact force of the step last tried, over its tolerance.
     """
 
     kind: Array
@@ -125,7 +125,7 @@ class Patterns(NamedTuple):
     data: Array
     pitch: Array
     enabled: Array
-    index: Array
+    copy: Array
     line: Array
 
 
@@ -145,7 +145,7 @@ class Functions(NamedTuple):
     """The logical functions that switch contacts; state: their values."""
 
     kind: Array
-    index: Array
+    subject: Array
     limit: Array
     true: Array
 
@@ -157,7 +157,8 @@ class Strikes(NamedTuple):
     """Scratch of an impact.
 
     What each contact is in it (`impact.ABSENT` ...), the separation speed it must reach, its closing speed and impulse;
-    the contacts that a complementarity problem decides about; all rates before the impact; a line.
+    the contacts that a complementarity problem decides about, and which problem it is (columns in `complementarity`);
+    all rates before the impact; a line.
     """
 
     role: Array
@@ -165,6 +166,7 @@ class Strikes(NamedTuple):
     closing: Array
     impulse: Array
     candidates: Array
+    problem: Array
     rates_before: Array
     line: Array
 
@@ -176,6 +178,7 @@ strikes = room(
     "contact_closing",
     "contact_impulse",
     "candidates",
+    "problem",
     "rates_before",
     "line",
 )
@@ -227,8 +230,9 @@ ports = room(
 class Course(NamedTuple):
     """How far the motion has come.
 
-    Clock, counters and ledger (columns in `codes`); y = (q, qd, work, loss) and its derivative at the end of the engine's
-    own step, and the step's dense output; the last impact, and impacts and events of the last communication step.
+    Clock, counters and ledger (columns in `codes`); y = (q, qd, work, loss) and its derivative at the end of the
+    engine's own step, and the step's dense output; the last impact, and impacts and events of the last communication
+    step.
     """
 
     clock: Array

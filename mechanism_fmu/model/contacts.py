@@ -15,8 +15,8 @@ class PointLineContact:
     """A point of one body against a straight line fixed in another (Pennestrì et al., Fig. 1).
 
     The gap is s = normal . (A_j^T (r_i^P - r_j) - line_point), positive when open. An open contact whose gap reaches
-    zero impacts by eq (7); one that is closed is a constraint row that can only push, and opens when it would pull. With
-    `closed_while` it is no one-sided contact but a row that a logical function switches on and off.
+    zero impacts by eq (7); one that is closed is a constraint row that can only push, and opens when it would pull.
+    With `closed_while` it is no one-sided contact but a row that a logical function switches on and off.
 
     Attributes:
         name: unique within the mechanism.
@@ -60,8 +60,8 @@ class PointLineContact:
 class AngleStop:
     """A stop for the relative angle of two bodies, with the memory of a ratchet: gap s = phi_i - phi_j - latched angle.
 
-    The latched angle is `angle` at first. Each time the relative angle has gone one pitch beyond it, the stop clicks: the
-    latched angle grows by one pitch, as when a holding pawl drops behind the next tooth. It never goes back.
+    The latched angle is `angle` at first. Each time the relative angle has gone one pitch beyond it, the stop clicks:
+    the latched angle grows by one pitch, as when a holding pawl drops behind the next tooth. It never goes back.
 
     Attributes:
         name: unique within the mechanism.

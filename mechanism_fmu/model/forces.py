@@ -90,8 +90,8 @@ class Damper:
 class CompliantShaft:
     """A shaft whose other end is moved from outside.
 
-    Torque on `body` = stiffness * (angle - (phi - phi_reaction)) + damping * (speed - (phi' - phi_reaction')). All of it
-    counts as work done on the mechanism.
+    Torque on `body` = stiffness * (angle - (phi - phi_reaction)) + damping * (speed - (phi' - phi_reaction')). All of
+    it counts as work done on the mechanism.
 
     Attributes:
         name: unique within the mechanism.

@@ -47,7 +47,7 @@ def resolve_function(function: LogicalFunction, contacts: dict[str, int], bodies
 
 
 def switch(closed_while: str | None) -> tuple[str | None, bool]:
-    """The function that closes a contact, and the value at which it does: ("f", True) of "f", ("f", False) of "not f"."""
+    """The function that closes a contact, and the value at which it does: ("f", True) or, of "not f", ("f", False)."""
     if closed_while is None:
         return None, True
     negated = closed_while.startswith("not ")

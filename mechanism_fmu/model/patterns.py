@@ -12,9 +12,10 @@ from .functions import Number
 class CircularPattern:
     """Teeth or slots that repeat around the centre of a body; the engine keeps the copy that is near a point.
 
-    Copy k of every contact of the pattern is the contact's own line, turned by k * pitch. Between the copies 0 and 1 lies
-    a straight boundary; when the point crosses it (or one of its copies), the contacts of the pattern open and stand at
-    the next copy. The free space of one copy must be convex: for teeth, the boundary runs outwards from the apex.
+    Copy k of every contact of the pattern is the contact's own line, turned by k * pitch. Between the copies 0 and 1
+    lies a straight boundary; when the point crosses it (or one of its copies), the contacts of the pattern open and
+    stand at the next copy. The free space of one copy must be convex: for teeth, the boundary runs outwards from the
+    apex.
 
     Attributes:
         name: unique within the mechanism.

@@ -62,8 +62,9 @@ class Output:
     Attributes:
         name: FMI name.
         source: what it reads. "<body>.x|y|angle" and "<body>.x_rate|y_rate|speed"; "<contact>.force" (multiplier,
-            positive when it pushes), "<contact>.gap" and "<contact>.closed"; "<stop>.clicks" and "<stop>.latched" [rad] of
-            a stop with memory; "<pattern>.index"; "<shaft>.torque"; "event.count"; "energy.kinetic|spring|work|lost";
+            positive when it pushes), "<contact>.gap" and "<contact>.closed"; "<stop>.clicks" and "<stop>.latched" [rad]
+            of a stop with memory; "<pattern>.index"; "<shaft>.torque"; "event.count";
+            "energy.kinetic|spring|work|lost";
             "impact.count|in_step|lost|any"; "impact.<field>" of the last impact and "impacts[k].<field>" of the k-th
             (1..8) of the last communication step, with field one of time, contact, tooth, closing_speed, impulse,
             velocity, "impulse:<contact>", "speed:<body>", "speed_before:<body>".

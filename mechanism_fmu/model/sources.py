@@ -63,7 +63,8 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
     if found is None:
         raise MechanismError(
             f"output source {source!r} is unknown; use <body>.x|y|angle|x_rate|y_rate|speed, "
-            f"<contact>.{'|'.join(_OF_CONTACT)}, <pattern>.index, <shaft>.torque, event.count, energy.{'|'.join(_ENERGIES)}, impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
+            f"<contact>.{'|'.join(_OF_CONTACT)}, <pattern>.index, <shaft>.torque, event.count, "
+            f"energy.{'|'.join(_ENERGIES)}, impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
             f"bodies {', '.join(b.name for b in mechanism.bodies)} and contacts "
             f"{', '.join(c.name for c in mechanism.contacts) or '(none)'}."
         )

@@ -100,8 +100,8 @@ def _free_start(values: SimpleNamespace) -> Iterator[str]:
         )
     elif b > distance + r or distance < abs(b - r):
         yield (
-            f"pawl_length = {b:.6g} m does not fit: {at}, and its tip cannot come to the roots of the teeth at {r:.6g} m. "
-            f"Give between {abs(distance - r):.6g} m and {distance + r:.6g} m, or change crank_angle_start."
+            f"pawl_length = {b:.6g} m does not fit: {at}, and its tip cannot come to the roots of the teeth at "
+            f"{r:.6g} m. Give between {abs(distance - r):.6g} m and {distance + r:.6g} m, or change crank_angle_start."
         )
 
 

@@ -43,7 +43,7 @@ def crank_pin(values: SimpleNamespace) -> Pin:
 
 
 def pawl_angle(values: SimpleNamespace) -> Number:
-    """Start angle gamma [rad] of the pawl: given, or on the slope (guided), or near the wheel (free; then assembly closes it)."""
+    """Start angle gamma [rad] of the pawl: given, on the slope (guided), or near the wheel, for assembly to close."""
     guided = where_positive(values.guided, angle_on_slope(values), angle_near_wheel(values))
     given = values.pawl_angle_start * values.pawl_angle_start * (1 - values.guided)
     return where_positive(given, values.pawl_angle_start, guided)
@@ -67,15 +67,15 @@ def angle_on_slope(values: SimpleNamespace) -> Number:
 
 
 def angle_near_wheel(values: SimpleNamespace) -> Number:
-    """Pawl angle [rad] with the tip on the circle of the roots, where turning counter-clockwise presses it on the wheel.
+    """Pawl angle [rad] with the tip on the circle of the roots, where turning counter-clockwise presses on the wheel.
 
-    From the pin at the distance D of the wheel's hinge: cos(angle between pawl and centre) = (D^2 + b^2 - r^2) / (2 D b).
+    From the pin, D away from the wheel's hinge: cos(angle between pawl and centre) = (D^2 + b^2 - r^2) / (2 D b).
     """
     pin, b, r = crank_pin(values), values.pawl_length, values.wheel_inner_radius
     square = pin.x * pin.x + pin.y * pin.y
     adjacent = square + b * b - r * r
     rest = 4 * square * b * b - adjacent * adjacent
-    return atan2(-pin.y, -pin.x) - atan2(sqrt(where_positive(rest, rest, 0.0)), adjacent)
+    return 2 * math.pi + atan2(-pin.y, -pin.x) - atan2(sqrt(where_positive(rest, rest, 0.0)), adjacent)
 
 
 def tip_distance(values: SimpleNamespace) -> Number:

@@ -34,7 +34,7 @@ int main(int argc, char **argv) {
     Callbacks callbacks = {logger, calloc, free, NULL, NULL};
     Instance instance = NULL;
     double angle;
-    unsigned int reference = 3;
+    unsigned int reference = (unsigned int)atoi(argv[5]);
 
     snprintf(resources, sizeof resources, "file://%s/resources", argv[1]);
     library = dlopen(argv[2], RTLD_NOW | RTLD_LOCAL);

@@ -30,7 +30,8 @@ BAD_GEOMETRY = [
     ({"crank_length": 0.01}, "crank_length = 0.01 m is"),
     ({"tooth_slope_angle": math.radians(60)}, "gives teeth without height"),
     ({"slope_ratio": 0.5}, "gives blunt teeth"),
-    ({"guided": False}, "guided = false is not available in this version"),
+    ({"guided": False, "pawl_length": 0.03}, "pawl_length = 0.03 m is 0.0"),
+    ({"guided": False, "pawl_angle_start": 3.5}, "starts with a contact point inside the other body"),
 ]
 
 
