@@ -30,8 +30,8 @@ from .views import contacts, course, ports, sizes, stages
 _SMALLEST_STEP = 1e-15
 #: Most internal steps of one communication step.
 MOST_STEPS = 200_000
-#: No body turns further than this in one step [rad]: a step without error may be of any length, and would pass over
-#: what a turning point meets in every turn.
+#: Where there are guards, no body turns further than this in one step [rad]: a step without error may be of any length,
+#: and would pass over what a turning point meets in every turn.
 MOST_TURN = 1.0
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
@@ -189,6 +189,8 @@ def _try(block: Array, step: float) -> float:
     keep_small()
     s = stages(block)
     error = try_step(block, step)
+    if sizes(block).guards == 0:
+        return error
     turn = 0.0
     for k in range(2, sizes(block).coordinates, 3):
         turn = max(turn, abs(s.y_new[k] - s.y_start[k]))
