@@ -10,3 +10,9 @@ from mechanism_fmu.fmu.package import build_fmu
 def ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Path of a freshly built Ratchet.fmu."""
     return build_fmu(models.load("ratchet"), tmp_path_factory.mktemp("fmu"))
+
+
+@pytest.fixture(scope="session")
+def geneva_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built Geneva.fmu."""
+    return build_fmu(models.load("geneva"), tmp_path_factory.mktemp("fmu"))

@@ -78,14 +78,14 @@ def _neighbour(k: int) -> int:
 
 @jit
 def _is_inside(block: Array) -> bool:
-    """Whether a point of a pattern is behind one of the other lines there."""
+    """Whether a point of a pattern is behind one of the other lines there, which logical functions do not switch."""
     table = contacts(block)
     inside = False
     for c in range(table.mode.shape[0]):
         pattern = table.pattern[c]
         if pattern == codes.NONE or table.mode[c] == codes.CLOSED or table.value[c, codes.ENABLED] < 0.5:
             continue
-        if patterns(block).enabled[pattern] > 0.5:
+        if table.function[c] == codes.NONE and patterns(block).enabled[pattern] > 0.5:
             inside = inside or gap(block, c)[0] < -TOUCHES_WITHIN
     return inside
 

@@ -24,12 +24,15 @@ from .room import Array
 from .subset import entry, jit, keep_small
 from .transition import transit
 from .vectors import copy
-from .views import contacts, course, ports, stages
+from .views import contacts, course, ports, sizes, stages
 
 #: Smallest step as a fraction of max(1 s, |t|).
 _SMALLEST_STEP = 1e-15
 #: Most internal steps of one communication step.
 MOST_STEPS = 200_000
+#: Where there are guards, no body turns further than this in one step [rad]: a step without error may be of any length,
+#: and would pass over what a turning point meets in every turn.
+MOST_TURN = 1.0
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0
@@ -139,14 +142,14 @@ def take_step(block: Array) -> int:
     copy(now.dy_end, s.derivatives[0])
     step = representable(start, now.clock[codes.NEXT_STEP])
     smallest = _SMALLEST_STEP * max(1.0, abs(start))
-    error = try_step(block, step)
+    error = _try(block, step)
     grow_most = _GROW_MOST
     while not error <= 1.0:
         step = representable(start, step * _scale(error, 1.0))
         grow_most = 1.0
         if not step > smallest:
             return _why_no_step(block)
-        error = try_step(block, step)
+        error = _try(block, step)
     now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
 
     guard, subject, fraction = first_event(block)
@@ -189,6 +192,23 @@ def _why_no_step(block: Array) -> int:
         if math.isnan(s.derivatives[k, last]) and not math.isnan(s.derivatives[k, 0]):
             return status.JAMMED
     return status.STEP_TOO_SMALL
+
+
+@jit
+def _try(block: Array, step: float) -> float:
+    """Try a step; return its error, or how much too far a body turns if that shortens the step more."""
+    keep_small()
+    s = stages(block)
+    error = try_step(block, step)
+    if sizes(block).guards == 0:
+        return error
+    turn = 0.0
+    for k in range(2, sizes(block).coordinates, 3):
+        turn = max(turn, abs(s.y_new[k] - s.y_start[k]))
+    too_far = math.pow(turn / MOST_TURN, 5.0)  # `_scale` takes the fifth root
+    if too_far > error:
+        return too_far
+    return error
 
 
 @jit

@@ -13,6 +13,12 @@ def ratchet(ratchet_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
     return Fmu.unzip(ratchet_fmu, tmp_path_factory.mktemp("ratchet"))
 
 
+@pytest.fixture(scope="session")
+def geneva(geneva_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The Geneva drive's FMU, unzipped."""
+    return Fmu.unzip(geneva_fmu, tmp_path_factory.mktemp("geneva"))
+
+
 @pytest.fixture
 def instance(ratchet: Fmu) -> Iterator[Callable[..., Instance]]:
     """A function that makes instances of the ratchet; they are freed after the test."""

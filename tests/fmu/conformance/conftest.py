@@ -18,6 +18,20 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "until": 2.0,
         "impossible": {"pawl_length": 0.03},
     },
+    # A spring pulls the driver back, through its slot, on a backstop, where it bounces.
+    "geneva": {
+        "rough": {
+            "slot_count": 6,
+            "driver_speed_start": 20.0,
+            "drive_damping": 0.0,
+            "drive_stiffness": 0.3,
+            "backstop": True,
+            "backstop_restitution": 0.5,
+        },
+        "inputs": {"drive_torque": (-0.05, 0.05), "load_torque": (-0.01, 0.01), "drive_speed": (3.0, 7.0)},
+        "until": 2.0,
+        "impossible": {"pin_diameter": 0.05},
+    },
 }
 
 
