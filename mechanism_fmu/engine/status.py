@@ -23,7 +23,7 @@ ADVICE = {
     "resolved. Change lengths or start positions a little.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
-    JAMMED: "No normal forces agree with their friction: the mechanism jams itself. Give less friction, or move the line "
-    "of action away from the friction cone.",
+    JAMMED: "No normal forces agree with their friction: the mechanism jams itself. Give less friction, or move the "
+    "line of action away from the friction cone.",
     NO_PLACE: "No copy of a pattern was found on which the point can start.",
 }
