@@ -17,7 +17,7 @@ def rub(block: Array) -> None:
     """Slow down the slip of every contact that has just had a normal impulse p (`strikes.impulse`), at y_end.
 
     The tangential impulse is what ends the slip while all closed rows keep their rates, or coefficient * p when that is
-    less. It follows the normal impulses, contact by contact; being a part of a projection, it never adds energy.
+    less, or less still when more would add energy. It follows the normal impulses, contact by contact.
     """
     keep_small()
     n = sizes(block).coordinates
@@ -40,9 +40,25 @@ def rub(block: Array) -> None:
         system.right_side[count] = -row.residual_rate[spare]
         scale_rows(block, count + 1)
         minimum_norm(block, count + 1, n)
-        stops = abs(system.multiplier[count])
-        share = 1.0
-        if stops > most:
-            share = most / stops
+        share = min(_dissipative_share(block), most / max(most, abs(system.multiplier[count])))
         for k in range(n):
             y[n + k] += share * bodies(block).inverse_root_mass[k] * system.solution[k]
+
+
+@jit
+def _dissipative_share(block: Array) -> float:
+    """The part, 0..1, of the change of rates in `solution` that takes the most energy from the rates at y_end.
+
+    It is 1 unless closed rows separate after a bounce, or fix the slip themselves.
+    """
+    keep_small()
+    n = sizes(block).coordinates
+    solution = linear_system(block).solution
+    along = 0.0
+    square = 0.0
+    for k in range(n):
+        along -= course(block).y_end[n + k] / bodies(block).inverse_root_mass[k] * solution[k]
+        square += solution[k] * solution[k]
+    if not along > 0.0:
+        return 0.0
+    return min(1.0, along / square)

@@ -273,3 +273,20 @@ def test_impacts_with_friction_never_add_energy(seed, bodies, contacts, friction
     assert after <= before * (1 + 1e-12)
     assert after + simulation.read()["lost"] == pytest.approx(before, rel=1e-9)
     assert np.all(heap.rows @ rates >= -2e-9)
+
+
+def test_friction_in_an_impact_against_rows_that_bounce_adds_no_energy():
+    """Ending the slip while other contacts keep their separation speeds once added 10 % of the energy."""
+    heap = touching(3385, bodies=1, contacts=5, moving=True, friction=2.0)
+    simulation = Simulation(heap.mechanism)
+    before = simulation.read()["kinetic"]
+    simulation.advance(1e-12)
+    assert simulation.read()["kinetic"] <= before
+    assert simulation.read()["lost"] >= 0
+
+
+def test_friction_that_jams_says_so():
+    heap = touching(0, bodies=2, contacts=6, moving=True, friction=1.0)
+    simulation = Simulation(heap.mechanism)
+    with pytest.raises(SimulationError, match=r"jams itself. Give less friction.*Contacts: "):
+        simulation.advance(1e-12)
