@@ -15,12 +15,12 @@ ROOT = Path(__file__).parents[1]
 #: Modules of the plain ratchet that travel.
 _PLAIN = ("__init__", "ratchet", "reference", "plain", "plain_slave")
 
-#: Its slave file. pythonfmu's wrapper releases a reference to the globals that it does not own.
-_SLAVE = """import ctypes
+#: Its slave file. What pythonfmu's wrapper does wrong would end the process of the benchmarks, too, with an abort.
+_SLAVE = """from {package}.plain_slave import PlainRatchet
 
-from {package}.plain_slave import PlainRatchet
+from mechanism_fmu.fmu.start import tidy_up
 
-ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
+tidy_up(globals())
 """
 
 
