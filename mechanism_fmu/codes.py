@@ -109,6 +109,7 @@ GUARD_CLICK = 4  # a stop with memory has been passed by one pitch
 GUARD_FUNCTION = 5  # a logical function changes
 GUARD_INPUT = 6  # an input has changed
 GUARD_BEGIN = 7  # the motion begins
+GUARD_FAILED = 8  # an event could not be resolved: nothing goes on from there (the status stands as subject)
 
 # columns of an event record
 EVENT_TIME = 0

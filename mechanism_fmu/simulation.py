@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -41,7 +42,7 @@ class Event(NamedTuple):
         guard: e.g. "face.gap", "slope.force", "teeth.next", "teeth.previous", "holding_pawl.click", "pin_in_slot", or
             "input" when inputs have changed (`mechanism_fmu.model.event_names`).
         old_mode, new_mode: names of the closed contacts.
-        impulse: total normal impulse over all contacts [N s].
+        impulse: sum of magnitudes over the contacts that struck or were switched on [N s; N m s of stops and locks].
     """
 
     time: float
@@ -88,6 +89,10 @@ class Simulation:
         Raises:
             SimulationError: the motion cannot be continued; the time reached is the last good one.
         """
+        if not self.time <= target < math.inf:
+            raise SimulationError(
+                f"t = {self.time:.9g} s: the motion cannot go on to {target:.9g} s; give a later time."
+            )
         outcome = advance(self._block, float(target))
         if outcome != status.OK:
             raise SimulationError(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
@@ -154,7 +159,7 @@ class Simulation:
 
     def _involved(self, outcome: int) -> str:
         """The contacts that a failed event is about."""
-        if outcome not in (status.CHATTERING, status.NO_CHOICE, status.JAMMED):
+        if outcome not in (status.CHATTERING, status.NO_CHOICE, status.JAMMED, status.ROW_AWAY):
             return ""
         names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
         return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."

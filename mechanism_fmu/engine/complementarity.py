@@ -72,7 +72,7 @@ def _choose(block: Array) -> int:
     count = strikes(block).problem[COUNT]
     mode = contacts(block).mode
     candidates = strikes(block).candidates
-    for _ in range(_MOST_PIVOTS):
+    for _ in range(_MOST_PIVOTS * (1 + count)):
         wrong = _first_wrong(block)
         if wrong == codes.NONE:
             return status.OK

@@ -158,7 +158,7 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     floor = look_at.floor[number]
     fraction = 2.0
     if look_at.armed[number] == 0:
-        if next_value <= 0.0 and next_rate <= 0.0:
+        if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
             before = _after_opening(block, number, after)
             if before > 0.0:
                 fraction = _bisect(block, number, before, after, 0.0)

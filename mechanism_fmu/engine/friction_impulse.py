@@ -25,7 +25,7 @@ def rub(block: Array) -> None:
     system = linear_system(block)
     y = course(block).y_end
     for c in range(table.mode.shape[0]):
-        most = table.value[c, codes.FRICTION] * strikes(block).impulse[c]
+        most = table.value[c, codes.FRICTION] * abs(strikes(block).impulse[c])
         if not most > 0.0 or table.kind[c] != codes.POINT_LINE:
             continue
         place_bodies(block, y)

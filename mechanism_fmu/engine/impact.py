@@ -10,6 +10,7 @@ it strikes in the next round, at the same instant.
 from __future__ import annotations
 
 from .. import codes
+from . import status
 from .complementarity import COUNT, push_impulses
 from .friction_impulse import rub
 from .guards import TOUCHES_WITHIN, gap
@@ -48,7 +49,7 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     rate = course(block).y_end[n:]
     place_bodies(block, course(block).y_end)
     if not _cast(block, struck, round_ >= _PLASTIC_FROM):
-        return False, 0
+        return False, status.OK
     count = 0
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] == DECIDED:
@@ -58,6 +59,8 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
             table.mode[c] = codes.CLOSED
     taking_part.problem[COUNT] = count
     outcome = push_impulses(block)
+    if outcome != status.OK:
+        return False, outcome
     for k in range(n):
         taking_part.rates_before[k] = rate[k]
         rate[k] += bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]

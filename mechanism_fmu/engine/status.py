@@ -10,6 +10,7 @@ NO_CHOICE = 6
 CHATTERING = 7
 NO_PLACE = 8
 JAMMED = 9
+ROW_AWAY = 10
 
 ADVICE = {
     NOT_ASSEMBLED: "The joints cannot be closed from the given start positions.",
@@ -25,5 +26,7 @@ ADVICE = {
     "softer springs and smaller torques.",
     JAMMED: "No normal forces agree with their friction: the mechanism jams itself. Give less friction, or move the "
     "line of action away from the friction cone.",
+    ROW_AWAY: "A logical function closes a row where the bodies are not on it. Give the function a limit at which they "
+    "are.",
     NO_PLACE: "No copy of a pattern was found on which the point can start.",
 }

@@ -40,8 +40,15 @@ _GROW_MOST = 5.0
 
 @entry
 def advance(block: Array, target: float) -> int:
-    """Bring TIME to `target` [s]; return a status. On failure TIME and all outputs stay at the last good instant."""
+    """Bring TIME to `target` [s]; return a status.
+
+    When a step fails, TIME and all outputs stay at the last good instant. When an event fails, they stay at the event,
+    and only a restored state leads on.
+    """
     now = course(block)
+    if now.counters[codes.PENDING_GUARD] == codes.GUARD_FAILED:
+        failed: int = now.counters[codes.PENDING_SUBJECT]
+        return failed
     clear_records(block)
     feed(block, ports(block).held_inputs)  # a restored state brings its own
     if inputs_changed(block):
@@ -64,6 +71,8 @@ def advance(block: Array, target: float) -> int:
         if guard != codes.GUARD_NONE:
             outcome = transit(block, guard, now.counters[codes.PENDING_SUBJECT])
             if outcome != status.OK:
+                now.counters[codes.PENDING_GUARD] = codes.GUARD_FAILED
+                now.counters[codes.PENDING_SUBJECT] = outcome
                 return outcome
             restart(block)
             now.clock[codes.NEXT_STEP] = initial_step_size(block)
@@ -163,6 +172,8 @@ def take_step(block: Array) -> int:
             step = refine(block, subject, step)
         else:
             try_step(block, step)
+        if math.isnan(s.y_new[s.y_new.shape[0] - 1]):
+            return _why_no_step(block)
     now.counters[codes.PENDING_GUARD] = guard
     now.counters[codes.PENDING_SUBJECT] = subject
     now.counters[codes.COUNT_STEPS] += 1

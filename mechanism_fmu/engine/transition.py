@@ -21,6 +21,8 @@ from .room import Array
 from .subset import jit, keep_small
 from .views import bodies, contacts, course, functions, patterns, sizes, strikes
 
+#: A row that a logical function closes may be off by this [m, rad]: mending would otherwise be a jump.
+CLOSES_WITHIN = 1e-6
 #: So many events within `PILE_TIME` [s] are no motion any more.
 MOST_PILED = 2000
 PILE_TIME = 1e-9
@@ -41,25 +43,29 @@ def transit(block: Array, guard: int, subject: int) -> int:
     inverse_mass = bodies(block).inverse_mass
     old_mode = mode_number(block)
     energy = kinetic_energy(inverse_mass, rate, n)
-    _take_effect(block, guard, subject)
+    outcome = _take_effect(block, guard, subject)
+    if outcome != status.OK:
+        return outcome
     struck = codes.NONE
     if guard == codes.GUARD_GAP:
         struck = subject
     fired = struck
     impulse = 0.0
     hits = 0
+    settled = only_choose
     for round_ in range(MOST_ROUNDS):
-        if only_choose:
+        if settled:
             break
         approached, outcome = strike(block, struck, round_)
         if outcome != status.OK:
             return outcome
-        if not approached:
-            break
-        hits += 1
-        for c in range(strikes(block).impulse.shape[0]):
-            impulse += strikes(block).impulse[c]
+        settled = not approached
+        if approached:
+            hits += 1
+            impulse += _struck_impulse(block)
         struck = codes.NONE
+    if not settled:
+        return status.CHATTERING
     outcome = _settle(block, fired, only_choose, hits > 0)
     if outcome != status.OK:
         return outcome
@@ -72,8 +78,20 @@ def transit(block: Array, guard: int, subject: int) -> int:
 
 
 @jit
-def _take_effect(block: Array, guard: int, subject: int) -> None:
-    """What the guard itself changes."""
+def _struck_impulse(block: Array) -> float:
+    """Sum of the impulses' magnitudes over the contacts that have just struck or been switched on."""
+    taking_part = strikes(block)
+    table = contacts(block)
+    total = 0.0
+    for c in range(table.mode.shape[0]):
+        if taking_part.closing[c] > 0.0 or table.function[c] != codes.NONE:
+            total += abs(taking_part.impulse[c])
+    return total
+
+
+@jit
+def _take_effect(block: Array, guard: int, subject: int) -> int:
+    """What the guard itself changes; return a status."""
     keep_small()
     table = contacts(block)
     place_bodies(block, course(block).y_end)
@@ -93,6 +111,10 @@ def _take_effect(block: Array, guard: int, subject: int) -> None:
     elif guard == codes.GUARD_FUNCTION:
         functions(block).true[subject] = 1 - functions(block).true[subject]
         switch_contacts(block)
+        for c in range(table.mode.shape[0]):
+            if table.function[c] == subject and table.mode[c] == codes.CLOSED and abs(gap(block, c)[0]) > CLOSES_WITHIN:
+                return status.ROW_AWAY
+    return status.OK
 
 
 @jit

@@ -28,6 +28,8 @@ def check_contacts(mechanism: Mechanism) -> Iterator[str]:
         yield from _links(contact, mechanism)
     for pattern in mechanism.patterns:
         yield from _normal(f"Pattern {pattern.name!r}: its boundary normal", pattern.boundary_normal)
+        if pattern.enabled not in (0, 1):
+            yield f"Pattern {pattern.name!r}: enabled = {pattern.enabled:g} is neither true (1) nor false (0)."
         if not (math.isfinite(pattern.pitch) and pattern.pitch != 0):
             yield f"Pattern {pattern.name!r}: pitch = {pattern.pitch:g} rad must be finite and not zero."
     yield from _functions(mechanism)
@@ -48,6 +50,11 @@ def _contact(contact: Contact) -> Iterator[str]:
     for what, value, unit in (("beam_length", contact.beam_length, " m"), ("friction", contact.friction, "")):
         if not (math.isfinite(value) and value >= 0):
             yield f"{label}: {what} = {value:g}{unit} must be finite and not negative."
+    for what, switch_value in (("enabled", contact.enabled), ("guided", contact.guided), ("closed", contact.closed)):
+        if switch_value not in (0, 1):
+            yield f"{label}: {what} = {switch_value:g} is neither true (1) nor false (0); give one of the two."
+    if contact.closed_while is not None and (contact.closed or contact.guided or contact.restitution):
+        yield f"{label} is closed while {contact.closed_while!r}; leave closed, guided and restitution alone there."
     if isinstance(contact, (AngleStop, AngleLock)) and contact.pitch is not None and not contact.pitch > 0:
         yield f"{label}: pitch = {contact.pitch:g} rad must be positive."
 

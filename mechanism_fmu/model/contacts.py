@@ -31,7 +31,8 @@ class PointLineContact:
         guided: whether the contact, once closed, also pulls and never opens, as in the paper.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
         pattern: name of the `CircularPattern` that repeats the line around `body_j`, or None.
-        closed_while: "<function>" or "not <function>": the logical function that closes and opens it, or None.
+        closed_while: "<function>" or "not <function>": the logical function that closes and opens it, or None. With it,
+            `closed`, `guided` and `restitution` have no meaning and must be left alone.
     """
 
     kind: ClassVar[int] = codes.POINT_LINE
@@ -105,11 +106,11 @@ class AngleLock:
         angle: one of the locked relative angles [rad].
         pitch: between neighbouring locked angles [rad], > 0.
         closed_while: "<function>" or "not <function>", the logical function that closes it.
-        closed: whether assembly turns the bodies to the locked angle nearest to their guess.
         enabled: as of `PointLineContact`.
     """
 
     kind: ClassVar[int] = codes.ANGLE_LOCK
+    closed: ClassVar[Number] = False
     restitution: ClassVar[Number] = 0.0
     friction: ClassVar[Number] = 0.0
     beam_length: ClassVar[Number] = 0.0
@@ -122,7 +123,6 @@ class AngleLock:
     angle: Number
     pitch: Number
     closed_while: str
-    closed: Number = False
     enabled: Number = True
 
     def data(self) -> tuple[Number, ...]:

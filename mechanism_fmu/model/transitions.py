@@ -50,10 +50,10 @@ def _regions(mechanism: Mechanism) -> Iterator[Region]:
         start = OPEN
         if is_kept(contact, mechanism):
             states = (CLOSED,)
-        if contact.closed > 0.5:
-            start = CLOSED
-        elif isinstance(contact, AngleStop) or contact.closed_while is not None:
+        if isinstance(contact, AngleStop) or contact.closed_while is not None:
             start = ""
+        elif contact.closed > 0.5:
+            start = CLOSED
         yield Region(contact.name, _kind(contact, mechanism), states, start, True)
         if isinstance(contact, AngleStop) and contact.pitch is not None:
             yield Region(memory_of(contact), "memory of the stop", ("latched",), "", False)

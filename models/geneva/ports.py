@@ -127,7 +127,7 @@ OUTPUTS = (
     _flag("slot_active", "slot.closed", "The pin is in a slot and moves the wheel"),
     _flag("locking_arc_active", "locking_arc.closed", "The locking arc holds the wheel"),
     _flag("backstop_active", "backstop.closed", "The backstop holds the driver"),
-    _whole("event_count", "event.count", "Changes of the mechanism's mode since the start, impacts included"),
+    _whole("event_count", "event.count", "Events since the start: switched rows, changes of slot, impacts"),
     _whole("impact_count", "impact.count", "Impacts of the driver on its backstop since the start"),
     _flag("impact", "impact.any", "At least one impact in the last communication step"),
     Output("impact_time", "impact.time", "Time of the last impact; -1 before the first", "s"),

@@ -25,15 +25,20 @@ def warnings(values: SimpleNamespace) -> list[str]:
     """What is legal, but not what a real ratchet would do. `values` must be free of objections."""
     if not values.guided:
         return []
+    return list(_guided_warnings(values))
+
+
+def _guided_warnings(values: SimpleNamespace) -> Iterator[str]:
+    if values.pawl_angle_start:
+        yield "pawl_angle_start is not used by the guided pawl, whose tip starts on the slope; set guided = false."
     tip, slope = tip_distance(values), tooth(values).slope_length
-    if tip <= slope:
-        return []
-    return [
-        f"At the start, the pawl's tip lies on the extended slope, {tip - slope:.6g} m beyond the apex "
-        f"of the tooth ({tip:.6g} m from the root; slope: {slope:.6g} m). The guided model follows "
-        "that line, as the paper's does; a real pawl would rest on the next tooth. For a slope that is long "
-        "enough give fewer teeth or a larger slope_ratio."
-    ]
+    if tip > slope:
+        yield (
+            f"At the start, the pawl's tip lies on the extended slope, {tip - slope:.6g} m beyond the apex "
+            f"of the tooth ({tip:.6g} m from the root; slope: {slope:.6g} m). The guided model follows "
+            "that line, as the paper's does; a real pawl would rest on the next tooth. For a slope that is long "
+            "enough give fewer teeth or a larger slope_ratio."
+        )
 
 
 def _profile(values: SimpleNamespace) -> Iterator[str]:

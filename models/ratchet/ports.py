@@ -103,7 +103,13 @@ def _buffered_impact(k: int) -> tuple[Output, ...]:
             "m/s",
             nominal=0.1,
         ),
-        Output(f"{prefix}.impulse", f"{prefix}.impulse", f"Impulse on the struck contact {of}", "N.s", nominal=0.01),
+        Output(
+            f"{prefix}.impulse",
+            f"{prefix}.impulse",
+            f"Impulse on the struck contact {of} (holding pawl: N.m.s)",
+            "N.s",
+            nominal=0.01,
+        ),
         _speed(f"{prefix}.wheel_speed", f"{prefix}.speed:wheel", f"Wheel speed just after {of[3:]}"),
         Output(f"{prefix}.tooth", f"{prefix}.tooth", f"Index of the tooth struck {of}", type="Integer"),
         Output(f"{prefix}.contact", f"{prefix}.contact", f"{_CONTACTS} {of}", type="Integer"),
@@ -127,7 +133,13 @@ def _buffered_event(k: int) -> tuple[Output, ...]:
         whole("subject", f"Number of the contact {_CONTACTS.removeprefix('Struck contact ')}, or 0 the teeth, {of}"),
         whole("old_mode", f"Closed contacts ({_MODE}) before {of[3:]}"),
         whole("new_mode", f"Closed contacts ({_MODE}) after {of[3:]}"),
-        Output(f"{prefix}.impulse", f"{prefix}.impulse", f"Impulse of all contacts {of}", "N.s", nominal=0.01),
+        Output(
+            f"{prefix}.impulse",
+            f"{prefix}.impulse",
+            f"Impulse of the contacts that struck {of} (of the holding pawl in N.m.s)",
+            "N.s",
+            nominal=0.01,
+        ),
     )
 
 
@@ -190,7 +202,7 @@ OUTPUTS = (
     Output(
         "event_count",
         "event.count",
-        "Changes of the mechanism's mode since the start, impacts included",
+        "Events since the start: impacts, openings, clicks, changes of tooth",
         type="Integer",
     ),
     Output("impact_count", "impact.count", "Impacts since the start", type="Integer"),

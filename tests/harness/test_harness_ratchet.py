@@ -188,6 +188,22 @@ def test_the_demo_is_one_command(tmp_path: Path) -> None:
     }
 
 
+def test_the_full_demo_indexes_four_teeth_and_shows_them(tmp_path: Path) -> None:
+    code, text = invoke("demo", "--full", "-o", tmp_path)
+    assert code == 0
+    for claim in ("clicks four times", "One tooth a stroke", "latched at 147 deg", "closes to 1e-8 of the work"):
+        assert claim in text
+    report = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "The holding pawl clicks four times" in report
+    for part in ("slope", "face", "holding pawl"):  # a band and a lamp each
+        assert part in report
+    events = pd.read_csv(tmp_path / "events.csv")
+    assert (events["guard"] == "holding_pawl.click").sum() == 4
+    assert (events["guard"] == "teeth.next").sum() == 4
+    results = pd.read_csv(tmp_path / "results.csv")
+    assert results["latched_angle"].nunique() == 5
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
