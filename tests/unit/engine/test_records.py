@@ -191,10 +191,10 @@ def test_a_stop_with_memory_clicks_once_a_pitch():
 def test_a_logical_function_that_changes_names_itself_and_both_modes():
     """The lock that it closes stops the rotor at the nearest locked angle."""
     lock = AngleLock("lock", "rotor", GROUND, 0.0, 0.5, "not low")
-    simulation = Simulation(spinning((lock,), (LogicalFunction("low", "rotor.angle", 0.999),), speed=2.0))
+    simulation = Simulation(spinning((lock,), (LogicalFunction("low", "rotor.angle", 1.0),), speed=2.0))
     simulation.advance(1.0)
     (event,) = simulation.events_in_step()
-    assert event[:4] == (pytest.approx(0.4995, abs=1e-9), "low", (), ("lock",))
+    assert event[:4] == (pytest.approx(0.5, abs=1e-9), "low", (), ("lock",))
     assert simulation.field("y_end")[5] == pytest.approx(0.0, abs=1e-9)
     # held at the nearest locked angle
     assert simulation.field("contact_line")[0, 0] == pytest.approx(1.0)

@@ -70,7 +70,7 @@ def test_after_a_failed_event_only_a_restored_state_goes_on():
 def test_the_motion_goes_forwards_only(target):
     simulation = Simulation(locked_wheel(9.0))
     simulation.advance(1.0)
-    with pytest.raises(SimulationError, match=r"t = 1 s: the motion cannot go to .*give a later time"):
+    with pytest.raises(SimulationError, match=r"t = 1 s: the motion cannot go on to .*give a later time"):
         simulation.advance(target)
     assert simulation.time == 1.0
 

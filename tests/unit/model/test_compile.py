@@ -41,7 +41,7 @@ TABLES = Mechanism(
         Force("weight", "arm", (-3.0, -4.0)),
     ),
     contacts=(
-        PointLineContact("rest", "arm", (1.0, 2.0), "slider", (3.0, 4.0), (0.6, 0.8), closed=True),
+        PointLineContact("rest", "arm", (1.0, 2.0), "slider", (3.0, 4.0), (0.6, 0.8), True, 0.5, 0.1, 0.04, True),
         PointLineContact(
             "stop",
             "arm",
@@ -49,17 +49,14 @@ TABLES = Mechanism(
             GROUND,
             (3.0, 4.0),
             (0.0, 1.0),
-            False,
-            0.5,
-            0.3,
-            0.02,
-            True,
+            friction=0.3,
+            beam_length=0.02,
             closed_while="not near",
         ),
         PointLineContact("tooth", "slider", (1.0, 2.0), "arm", (3.0, 4.0), (1.0, 0.0), enabled=False, pattern="teeth"),
         AngleStop("click", "arm", GROUND, 0.4, 0.5, 0.25),
         AngleStop("end", "slider", "arm", -0.4),
-        AngleLock("lock", "arm", "slider", 0.6, 0.7, "turned", True),
+        AngleLock("lock", "arm", "slider", 0.6, 0.7, "turned"),
     ),
     patterns=(
         CircularPattern("holes", "arm", (1.0, 2.0), GROUND, 0.5, (3.0, 4.0), (0.0, 1.0), enabled=False),
@@ -152,12 +149,12 @@ def test_contacts():
     np.testing.assert_array_equal(
         values,
         [
-            [0, 0, 0, 0, 1, 1],
-            [0.5, 0.3, 0.02, 1, 1, 0],
+            [0.5, 0.1, 0.04, 1, 1, 1],
+            [0, 0.3, 0.02, 0, 1, 0],
             [0, 0, 0, 0, 0, 0],
             [0.25, 0, 0, 0, 1, 0],
             [0, 0, 0, 0, 1, 0],
-            [0, 0, 0, 0, 1, 1],
+            [0, 0, 0, 0, 1, 0],
         ],
     )
 
