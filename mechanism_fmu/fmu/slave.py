@@ -25,7 +25,7 @@ from .news import News
 from .protocol import Experiment, FmiError, Phase, experiment, require, step_target
 from .saved_state import SavedState, SavedStateError
 from .variables import Variable, variables_of
-from .wrapper import fmi_call, survive_release
+from .wrapper import Told, fmi_call, survive_release
 
 #: The engine's tightest relative tolerance.
 _TIGHTEST = 1e-13
@@ -56,6 +56,7 @@ class MechanismSlave(Fmi2Slave):
         self._simulation: Simulation | None = None
         self._values: list[float] | None = None
         self._news = News()
+        self._told = Told()
         self._instances.add(self)
 
     # --- life cycle --------------------------------------------------------------------------------------------------
@@ -199,7 +200,12 @@ class MechanismSlave(Fmi2Slave):
 
     def log(self, msg: str, status: Fmi2Status = Fmi2Status.ok, category: str | None = None, debug: Any = None) -> None:
         """Log a plain text: the FMI logger takes it for a printf format, in which % must be doubled."""
-        super().log(msg.replace("%", "%%"), status, category)
+        if not self.log_queue:
+            self._told.release()
+        # A string of its own, which nobody else holds: the wrapper's reference to it will be released.
+        text = "".join((msg.replace("%", "%%"), " "))[:-1]
+        super().log(text, status, category)
+        self._told.add(text)
 
     def report(self, error: Exception) -> None:
         """Log an exception: as it is when it was meant for the user, with its type and place when it was not."""
