@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from .. import codes
+from ..tolerances import STICK_SPEED, TOUCHES_WITHIN
 from . import status
 from .copies import place_contact, place_pattern
-from .guards import TOUCHES_WITHIN, function_value, gap, guard_value
-from .impact import STICK_SPEED
+from .guards import function_value, gap, guard_value
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
 from .ports import take_inputs

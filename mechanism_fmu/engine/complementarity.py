@@ -9,6 +9,7 @@ procedure serves impulses and accelerations; only the two kinds of trial differ.
 from __future__ import annotations
 
 from .. import codes
+from ..tolerances import PUSHES_SHARE, PUSHES_WITHIN
 from . import status
 from .acceleration import derivative, scale_rows
 from .minimum_norm import minimum_norm
@@ -18,9 +19,6 @@ from .subset import jit, keep_small
 from .vectors import largest
 from .views import bodies, contacts, course, linear_system, rows, sizes, strikes
 
-#: A force [N] or a share of the largest one that may be missing: rounding. It opens at twice that (`push_ratio`).
-_FORCE = 1e-9
-_FORCE_SHARE = 1e-11
 #: An acceleration [m/s2], or a share of its terms, that may be missing.
 _ACCELERATION = 1e-8
 #: An impulse may be missing this share of the largest one, a separation speed this much [m/s] or share of its terms.
@@ -63,7 +61,9 @@ def push_ratio(block: Array, contact: int, count: int) -> float:
     """A closed contact's force over the tolerance; it pulls below -1, and opens below -2."""
     keep_small()
     multiplier = linear_system(block).multiplier
-    ratio: float = multiplier[contacts(block).row[contact]] / (_FORCE + _FORCE_SHARE * largest(multiplier, count))
+    ratio: float = multiplier[contacts(block).row[contact]] / (
+        PUSHES_WITHIN + PUSHES_SHARE * largest(multiplier, count)
+    )
     return ratio
 
 

@@ -11,11 +11,11 @@ there (a contact that has just been let go) is left alone within `GAP_NOISE`, wh
 from __future__ import annotations
 
 from .. import codes
+from ..tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE
 from .acceleration import derivative
 from .complementarity import push_ratio
 from .dormand_prince import interpolate, try_step
 from .guards import gap, guard_of, guard_value, is_watched
-from .impact import RESTS_BELOW
 from .kinematics import place_bodies
 from .room import Array
 from .rows import row_count
@@ -28,11 +28,7 @@ _LOOKS = 8
 _BISECTIONS = 60
 #: Those of a force: it changes sign once, and what follows does not depend on the last digits of when.
 _FORCE_BISECTIONS = 36
-#: A root is good when one more Newton step would move it by less than this [s].
-ROOT_TOLERANCE = 1e-13
 _NEWTON_STEPS = 12
-#: A gap that is zero and does not change may go below zero by this before it counts [m, rad].
-GAP_NOISE = 1e-12
 #: A closed contact opens when its force is less than this times the tolerance of the complementarity problem.
 _OPENS = -2.0
 

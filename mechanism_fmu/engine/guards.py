@@ -8,30 +8,27 @@ gaps are passed by `MARGIN` before they count, so that what has just changed is 
 from __future__ import annotations
 
 from .. import codes
-from .point_line import point_line_gap
+from ..tolerances import MARGIN
+from .point_line import point_line
 from .room import Array
-from .rows import along_line
+from .rows import contact_row, spare_row, tangent_row
 from .subset import jit, keep_small
-from .views import contacts, functions, patterns, pose, sizes, strikes
-
-#: How far a boundary, a pitch or a limit is passed before it counts [m, rad].
-MARGIN = 1e-10
-#: A gap less than this touches; one farther below zero at the start is inside [m, rad].
-TOUCHES_WITHIN = 1e-9
+from .views import contacts, functions, patterns, pose, rows, sizes, strikes
 
 
 @jit
 def gap(block: Array, contact: int) -> tuple[float, float]:
     """Gap s [m or rad] and gap rate s' of a contact at the bodies' pose (see `place_bodies`)."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
-    line = table.line[contact]
-    if table.kind[contact] == codes.POINT_LINE:
-        return point_line_gap(at, i, j, table.data[contact], line)
-    return at.phi[i] - at.phi[j] - line[0], at.phi_rate[i] - at.phi_rate[j]
+    contact_row(block, contact, spare_row(block))
+    return _spare(block)
+
+
+@jit
+def _spare(block: Array) -> tuple[float, float]:
+    """Residual and rate of the spare row."""
+    spare = spare_row(block)
+    return rows(block).residual[spare], rows(block).residual_rate[spare]
 
 
 @jit
@@ -88,14 +85,22 @@ def guard_value(block: Array, number: int) -> tuple[float, float]:
         if functions(block).true[subject] == 1:
             return MARGIN - value, -rate
         return value + MARGIN, rate
-    table = patterns(block)
-    i = table.body_i[subject]
-    j = table.body_j[subject]
     if guard == codes.GUARD_NEXT:
-        value, rate = point_line_gap(pose(block), i, j, table.data[subject], table.line[subject, :4])
+        value, rate = _beyond(block, subject, patterns(block).line[subject, :4])
         return MARGIN - value, -rate
-    value, rate = point_line_gap(pose(block), i, j, table.data[subject], table.line[subject, 4:])
+    value, rate = _beyond(block, subject, patterns(block).line[subject, 4:])
     return value + MARGIN, rate
+
+
+@jit
+def _beyond(block: Array, pattern: int, boundary: Array) -> tuple[float, float]:
+    """How far a pattern's point is beyond a boundary, and its rate."""
+    keep_small()
+    table = patterns(block)
+    i = table.body_i[pattern]
+    j = table.body_j[pattern]
+    point_line(pose(block), rows(block), spare_row(block), i, j, table.data[pattern], boundary)
+    return _spare(block)
 
 
 @jit
@@ -108,8 +113,6 @@ def function_value(block: Array, function: int) -> tuple[float, float]:
     limit = table.limit[function]
     if table.kind[function] == codes.ANGLE:
         return at.phi[index] - limit, at.phi_rate[index]
-    contact = contacts(block)
-    line = strikes(block).line
-    along_line(block, index, line)
-    value, rate = point_line_gap(at, contact.body_i[index], contact.body_j[index], contact.data[index], line)
+    tangent_row(block, index, strikes(block).line)
+    value, rate = _spare(block)
     return value - limit, rate

@@ -10,10 +10,11 @@ it strikes in the next round, at the same instant.
 from __future__ import annotations
 
 from .. import codes
+from ..tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from . import status
 from .complementarity import COUNT, push_impulses
 from .friction_impulse import rub
-from .guards import TOUCHES_WITHIN, gap
+from .guards import gap
 from .kinematics import place_bodies
 from .records import keep_impact
 from .room import Array
@@ -21,10 +22,6 @@ from .rows import contact_row, spare_row
 from .subset import jit, keep_small
 from .views import bodies, contacts, course, linear_system, rows, sizes, strikes
 
-#: A contact that would come apart more slowly than this stays closed [m/s]: it ends the bouncing of e > 0.
-STICK_SPEED = 1e-6
-#: A touching contact whose gap changes more slowly than this is at rest [m/s].
-RESTS_BELOW = 1e-9
 #: From this round at the same instant on, all impacts are plastic and all touching contacts take part: that ends it.
 _PLASTIC_FROM = 32
 MOST_ROUNDS = 40

@@ -37,20 +37,3 @@ def point_line(at: Pose, rows: Rows, row: int, i: int, j: int, point: Array, lin
     entry[3 * j] = -nx
     entry[3 * j + 1] = -ny
     entry[3 * j + 2] = along
-
-
-@jit
-def point_line_gap(at: Pose, i: int, j: int, point: Array, line: Array) -> tuple[float, float]:
-    """Only s [m] and s' [m/s] of `point_line`."""
-    keep_small()
-    ax = at.cosine[i] * point[0] - at.sine[i] * point[1]
-    ay = at.sine[i] * point[0] + at.cosine[i] * point[1]
-    nx = at.cosine[j] * line[2] - at.sine[j] * line[3]
-    ny = at.sine[j] * line[2] + at.cosine[j] * line[3]
-    ui, uj = at.phi_rate[i], at.phi_rate[j]
-    ex = at.x[i] + ax - at.x[j]
-    ey = at.y[i] + ay - at.y[j]
-    ex_rate = at.x_rate[i] - ay * ui - at.x_rate[j]
-    ey_rate = at.y_rate[i] + ax * ui - at.y_rate[j]
-    gap = nx * ex + ny * ey - line[2] * line[0] - line[3] * line[1]
-    return gap, nx * ex_rate + ny * ey_rate + uj * (nx * ey - ny * ex)

@@ -56,25 +56,19 @@ def spare_row(block: Array) -> int:
 def tangent_row(block: Array, contact: int, line: Array) -> None:
     """Write to the spare row how a point slides along its line: distance from the line's point, slip speed, Jacobian.
 
-    `line`, shape (4,), is scratch. The row of a point against the line turned by 90 deg is just that.
+    `line`, shape (4,), is scratch: the line with its normal turned by -90 deg, so that it points along.
     """
     keep_small()
     table = contacts(block)
-    along_line(block, contact, line)
-    out = rows(block)
-    row = spare_row(block)
-    clear(out.jacobian[row])
-    point_line(pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
-
-
-@jit
-def along_line(block: Array, contact: int, line: Array) -> None:
-    """`line` = the line of a contact with its normal turned by -90 deg, so that it points along."""
-    own = contacts(block).line[contact]
+    own = table.line[contact]
     line[0] = own[0]
     line[1] = own[1]
     line[2] = own[3]
     line[3] = -own[2]
+    out = rows(block)
+    row = spare_row(block)
+    clear(out.jacobian[row])
+    point_line(pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
 
 
 @jit

@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 
 from .. import codes
+from ..tolerances import GAP_NOISE
 from . import status
 from .acceleration import derivative
 from .dormand_prince import initial_step_size, interpolate, try_step
 from .drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
-from .events import GAP_NOISE, first_event, refine
+from .events import first_event, refine
 from .guards import gap
 from .kinematics import place_bodies
 from .ports import feed, inputs_changed, take_inputs

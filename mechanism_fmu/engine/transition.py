@@ -7,22 +7,21 @@ mending of drift; the choice, among the contacts at rest, of those that push. Al
 from __future__ import annotations
 
 from .. import codes
+from ..tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from . import status
 from .complementarity import COUNT, push_forces
 from .copies import place_contact, place_pattern
 from .drift import LEAST_DRIFT, mend
-from .events import GAP_NOISE, can_open
+from .events import can_open
 from .forces import kinetic_energy
-from .guards import TOUCHES_WITHIN, gap
-from .impact import MOST_ROUNDS, RESTS_BELOW, STICK_SPEED, strike
+from .guards import gap
+from .impact import MOST_ROUNDS, strike
 from .kinematics import place_bodies
 from .records import keep_event, mode_number
 from .room import Array
 from .subset import jit, keep_small
 from .views import bodies, contacts, course, functions, patterns, sizes, strikes
 
-#: A row that a logical function closes may be off by this [m, rad]: mending would otherwise be a jump.
-CLOSES_WITHIN = 1e-6
 #: So many events within `PILE_TIME` [s] are no motion any more.
 MOST_PILED = 2000
 PILE_TIME = 1e-9
@@ -79,12 +78,13 @@ def transit(block: Array, guard: int, subject: int) -> int:
 
 @jit
 def _struck_impulse(block: Array) -> float:
-    """Sum of the impulses' magnitudes over the contacts that have just struck or been switched on."""
+    """Sum of the impulses' magnitudes over the contacts that have just struck, or been switched on in motion."""
     taking_part = strikes(block)
     table = contacts(block)
     total = 0.0
     for c in range(table.mode.shape[0]):
-        if taking_part.closing[c] > 0.0 or table.function[c] != codes.NONE:
+        switched_on = table.function[c] != codes.NONE and abs(taking_part.target[c]) > RESTS_BELOW
+        if taking_part.closing[c] > 0.0 or switched_on:
             total += abs(taking_part.impulse[c])
     return total
 

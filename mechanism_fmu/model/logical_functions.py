@@ -6,25 +6,20 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..statechart import Definition
+from ..tolerances import (
+    MARGIN,
+    PUSHES_SHARE,
+    PUSHES_WITHIN,
+    RESTS_BELOW,
+    ROOT_TOLERANCE,
+    STICK_SPEED,
+    TOUCHES_WITHIN,
+)
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
 from .patterns import CircularPattern
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
-
-# The engine's tolerances, for the reader; `model` may not import `engine`, and a test compares them.
-#: A gap below this touches [m, rad]; the instant is found to `INSTANT` [s].
-TOUCHES_WITHIN = 1e-9
-INSTANT = 1e-13
-#: A gap that closes more slowly than this is at rest [m/s, rad/s].
-RESTS_BELOW = 1e-9
-#: What would come apart more slowly than this after an impact stays closed [m/s, rad/s].
-STICK_SPEED = 1e-6
-#: A multiplier that is missing less than this [N, N.m], or this share of the largest, pushes; it opens at twice that.
-PUSHES_WITHIN = 1e-9
-PUSHES_SHARE = 1e-11
-#: How far a boundary, a pitch or a limit is passed before it counts [m, rad].
-MARGIN = 1e-10
 
 
 def exists(part: Contact | CircularPattern) -> bool:
@@ -74,7 +69,7 @@ def _of_contact(contact: PointLineContact | AngleStop | AngleLock) -> Iterator[D
         f"{name}.touches",
         "gap s <= 0",
         length,
-        f"{TOUCHES_WITHIN:g} {length}; the instant to {INSTANT:g} s",
+        f"{TOUCHES_WITHIN:g} {length}; the instant to {ROOT_TOLERANCE:g} s",
         f"{name}.gap",
     )
     yield Definition(f"{name}.approaches", "gap rate s' < 0", speed, f"{RESTS_BELOW:g} {speed}")

@@ -7,9 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.impact import STICK_SPEED
 from mechanism_fmu.model import GROUND, Body, Force, Mechanism, Output, PointLineContact, Settings
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tolerances import STICK_SPEED
 
 GRAVITY = 9.81
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from rotor import ARM, INERTIA, Stop, rotor
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.impact import STICK_SPEED
 from mechanism_fmu.model import Output
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tolerances import STICK_SPEED
 
 OUTPUTS = (
     Output("force", "stop0.force", "", "N"),

@@ -9,8 +9,6 @@ import pytest
 
 import models
 from mechanism_fmu import codes
-from mechanism_fmu.engine import complementarity as choice
-from mechanism_fmu.engine import events, guards, impact
 from mechanism_fmu.model import (
     GROUND,
     AngleLock,
@@ -21,7 +19,6 @@ from mechanism_fmu.model import (
     Mechanism,
     PointLineContact,
     Revolute,
-    logical_functions,
 )
 from mechanism_fmu.model.event_names import event_names
 from mechanism_fmu.model.transitions import logic_of, transition_diagram, transition_table
@@ -243,13 +240,3 @@ def test_the_table_has_a_row_for_each_transition():
     assert len(rows) == 2 + len(logic_of(mechanism).transitions)
     assert rows[2].endswith("| 7 |")
     assert {line.replace("\\|", "").count("|") for line in rows} == {8}
-
-
-def test_the_stated_tolerances_are_the_engine_s():
-    stated = logical_functions
-    assert stated.TOUCHES_WITHIN == guards.TOUCHES_WITHIN
-    assert stated.MARGIN == guards.MARGIN
-    assert stated.INSTANT == events.ROOT_TOLERANCE
-    assert stated.RESTS_BELOW == impact.RESTS_BELOW
-    assert stated.STICK_SPEED == impact.STICK_SPEED
-    assert (stated.PUSHES_WITHIN, stated.PUSHES_SHARE) == (choice._FORCE, choice._FORCE_SHARE)

@@ -1,0 +1,22 @@
+"""The fixed tolerances of events and contacts, in SI units: applied by the engine, told to users by the model room.
+
+Why each has its value: docs/decisions/005-one-sided-contacts.md.
+"""
+
+#: A gap less than this touches; one farther below zero at the start is inside [m, rad].
+TOUCHES_WITHIN = 1e-9
+#: A touching contact whose gap changes more slowly than this is at rest [m/s, rad/s].
+RESTS_BELOW = 1e-9
+#: A contact that would come apart more slowly than this after an impact stays closed [m/s, rad/s]: bouncing ends.
+STICK_SPEED = 1e-6
+#: A gap that is zero and does not change may go below zero by this before it counts [m, rad].
+GAP_NOISE = 1e-12
+#: How far a boundary, a pitch or a limit is passed before it counts [m, rad].
+MARGIN = 1e-10
+#: The instant of an event is found when one more Newton step would move it by less than this [s].
+ROOT_TOLERANCE = 1e-13
+#: A force that lacks less than this [N, N m], or this share of the largest one, still pushes; it opens at twice that.
+PUSHES_WITHIN = 1e-9
+PUSHES_SHARE = 1e-11
+#: A row that a logical function closes may be off by this [m, rad]: mending would otherwise be a jump.
+CLOSES_WITHIN = 1e-6
