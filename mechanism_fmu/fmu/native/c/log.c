@@ -1,0 +1,193 @@
+/* What an instance tells the host. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "instance.h"
+
+static const char *const CATEGORIES[] = {"logEvents",      "logStatusWarning", "logStatusDiscard",
+                                         "logStatusError", "logStatusFatal",   "logAll"};
+enum { CATEGORY_COUNT = sizeof CATEGORIES / sizeof *CATEGORIES };
+
+static unsigned bit_of(const char *category) {
+    for (unsigned k = 0; k < CATEGORY_COUNT; k++)
+        if (strcmp(category, CATEGORIES[k]) == 0) return 1u << k;
+    return 0;
+}
+
+Status set_logging(Instance *x, int on, size_t count, const char *const categories[]) {
+    unsigned bits = count == 0 ? ~0u : 0;
+    for (size_t k = 0; k < count; k++) {
+        unsigned bit = categories && categories[k] ? bit_of(categories[k]) : 0;
+        if (!bit)
+            return refuse(x, "There is no log category '%s'; see LogCategories in modelDescription.xml.",
+                          categories && categories[k] ? categories[k] : "(null)");
+        bits |= strcmp(categories[k], "logAll") == 0 ? ~0u : bit;
+    }
+    x->categories = on ? x->categories | bits : x->categories & ~bits;
+    return OK;
+}
+
+void say(const Instance *x, Status status, const char *category, const char *format, ...) {
+    if (!x->log || !(x->categories & bit_of(category))) return;
+    char text[2400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    x->log(x, status, category, text);
+}
+
+Status refuse(const Instance *x, const char *format, ...) {
+    char text[2400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    say(x, ERROR, "logStatusError", "%s: %s", x->name, text);
+    return ERROR;
+}
+
+void forget_news(Instance *x) {
+    const int64_t *counters = COUNTERS(x);
+    x->told_impacts = counters[CODE_COUNT_IMPACTS];
+    x->told_events = counters[CODE_COUNT_EVENTS];
+    x->told_lost = counters[CODE_COUNT_LOST];
+    for (size_t c = 0; c < SIZE(x, contacts); c++)
+        x->told_pull[c] = x->head.prepared && FIELD(x, pull_time)[c] <= time_of(x);
+}
+
+/* Append to a text that has room for `size` bytes. */
+static void append(char *text, size_t size, const char *more) {
+    size_t length = strlen(text);
+    snprintf(text + length, size - length, "%s", more);
+}
+
+/* Names of the closed contacts of a mode, the sum of 2^c over them. */
+static const char *mode_name(const Instance *x, double mode, char *text, size_t size) {
+    *text = 0;
+    for (size_t c = 0; c < SIZE(x, contacts); c++)
+        if ((int64_t)mode >> c & 1) {
+            if (*text) append(text, size, "+");
+            append(text, size, model.contacts[c].name);
+        }
+    return *text ? text : "all open";
+}
+
+static void name_event(int guard, int subject, char *text, size_t size) {
+    const char *of_contact = guard == CODE_GUARD_GAP ? "gap" : guard == CODE_GUARD_PUSH ? "force" : "click";
+    if (guard == CODE_GUARD_INPUT) snprintf(text, size, "input");
+    else if (guard == CODE_GUARD_FUNCTION) snprintf(text, size, "%s", model.functions[subject]);
+    else if (guard == CODE_GUARD_NEXT) snprintf(text, size, "%s.next", model.patterns[subject]);
+    else if (guard == CODE_GUARD_PREVIOUS) snprintf(text, size, "%s.previous", model.patterns[subject]);
+    else snprintf(text, size, "%s.%s", model.contacts[subject].name, of_contact);
+}
+
+static void tell_impacts(Instance *x) {
+    size_t columns = SIZE(x, record);
+    for (int64_t k = 0; k < COUNTERS(x)[CODE_COUNT_IN_STEP]; k++) {
+        const double *record = FIELD(x, impacts) + (size_t)k * columns;
+        say(x, OK, "logEvents", "Impact on %s at t = %.12g s: closing speed %.6g m/s, impulse %.6g N.s.",
+            model.contacts[(int)record[CODE_RECORD_CONTACT]].name, record[CODE_RECORD_TIME],
+            record[CODE_RECORD_CLOSING_SPEED], record[CODE_RECORD_IMPULSE]);
+    }
+}
+
+/* The events that are new; of a step with many, the last ones. */
+static void tell_events(Instance *x, int64_t new_events) {
+    int64_t known = COUNTERS(x)[CODE_EVENTS_IN_STEP];
+    if (new_events > known)
+        say(x, OK, "logEvents",
+            "%lld events of the step to t = %.9g s are not told one by one; the last %lld follow.",
+            (long long)(new_events - known), time_of(x), (long long)known);
+    for (int64_t k = 0; k < known; k++) {
+        const double *record = FIELD(x, events) + k * CODE_EVENT_COLUMNS;
+        char event[200], old_mode[600], new_mode[600];
+        name_event((int)record[CODE_EVENT_GUARD], (int)record[CODE_EVENT_SUBJECT], event, sizeof event);
+        say(x, OK, "logEvents", "Event %s at t = %.12g s: %s -> %s, total impulse %.6g N.s.", event,
+            record[CODE_EVENT_TIME], mode_name(x, record[CODE_EVENT_OLD_MODE], old_mode, sizeof old_mode),
+            mode_name(x, record[CODE_EVENT_NEW_MODE], new_mode, sizeof new_mode), record[CODE_EVENT_IMPULSE]);
+    }
+}
+
+void tell_news(Instance *x) {
+    const int64_t *counters = COUNTERS(x);
+    if (counters[CODE_COUNT_IMPACTS] != x->told_impacts) tell_impacts(x);
+    if (counters[CODE_COUNT_EVENTS] != x->told_events) tell_events(x, counters[CODE_COUNT_EVENTS] - x->told_events);
+    if (counters[CODE_COUNT_LOST] != x->told_lost)
+        say(x, WARNING, "logStatusWarning",
+            "%lld impacts of the step to t = %.9g s did not fit into impacts[1..%d] and are lost to the outside (the "
+            "motion is right); use a shorter communication step.",
+            (long long)(counters[CODE_COUNT_LOST] - x->told_lost), time_of(x), CODE_IMPACT_BUFFER_LENGTH);
+    for (size_t c = 0; c < SIZE(x, contacts); c++)
+        if (FIELD(x, pull_time)[c] <= time_of(x) && !x->told_pull[c])
+            say(x, WARNING, "logStatusWarning",
+                "From t = %.6g s the guided contact %s pulls: it holds the bodies together where a real contact would "
+                "open. The motion from here on is the guided model's, as in the paper.",
+                FIELD(x, pull_time)[c], model.contacts[c].name);
+    forget_news(x);
+}
+
+/* What is left of each joint and closed contact at the closest position found. */
+static void residuals(Instance *x, char *text, size_t size) {
+    const double *residual = FIELD(x, residual);
+    char part[300];
+    size_t joints = SIZE(x, joints), row = 0;
+    append(text, size, " Left open: ");
+    for (size_t k = 0; k < joints; k++) {
+        double worst = 0;
+        for (int r = 0; r < model.joints[k].rows; r++, row++) {
+            double value = residual[row] < 0 ? -residual[row] : residual[row];
+            if (!(value <= worst)) worst = value;
+        }
+        snprintf(part, sizeof part, "%s%s by %.6g", k ? ", " : "", model.joints[k].name, worst);
+        append(text, size, part);
+    }
+    for (size_t c = 0; c < SIZE(x, contacts); c++) {
+        if (((const int64_t *)FIELD(x, contact_mode))[c] != CODE_CLOSED) continue;
+        snprintf(part, sizeof part, "%s%s by %.6g", row ? ", " : "", model.contacts[c].name,
+                 residual[row] < 0 ? -residual[row] : residual[row]);
+        append(text, size, part);
+        row++;
+    }
+    append(text, size, " (m, or rad between directions).");
+}
+
+static void penetration(Instance *x, char *text, size_t size) {
+    const Contact *contact = model.contacts + COUNTERS(x)[CODE_PENDING_SUBJECT];
+    double depth = -FIELD(x, residual)[SIZE(x, rows) - 1];
+    const char *format =
+        contact->is_point
+            ? " Contact '%s': the point of '%s' is %.6g m behind the line on '%s'; change the start angles or the lengths."
+            : " Contact '%s': '%s' is %.6g rad beyond its stop on '%s'; change the start angles or the lengths.";
+    snprintf(text, size, format, contact->name, contact->body_i, depth, contact->body_j);
+}
+
+/* The contacts that a failed event is about: those of the step's events, and the closed ones. */
+static void involved(Instance *x, char *text, size_t size) {
+    int64_t mode = 0;
+    for (int64_t k = 0; k < COUNTERS(x)[CODE_EVENTS_IN_STEP]; k++) {
+        const double *record = FIELD(x, events) + k * CODE_EVENT_COLUMNS;
+        mode |= (int64_t)record[CODE_EVENT_OLD_MODE] | (int64_t)record[CODE_EVENT_NEW_MODE];
+    }
+    int first = 1;
+    append(text, size, " Contacts: ");
+    for (size_t c = 0; c < SIZE(x, contacts); c++) {
+        int closed = ((const int64_t *)FIELD(x, contact_mode))[c] == CODE_CLOSED;
+        if (!closed && !(mode >> c & 1)) continue;
+        append(text, size, first ? "" : ", ");
+        append(text, size, model.contacts[c].name);
+        first = 0;
+    }
+    append(text, size, ".");
+}
+
+const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size) {
+    *text = 0;
+    if (outcome == STATUS_NOT_ASSEMBLED) residuals(x, text, size);
+    if (outcome == STATUS_START_INSIDE) penetration(x, text, size);
+    if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
+        outcome == STATUS_ROW_AWAY)
+        involved(x, text, size);
+    return text;
+}

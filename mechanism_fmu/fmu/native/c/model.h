@@ -1,0 +1,65 @@
+/* A model as constants: written by the build (model_data.py), the same for both versions of FMI. */
+#ifndef MODEL_H
+#define MODEL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum Type { REAL, INTEGER, BOOLEAN };
+enum Causality { INPUT, OUTPUT, PARAMETER, CALCULATED };
+
+/* A scalar of FMI 2.0; its value reference is its place in the array. */
+typedef struct {
+    const char *name;
+    const char *unit; /* as messages show it: with a space before it, "" of plain numbers */
+    int type, causality;
+    double start, minimum, maximum; /* minimum and maximum are infinite where there is no limit */
+    int count, stride;              /* FMI 3.0: elements of the array that begins here; 0 elements: within such an array */
+} Variable;
+
+/* What is wrong, or odd, with parameter values: `at` says where in the findings its condition and numbers stand. */
+typedef struct {
+    const char *text;
+    int at;
+} Finding;
+
+/* A table word that depends on parameters. */
+typedef struct {
+    size_t word;
+    const char *label;
+} Word;
+
+typedef struct {
+    const char *name;
+    int rows;
+} Joint;
+
+typedef struct {
+    const char *name, *body_i, *body_j;
+    int is_point; /* on a line; else it is a stop or a lock between directions */
+} Contact;
+
+typedef struct {
+    const char *name, *guid, *token; /* modelName; GUID of FMI 2.0; instantiation token of FMI 3.0 */
+    unsigned char mark[16];          /* what a serialized state is recognised by */
+    const Variable *variables;
+    size_t variable_count, inputs, outputs, parameters; /* in this order; calculated parameters follow */
+    const double *block;                                /* of an instance before its first call */
+    size_t words;
+    size_t numbers; /* of all findings */
+    const Finding *objections, *warnings;
+    size_t objection_count, warning_count;
+    const Word *dependent; /* on parameters */
+    size_t dependent_count;
+    const Joint *joints;
+    const Contact *contacts;
+    const char *const *patterns;
+    const char *const *functions;
+} Model;
+
+extern const Model model;
+
+/* Parameters to tables: p of `model.parameters` values; writes words of the block, and `model.numbers` of findings. */
+void mechanism_formulas(const double *p, double *block, double *findings);
+
+#endif

@@ -1,0 +1,169 @@
+/* Values by their value references: inputs, outputs, parameters, calculated parameters, in this order. */
+#include <math.h>
+#include <stdio.h>
+
+#include "instance.h"
+
+static const char *const TYPES[2][3] = {{"Real", "Integer", "Boolean"}, {"Float64", "Int32", "Boolean"}};
+static const char *const CAUSALITIES[] = {"input", "output", "parameter", "calculatedParameter"};
+
+static const char *type_name(const Instance *x, int type) { return TYPES[x->fmi == 3][type]; }
+
+/* In FMI 3.0, time is a variable: the one behind the clock, which is the one behind all others. */
+static int is_time(const Instance *x, unsigned vr) { return x->fmi == 3 && vr == model.variable_count + 1; }
+
+static Status check_reference(const Instance *x, int type, unsigned vr) {
+    if (is_time(x, vr) && type == REAL) return OK;
+    if (vr >= model.variable_count || (x->fmi == 3 && model.variables[vr].count == 0))
+        return refuse(x, "There is no variable with value reference %u; they run from 0 to %zu.", vr,
+                      model.variable_count - 1);
+    const Variable *v = model.variables + vr;
+    if (v->type == type) return OK;
+    return refuse(x, "%s (value reference %u) is of type %s, not %s.", v->name, vr, type_name(x, v->type),
+                  type_name(x, type));
+}
+
+/* Elements of a variable: arrays exist in FMI 3.0 only. */
+static size_t elements(const Instance *x, unsigned vr) {
+    return x->fmi == 3 && !is_time(x, vr) ? (size_t)model.variables[vr].count : 1;
+}
+
+/* Check references, and that the values given are as many as their elements. */
+static Status check_references(const Instance *x, int type, const unsigned vr[], size_t count, size_t value_count) {
+    size_t needed = 0;
+    for (size_t k = 0; k < count; k++) {
+        if (check_reference(x, type, vr[k]) != OK) return ERROR;
+        needed += elements(x, vr[k]);
+    }
+    if (needed == value_count) return OK;
+    return refuse(x, "The variables have %zu values together, and %zu were given.", needed, value_count);
+}
+
+/* The place of a scalar's value; outputs and calculated parameters must have been read. */
+static double *place(const Instance *x, size_t scalar) {
+    size_t first_parameter = model.inputs + model.outputs;
+    if (scalar < model.inputs) return FIELD(x, inputs) + scalar;
+    if (scalar < first_parameter) return FIELD(x, outputs) + (scalar - model.inputs);
+    if (scalar < first_parameter + model.parameters) return x->parameters + (scalar - first_parameter);
+    return FIELD(x, outputs) + (scalar - model.inputs - model.parameters);
+}
+
+static int is_set_from_outside(unsigned vr) {
+    return vr < model.variable_count && model.variables[vr].causality != OUTPUT &&
+           model.variables[vr].causality != CALCULATED;
+}
+
+/* Bring the outputs up to date if one of the references needs it. */
+static Status read_for(Instance *x, const unsigned vr[], size_t count) {
+    if (x->outputs_read) return OK;
+    size_t k = 0;
+    while (k < count && (is_set_from_outside(vr[k]) || is_time(x, vr[k]))) k++;
+    if (k == count) return OK;
+    if (prepare(x) != OK) return ERROR;
+    mechanism_read_outputs(x->block, (int64_t)model.words);
+    x->outputs_read = 1;
+    return OK;
+}
+
+static void put(void *values, size_t k, Form form, double value) {
+    if (form == AS_DOUBLE) ((double *)values)[k] = value;
+    if (form == AS_INT32) ((int32_t *)values)[k] = (int32_t)value;
+    if (form == AS_BYTE) ((unsigned char *)values)[k] = value != 0;
+}
+
+static double take(const void *values, size_t k, Form form) {
+    if (form == AS_DOUBLE) return ((const double *)values)[k];
+    if (form == AS_INT32) return ((const int32_t *)values)[k];
+    return ((const unsigned char *)values)[k];
+}
+
+Status get_values(Instance *x, int type, const unsigned vr[], size_t count, Form form, void *values,
+                  size_t value_count) {
+    if (check_references(x, type, vr, count, value_count) != OK || read_for(x, vr, count) != OK) return ERROR;
+    size_t next = 0;
+    for (size_t k = 0; k < count; k++) {
+        if (is_time(x, vr[k])) {
+            put(values, next++, form, time_of(x));
+            continue;
+        }
+        for (size_t e = 0; e < elements(x, vr[k]); e++) {
+            double value = *place(x, vr[k] + e * (size_t)model.variables[vr[k]].stride);
+            put(values, next++, form, type == BOOLEAN ? value != 0 : value);
+        }
+    }
+    return OK;
+}
+
+static Status check_value(const Instance *x, const Variable *v, double value) {
+    if (!isfinite(value))
+        return refuse(x, "%s = %s is not a finite number; give a value in%s.", v->name,
+                      isnan(value) ? "nan" : value > 0 ? "inf" : "-inf", *v->unit ? v->unit : " plain numbers");
+    if (value < v->minimum)
+        return refuse(x, "%s = %g%s is below its limit; give at least %g%s.", v->name, value, v->unit, v->minimum,
+                      v->unit);
+    if (value > v->maximum)
+        return refuse(x, "%s = %g%s is above its limit; give at most %g%s.", v->name, value, v->unit, v->maximum,
+                      v->unit);
+    return OK;
+}
+
+static Status check_set(Instance *x, unsigned vr, double value) {
+    const Variable *v = model.variables + vr;
+    if (is_time(x, vr)) return refuse(x, "time is the independent variable and cannot be set.");
+    if (!is_set_from_outside(vr))
+        return refuse(x, "%s is of causality %s and cannot be set.", v->name, CAUSALITIES[v->causality]);
+    unsigned allowed = IN(INSTANTIATED) | IN(INITIALIZATION);
+    if (v->causality == INPUT) allowed |= IN(STEPPING) | IN(EVENT);
+    if (!(allowed & IN(x->head.phase))) {
+        char call[300];
+        snprintf(call, sizeof call, "Setting %s %s", CAUSALITIES[v->causality], v->name);
+        return require(x, call, x->fmi == 3 ? allowed : allowed & ~IN(EVENT));
+    }
+    return check_value(x, v, value);
+}
+
+/* Set all values, or none when one is refused. No variable that can be set is an array. */
+Status set_values(Instance *x, int type, const unsigned vr[], size_t count, Form form, const void *values,
+                  size_t value_count) {
+    if (check_references(x, type, vr, count, value_count) != OK) return ERROR;
+    for (size_t k = 0; k < count; k++)
+        if (check_set(x, vr[k], take(values, k, form)) != OK) return ERROR;
+    for (size_t k = 0; k < count; k++) *place(x, vr[k]) = take(values, k, form);
+    x->outputs_read = 0;
+    if (x->head.phase == INSTANTIATED || x->head.phase == INITIALIZATION) x->head.prepared = 0;
+    return OK;
+}
+
+static Status check_order(const Instance *x, int order) {
+    if (order == 1) return OK;
+    return refuse(x, "There is no derivative of order %d here, but only of order 1.", order);
+}
+
+Status set_slopes(Instance *x, const unsigned vr[], size_t count, const int order[], const double values[]) {
+    for (size_t k = 0; k < count; k++) {
+        if (check_order(x, order[k]) != OK) return ERROR;
+        if (vr[k] >= model.inputs)
+            return refuse(x, "The variable with value reference %u is no input and has no derivative to set.", vr[k]);
+        if (!isfinite(values[k]))
+            return refuse(x, "The derivative of %s is not a finite number.", model.variables[vr[k]].name);
+    }
+    for (size_t k = 0; k < count; k++) FIELD(x, input_slopes)[vr[k]] = values[k];
+    return OK;
+}
+
+Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order[], double values[], size_t value_count) {
+    if (check_references(x, REAL, vr, count, value_count) != OK) return ERROR;
+    if (prepare(x) != OK) return ERROR;
+    mechanism_read_output_rates(x->block, (int64_t)model.words);
+    size_t next = 0;
+    for (size_t k = 0; k < count; k++) {
+        if (check_order(x, order[k]) != OK) return ERROR;
+        for (size_t e = 0; e < elements(x, vr[k]); e++) {
+            const Variable *v = model.variables + vr[k];
+            double rate = v->causality == OUTPUT ? FIELD(x, output_rates)[vr[k] - model.inputs] : NAN;
+            if (isnan(rate)) return refuse(x, "%s has no derivative with respect to time.", v->name);
+            values[next++] = rate;
+        }
+    }
+    return OK;
+}
