@@ -8,6 +8,7 @@ from mechanism_fmu.model import Finding, MechanismError
 from mechanism_fmu.model.findings import at_most, either, first, messages, pieces, where
 from models.geneva.model import MODEL as GENEVA
 from models.ratchet.model import MODEL as RATCHET
+from tests.parameter_sets import within_limits
 
 
 def test_a_finding_says_its_text_with_its_numbers_where_it_applies():
@@ -56,16 +57,6 @@ def test_a_condition_restricts_findings(condition, said):
 def test_conditions_are_those_of_plain_numbers(a, b):
     assert (at_most(a, b) > 0) == (a <= b)
     assert (either(a, b) > 0) == (a > 0 or b > 0)
-
-
-def within_limits(model):
-    """Values that are each within their limits, often the default or the limit itself."""
-    choices = {
-        "Real": lambda p: st.sampled_from([p.start, p.minimum, p.maximum]) | st.floats(p.minimum, p.maximum),
-        "Integer": lambda p: st.integers(int(p.minimum), int(p.maximum)).map(float),
-        "Boolean": lambda p: st.sampled_from([0.0, 1.0]),
-    }
-    return st.fixed_dictionaries({p.name: choices[p.type](p) for p in model.parameters}).map(model.checked)
 
 
 @pytest.mark.parametrize("model", [RATCHET, GENEVA], ids=["Ratchet", "Geneva"])
