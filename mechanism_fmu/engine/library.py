@@ -13,7 +13,8 @@ from typing import Any
 from numba import carray, cfunc, types
 
 from .assembly import begin
-from .outputs import read_output_rates, read_outputs
+from .output_rates import read_output_rates
+from .outputs import read_outputs
 from .stepper import begin_step, go_on
 
 _BLOCK = types.CPointer(types.float64)

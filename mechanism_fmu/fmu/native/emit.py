@@ -18,7 +18,7 @@ from .targets import TARGETS, Target
 
 
 def object_file(codes: list[str], target: Target) -> bytes:
-    """One object of all exported functions, optimised as a whole; nothing else is visible from outside.
+    """One object of all exported functions, optimised as a whole; nothing else can be linked to.
 
     With everything but the exports internal, the optimiser proves that no error path exists, and nothing of numba or
     Python is left.
@@ -30,7 +30,9 @@ def object_file(codes: list[str], target: Target) -> bytes:
     module.triple = target.triple
     module.data_layout = str(machine.target_data)
     for symbol in (*module.functions, *module.global_variables):
-        if not symbol.is_declaration and symbol.name not in EXPORTS:
+        if symbol.name in EXPORTS:
+            symbol.visibility = "hidden"  # several FMUs in one process must not see each other's engine
+        elif not symbol.is_declaration:
             symbol.linkage = "internal"
     passes = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=3))
     passes.getModulePassManager().run(module, passes)

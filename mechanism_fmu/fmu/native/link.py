@@ -52,7 +52,7 @@ def need_linker() -> None:
         )
 
 
-def shared_library(target: Target, inputs: Sequence[Path], includes: Sequence[Path], path: Path) -> None:
+def link(target: Target, inputs: Sequence[Path], includes: Sequence[Path], path: Path) -> None:
     """Link C files and objects to a shared library for a platform.
 
     Args:

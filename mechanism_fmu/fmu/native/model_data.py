@@ -79,7 +79,7 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> st
 def _array(kind: str, name: str, entries: Iterable[str]) -> str:
     """An array constant; one without entries gets an empty one, because C has no arrays of length 0."""
     text = ",\n    ".join(entries)
-    return f"static const {kind} {name}[] = {{\n    {text or '{0}'}\n}};"
+    return f"static const {kind} {name}[] = {{\n    {text or 0}\n}};"
 
 
 def _names(mechanism: Mechanism) -> list[str]:
@@ -108,7 +108,7 @@ def _variable(variable: Variable, layout: tuple[int, int]) -> str:
         c_text(unit),
         variable.type.upper(),
         _CAUSALITIES[variable.causality],
-        *map(c_number, numbers),
+        *(c_number(float(number)) for number in numbers),
         *map(str, layout),
     )
     return f"{{{', '.join(entries)}}}"
