@@ -252,9 +252,9 @@ def _variable(elements: Element, variable: Variable3, types: dict[str, CommonTyp
 def _model_structure(root: Element, variables: Sequence[Variable3]) -> None:
     """Outputs and initial unknowns with their dependencies (section 2.4.8).
 
-    Clocked variables have no value of interest before their clock ticks and are no initial unknowns. The clock itself is
-    listed: it is an output and no clocked variable, and FMPy insists (the text leaves open whether a type that has no
-    attribute `initial` belongs there).
+    Clocked variables have no value of interest before their clock ticks and are no initial unknowns. The clock itself
+    is listed: it is an output and no clocked variable, and FMPy insists (the text leaves open whether a type that has
+    no attribute `initial` belongs there).
     """
     structure = SubElement(root, "ModelStructure")
     for variable in variables:
