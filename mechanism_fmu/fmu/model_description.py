@@ -6,6 +6,7 @@ Section numbers refer to the FMI specification 2.0.4.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from pythonfmu import __version__ as pythonfmu_version
@@ -71,12 +72,11 @@ def model_description(model: Model, guid: str, native: bool = False) -> Element:
         variableNamingConvention="structured",
     )
     _co_simulation(root, model, _NATIVE if native else _BY_PYTHONFMU)
-    _unit_definitions(root, variables)
-    types = _type_definitions(root, variables)
-    categories = SubElement(root, "LogCategories")
-    for name, description in LOG_CATEGORIES.items():
-        SubElement(categories, "Category", name=name, description=description)
-    _default_experiment(root, model)
+    unit_definitions(root, variables)
+    types = common_types(variables)
+    _type_definitions(root, types)
+    log_categories(root)
+    default_experiment(root, model)
     elements = SubElement(root, "ModelVariables")
     for variable in variables:
         _scalar_variable(elements, variable, types)
@@ -103,7 +103,15 @@ def _co_simulation(root: Element, model: Model, flags: dict[str, str]) -> None:
     )
 
 
-def _default_experiment(root: Element, model: Model) -> None:
+def log_categories(root: Element) -> None:
+    """Append the element `LogCategories`, alike in FMI 2.0 and 3.0."""
+    categories = SubElement(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", name=name, description=description)
+
+
+def default_experiment(root: Element, model: Model) -> None:
+    """Append the element `DefaultExperiment`, alike in FMI 2.0 and 3.0."""
     tolerance = model.mechanism(model.values()).settings.relative_tolerance
     SubElement(
         root,
@@ -115,8 +123,8 @@ def _default_experiment(root: Element, model: Model) -> None:
     )
 
 
-def _unit_definitions(root: Element, variables: Iterable[Variable]) -> None:
-    """Units with their base units and display units (section 2.2.2)."""
+def unit_definitions(root: Element, variables: Iterable[Variable]) -> None:
+    """Append units with their base units and display units (section 2.2.2), alike in FMI 2.0 and 3.0."""
     shown: dict[str, set[str]] = {}
     for variable in variables:
         if variable.unit is not None:
@@ -147,21 +155,45 @@ def _check_units(name: str, unit: str, display_unit: str | None) -> None:
         raise UnitError(f"{name}: {error}") from None
 
 
-def _type_definitions(root: Element, variables: Sequence[Variable]) -> dict[str, str]:
-    """Types of the recurring quantities (section 2.2.3); returns the type's name of each unit that has one."""
+@dataclass(frozen=True)
+class CommonType:
+    """A declared type of all variables of a unit; its name is also the quantity.
+
+    Attributes:
+        name, unit: of the type.
+        display_unit: the one that all these variables share, or None.
+    """
+
+    name: str
+    unit: str
+    display_unit: str | None
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """The attributes of a Real type in FMI 2.0 and 3.0, beside its name."""
+        shown = {"displayUnit": self.display_unit} if self.display_unit else {}
+        return {"quantity": self.name, "unit": self.unit, **shown}
+
+
+def common_types(variables: Sequence[Variable]) -> dict[str, CommonType]:
+    """Types of the recurring quantities (section 2.2.3), by unit."""
+
+    def shared_by(unit: str) -> str | None:
+        shown = {v.display_unit for v in variables if v.unit == unit}
+        return shown.pop() if len(shown) == 1 else None
+
     used = {v.unit for v in variables if v.unit is not None}
-    types = {unit: name for unit, name in _TYPES.items() if unit in used}
+    return {unit: CommonType(name, unit, shared_by(unit)) for unit, name in _TYPES.items() if unit in used}
+
+
+def _type_definitions(root: Element, types: dict[str, CommonType]) -> None:
     if types:
         definitions = SubElement(root, "TypeDefinitions")
-        for unit, name in types.items():
-            real = SubElement(SubElement(definitions, "SimpleType", name=name), "Real", quantity=name, unit=unit)
-            display_units = {v.display_unit for v in variables if v.unit == unit}
-            if len(display_units) == 1 and (common := display_units.pop()):
-                real.set("displayUnit", common)
-    return types
+        for common in types.values():
+            SubElement(SubElement(definitions, "SimpleType", name=common.name), "Real", common.attributes)
 
 
-def _scalar_variable(elements: Element, variable: Variable, types: dict[str, str]) -> None:
+def _scalar_variable(elements: Element, variable: Variable, types: dict[str, CommonType]) -> None:
     element = SubElement(
         elements,
         "ScalarVariable",
@@ -173,18 +205,24 @@ def _scalar_variable(elements: Element, variable: Variable, types: dict[str, str
     )
     if variable.initial is not None:
         element.set("initial", variable.initial)
-    value = SubElement(element, variable.type)
+    SubElement(element, variable.type, value_attributes(variable, types))
+
+
+def value_attributes(variable: Variable, types: dict[str, CommonType]) -> dict[str, str]:
+    """Type, units, limits and start value as attributes, alike in FMI 2.0 and 3.0."""
+    attributes = {}
     if variable.unit is not None:
         if variable.unit in types:
-            value.set("declaredType", types[variable.unit])
+            attributes["declaredType"] = types[variable.unit].name
         # Said again, because many tools do not look into the declared type.
-        value.set("unit", variable.unit)
+        attributes["unit"] = variable.unit
     if variable.display_unit is not None:
-        value.set("displayUnit", variable.display_unit)
+        attributes["displayUnit"] = variable.display_unit
     limits = (("min", variable.minimum), ("max", variable.maximum), ("nominal", variable.nominal))
     for name, number in (*limits, ("start", variable.start)):
         if number is not None:
-            value.set(name, _number(variable.type, number))
+            attributes[name] = _number(variable.type, number)
+    return attributes
 
 
 def _model_structure(root: Element, variables: Sequence[Variable]) -> None:

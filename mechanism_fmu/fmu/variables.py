@@ -10,7 +10,7 @@ from typing import Literal
 from ..model import Calculated, Input, Model, Output, Parameter
 from ..model.ports import VariableType
 
-Causality = Literal["input", "output", "parameter", "calculatedParameter"]
+Causality = Literal["input", "output", "parameter", "calculatedParameter", "independent"]
 Variability = Literal["fixed", "discrete", "continuous"]
 Initial = Literal["exact", "calculated"]
 
@@ -27,7 +27,7 @@ class Variable:
         name, description: of the port.
         value_reference: position among all variables, from 0.
         type, causality, variability: as in the specification.
-        initial: None for inputs, for which the specification forbids it.
+        initial: None for inputs and time, for which the specification forbids it.
         unit: SI unit of a Real, None for the other types.
         display_unit: unit in which a tool should show a Real; None for `unit` itself.
         start: value before initialization, None for what is calculated.
@@ -36,6 +36,7 @@ class Variable:
         dependencies: value references of the inputs on which an output depends at the same communication point.
         initial_dependencies: value references of the inputs and parameters on which a calculated variable depends
             in initialization mode.
+        source: what an output reads (see `mechanism_fmu.model.Output`); "" of all others.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Variable:
     nominal: float | None = None
     dependencies: tuple[int, ...] = ()
     initial_dependencies: tuple[int, ...] = ()
+    source: str = ""
 
 
 def variables_of(model: Model) -> tuple[Variable, ...]:
@@ -114,6 +116,7 @@ def _output(port: Output, reference: int, feedthrough: tuple[int, ...], paramete
         nominal=port.nominal,
         dependencies=feedthrough,
         initial_dependencies=() if of_impact else feedthrough + parameters,
+        source=port.source,
     )
 
 

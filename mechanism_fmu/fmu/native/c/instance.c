@@ -15,7 +15,8 @@
 /* The engine's tightest relative tolerance. */
 #define TIGHTEST 1e-13
 
-static const char *const PHASES[] = {"instantiated", "initialization", "stepping", "terminated", "event"};
+static const char *const PHASES[] = {"instantiated", "initialization", "stepping", "terminated", "event",
+                                     "intermediate update"};
 
 static void *room_for(size_t count, size_t size) { return calloc(count, size); }
 

@@ -11,7 +11,7 @@
 typedef enum { OK, WARNING, DISCARD, ERROR, FATAL } Status;
 
 /* States of the life cycle. */
-typedef enum { INSTANTIATED, INITIALIZATION, STEPPING, TERMINATED, EVENT } Phase;
+typedef enum { INSTANTIATED, INITIALIZATION, STEPPING, TERMINATED, EVENT, INTERMEDIATE } Phase;
 
 typedef struct Instance Instance;
 
@@ -22,7 +22,7 @@ typedef void Log(const Instance *x, Status status, const char *category, const c
 typedef struct {
     int64_t phase, set_up, prepared;
     double start_time, stop_time, tolerance;
-    int64_t clock; /* FMI 3.0: the clock `impact` ticks in this event mode */
+    int64_t clock; /* FMI 3.0: the clock `impact` ticks in the event mode that is on, or may be entered next */
 } Head;
 
 struct Instance {

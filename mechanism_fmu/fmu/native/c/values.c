@@ -155,15 +155,13 @@ Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order
     if (check_references(x, REAL, vr, count, value_count) != OK) return ERROR;
     if (prepare(x) != OK) return ERROR;
     mechanism_read_output_rates(x->block, (int64_t)model.words);
-    size_t next = 0;
     for (size_t k = 0; k < count; k++) {
         if (check_order(x, order[k]) != OK) return ERROR;
-        for (size_t e = 0; e < elements(x, vr[k]); e++) {
-            const Variable *v = model.variables + vr[k];
-            double rate = v->causality == OUTPUT ? FIELD(x, output_rates)[vr[k] - model.inputs] : NAN;
-            if (isnan(rate)) return refuse(x, "%s has no derivative with respect to time.", v->name);
-            values[next++] = rate;
-        }
+        if (is_time(x, vr[k])) return refuse(x, "time is no output; there are derivatives of outputs only.");
+        const Variable *v = model.variables + vr[k];
+        double rate = v->causality == OUTPUT ? FIELD(x, output_rates)[vr[k] - model.inputs] : NAN;
+        if (isnan(rate)) return refuse(x, "%s has no derivative with respect to time.", v->name);
+        values[k] = rate; /* no array gets here: they are all discrete */
     }
     return OK;
 }

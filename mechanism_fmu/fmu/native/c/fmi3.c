@@ -1,0 +1,446 @@
+/* FMI 3.0 for co-simulation (specification 3.0.1, chapters 2 and 4): the surface of an instance. */
+#include <math.h>
+#include <string.h>
+
+#include "fmi3Functions.h"
+#include "instance.h"
+
+/* The standard gives the signatures; what is refused, or needs nothing, leaves arguments unused. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
+#define SELF(c)      \
+    Instance *x = c; \
+    if (!x) return fmi3Error
+
+/* In a call from within the callback of an intermediate update, only values may be read. */
+#define OUTSIDE_UPDATE (~IN(INTERMEDIATE))
+
+static void pass_on(const Instance *x, Status status, const char *category, const char *text) {
+    /* In a message, # begins the value reference of a variable, and stands for itself when it is doubled. */
+    char message[4096];
+    size_t n = 0;
+    for (; *text && n < sizeof message - 2; text++) {
+        if (*text == '#') message[n++] = '#';
+        message[n++] = *text;
+    }
+    message[n] = 0;
+    ((fmi3LogMessageCallback)x->logger)(x->environment, (fmi3Status)status, category, message);
+}
+
+const char *fmi3GetVersion(void) { return fmi3Version; }
+
+/* --- life --- */
+
+static Instance *instance(const char *name, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
+    Instance *x = make_instance(name, 3, NULL, NULL);
+    if (!x) return NULL;
+    if (log) {
+        x->log = pass_on;
+        x->logger = (void *)log;
+        x->environment = environment;
+    }
+    x->categories = ~0u; /* a refusal to exist is told in any case */
+    return x;
+}
+
+static Status check_token(const Instance *x, const char *call, const char *token) {
+    if (token && strcmp(token, model.guid) == 0) return OK;
+    return refuse(x,
+                  "%s: the instantiation token %s is not this FMU's, %s: modelDescription.xml and binary are not of the "
+                  "same build.",
+                  call, token ? token : "(null)", model.guid);
+}
+
+/* What can be read at intermediate updates, as far as the types tell: continuous variables are scalar Float64. */
+static Status check_intermediate(const Instance *x, const fmi3ValueReference vr[], size_t count) {
+    for (size_t k = 0; vr && k < count; k++) {
+        const Variable *v = vr[k] < model.variable_count ? model.variables + vr[k] : NULL;
+        if (!v || v->type != REAL || v->causality != OUTPUT || v->count != 1)
+            return refuse(x,
+                          "fmi3InstantiateCoSimulation: the required intermediate variable with value reference %u is no "
+                          "continuous output (those with intermediateUpdate in modelDescription.xml).",
+                          (unsigned)vr[k]);
+    }
+    return OK;
+}
+
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
+                                         fmi3Boolean logging, fmi3Boolean event_mode, fmi3Boolean early_return,
+                                         const fmi3ValueReference required[], size_t required_count,
+                                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+                                         fmi3IntermediateUpdateCallback intermediate_update) {
+    Instance *x = instance(name, environment, log);
+    if (!x) return NULL;
+    if (check_token(x, "fmi3InstantiateCoSimulation", token) != OK ||
+        check_intermediate(x, required, required_count) != OK) {
+        free_instance(x);
+        return NULL;
+    }
+    x->categories = logging ? ~0u : 0;
+    x->event_mode = event_mode;
+    x->early_return = early_return;
+    x->intermediate_update = (void *)intermediate_update;
+    return x;
+}
+
+static fmi3Instance no_instance(const char *call, const char *name, fmi3InstanceEnvironment environment,
+                                fmi3LogMessageCallback log) {
+    Instance *x = instance(name, environment, log);
+    if (!x) return NULL;
+    refuse(x, "%s: this FMU is for co-simulation only; call fmi3InstantiateCoSimulation.", call);
+    free_instance(x);
+    return NULL;
+}
+
+fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
+                                          fmi3Boolean logging, fmi3InstanceEnvironment environment,
+                                          fmi3LogMessageCallback log) {
+    return no_instance("fmi3InstantiateModelExchange", name, environment, log);
+}
+
+fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token, fmi3String resources,
+                                               fmi3Boolean visible, fmi3Boolean logging,
+                                               fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+                                               fmi3ClockUpdateCallback clock_update, fmi3LockPreemptionCallback lock,
+                                               fmi3UnlockPreemptionCallback unlock) {
+    return no_instance("fmi3InstantiateScheduledExecution", name, environment, log);
+}
+
+void fmi3FreeInstance(fmi3Instance c) {
+    if (c && require(c, "fmi3FreeInstance", OUTSIDE_UPDATE) == OK) free_instance(c);
+}
+
+fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean on, size_t count, const fmi3String categories[]) {
+    SELF(c);
+    return (fmi3Status)set_logging(x, on, count, categories);
+}
+
+fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_defined, fmi3Float64 tolerance,
+                                       fmi3Float64 start_time, fmi3Boolean stop_defined, fmi3Float64 stop_time) {
+    const char *call = "fmi3EnterInitializationMode";
+    SELF(c);
+    if (require(x, call, IN(INSTANTIATED)) != OK) return fmi3Error;
+    if (set_up(x, call, start_time, stop_defined, stop_time, tolerance_defined, tolerance) != OK) return fmi3Error;
+    x->head.phase = INITIALIZATION;
+    return fmi3OK;
+}
+
+/* Remember whether there was an impact: then the clock ticks in the event mode that follows. */
+static void note_impacts(Instance *x, int64_t told_before) {
+    x->head.clock = x->event_mode && COUNTERS(x)[CODE_COUNT_IMPACTS] != told_before;
+}
+
+fmi3Status fmi3ExitInitializationMode(fmi3Instance c) {
+    SELF(c);
+    if (require(x, "fmi3ExitInitializationMode", IN(INITIALIZATION)) != OK) return fmi3Error;
+    if (initialized(x) != OK) return fmi3Error;
+    note_impacts(x, 0);
+    if (x->event_mode) x->head.phase = EVENT;
+    return fmi3OK;
+}
+
+fmi3Status fmi3Terminate(fmi3Instance c) {
+    SELF(c);
+    if (require(x, "fmi3Terminate", IN(STEPPING) | IN(EVENT)) != OK) return fmi3Error;
+    x->head.phase = TERMINATED;
+    return fmi3OK;
+}
+
+fmi3Status fmi3Reset(fmi3Instance c) {
+    SELF(c);
+    if (require(x, "fmi3Reset", OUTSIDE_UPDATE) != OK) return fmi3Error;
+    reset(x);
+    return fmi3OK;
+}
+
+/* --- event mode --- */
+
+fmi3Status fmi3EnterEventMode(fmi3Instance c) {
+    SELF(c);
+    if (!x->event_mode)
+        return (fmi3Status)refuse(x, "fmi3EnterEventMode: the instance was made with eventModeUsed = false.");
+    if (require(x, "fmi3EnterEventMode", IN(STEPPING)) != OK) return fmi3Error;
+    x->head.phase = EVENT;
+    return fmi3OK;
+}
+
+/* The engine has found and resolved all events by itself: there is nothing left to iterate. */
+fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance c) {
+    SELF(c);
+    return (fmi3Status)require(x, "fmi3EvaluateDiscreteStates", IN(EVENT));
+}
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *need_update, fmi3Boolean *terminate,
+                                    fmi3Boolean *nominals_changed, fmi3Boolean *states_changed,
+                                    fmi3Boolean *next_event_defined, fmi3Float64 *next_event_time) {
+    SELF(c);
+    if (require(x, "fmi3UpdateDiscreteStates", IN(EVENT)) != OK) return fmi3Error;
+    fmi3Boolean *const flags[] = {need_update, terminate, nominals_changed, states_changed, next_event_defined};
+    for (size_t k = 0; k < sizeof flags / sizeof *flags; k++)
+        if (flags[k]) *flags[k] = fmi3False;
+    if (next_event_time) *next_event_time = INFINITY;
+    x->head.clock = 0;
+    return fmi3OK;
+}
+
+fmi3Status fmi3EnterStepMode(fmi3Instance c) {
+    SELF(c);
+    if (require(x, "fmi3EnterStepMode", IN(EVENT)) != OK) return fmi3Error;
+    x->head.phase = STEPPING;
+    x->head.clock = 0;
+    return fmi3OK;
+}
+
+/* The clock stands in for a Boolean output, the only variable of that type that FMI 3.0 does not have under its own
+ * value reference. */
+static int has_clock(void) {
+    for (size_t k = model.inputs; k < model.inputs + model.outputs; k++)
+        if (model.variables[k].type == BOOLEAN && model.variables[k].count == 0) return 1;
+    return 0;
+}
+
+static Status check_clocks(const Instance *x, const fmi3ValueReference vr[], size_t count) {
+    for (size_t k = 0; k < count; k++)
+        if (vr[k] != model.variable_count || !has_clock())
+            return refuse(x, "There is no clock with value reference %u.", (unsigned)vr[k]);
+    return OK;
+}
+
+fmi3Status fmi3GetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Clock values[]) {
+    SELF(c);
+    if (check_clocks(x, vr, count) != OK) return fmi3Error;
+    for (size_t k = 0; k < count; k++)
+        values[k] = x->head.phase == EVENT && x->head.clock ? fmi3ClockActive : fmi3ClockInactive;
+    return fmi3OK;
+}
+
+fmi3Status fmi3SetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Clock values[]) {
+    SELF(c);
+    if (check_clocks(x, vr, count) != OK) return fmi3Error;
+    return count == 0 ? fmi3OK : (fmi3Status)refuse(x, "fmi3SetClock: the clock is an output and cannot be set.");
+}
+
+/* --- values --- */
+
+fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Float64 values[],
+                          size_t value_count) {
+    SELF(c);
+    return (fmi3Status)get_values(x, REAL, vr, count, AS_DOUBLE, values, value_count);
+}
+
+fmi3Status fmi3GetInt32(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Int32 values[],
+                        size_t value_count) {
+    SELF(c);
+    return (fmi3Status)get_values(x, INTEGER, vr, count, AS_INT32, values, value_count);
+}
+
+fmi3Status fmi3GetBoolean(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Boolean values[],
+                          size_t value_count) {
+    SELF(c);
+    return (fmi3Status)get_values(x, BOOLEAN, vr, count, AS_BYTE, values, value_count);
+}
+
+fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Float64 values[],
+                          size_t value_count) {
+    SELF(c);
+    return (fmi3Status)set_values(x, REAL, vr, count, AS_DOUBLE, values, value_count);
+}
+
+fmi3Status fmi3SetInt32(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Int32 values[],
+                        size_t value_count) {
+    SELF(c);
+    return (fmi3Status)set_values(x, INTEGER, vr, count, AS_INT32, values, value_count);
+}
+
+fmi3Status fmi3SetBoolean(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Boolean values[],
+                          size_t value_count) {
+    SELF(c);
+    return (fmi3Status)set_values(x, BOOLEAN, vr, count, AS_BYTE, values, value_count);
+}
+
+/* Types that no variable has. */
+#define NO_VARIABLES(Type)                                                                                            \
+    fmi3Status fmi3Get##Type(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3##Type values[],        \
+                             size_t value_count) {                                                                    \
+        return none_of_type(c, #Type, count);                                                                         \
+    }                                                                                                                 \
+    fmi3Status fmi3Set##Type(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3##Type values[],  \
+                             size_t value_count) {                                                                    \
+        return none_of_type(c, #Type, count);                                                                         \
+    }
+
+static fmi3Status none_of_type(fmi3Instance c, const char *type, size_t count) {
+    SELF(c);
+    return count == 0 ? fmi3OK : (fmi3Status)refuse(x, "There are no variables of type %s.", type);
+}
+
+NO_VARIABLES(Float32)
+NO_VARIABLES(Int8)
+NO_VARIABLES(UInt8)
+NO_VARIABLES(Int16)
+NO_VARIABLES(UInt16)
+NO_VARIABLES(UInt32)
+NO_VARIABLES(Int64)
+NO_VARIABLES(UInt64)
+NO_VARIABLES(String)
+
+fmi3Status fmi3GetBinary(fmi3Instance c, const fmi3ValueReference vr[], size_t count, size_t sizes[],
+                         fmi3Binary values[], size_t value_count) {
+    return none_of_type(c, "Binary", count);
+}
+
+fmi3Status fmi3SetBinary(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const size_t sizes[],
+                         const fmi3Binary values[], size_t value_count) {
+    return none_of_type(c, "Binary", count);
+}
+
+fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference vr[], size_t count,
+                                    const fmi3Int32 orders[], fmi3Float64 values[], size_t value_count) {
+    SELF(c);
+    unsigned allowed = IN(STEPPING) | IN(EVENT) | IN(INTERMEDIATE) | IN(TERMINATED);
+    if (require(x, "fmi3GetOutputDerivatives", allowed) != OK) return fmi3Error;
+    return (fmi3Status)get_rates(x, vr, count, orders, values, value_count);
+}
+
+/* --- state --- */
+
+fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) {
+    SELF(c);
+    if (require(x, "fmi3GetFMUState", OUTSIDE_UPDATE) != OK) return fmi3Error;
+    return state ? (fmi3Status)save(x, (Saved **)state) : (fmi3Status)refuse(x, "fmi3GetFMUState: the pointer is null.");
+}
+
+fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) {
+    SELF(c);
+    if (require(x, "fmi3SetFMUState", OUTSIDE_UPDATE) != OK) return fmi3Error;
+    return (fmi3Status)restore(x, state);
+}
+
+fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state) {
+    SELF(c);
+    if (state) {
+        free_saved(x, *state);
+        *state = NULL;
+    }
+    return fmi3OK;
+}
+
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size) {
+    SELF(c);
+    if (!size) return (fmi3Status)refuse(x, "fmi3SerializedFMUStateSize: the pointer to the size is null.");
+    *size = serialized_size();
+    return fmi3OK;
+}
+
+fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
+    SELF(c);
+    return (fmi3Status)serialize(x, state, bytes, size);
+}
+
+fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state) {
+    SELF(c);
+    if (!state) return (fmi3Status)refuse(x, "fmi3DeserializeFMUState: the pointer is null.");
+    return (fmi3Status)deserialize(x, bytes, size, (Saved **)state);
+}
+
+/* --- co-simulation --- */
+
+/* Let the host look at what has been reached; returns where the step shall end: at `end`, or where the host wants to
+ * have it back, but never in the past. Inputs cannot be set there: each of the engine's steps would begin anew. */
+static double intermediate_update(Instance *x, double end) {
+    double now = time_of(x);
+    fmi3Boolean requested = fmi3False;
+    fmi3Float64 wanted = now;
+    x->head.phase = INTERMEDIATE;
+    ((fmi3IntermediateUpdateCallback)x->intermediate_update)(x->environment, now, fmi3False, fmi3True, fmi3True,
+                                                             x->early_return != 0, &requested, &wanted);
+    x->head.phase = STEPPING;
+    if (!requested || !x->early_return || wanted >= end) return end;
+    return fmax(now, wanted);
+}
+
+fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size, fmi3Boolean no_way_back,
+                      fmi3Boolean *event, fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached) {
+    SELF(c);
+    double target;
+    if (!event || !terminate || !early || !reached)
+        return (fmi3Status)refuse(x, "fmi3DoStep: a pointer for a result is null.");
+    if (require(x, "fmi3DoStep", IN(STEPPING)) != OK) return fmi3Error;
+    if (step_target(x, "fmi3DoStep", current_time, size, &target) != OK) return fmi3Error;
+    const int64_t *impacts = COUNTERS(x) + CODE_COUNT_IMPACTS, before = *impacts;
+    int stops = x->event_mode && x->early_return;
+    int64_t rule = x->intermediate_update ? CODE_STOP_AT_STEP : stops ? CODE_STOP_AT_IMPACT : CODE_STOP_AT_TARGET;
+    double end = target; /* sooner when the host asks for it at an intermediate update */
+    mechanism_begin_step(x->block, (int64_t)model.words);
+    Status status = OK;
+    while (status == OK && time_of(x) < end && !(stops && *impacts != before)) {
+        status = go_on(x, end, rule);
+        if (status == OK && x->intermediate_update) end = intermediate_update(x, end);
+    }
+    tell_news(x);
+    note_impacts(x, before);
+    *event = x->head.clock != 0;
+    *terminate = fmi3False;
+    *early = status == OK && time_of(x) < target;
+    *reached = time_of(x);
+    return (fmi3Status)status;
+}
+
+/* --- what this FMU does not have --- */
+
+#define REFUSES(function, why, ...)                            \
+    fmi3Status function(fmi3Instance c, __VA_ARGS__) {         \
+        SELF(c);                                               \
+        return (fmi3Status)refuse(x, #function ": " why);      \
+    }
+#define REFUSES_ALONE(function, why)                           \
+    fmi3Status function(fmi3Instance c) {                      \
+        SELF(c);                                               \
+        return (fmi3Status)refuse(x, #function ": " why);      \
+    }
+
+#define NO_ELEMENTS "dependencies are in modelDescription.xml; those of elements are not provided."
+#define NO_PARTIALS "partial derivatives are not provided."
+#define NO_STRUCTURE "there are no structural parameters."
+#define NO_INTERVALS "the clock is triggered by impacts and has no interval or shift."
+#define NO_MODEL_EXCHANGE "this FMU is for co-simulation; it has no model exchange."
+
+REFUSES(fmi3GetNumberOfVariableDependencies, NO_ELEMENTS, fmi3ValueReference vr, size_t *count)
+REFUSES(fmi3GetVariableDependencies, NO_ELEMENTS, fmi3ValueReference dependent, size_t dependent_elements[],
+        fmi3ValueReference independents[], size_t independent_elements[], fmi3DependencyKind kinds[], size_t count)
+REFUSES(fmi3GetDirectionalDerivative, NO_PARTIALS, const fmi3ValueReference unknowns[], size_t unknown_count,
+        const fmi3ValueReference knowns[], size_t known_count, const fmi3Float64 seed[], size_t seed_count,
+        fmi3Float64 sensitivity[], size_t sensitivity_count)
+REFUSES(fmi3GetAdjointDerivative, NO_PARTIALS, const fmi3ValueReference unknowns[], size_t unknown_count,
+        const fmi3ValueReference knowns[], size_t known_count, const fmi3Float64 seed[], size_t seed_count,
+        fmi3Float64 sensitivity[], size_t sensitivity_count)
+REFUSES_ALONE(fmi3EnterConfigurationMode, NO_STRUCTURE)
+REFUSES_ALONE(fmi3ExitConfigurationMode, NO_STRUCTURE)
+REFUSES(fmi3GetIntervalDecimal, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, fmi3Float64 intervals[],
+        fmi3IntervalQualifier qualifiers[])
+REFUSES(fmi3GetIntervalFraction, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, fmi3UInt64 counters[],
+        fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[])
+REFUSES(fmi3GetShiftDecimal, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, fmi3Float64 shifts[])
+REFUSES(fmi3GetShiftFraction, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, fmi3UInt64 counters[],
+        fmi3UInt64 resolutions[])
+REFUSES(fmi3SetIntervalDecimal, NO_INTERVALS, const fmi3ValueReference vr[], size_t count,
+        const fmi3Float64 intervals[])
+REFUSES(fmi3SetIntervalFraction, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, const fmi3UInt64 counters[],
+        const fmi3UInt64 resolutions[])
+REFUSES(fmi3SetShiftDecimal, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, const fmi3Float64 shifts[])
+REFUSES(fmi3SetShiftFraction, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, const fmi3UInt64 counters[],
+        const fmi3UInt64 resolutions[])
+
+REFUSES_ALONE(fmi3EnterContinuousTimeMode, NO_MODEL_EXCHANGE)
+REFUSES(fmi3CompletedIntegratorStep, NO_MODEL_EXCHANGE, fmi3Boolean no_way_back, fmi3Boolean *enter_event_mode,
+        fmi3Boolean *terminate)
+REFUSES(fmi3SetTime, NO_MODEL_EXCHANGE, fmi3Float64 time)
+REFUSES(fmi3SetContinuousStates, NO_MODEL_EXCHANGE, const fmi3Float64 states[], size_t count)
+REFUSES(fmi3GetContinuousStateDerivatives, NO_MODEL_EXCHANGE, fmi3Float64 derivatives[], size_t count)
+REFUSES(fmi3GetEventIndicators, NO_MODEL_EXCHANGE, fmi3Float64 indicators[], size_t count)
+REFUSES(fmi3GetContinuousStates, NO_MODEL_EXCHANGE, fmi3Float64 states[], size_t count)
+REFUSES(fmi3GetNominalsOfContinuousStates, NO_MODEL_EXCHANGE, fmi3Float64 nominals[], size_t count)
+REFUSES(fmi3GetNumberOfEventIndicators, NO_MODEL_EXCHANGE, size_t *count)
+REFUSES(fmi3GetNumberOfContinuousStates, NO_MODEL_EXCHANGE, size_t *count)
+REFUSES(fmi3ActivateModelPartition, "this FMU is for co-simulation; it has no scheduled execution.",
+        fmi3ValueReference clock, fmi3Float64 activation_time)
