@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import time
 import zipfile
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 from xml.etree import ElementTree
 
 import typer
-from rich.console import Console
 
-import models
-from mechanism_fmu.fmu.package import build_fmu
-from mechanism_fmu.model import MechanismError
+# Everything else is imported where it is used: --help must not wait for numba.
 
 _USAGE_ERROR = 2
+
+
+class Flavour(StrEnum):
+    """How an FMU runs: on a Python of the target, or on nothing but itself."""
+
+    PYTHONFMU = "pythonfmu"
+    NATIVE = "native"
 
 
 def build(
@@ -25,14 +30,27 @@ def build(
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Folder for the FMU; it is made if need be.", file_okay=False)
     ] = Path("build"),
+    flavour: Annotated[
+        Flavour, typer.Option(help="pythonfmu: needs Python where it runs. native: needs nothing there.")
+    ] = Flavour.PYTHONFMU,
+    fmi: Annotated[int, typer.Option(min=2, max=3, help="Version of the standard; 3 in the native flavour only.")] = 2,
     show_list: Annotated[bool, typer.Option("--list", help="List the models and stop.")] = False,
 ) -> None:
-    """Build the FMU of a model: one file that any FMI 2.0 co-simulation tool can load.
+    """Build the FMU of a model: one file that any FMI co-simulation tool can load.
 
-    Example: `python build_fmu.py ratchet -o build/` writes build/Ratchet.fmu. The FMU needs Python with numpy and numba
-    where it runs. Building compiles the engine, which takes a while at the first time; the same sources always give
-    the same bytes.
+    `python build_fmu.py ratchet -o build/` writes build/Ratchet.fmu, which runs where there is a Python with numpy.
+    With `--flavour native` it runs everywhere: binaries for Linux, Windows and macOS, no Python; add `--fmi 3` for FMI
+    3.0 with event mode and early return at impacts. Where it is built, the native flavour needs the package ziglang
+    (`python -m pip install ziglang`). The first build compiles the engine, which takes a minute or two;
+    the same sources always give the same GUID.
     """
+    from rich.console import Console
+
+    import models
+    from mechanism_fmu.fmu.native.package import build_native_fmu
+    from mechanism_fmu.fmu.package import build_fmu
+    from mechanism_fmu.model import MechanismError
+
     if show_list:
         for name in models.available():
             typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
@@ -42,10 +60,15 @@ def build(
         asked = f"There is no model {model!r}" if model else "Say which model to build"
         messages.print(f"{asked}; there are: {', '.join(models.available())}.", style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR)
+    if fmi == 3 and flavour is not Flavour.NATIVE:
+        messages.print("FMI 3.0 comes in the native flavour only; add --flavour native.", style="red", markup=False)
+        raise typer.Exit(_USAGE_ERROR)
     began = time.perf_counter()
     try:
         with messages.status(f"Building the FMU of {model}; a first build compiles the engine ..."):
-            path = build_fmu(models.load(model), output)
+            module = models.load(model)
+            native = flavour is Flavour.NATIVE
+            path = build_native_fmu(module, output, fmi) if native else build_fmu(module, output)
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(1) from None
@@ -55,7 +78,8 @@ def build(
 
 def _guid(path: Path) -> str:
     with zipfile.ZipFile(path) as fmu:
-        return ElementTree.fromstring(fmu.read("modelDescription.xml")).attrib["guid"]
+        description = ElementTree.fromstring(fmu.read("modelDescription.xml")).attrib
+    return description.get("guid") or description["instantiationToken"]
 
 
 if __name__ == "__main__":

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from build_fmu import build
+
 # Everything else is imported inside the commands: --help must not wait for pandas and fmpy.
 main = typer.Typer(
     name="mechanism-fmu",
@@ -195,20 +197,4 @@ def studies() -> None:
     """Parameter studies with one FMU."""
 
 
-@main.command()
-def build(
-    model: Annotated[str | None, typer.Argument(help="Name of a model, e.g. ratchet.", show_default=False)] = None,
-    output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the FMU.", file_okay=False)
-    ] = Path("build"),
-    show_list: Annotated[bool, typer.Option("--list", help="List the models and stop.")] = False,
-) -> None:
-    """Build the FMU of a model.
-
-    Try:
-
-        mechanism-fmu build ratchet -o build
-    """
-    import build_fmu
-
-    build_fmu.build(model, output, show_list)
+main.command()(build)

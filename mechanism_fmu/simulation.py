@@ -10,12 +10,9 @@ import numpy as np
 
 from . import codes
 from .engine import status
-from .engine.assembly import begin
 from .engine.layout import field_of, state_of
-from .engine.output_rates import read_output_rates
-from .engine.outputs import read_outputs
 from .engine.pack import pack
-from .engine.stepper import advance, begin_step, go_on
+from .engine.run import engine_for
 from .model import Mechanism, MechanismError, PointLineContact
 from .model.event_names import event_name
 
@@ -68,6 +65,7 @@ class Simulation:
     def __init__(self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float] | None = None) -> None:
         self._mechanism = mechanism
         self._block = pack(mechanism.compile())
+        self._engine = engine_for(self._block)
         self._input_names = [port.name for port in mechanism.inputs]
         self._output_names = [o.name for o in mechanism.outputs] + [c.name for c in mechanism.calculated]
         self.inputs: Array = field_of(self._block, "inputs")
@@ -94,7 +92,7 @@ class Simulation:
             raise SimulationError(
                 f"t = {self.time:.9g} s: the motion cannot go on to {target:.9g} s; give a later time."
             )
-        self._require(advance(self._block, float(target)))
+        self._require(self._engine.advance(float(target)))
 
     def begin_step(self) -> None:
         """Begin a communication step here: the records are emptied, and inputs with their slopes act from now on.
@@ -102,7 +100,7 @@ class Simulation:
         Raises:
             SimulationError: as of `advance`.
         """
-        self._require(begin_step(self._block))
+        self._require(self._engine.begin_step())
 
     def go_on(self, target: float, rule: int) -> None:
         """Go on within the communication step.
@@ -114,16 +112,16 @@ class Simulation:
         Raises:
             SimulationError: as of `advance`.
         """
-        self._require(go_on(self._block, float(target), rule))
+        self._require(self._engine.go_on(float(target), rule))
 
     def read(self) -> dict[str, float]:
         """All outputs and calculated parameters at the current time, by name (SI units)."""
-        read_outputs(self._block)
+        self._engine.read_outputs()
         return dict(zip(self._output_names, self.outputs.tolist(), strict=True))
 
     def read_array(self) -> Array:
         """As `read`, as an array of shape (outputs,): a view that the next read overwrites."""
-        read_outputs(self._block)
+        self._engine.read_outputs()
         return self.outputs
 
     def set_input(self, name: str, value: float) -> None:
@@ -136,7 +134,7 @@ class Simulation:
 
     def read_rates(self) -> dict[str, float]:
         """Derivatives of all outputs with respect to time, by name (SI units); NaN where there is none."""
-        read_output_rates(self._block)
+        self._engine.read_output_rates()
         return dict(zip(self._output_names, self.field("output_rates").tolist(), strict=True))
 
     def field(self, name: str) -> Array:
@@ -197,7 +195,7 @@ class Simulation:
         return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
 
     def _begin(self, time: float) -> None:
-        outcome = begin(self._block, float(time)) or advance(self._block, float(time))
+        outcome = self._engine.begin(float(time)) or self._engine.advance(float(time))
         if outcome == status.OK:
             return
         details = {status.NOT_ASSEMBLED: self._residuals, status.START_INSIDE: self._penetration}

@@ -38,7 +38,9 @@ def file_in(destination: Path, name: str) -> Path:
         OSError: it cannot be made.
     """
     if destination.suffix == ".fmu" or destination.is_file():
-        raise MechanismError(f"{destination} is not a folder; give the folder for {name} (tools expect that file name).")
+        raise MechanismError(
+            f"{destination} is not a folder; give the folder for {name} (tools expect that file name)."
+        )
     destination.mkdir(parents=True, exist_ok=True)
     return destination / name
 

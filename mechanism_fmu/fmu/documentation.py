@@ -27,6 +27,7 @@ pre { background: #f6f6f6; padding: .8rem; overflow-x: auto; }
 img { max-width: 100%; }
 """
 
+
 def documentation(model: Model, folder: Path, facts: Sequence[str], licences: Sequence[str]) -> dict[str, bytes]:
     """Files of the FMU's folder `documentation`, by their path within the FMU.
 

@@ -99,8 +99,7 @@ def _co_simulation(root: Element, model: Model, flags: dict[str, str]) -> None:
         canHandleVariableCommunicationStepSize="true",
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
-        **flags,
-    )
+    ).attrib.update(flags)
 
 
 def log_categories(root: Element) -> None:

@@ -16,12 +16,18 @@ from ..model import MechanismError
 from .archive import content_hash, read_entries, with_guid, write_archive
 from .closure import Home, closure
 from .contents import common_entries, file_in, model_of
+from .native.libraries import engine_libraries
+from .native.link import has_linker
+from .native.targets import TARGETS
 from .project import dependencies
 
 _LIBRARY = Path(__file__).parents[1]
 
 #: Imports that ask for nothing: pythonfmu travels in the FMU, and numba brings llvmlite.
 _BROUGHT_ALONG = {"pythonfmu", "llvmlite"}
+
+#: What compiles the engine where it does not travel compiled.
+_COMPILER = "numba"
 
 #: What pythonfmu's wrapper decides by itself, whatever the model does.
 _WRAPPER = (
@@ -74,6 +80,8 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
     sources = closure(homes, ("fmu.slave", main))
     code = {name: text.encode() for name, text in sources.files.items()}
+    compiled = engine_libraries() if has_linker() else {}
+    code |= {f"engine/compiled/{name}": library for name, library in compiled.items()}
     start = (_LIBRARY / "fmu" / "start.py").read_text(encoding="utf-8")
 
     # One name for one content: a process that loads several FMUs then never runs the code of the wrong one.
@@ -85,7 +93,7 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
         {
             f"{model.name}_{digest}.py": slave.encode(),
             f"{starter}.py": start.encode(),
-            "requirements.txt": "".join(f"{r}\n" for r in _requirements(sources.external)).encode(),
+            "requirements.txt": _requirements(sources.external, bool(compiled)).encode(),
             **{f"{package}/{name}": contents for name, contents in code.items()},
         },
     )
@@ -127,8 +135,12 @@ def _imports_left_alone(slave: str) -> Iterator[None]:
                 del sys.modules[name]
 
 
-def _requirements(packages: set[str]) -> list[str]:
-    """What the target must install, with the pins of the project.
+def _requirements(packages: set[str], compiled: bool) -> str:
+    """Text of requirements.txt: what the target must install, with the pins of the project.
+
+    Args:
+        packages: that are imported.
+        compiled: the engine travels compiled, so that the compiler is needed on other platforms only.
 
     Raises:
         MechanismError: a package that is no dependency of the project.
@@ -141,4 +153,9 @@ def _requirements(packages: set[str]) -> list[str]:
             f"The model imports {', '.join(sorted(unknown))}, which mechanism_fmu does not depend on; "
             "an FMU can ask for nothing else. Remove the import."
         )
-    return [pins[name] for name in sorted(needed)]
+    note = (
+        f"# on other platforms than {', '.join(t.name for t in TARGETS)} also:\n# {pins[_COMPILER]}\n"
+        if compiled
+        else ""
+    )
+    return "".join(f"{pins[name]}\n" for name in sorted(needed - ({_COMPILER} if compiled else set()))) + note

@@ -17,6 +17,7 @@ from pythonfmu.enums import Fmi2Status
 from .. import __version__
 from ..engine.layout import FIELDS, sizes_of
 from ..engine.pack import pack
+from ..engine.run import compiled_library
 from ..model import MechanismError, Model
 from ..model.model import check_value
 from ..simulation import Simulation, SimulationError
@@ -309,6 +310,8 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
 @functools.cache
 def _compile_engine(model: Model) -> None:
     """Compile the engine, or load it from the cache: in the constructor, never in the first step."""
+    if compiled_library() is not None:
+        return
     collects = gc.isenabled()
     gc.disable()  # the compiler makes millions of small objects and keeps them: looking for garbage costs a tenth
     try:

@@ -27,6 +27,9 @@ CACHE_VARIABLE = "MECHANISM_FMU_CACHE"
 
 _RESOURCES = Path(__file__).parent
 
+#: Sources, and the engine's library for each platform.
+_COPIED = {".py", ".so", ".dll", ".dylib"}
+
 #: Oldest Python that the package runs on.
 _PYTHON = (3, 11)
 
@@ -53,7 +56,8 @@ def slave_class(package: str, model: str) -> type:
         slave = importlib.import_module(f"{package}.fmu.slave")
         made: type = slave.make_slave_class(importlib.import_module(f"{package}.{model}").MODEL)
     except ModuleNotFoundError as error:
-        requirements = (_RESOURCES / "requirements.txt").read_text(encoding="utf-8").split()
+        lines = (_RESOURCES / "requirements.txt").read_text(encoding="utf-8").splitlines()
+        requirements = [line for line in lines if not line.startswith("#")]
         install = f"python -m pip install {' '.join(map(repr, requirements))}"
         raise _refusal(f"there is no {error.name}. Install what it needs with: {install}") from error
     return made
@@ -147,7 +151,7 @@ def _synchronize(source: Path, folder: Path) -> None:
     Whatever is missing or damaged is written anew. Each file appears by one atomic rename and is only ever given the
     same contents, so that any number of processes may do this at once.
     """
-    for original in sorted(source.rglob("*.py")):
+    for original in sorted(path for path in source.rglob("*") if path.suffix in _COPIED):
         contents = original.read_bytes()
         copy = folder / original.relative_to(source)
         try:

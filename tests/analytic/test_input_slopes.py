@@ -43,7 +43,9 @@ def turning(torque=0.0):
 
 def pressed(force, *, sliding=False, tolerance=1e-9, speed=0.0):
     """A body that slides along y only, pressed on the ground at y = 0 by a force downwards that is an input."""
-    joints = (Translational("guide", GROUND, (0.0, 0.0), (0.0, 1.0), "body", (0.0, 0.0), (0.0, 1.0)),) if sliding else ()
+    joints = (
+        (Translational("guide", GROUND, (0.0, 0.0), (0.0, 1.0), "body", (0.0, 0.0), (0.0, 1.0)),) if sliding else ()
+    )
     return Simulation(
         Mechanism(
             bodies=(Body("body", MASS, 0.3, start_rate=(0.0, speed, 0.0)),),

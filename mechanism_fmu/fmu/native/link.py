@@ -89,5 +89,4 @@ def _platform(target: Target) -> list[str]:
 
 def _zig_library() -> Path:
     spec = importlib.util.find_spec("ziglang")
-    assert spec is not None and spec.origin is not None  # `need_linker` has seen it
-    return Path(spec.origin).with_name("lib")
+    return Path(str(spec and spec.origin)).with_name("lib")

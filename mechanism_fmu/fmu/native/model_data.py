@@ -112,4 +112,3 @@ def _variable(variable: Variable, layout: tuple[int, int]) -> str:
         *map(str, layout),
     )
     return f"{{{', '.join(entries)}}}"
-

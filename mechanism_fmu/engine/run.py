@@ -1,0 +1,85 @@
+"""The way into the engine: compiled ahead of time where a library for this platform lies here, else just in time.
+
+The libraries (`compiled/<processor>-<system>.*`) exist in FMUs only; in a checkout the engine is always what its
+sources say. Numbers are the same either way.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import platform
+import sys
+from collections.abc import Callable
+from functools import cache, partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+Array = np.ndarray[Any, np.dtype[Any]]
+
+_SYSTEMS = {"linux": ("linux", ".so"), "win32": ("windows", ".dll"), "darwin": ("darwin", ".dylib")}
+_PROCESSORS = {"amd64": "x86_64", "arm64": "aarch64"}
+
+_STATUS, _TIME = ctypes.c_int64, ctypes.c_double
+#: Result and arguments, behind the block and its length, of the library's functions.
+_SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
+    "begin": (_STATUS, (_TIME,)),
+    "advance": (_STATUS, (_TIME,)),
+    "begin_step": (_STATUS, ()),
+    "go_on": (_STATUS, (_TIME, ctypes.c_int64)),
+    "read_outputs": (None, ()),
+    "read_output_rates": (None, ()),
+}
+
+
+class Engine(NamedTuple):
+    """The entry points for one block: see `assembly`, `stepper`, `outputs` and `output_rates`."""
+
+    begin: Callable[[float], int]
+    advance: Callable[[float], int]
+    begin_step: Callable[[], int]
+    go_on: Callable[[float, int], int]
+    read_outputs: Callable[[], None]
+    read_output_rates: Callable[[], None]
+
+
+def engine_for(block: Array) -> Engine:
+    """The engine for an instance's block, float64 of shape (words,), which must live as long."""
+    library = compiled_library()
+    if library is not None:
+        address, words = block.ctypes.data, len(block)
+        functions: list[Any] = [getattr(library, f"engine_{name}") for name in Engine._fields]
+        return Engine(*(partial(function, address, words) for function in functions))
+    from .assembly import begin
+    from .output_rates import read_output_rates
+    from .outputs import read_outputs
+    from .stepper import advance, begin_step, go_on
+
+    entries: list[Any] = [begin, advance, begin_step, go_on, read_outputs, read_output_rates]
+    return Engine(*(partial(function, block) for function in entries))
+
+
+@cache
+def compiled_library() -> ctypes.CDLL | None:
+    """The library for this platform, or None: there is none, or the system cannot load it."""
+    path = library_path(Path(__file__).with_name("compiled"))
+    if path is None or not path.is_file():
+        return None
+    try:
+        library = ctypes.CDLL(str(path))
+    except OSError:
+        return None  # e.g. a Linux without glibc
+    for name, (result, arguments) in _SIGNATURES.items():
+        function = getattr(library, f"engine_{name}")
+        function.argtypes, function.restype = (ctypes.c_void_p, ctypes.c_int64, *arguments), result
+    return library
+
+
+def library_path(folder: Path) -> Path | None:
+    """Where the library for this platform would be; None on systems that there is none for."""
+    if sys.platform not in _SYSTEMS:
+        return None
+    machine = platform.machine().lower()
+    system, suffix = _SYSTEMS[sys.platform]
+    return folder / f"{_PROCESSORS.get(machine, machine)}-{system}{suffix}"

@@ -1,0 +1,33 @@
+"""The engine alone as shared libraries, for FMUs by pythonfmu: they then start without numba and its compilation."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+from ..archive import content_hash
+from .link import link, surface
+from .objects import compiled_engine
+from .targets import TARGETS
+
+
+def engine_libraries() -> dict[str, bytes]:
+    """The library of each platform, by the file name under which `mechanism_fmu.engine.run` looks for it.
+
+    Raises:
+        MechanismError: there is no linker, or the engine cannot be compiled.
+    """
+    engine = compiled_engine()
+    made_from = content_hash({"library.c": surface("library.c")[0].read_bytes()})[:8]
+    found = {}
+    for target in TARGETS:
+        path = engine.headers / made_from / f"{target.name}{target.suffix}"
+        if not path.is_file():
+            path.parent.mkdir(exist_ok=True)
+            with tempfile.TemporaryDirectory(dir=path.parent) as temporary:
+                made = Path(temporary, path.name)
+                link(target, [*surface("library.c"), engine.objects[target.name]], [engine.headers], made)
+                os.replace(made, path)
+        found[path.name] = path.read_bytes()
+    return found
