@@ -86,14 +86,13 @@ def _begin_step(block: Array) -> int:
 @jit
 def _go_on(block: Array, target: float, rule: int) -> int:
     now = course(block)
-    outcome = _why_ended(block)
-    if outcome != status.OK:
-        return outcome
     if now.clock[codes.TIME] < now.clock[codes.STEP_END] and target < now.clock[codes.STEP_END]:
         now.clock[codes.TIME] = target  # the engine has been there already
-    else:
+        return status.OK
+    outcome = _why_ended(block)
+    if outcome == status.OK:
         outcome = _move(block, target, rule)
-    show_reached(block)
+        show_reached(block)
     return outcome
 
 

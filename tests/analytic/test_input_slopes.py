@@ -1,5 +1,6 @@
 """Inputs that change linearly during a communication step, against closed forms."""
 
+import itertools
 import math
 
 import numpy as np
@@ -42,14 +43,12 @@ def turning(torque=0.0):
 
 
 def pressed(force, *, sliding=False, tolerance=1e-9, speed=0.0):
-    """A body that slides along y only, pressed on the ground at y = 0 by a force downwards that is an input."""
-    joints = (
-        (Translational("guide", GROUND, (0.0, 0.0), (0.0, 1.0), "body", (0.0, 0.0), (0.0, 1.0)),) if sliding else ()
-    )
+    """A body, free or on a guide along y, pressed on the ground at y = 0 by a force downwards that is an input."""
+    guide = Translational("guide", GROUND, (0.0, 0.0), (0.0, 1.0), "body", (0.0, 0.0), (0.0, 1.0))
     return Simulation(
         Mechanism(
             bodies=(Body("body", MASS, 0.3, start_rate=(0.0, speed, 0.0)),),
-            joints=joints,
+            joints=(guide,) if sliding else (),
             forces=(Force("press", "body"),),
             contacts=(PointLineContact("floor", "body", (0.0, 0.0), GROUND, (0.0, 0.0), (0.0, 1.0)),),
             inputs=(Input("press", "press.y", -force, "", "N"),),
@@ -73,7 +72,7 @@ def pressed(force, *, sliding=False, tolerance=1e-9, speed=0.0):
 )
 @example([(1.0, 0.0, 1.0, False), (1.0, 0.0, 0.0, True), (1.0, 0.0, 0.0, True)])
 def test_a_torque_that_ramps_turns_a_body_along_a_cubic(pieces):
-    """Pieces: duration, acceleration at its start (of the second to last: or the value reached), its slope."""
+    """Pieces: duration, acceleration at the start, its slope, and whether to start from the value reached instead."""
     simulation = turning()
     time, angle, speed, work, value = 0.0, 0.0, 0.0, 0.0, 0.0
     for duration, start, slope, goes_on in pieces:
@@ -119,7 +118,7 @@ def test_a_sine_in_linear_pieces_converges_with_order_two():
     errors = []
     for count in (8, 16, 32, 64):
         simulation, ends = turning(), np.linspace(0.0, 3.0, count + 1)
-        for start, end in zip(ends[:-1], ends[1:], strict=True):
+        for start, end in itertools.pairwise(ends):
             simulation.set_input("torque", INERTIA * math.sin(start))
             simulation.set_slope("torque", INERTIA * (math.sin(end) - math.sin(start)) / (end - start))
             simulation.advance(end)

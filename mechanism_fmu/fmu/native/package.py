@@ -34,15 +34,15 @@ _STANDARD = Path(fmpy.__file__).with_name("c-code")
 
 _FACTS = (
     "The FMU needs nothing where it runs: no Python, no library but the system's own C library. Binaries for "
-    f"{', '.join(target.name for target in TARGETS)} are inside; they run with glibc 2.17 or later, on macOS from 11 on, "
-    "and on Windows with the Universal CRT.",
+    f"{', '.join(target.name for target in TARGETS)} are inside; they run with glibc 2.17 or later, on macOS from 11 "
+    "on, and on Windows with the Universal CRT.",
     "A value or a call that is refused gives a message in the log and the status <em>error</em>; nothing has changed "
     "then, and the instance goes on. Messages arrive only if the host switched logging on.",
     "Any number of instances, also of different FMUs of this project, may run in one process, each in its own thread; "
     "one instance must not be called by two threads at once.",
     "Memory comes from the host's callbacks where it gives any (FMI 2.0).",
-    "An input with a derivative (fmi2SetRealInputDerivatives) changes at that rate during the next step, and then keeps "
-    "the value that it has reached.",
+    "An input with a derivative (fmi2SetRealInputDerivatives) changes at that rate during the next step, and then "
+    "keeps the value that it has reached.",
 )
 
 

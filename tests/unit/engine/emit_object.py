@@ -45,12 +45,12 @@ def engine() -> Any:
         if which == 2:
             return begin_step(memory)
         if which == 3:
-            return go_on(memory, time, words)
+            read_outputs(memory)
+            return 0
         if which == 4:
             read_output_rates(memory)
-        else:
-            read_outputs(memory)
-        return 0
+            return 0
+        return go_on(memory, time, which - 5)
 
     return mechanism
 
