@@ -17,7 +17,7 @@
 
 static void pass_on(const Instance *x, Status status, const char *category, const char *text) {
     /* In a message, # begins the value reference of a variable, and stands for itself when it is doubled. */
-    char message[4096];
+    char message[3000];
     size_t n = 0;
     for (; *text && n < sizeof message - 2; text++) {
         if (*text == '#') message[n++] = '#';
