@@ -111,6 +111,11 @@ GUARD_INPUT = 6  # an input has changed
 GUARD_BEGIN = 7  # the motion begins
 GUARD_FAILED = 8  # an event could not be resolved: nothing goes on from there (the status stands as subject)
 
+# stop rules: where `stepper.go_on` stops
+STOP_AT_TARGET = 0
+STOP_AT_IMPACT = 1  # ... or right after an event with an impact
+STOP_AT_STEP = 2  # ... or at the end of each of the engine's own steps
+
 # columns of an event record
 EVENT_TIME = 0
 EVENT_GUARD = 1
@@ -130,7 +135,9 @@ STEP_END = 2
 STEP_SIZE = 3
 NEXT_STEP = 4
 LAST_EVENT = 5  # when the run of events began that PILE counts
-CLOCK_LENGTH = 6
+RAMP_START = 6  # when the slopes of inputs began to act
+RAMP_END = 7  # up to where they are known: no step goes beyond
+CLOCK_LENGTH = 8
 
 # columns of the state's counters
 COUNT_IMPACTS = 0
@@ -143,7 +150,8 @@ COUNT_PULLS = 6  # guided contacts that have pulled, as far as the engine has co
 COUNT_EVENTS = 7
 EVENTS_IN_STEP = 8
 PILE = 9  # events that followed each other without progress
-COUNTERS_LENGTH = 10
+RAMPING = 10  # 1 while an input has a slope
+COUNTERS_LENGTH = 11
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

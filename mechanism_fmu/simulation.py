@@ -12,9 +12,10 @@ from . import codes
 from .engine import status
 from .engine.assembly import begin
 from .engine.layout import field_of, state_of
+from .engine.output_rates import read_output_rates
 from .engine.outputs import read_outputs
 from .engine.pack import pack
-from .engine.stepper import advance
+from .engine.stepper import advance, begin_step, go_on
 from .model import Mechanism, MechanismError, PointLineContact
 from .model.event_names import event_name
 
@@ -93,9 +94,27 @@ class Simulation:
             raise SimulationError(
                 f"t = {self.time:.9g} s: the motion cannot go on to {target:.9g} s; give a later time."
             )
-        outcome = advance(self._block, float(target))
-        if outcome != status.OK:
-            raise SimulationError(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
+        self._require(advance(self._block, float(target)))
+
+    def begin_step(self) -> None:
+        """Begin a communication step here: the records are emptied, and inputs with their slopes act from now on.
+
+        Raises:
+            SimulationError: as of `advance`.
+        """
+        self._require(begin_step(self._block))
+
+    def go_on(self, target: float, rule: int) -> None:
+        """Go on within the communication step.
+
+        Args:
+            target: where to stop at the latest [s], not before `time`.
+            rule: what stops earlier: `codes.STOP_AT_TARGET`, `codes.STOP_AT_IMPACT` or `codes.STOP_AT_STEP`.
+
+        Raises:
+            SimulationError: as of `advance`.
+        """
+        self._require(go_on(self._block, float(target), rule))
 
     def read(self) -> dict[str, float]:
         """All outputs and calculated parameters at the current time, by name (SI units)."""
@@ -110,6 +129,15 @@ class Simulation:
     def set_input(self, name: str, value: float) -> None:
         """Set an input from now on (SI units)."""
         self.inputs[self._input_names.index(name)] = value
+
+    def set_slope(self, name: str, slope: float) -> None:
+        """Let an input change by `slope` (its SI unit per second) during the next communication step, and hold then."""
+        self.field("input_slopes")[self._input_names.index(name)] = slope
+
+    def read_rates(self) -> dict[str, float]:
+        """Derivatives of all outputs with respect to time, by name (SI units); NaN where there is none."""
+        read_output_rates(self._block)
+        return dict(zip(self._output_names, self.field("output_rates").tolist(), strict=True))
 
     def field(self, name: str) -> Array:
         """A view of a field of the instance's block (see `engine.layout`), for tests and diagnosis."""
@@ -156,6 +184,10 @@ class Simulation:
 
     def _closed(self, mode: int) -> tuple[str, ...]:
         return tuple(contact.name for c, contact in enumerate(self._mechanism.contacts) if mode >> c & 1)
+
+    def _require(self, outcome: int) -> None:
+        if outcome != status.OK:
+            raise SimulationError(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
 
     def _involved(self, outcome: int) -> str:
         """The contacts that a failed event is about."""

@@ -3,6 +3,7 @@ from pathlib import Path
 import pytest
 
 import models
+from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
 
 
@@ -16,3 +17,15 @@ def ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def geneva_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Path of a freshly built Geneva.fmu."""
     return build_fmu(models.load("geneva"), tmp_path_factory.mktemp("fmu"))
+
+
+@pytest.fixture(scope="session")
+def native_ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built native Ratchet.fmu."""
+    return build_native_fmu(models.load("ratchet"), tmp_path_factory.mktemp("native"))
+
+
+@pytest.fixture(scope="session")
+def native_geneva_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built native Geneva.fmu."""
+    return build_native_fmu(models.load("geneva"), tmp_path_factory.mktemp("native"))

@@ -17,7 +17,7 @@ from .room import Array
 from .rows import active_rows
 from .subset import entry, jit, keep_small
 from .transition import switch_contacts
-from .vectors import copy
+from .vectors import clear, copy
 from .views import (
     bodies,
     contacts,
@@ -27,6 +27,7 @@ from .views import (
     loads,
     options,
     patterns,
+    ports,
     rows,
     sizes,
     stages,
@@ -143,6 +144,8 @@ def start(block: Array, time: float) -> int:
     n = sizes(block).coordinates
     now = course(block)
     table = contacts(block)
+    now.clock[codes.TIME] = time
+    clear(ports(block).input_slopes)  # a slope belongs to a step
     take_inputs(block)
     for k in range(codes.COUNTERS_LENGTH):
         now.counters[k] = codes.IMPACT_BUFFER_LENGTH if k == codes.COUNT_IN_STEP else 0
@@ -170,7 +173,6 @@ def start(block: Array, time: float) -> int:
                 table.mode[c] = codes.CLOSED
             elif distance <= TOUCHES_WITHIN:
                 table.touching[c] = 1
-    now.clock[codes.TIME] = time
     now.clock[codes.STEP_END] = time
     now.clock[codes.LAST_EVENT] = time
     now.clock[codes.STEP_START] = time

@@ -7,11 +7,13 @@ import math
 from .. import codes
 from .acceleration import derivative
 from .complementarity import push_ratio
+from .ports import feed_at
 from .room import Array
 from .rows import row_count
 from .subset import jit, keep_small
 from .views import contacts, course, options, sizes, stages
 
+_C2, _C3, _C4, _C5 = 1 / 5, 3 / 10, 4 / 5, 8 / 9
 _A21 = 1 / 5
 _A31, _A32 = 3 / 40, 9 / 40
 _A41, _A42, _A43 = 44 / 45, -56 / 15, 32 / 9
@@ -27,8 +29,10 @@ ABSOLUTE_FRACTION = 1e-3
 
 
 @jit
-def try_step(block: Array, size_: float) -> float:
-    """One step of `size_` [s] from y_start with derivatives[0] there; return the error norm (<= 1: accurate enough).
+def try_step(block: Array, start: float, size_: float) -> float:
+    """One step of `size_` [s] from y_start at the time `start` [s], with derivatives[0] there; return the error norm.
+
+    The step is accurate enough when that is at most 1.
 
     Writes y_new, all seven derivatives (the last one belongs to y_new), the dense output, and `contacts.least_push`.
     """
@@ -38,37 +42,41 @@ def try_step(block: Array, size_: float) -> float:
     k = s.derivatives
     y = s.y_start
     h = size_
+    s.tried[0] = start
+    s.tried[1] = h
     least = contacts(block).least_push
     for c in range(least.shape[0]):
         least[c] = 0.0
     for i in range(n):
         s.y_stage[i] = y[i] + h * _A21 * k[0, i]
-    derivative(block, s.y_stage, k[1])
-    _note_pushes(block)
+    _stage(block, start + h * _C2, s.y_stage, k[1])
     for i in range(n):
         s.y_stage[i] = y[i] + h * (_A31 * k[0, i] + _A32 * k[1, i])
-    derivative(block, s.y_stage, k[2])
-    _note_pushes(block)
+    _stage(block, start + h * _C3, s.y_stage, k[2])
     for i in range(n):
         s.y_stage[i] = y[i] + h * (_A41 * k[0, i] + _A42 * k[1, i] + _A43 * k[2, i])
-    derivative(block, s.y_stage, k[3])
-    _note_pushes(block)
+    _stage(block, start + h * _C4, s.y_stage, k[3])
     for i in range(n):
         s.y_stage[i] = y[i] + h * (_A51 * k[0, i] + _A52 * k[1, i] + _A53 * k[2, i] + _A54 * k[3, i])
-    derivative(block, s.y_stage, k[4])
-    _note_pushes(block)
+    _stage(block, start + h * _C5, s.y_stage, k[4])
     for i in range(n):
         slope = _A61 * k[0, i] + _A62 * k[1, i] + _A63 * k[2, i] + _A64 * k[3, i] + _A65 * k[4, i]
         s.y_stage[i] = y[i] + h * slope
-    derivative(block, s.y_stage, k[5])
-    _note_pushes(block)
+    _stage(block, start + h, s.y_stage, k[5])
     for i in range(n):
         slope = _B1 * k[0, i] + _B3 * k[2, i] + _B4 * k[3, i] + _B5 * k[4, i] + _B6 * k[5, i]
         s.y_new[i] = y[i] + h * slope
-    derivative(block, s.y_new, k[6])
-    _note_pushes(block)
+    _stage(block, start + h, s.y_new, k[6])
     _write_dense(block, h)
     return _error_norm(block, h)
+
+
+@jit
+def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
+    """The derivative at one stage, with the inputs' values at its `time` [s]."""
+    feed_at(block, time)
+    derivative(block, y, dy)
+    _note_pushes(block)
 
 
 @jit
@@ -150,6 +158,7 @@ def initial_step_size(block: Array) -> float:
         first = 0.01 * size_y / size_dy
     for i in range(n):
         s.y_stage[i] = now.y_end[i] + first * now.dy_end[i]
+    feed_at(block, now.clock[codes.STEP_END] + first)
     derivative(block, s.y_stage, s.dy_at)
     bend = 0.0
     for i in range(n):

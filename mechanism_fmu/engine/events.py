@@ -17,6 +17,7 @@ from .complementarity import push_ratio
 from .dormand_prince import interpolate, try_step
 from .guards import gap, guard_of, guard_value, is_watched
 from .kinematics import place_bodies
+from .ports import feed_at
 from .room import Array
 from .rows import row_count
 from .subset import jit, keep_small
@@ -69,9 +70,10 @@ def refine(block: Array, contact: int, step_size: float) -> float:
     """The step size at which the true step, not its interpolant, ends at zero gap; that step is the last one tried."""
     keep_small()
     s = stages(block)
+    start = s.tried[0]
     limit = 2.0 * step_size
     for _ in range(_NEWTON_STEPS):
-        try_step(block, step_size)
+        try_step(block, start, step_size)
         place_bodies(block, s.y_new)
         distance, rate = gap(block, contact)
         if not rate < 0.0:
@@ -80,7 +82,7 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         if abs(move) <= ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
             return step_size
         step_size += move
-    try_step(block, step_size)
+    try_step(block, start, step_size)
     return step_size
 
 
@@ -259,5 +261,6 @@ def _push_at(block: Array, contact: int, fraction: float) -> float:
     keep_small()
     s = stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
+    feed_at(block, s.tried[0] + fraction * s.tried[1])
     derivative(block, s.y_at, s.dy_at)
     return push_ratio(block, contact, row_count(block))

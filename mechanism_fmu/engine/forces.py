@@ -84,6 +84,22 @@ def spring_energy(block: Array, y: Array) -> float:
 
 
 @jit
+def spring_power(block: Array, y: Array) -> float:
+    """Power stored in the linear part of all springs [W]."""
+    keep_small()
+    n = sizes(block).coordinates
+    table = forces(block)
+    power = 0.0
+    for k in range(table.kind.shape[0]):
+        if table.kind[k] == codes.TORSION_SPRING:
+            on = 3 * table.body[k] + 2
+            against = 3 * table.reaction[k] + 2
+            stretch = _relative(y, on, against, n) - table.data[k, codes.SPRING_FREE_ANGLE]
+            power += table.data[k, codes.SPRING_STIFFNESS] * stretch * _relative(y[n:], on, against, n)
+    return power
+
+
+@jit
 def kinetic_energy(inverse_mass: Array, rate: Array, count: int) -> float:
     """Kinetic energy [J] of rates (count,) with inverse masses (count,)."""
     keep_small()
@@ -91,6 +107,16 @@ def kinetic_energy(inverse_mass: Array, rate: Array, count: int) -> float:
     for k in range(count):
         energy += 0.5 * rate[k] * rate[k] / inverse_mass[k]
     return energy
+
+
+@jit
+def kinetic_power(inverse_mass: Array, rate: Array, acceleration: Array, count: int) -> float:
+    """Derivative of the kinetic energy [W] from rates and accelerations (count,) with inverse masses (count,)."""
+    keep_small()
+    power = 0.0
+    for k in range(count):
+        power += rate[k] * acceleration[k] / inverse_mass[k]
+    return power
 
 
 @jit

@@ -92,6 +92,8 @@ FIELDS = (
     Field("state", "ledger", (codes.LEDGER_LENGTH,)),
     Field("state", "inputs", ("inputs",)),
     Field("state", "held_inputs", ("inputs",)),
+    Field("state", "input_slopes", ("inputs",)),
+    Field("state", "held_slopes", ("inputs",)),
     Field("state", "y_end", ("unknowns",)),
     Field("state", "dy_end", ("unknowns",)),
     Field("state", "dense", (5, "unknowns")),
@@ -150,6 +152,7 @@ FIELDS = (
     Field("work", "weight", ("columns",)),
     Field("work", "free_acceleration", ("columns",)),
     Field("work", "stages", (7, "unknowns")),
+    Field("work", "tried", (2,)),
     Field("work", "y_start", ("unknowns",)),
     Field("work", "y_stage", ("unknowns",)),
     Field("work", "y_new", ("unknowns",)),
@@ -158,6 +161,7 @@ FIELDS = (
     Field("work", "new_dense", (5, "unknowns")),
     Field("work", "rates_before", ("coordinates",)),
     Field("work", "outputs", ("outputs",)),
+    Field("work", "output_rates", ("outputs",)),
 )
 
 _FIRST_OFFSET = len(SIZES)

@@ -1,28 +1,43 @@
-"""Ports: inputs are written into table entries, outputs are read from the state. No model-specific code."""
+"""Ports: inputs are written into table entries, outputs are read from the state. No model-specific code.
+
+An input may have a slope, which acts during one communication step only. The step's first value and slope are kept
+(`held_inputs`, `held_slopes`, from RAMP_START on), and whoever moves the time calls `feed_at` before forces are asked
+for.
+"""
 
 from __future__ import annotations
 
+from .. import codes
 from .room import Array
-from .subset import jit
-from .views import forces, ports
+from .subset import jit, keep_small
+from .views import course, forces, ports
 
 
 @jit
 def inputs_changed(block: Array) -> bool:
-    """Whether an input differs from what the motion has used so far."""
+    """Whether an input differs from what the motion has used so far, or has, or had until now, a slope."""
     table = ports(block)
-    changed = False
+    changed: bool = course(block).counters[codes.RAMPING] != 0
     for k in range(table.inputs.shape[0]):
-        changed = changed or table.inputs[k] != table.held_inputs[k]
+        if table.inputs[k] != table.held_inputs[k] or table.input_slopes[k] != 0.0:
+            changed = True
     return changed
 
 
 @jit
 def take_inputs(block: Array) -> None:
-    """Let the present inputs act from now on."""
+    """Let the present inputs act from TIME on, with their slopes, which are used up by that."""
+    keep_small()
     table = ports(block)
+    now = course(block)
+    now.clock[codes.RAMP_START] = now.clock[codes.TIME]
+    now.counters[codes.RAMPING] = 0
     for k in range(table.inputs.shape[0]):
         table.held_inputs[k] = table.inputs[k]
+        table.held_slopes[k] = table.input_slopes[k]
+        table.input_slopes[k] = 0.0
+        if table.held_slopes[k] != 0.0:
+            now.counters[codes.RAMPING] = 1
     feed(block, table.inputs)
 
 
@@ -33,3 +48,37 @@ def feed(block: Array, values: Array) -> None:
     data = forces(block).data
     for k in range(values.shape[0]):
         data[table.input_force[k], table.input_column[k]] = values[k]
+
+
+@jit
+def feed_at(block: Array, time: float) -> None:
+    """Feed the inputs' values at `time` [s]; without slopes there is nothing to do."""
+    if course(block).counters[codes.RAMPING] != 0:
+        _feed_ramp(block, time)
+
+
+@jit
+def _feed_ramp(block: Array, time: float) -> None:
+    keep_small()
+    table = ports(block)
+    data = forces(block).data
+    for k in range(table.inputs.shape[0]):
+        data[table.input_force[k], table.input_column[k]] = _reached(block, k, time)
+
+
+@jit
+def show_reached(block: Array) -> None:
+    """Make `inputs` the values that inputs with slopes have reached at TIME."""
+    now = course(block)
+    table = ports(block)
+    if now.counters[codes.RAMPING] != 0:
+        for k in range(table.inputs.shape[0]):
+            table.inputs[k] = _reached(block, k, now.clock[codes.TIME])
+
+
+@jit
+def _reached(block: Array, k: int, time: float) -> float:
+    """Value of input `k` at `time` [s]."""
+    table = ports(block)
+    value: float = table.held_inputs[k] + table.held_slopes[k] * (time - course(block).clock[codes.RAMP_START])
+    return value

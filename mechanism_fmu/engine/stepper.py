@@ -2,7 +2,8 @@
 
 The engine takes steps of its own, with dense output, and may be ahead of the time that the outside has reached
 (TIME <= STEP_END): the trajectory then does not depend on the communication step at all. When an input changes, what
-lies ahead is dropped and the motion goes on from TIME.
+lies ahead is dropped and the motion goes on from TIME. Only a step in which an input has a slope ends at the target,
+because nobody knows the input beyond.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from .drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from .events import first_event, refine
 from .guards import gap
 from .kinematics import place_bodies
-from .ports import feed, inputs_changed, take_inputs
+from .ports import feed, feed_at, inputs_changed, show_reached, take_inputs
 from .pulling import watch_at, watch_step
 from .records import clear_records
 from .room import Array
@@ -34,6 +35,8 @@ MOST_STEPS = 200_000
 #: Where there are guards, no body turns further than this in one step [rad]: a step without error may be of any length,
 #: and would pass over what a turning point meets in every turn.
 MOST_TURN = 1.0
+#: A step that comes so near to where slopes end goes there.
+_NEARLY = 0.99
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0
@@ -41,21 +44,76 @@ _GROW_MOST = 5.0
 
 @entry
 def advance(block: Array, target: float) -> int:
-    """Bring TIME to `target` [s]; return a status.
+    """One communication step: bring TIME to `target` [s]; return a status.
 
     When a step fails, TIME and all outputs stay at the last good instant. When an event fails, they stay at the event,
     and only a restored state leads on.
     """
-    now = course(block)
-    if now.counters[codes.PENDING_GUARD] == codes.GUARD_FAILED:
-        failed: int = now.counters[codes.PENDING_SUBJECT]
-        return failed
+    outcome = _begin_step(block)
+    if outcome == status.OK:
+        outcome = _go_on(block, target, codes.STOP_AT_TARGET)
+    return outcome
+
+
+@entry
+def begin_step(block: Array) -> int:
+    """Begin a communication step at TIME: empty the records, let inputs and their slopes act; return a status."""
+    return _begin_step(block)
+
+
+@entry
+def go_on(block: Array, target: float, rule: int) -> int:
+    """Go on within the communication step until `target` [s], or until `rule` stops it earlier; return a status.
+
+    `rule` is `codes.STOP_AT_TARGET`, `STOP_AT_IMPACT` or `STOP_AT_STEP`; the motion is the same with all of them. After
+    a stop, the step may be continued to the same target (what is set meanwhile acts from the next `begin_step` on), or
+    another one be begun. Where it stops, `inputs` are the values reached. Failures: as of `advance`.
+    """
+    return _go_on(block, target, rule)
+
+
+@jit
+def _begin_step(block: Array) -> int:
+    outcome = _why_ended(block)
+    if outcome != status.OK:
+        return outcome
     clear_records(block)
-    feed(block, ports(block).held_inputs)  # a restored state brings its own
     if inputs_changed(block):
-        outcome = resume(block)
-        if outcome != status.OK:
-            return outcome
+        return resume(block)
+    return status.OK
+
+
+@jit
+def _go_on(block: Array, target: float, rule: int) -> int:
+    now = course(block)
+    outcome = _why_ended(block)
+    if outcome != status.OK:
+        return outcome
+    if now.clock[codes.TIME] < now.clock[codes.STEP_END] and target < now.clock[codes.STEP_END]:
+        now.clock[codes.TIME] = target  # the engine has been there already
+    else:
+        outcome = _move(block, target, rule)
+    show_reached(block)
+    return outcome
+
+
+@jit
+def _why_ended(block: Array) -> int:
+    """The status of an event that has failed, or `status.OK`."""
+    counters = course(block).counters
+    if counters[codes.PENDING_GUARD] == codes.GUARD_FAILED:
+        failed: int = counters[codes.PENDING_SUBJECT]
+        return failed
+    return status.OK
+
+
+@jit
+def _move(block: Array, target: float, rule: int) -> int:
+    """Step after step, event after event, until there is a reason to stop; return a status."""
+    now = course(block)
+    feed(block, ports(block).held_inputs)  # a restored state brings its own
+    if now.counters[codes.RAMPING] != 0:
+        now.clock[codes.RAMP_END] = target
     for _ in range(MOST_STEPS):
         begins = now.counters[codes.PENDING_GUARD] == codes.GUARD_BEGIN
         if now.clock[codes.TIME] >= now.clock[codes.STEP_END] and not begins:
@@ -68,8 +126,10 @@ def advance(block: Array, target: float) -> int:
             now.clock[codes.TIME] = target
             return status.OK
         now.clock[codes.TIME] = now.clock[codes.STEP_END]
+        impacts = now.counters[codes.COUNT_IMPACTS]
         guard = now.counters[codes.PENDING_GUARD]
         if guard != codes.GUARD_NONE:
+            feed_at(block, now.clock[codes.STEP_END])
             outcome = transit(block, guard, now.counters[codes.PENDING_SUBJECT])
             if outcome != status.OK:
                 now.counters[codes.PENDING_GUARD] = codes.GUARD_FAILED
@@ -77,6 +137,9 @@ def advance(block: Array, target: float) -> int:
                 return outcome
             restart(block)
             now.clock[codes.NEXT_STEP] = initial_step_size(block)
+        struck = now.counters[codes.COUNT_IMPACTS] > impacts
+        if rule == codes.STOP_AT_STEP or (rule == codes.STOP_AT_IMPACT and struck):
+            return status.OK
     return status.TOO_MANY_STEPS
 
 
@@ -89,13 +152,14 @@ def restart(block: Array) -> None:
     now.clock[codes.STEP_SIZE] = 0.0
     now.counters[codes.PENDING_GUARD] = codes.GUARD_NONE
     now.counters[codes.PENDING_SUBJECT] = codes.NONE
+    feed_at(block, now.clock[codes.STEP_END])
     derivative(block, now.y_end, now.dy_end)
     watch_at(block, now.clock[codes.STEP_END])
 
 
 @jit
 def resume(block: Array) -> int:
-    """Drop what lies ahead of TIME, because the inputs have changed; return a status."""
+    """Drop what lies ahead of TIME, because the inputs or their slopes have changed; return a status."""
     keep_small()
     now = course(block)
     table = contacts(block)
@@ -123,9 +187,12 @@ def _step_back(block: Array) -> None:
     keep_small()
     now = course(block)
     s = stages(block)
+    start = now.clock[codes.STEP_START]
+    feed(block, ports(block).held_inputs)
+    feed_at(block, start)
     copy(now.dense[0], s.y_start)
     derivative(block, s.y_start, s.derivatives[0])
-    try_step(block, now.clock[codes.TIME] - now.clock[codes.STEP_START])
+    try_step(block, start, now.clock[codes.TIME] - start)
     copy(s.y_new, now.y_end)
 
 
@@ -150,17 +217,21 @@ def take_step(block: Array) -> int:
     start = now.clock[codes.STEP_END]
     copy(now.y_end, s.y_start)
     copy(now.dy_end, s.derivatives[0])
-    step = representable(start, now.clock[codes.NEXT_STEP])
+    wanted = now.clock[codes.NEXT_STEP]
+    step = representable(start, _within_ramp(block, start, wanted))
     smallest = _SMALLEST_STEP * max(1.0, abs(start))
-    error = _try(block, step)
+    error = _try(block, start, step)
     grow_most = _GROW_MOST
     while not error <= 1.0:
         step = representable(start, step * _scale(error, 1.0))
         grow_most = 1.0
         if not step > smallest:
             return _why_no_step(block)
-        error = _try(block, step)
+        error = _try(block, start, step)
     now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
+    ramping = now.counters[codes.RAMPING] != 0
+    if ramping and grow_most > 1.0 and step < wanted:  # cut short by the slopes' end alone
+        now.clock[codes.NEXT_STEP] = max(now.clock[codes.NEXT_STEP], wanted)
 
     guard, subject, fraction = first_event(block)
     if guard != codes.GUARD_NONE:
@@ -172,7 +243,7 @@ def take_step(block: Array) -> int:
         if guard == codes.GUARD_GAP:
             step = refine(block, subject, step)
         else:
-            try_step(block, step)
+            try_step(block, start, step)
         if math.isnan(s.y_new[s.y_new.shape[0] - 1]):
             return _why_no_step(block)
     now.counters[codes.PENDING_GUARD] = guard
@@ -181,6 +252,8 @@ def take_step(block: Array) -> int:
     now.clock[codes.STEP_START] = start
     now.clock[codes.STEP_SIZE] = step
     now.clock[codes.STEP_END] = start + step
+    if ramping and abs(start + step - now.clock[codes.RAMP_END]) <= smallest:
+        now.clock[codes.STEP_END] = now.clock[codes.RAMP_END]
     copy(s.y_new, now.y_end)
     copy(s.derivatives[6], now.dy_end)
     for r in range(5):
@@ -191,8 +264,19 @@ def take_step(block: Array) -> int:
         struck = subject
     release(block, struck)
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
+        feed_at(block, now.clock[codes.STEP_END])
         derivative(block, now.y_end, now.dy_end)
     return status.OK
+
+
+@jit
+def _within_ramp(block: Array, start: float, step: float) -> float:
+    """The step, or what is left until slopes of inputs end."""
+    now = course(block)
+    left: float = now.clock[codes.RAMP_END] - start
+    if now.counters[codes.RAMPING] != 0 and step > _NEARLY * left:
+        return left
+    return step
 
 
 @jit
@@ -207,11 +291,11 @@ def _why_no_step(block: Array) -> int:
 
 
 @jit
-def _try(block: Array, step: float) -> float:
-    """Try a step; return its error, or how much too far a body turns if that shortens the step more."""
+def _try(block: Array, start: float, step: float) -> float:
+    """Try a step from `start`; return its error, or how much too far a body turns if that shortens the step more."""
     keep_small()
     s = stages(block)
-    error = try_step(block, step)
+    error = try_step(block, start, step)
     if sizes(block).guards == 0:
         return error
     turn = 0.0

@@ -198,18 +198,26 @@ watch = room(Watch, "guard_watched", "guard_armed", "guard_floor", "guard_now", 
 
 
 class Ports(NamedTuple):
-    """Inputs and outputs: which table entries they write and read, and their values."""
+    """Inputs and outputs: which table entries they write and read, and their values.
+
+    `inputs` and `input_slopes` (unit of the input per second) are what the outside sets. When a communication step
+    begins, the motion takes them as `held_inputs` and `held_slopes`, and `input_slopes` become zero; where it stops,
+    `inputs` become the values reached.
+    """
 
     input_force: Array
     input_column: Array
     input_start: Array
     inputs: Array
     held_inputs: Array
+    input_slopes: Array
+    held_slopes: Array
     output_kind: Array
     output_index: Array
     output_slot: Array
     output_value: Array
     outputs: Array
+    output_rates: Array
 
 
 ports = room(
@@ -219,11 +227,14 @@ ports = room(
     "input_start",
     "inputs",
     "held_inputs",
+    "input_slopes",
+    "held_slopes",
     "output_kind",
     "output_index",
     "output_slot",
     "output_value",
     "outputs",
+    "output_rates",
 )
 
 
@@ -329,9 +340,10 @@ loads = room(Loads, "force", "applied", "last_multiplier", "free_acceleration", 
 
 
 class Stages(NamedTuple):
-    """Scratch of one Runge-Kutta step."""
+    """Scratch of one Runge-Kutta step; `tried`: start and size of the one last tried [s]."""
 
     derivatives: Array
+    tried: Array
     y_start: Array
     y_stage: Array
     y_new: Array
@@ -340,7 +352,7 @@ class Stages(NamedTuple):
     new_dense: Array
 
 
-stages = room(Stages, "stages", "y_start", "y_stage", "y_new", "y_at", "dy_at", "new_dense")
+stages = room(Stages, "stages", "tried", "y_start", "y_stage", "y_new", "y_at", "dy_at", "new_dense")
 
 
 class Options(NamedTuple):

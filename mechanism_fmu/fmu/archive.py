@@ -45,19 +45,19 @@ def with_guid(entries: Mapping[str, bytes]) -> dict[str, bytes]:
     return {**entries, DESCRIPTION: to_bytes(root)}
 
 
-def write_archive(entries: Mapping[str, bytes], path: Path) -> None:
+def write_archive(entries: Mapping[str, bytes], path: Path, compression: int = zipfile.ZIP_STORED) -> None:
     """Write an FMU: sorted, with fixed times and permissions, and never half of it.
 
-    Nothing is compressed, because the bytes would then depend on the version of zlib.
+    What is stored is the same everywhere; what is compressed depends on the version of zlib.
     """
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        with zipfile.ZipFile(temporary, "w", zipfile.ZIP_STORED) as archive:
+        with zipfile.ZipFile(temporary, "w", compression, compresslevel=9) as archive:
             for name, contents in sorted(entries.items()):
                 info = zipfile.ZipInfo(name, _TIME)
                 info.create_system = 3  # Unix, on every system
                 info.external_attr = (_PROGRAM if name.startswith("binaries/") else _FILE) << 16
-                archive.writestr(info, contents)
+                archive.writestr(info, contents, compression, 9)
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)

@@ -27,39 +27,20 @@ pre { background: #f6f6f6; padding: .8rem; overflow-x: auto; }
 img { max-width: 100%; }
 """
 
-#: What pythonfmu's wrapper decides by itself, whatever the model does.
-_WRAPPER = (
-    "The FMU needs a 64-bit Python 3.11 or later with the packages of <code>resources/requirements.txt</code>; "
-    "binaries for Linux and Windows are inside.",
-    "A host that is not itself Python must load the Python library first, on Linux with "
-    "<code>LD_PRELOAD</code> and the full path of, for example, <code>libpython3.11.so</code>, and lets Python find "
-    "the packages with <code>PYTHONPATH</code>. Hosts that refuse <code>needsExecutionTool</code> cannot run it.",
-    "A value or a call that is refused gives a message in the log and the status <em>fatal</em>, because the wrapper "
-    "knows no milder one; the instance can be reset or freed all the same. Messages arrive only if the host switched "
-    "logging on.",
-    "Any GUID and any FMU type are accepted at instantiation.",
-    "Unzip the FMU to a path of ASCII letters without <code># % + ? &amp;</code>; other paths crash the host.",
-    "Each instantiation in the same process costs less than 1 kB of memory that is not given back.",
-    "The first start compiles the engine (some seconds) and keeps the result in the user's cache directory, in a "
-    "folder <code>mechanism_fmu</code>; the environment variable <code>MECHANISM_FMU_CACHE</code> chooses another. "
-    "The folder may be deleted at any time.",
-)
-
-
-def documentation(model: Model, folder: Path) -> dict[str, bytes]:
+def documentation(model: Model, folder: Path, facts: Sequence[str], licences: Sequence[str]) -> dict[str, bytes]:
     """Files of the FMU's folder `documentation`, by their path within the FMU.
 
     Args:
         model: what the FMU simulates.
         folder: of the model; its README.md, if there, becomes part of the page, with its pictures.
+        facts: what there is to know when this flavour of FMU is run, as HTML.
+        licences: distributions whose code travels in the FMU.
     """
-    licences = {
-        f"documentation/licenses/{name}.txt": licence_text(name).encode() for name in ("mechanism_fmu", "pythonfmu")
-    }
-    return {"documentation/index.html": page(model, folder).encode(), **licences}
+    texts = {f"documentation/licenses/{name}.txt": licence_text(name).encode() for name in licences}
+    return {"documentation/index.html": page(model, folder, facts).encode(), **texts}
 
 
-def page(model: Model, folder: Path) -> str:
+def page(model: Model, folder: Path, facts: Sequence[str]) -> str:
     """The page of a model as HTML; see `documentation`."""
     variables = variables_of(model)
     readme = folder / "README.md"
@@ -79,7 +60,7 @@ def page(model: Model, folder: Path) -> str:
         f"{_markdown(readme.read_text(encoding='utf-8'), folder) if readme.is_file() else ''}"
         f"<h2>Variables</h2>\n{tables}"
         f"{_modes(model, folder)}"
-        f"<h2>Running this FMU</h2>\n<ul>\n{''.join(f'<li>{fact}</li>{chr(10)}' for fact in _WRAPPER)}</ul>\n"
+        f"<h2>Running this FMU</h2>\n<ul>\n{''.join(f'<li>{fact}</li>{chr(10)}' for fact in facts)}</ul>\n"
         "</body></html>\n"
     )
 

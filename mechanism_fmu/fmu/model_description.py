@@ -26,6 +26,10 @@ LOG_CATEGORIES = {
     "logAll": "All messages.",
 }
 
+#: Capability flags in which the flavours differ. Of the machine that runs it, the one by pythonfmu asks for a Python.
+_BY_PYTHONFMU = {"needsExecutionTool": "true", "canNotUseMemoryManagementFunctions": "true"}
+_NATIVE = {"needsExecutionTool": "false", "canInterpolateInputs": "true", "maxOutputDerivativeOrder": "1"}
+
 #: Declared type (its name is also the quantity, as in the Modelica Standard Library) of a unit.
 _TYPES = {
     "rad": "Angle",
@@ -45,12 +49,13 @@ _TYPES = {
 }
 
 
-def model_description(model: Model, guid: str) -> Element:
+def model_description(model: Model, guid: str, native: bool = False) -> Element:
     """The root element `fmiModelDescription` of a model's FMU.
 
     Args:
         model: what the FMU simulates.
         guid: fingerprint of the FMU.
+        native: the FMU needs no Python where it runs.
 
     Raises:
         UnitError: a port has a unit or display unit that cannot be.
@@ -63,10 +68,10 @@ def model_description(model: Model, guid: str) -> Element:
         guid=guid,
         description=model.description,
         version=__version__,
-        generationTool=f"mechanism_fmu {__version__} (pythonfmu {pythonfmu_version})",
+        generationTool=f"mechanism_fmu {__version__}" + ("" if native else f" (pythonfmu {pythonfmu_version})"),
         variableNamingConvention="structured",
     )
-    _co_simulation(root, model)
+    _co_simulation(root, model, _NATIVE if native else _BY_PYTHONFMU)
     unit_definitions(root, variables)
     types = common_types(variables)
     _type_definitions(root, types)
@@ -85,18 +90,16 @@ def to_bytes(root: Element) -> bytes:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{tostring(root, encoding="unicode")}\n'.encode()
 
 
-def _co_simulation(root: Element, model: Model) -> None:
+def _co_simulation(root: Element, model: Model, flags: dict[str, str]) -> None:
     """Capability flags (section 4.3.1)."""
     SubElement(
         root,
         "CoSimulation",
         modelIdentifier=model.name,
-        # Of the machine that runs it the FMU asks for a Python with numpy and numba.
-        needsExecutionTool="true",
         canHandleVariableCommunicationStepSize="true",
-        canNotUseMemoryManagementFunctions="true",
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
+        **flags,
     )
 
 

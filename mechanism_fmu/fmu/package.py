@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import keyword
 import re
 import sys
 import tempfile
@@ -13,18 +12,34 @@ from types import ModuleType
 
 from pythonfmu.builder import FmuBuilder
 
-from ..model import MechanismError, Model
+from ..model import MechanismError
 from .archive import content_hash, read_entries, with_guid, write_archive
 from .closure import Home, closure
-from .documentation import documentation
-from .drawing import drawing
-from .logic import logic
+from .contents import common_entries, file_in, model_of
 from .project import dependencies
 
 _LIBRARY = Path(__file__).parents[1]
 
 #: Imports that ask for nothing: pythonfmu travels in the FMU, and numba brings llvmlite.
 _BROUGHT_ALONG = {"pythonfmu", "llvmlite"}
+
+#: What pythonfmu's wrapper decides by itself, whatever the model does.
+_WRAPPER = (
+    "The FMU needs a 64-bit Python 3.11 or later with the packages of <code>resources/requirements.txt</code>; "
+    "binaries for Linux and Windows are inside.",
+    "A host that is not itself Python must load the Python library first, on Linux with "
+    "<code>LD_PRELOAD</code> and the full path of, for example, <code>libpython3.11.so</code>, and lets Python find "
+    "the packages with <code>PYTHONPATH</code>. Hosts that refuse <code>needsExecutionTool</code> cannot run it.",
+    "A value or a call that is refused gives a message in the log and the status <em>fatal</em>, because the wrapper "
+    "knows no milder one; the instance can be reset or freed all the same. Messages arrive only if the host switched "
+    "logging on.",
+    "Any GUID and any FMU type are accepted at instantiation.",
+    "Unzip the FMU to a path of ASCII letters without <code># % + ? &amp;</code>; other paths crash the host.",
+    "Each instantiation in the same process costs less than 1 kB of memory that is not given back.",
+    "The first start compiles the engine (some seconds) and keeps the result in the user's cache directory, in a "
+    "folder <code>mechanism_fmu</code>; the environment variable <code>MECHANISM_FMU_CACHE</code> chooses another. "
+    "The folder may be deleted at any time.",
+)
 
 #: The slave file: it only imports, because a class defined here would leak at every instantiation.
 _SLAVE = '''"""What pythonfmu's wrapper runs first; the code is in the package beside this file."""
@@ -52,12 +67,8 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
         MechanismError: the module has no model, or a model that cannot travel.
         OSError: the destination cannot be written.
     """
-    model, folder = _model_of(module)
-    if destination.suffix == ".fmu" or destination.is_file():
-        raise MechanismError(
-            f"{destination} is not a folder; give the folder for {model.name}.fmu (tools expect that file name)."
-        )
-    destination.mkdir(parents=True, exist_ok=True)
+    model, folder = model_of(module)
+    path = file_in(destination, f"{model.name}.fmu")
     place = f"models.{model.name.lower()}"
     homes = (Home("mechanism_fmu", _LIBRARY, ""), Home(module.__name__.rpartition(".")[0], folder, place))
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
@@ -78,22 +89,9 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
             **{f"{package}/{name}": contents for name, contents in code.items()},
         },
     )
-    entries |= documentation(model, folder) | drawing(model) | logic(model)
-    entries["model.png"] = _icon(folder)
-    path = destination / f"{model.name}.fmu"
+    entries |= common_entries(model, folder, _WRAPPER, ("mechanism_fmu", "pythonfmu"))
     write_archive(with_guid(entries), path)
     return path
-
-
-def _model_of(module: ModuleType) -> tuple[Model, Path]:
-    model = getattr(module, "MODEL", None)
-    if not isinstance(model, Model) or module.__file__ is None:
-        raise MechanismError(f"{module.__name__} holds no model; it must set MODEL = Model(...).")
-    if not re.fullmatch(r"[A-Za-z_]\w*", model.name, re.ASCII) or keyword.iskeyword(model.name):
-        raise MechanismError(
-            f"The model name {model.name!r} cannot name an FMU; use letters, digits and '_', and no Python keyword."
-        )
-    return model, Path(module.__file__).parent
 
 
 def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str, bytes]:
@@ -144,9 +142,3 @@ def _requirements(packages: set[str]) -> list[str]:
             "an FMU can ask for nothing else. Remove the import."
         )
     return [pins[name] for name in sorted(needed)]
-
-
-def _icon(folder: Path) -> bytes:
-    """The model's own icon, or the library's."""
-    own = folder / "model.png"
-    return (own if own.is_file() else _LIBRARY / "fmu" / "model.png").read_bytes()

@@ -82,7 +82,7 @@ class MechanismSlave(Fmi2Slave):
         require(self._phase, (Phase.INITIALIZATION,), "fmi2ExitInitializationMode")
         values = self.model.checked(self._parameter_values())
         self._prepared()
-        for warning in self.model.warnings(values):
+        for warning in self.model.warned(values):
             self.log(warning, Fmi2Status.warning)
         self._phase = Phase.STEPPING
         self._tell()

@@ -112,7 +112,7 @@ def _release_interpreter_once(fmu: Path, known: bool) -> None:
 def _cached(source: Path) -> Path:
     """A folder outside the FMU with the files of `source`."""
     try:
-        folder = _cache_directory() / "mechanism_fmu" / source.name
+        folder = cache_directory() / "mechanism_fmu" / source.name
         _synchronize(source, folder)
         if not os.access(folder, os.W_OK):
             raise PermissionError(f"{folder} is read-only")
@@ -130,7 +130,7 @@ def _cached(source: Path) -> Path:
     return folder
 
 
-def _cache_directory() -> Path:
+def cache_directory() -> Path:
     """Where the operating system wants caches of the user (XDG Base Directory Specification on Linux)."""
     if chosen := os.environ.get(CACHE_VARIABLE):
         return Path(chosen).absolute()

@@ -6,6 +6,7 @@ from .compile import MechanismTables
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
 from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
 from .errors import MechanismError
+from .findings import Finding
 from .forces import CompliantShaft, Damper, Force, Torque, TorsionSpring
 from .joints import Revolute, Translational
 from .logic import LogicalFunction
@@ -28,6 +29,7 @@ __all__ = [
     "Contact",
     "Damper",
     "Disc",
+    "Finding",
     "Force",
     "Hinge",
     "Input",

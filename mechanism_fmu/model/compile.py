@@ -152,12 +152,15 @@ def coordinate_index(name: str, mechanism: Mechanism) -> int:
 
 
 def _integers(values: Sequence[int]) -> Table:
-    return np.array(values, dtype=np.int64)
+    return np.array(values, dtype=object if _symbolic(values) else np.int64)
 
 
 def _numbers(values: Sequence[Number]) -> Table:
-    symbolic = any(not isinstance(v, (int, float, np.number, np.bool_)) for v in values)
-    return np.array(values, dtype=object if symbolic else np.float64)
+    return np.array(values, dtype=object if _symbolic(values) else np.float64)
+
+
+def _symbolic(values: Sequence[Number]) -> bool:
+    return any(not isinstance(v, (int, float, np.number, np.bool_)) for v in values)
 
 
 def _rows(rows: Sequence[Sequence[Number]], columns: int) -> Table:

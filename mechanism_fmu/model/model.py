@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Protocol
 
 from .drawing import Shape
 from .errors import MechanismError
+from .findings import Finding, messages
 from .mechanism import Mechanism
 from .ports import Parameter
 
 
-def _no_objection(_values: SimpleNamespace) -> list[str]:
-    return []
+def _nothing(_values: SimpleNamespace) -> Sequence[Finding]:
+    return ()
 
 
 @dataclass(frozen=True)
@@ -28,8 +29,8 @@ class Model:
         parameters: all parameters with their limits.
         mechanism: pure function from parameter values (attributes of its one argument, by name) to the mechanism:
             plain arithmetic and `model.functions` only, no branching on structure, so that symbolic numbers pass.
-        objections: what is wrong with values that are each within their limits, as messages for the user; it is asked
-            before the mechanism is assembled and may use any Python.
+        objections: pure function, as `mechanism` is, to what is wrong with values that are each within their limits;
+            it is asked first, so it must not fail where `mechanism` would.
         warnings: likewise, for what is legal but deserves a line in the log.
         stop_time, step_size: default experiment [s].
         drawing: how its FMU can be drawn, in terms of the FMU's variables; () when it cannot.
@@ -39,8 +40,8 @@ class Model:
     description: str
     parameters: tuple[Parameter, ...]
     mechanism: Callable[[SimpleNamespace], Mechanism]
-    objections: Callable[[SimpleNamespace], list[str]] = _no_objection
-    warnings: Callable[[SimpleNamespace], list[str]] = _no_objection
+    objections: Callable[[SimpleNamespace], Sequence[Finding]] = _nothing
+    warnings: Callable[[SimpleNamespace], Sequence[Finding]] = _nothing
     stop_time: float = 1.0
     step_size: float = 1e-3
     drawing: tuple[Shape, ...] = ()
@@ -76,10 +77,18 @@ class Model:
         Raises:
             MechanismError: with all objections.
         """
-        objections = self.objections(values)
-        if objections:
-            raise MechanismError(" ".join(objections))
+        refused = self.refused(values)
+        if refused:
+            raise MechanismError(" ".join(refused))
         return self.mechanism(values)
+
+    def refused(self, values: SimpleNamespace) -> list[str]:
+        """Messages of the objections that apply to parameter values."""
+        return messages(self.objections(values))
+
+    def warned(self, values: SimpleNamespace) -> list[str]:
+        """Messages of the warnings that apply to parameter values."""
+        return messages(self.warnings(values))
 
 
 class Limited(Protocol):

@@ -67,15 +67,18 @@ def sawtooth(tooth_count: Number, slope_angle: Number, inner_radius: Number, slo
     # is the face that ends in P0.
     dx, dy = apex[0] - r * cos(theta), apex[1] + r * sin(theta)
     F = sqrt(dx * dx + dy * dy)
-    face = ((dx * cos(theta) - dy * sin(theta)) / F, (dx * sin(theta) + dy * cos(theta)) / F)
+    # Teeth without height may have a face without length: they are refused, but not by a division by zero.
+    divisor = where_positive(F, F, 1.0)
+    face = ((dx * cos(theta) - dy * sin(theta)) / divisor, (dx * sin(theta) + dy * cos(theta)) / divisor)
     slope_normal, face_normal = (sin(slope_angle), -cos(slope_angle)), (face[1], -face[0])
     # Normal of the next tooth's face, which begins in T, minus normal of the slope, which ends there.
     bx = cos(theta) * face_normal[0] + sin(theta) * face_normal[1] - slope_normal[0]
     by = cos(theta) * face_normal[1] - sin(theta) * face_normal[0] - slope_normal[1]
     B = sqrt(bx * bx + by * by)
+    B = where_positive(B, B, 1.0)
     # L cos(alpha): from the apex to the foot of the perpendicular from P0 on the line of the face. The foot
     # lies beyond the next root when alpha + alpha_2 < 90 deg; the beam then ends at that root (Fig. 7, left).
-    foot = L * (L - h * cos(alpha_2)) / F
+    foot = L * (L - h * cos(alpha_2)) / divisor
     return Sawtooth(
         pitch=theta,
         chord=h,

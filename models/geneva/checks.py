@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from types import SimpleNamespace
+
+from mechanism_fmu.model import Finding
+from mechanism_fmu.model.findings import at_most
 
 from .geometry import geneva
 
 
-def objections(values: SimpleNamespace) -> list[str]:
-    """Why the drive cannot be built: value, limit and way out, one message each."""
-    return list(_pin(values))
-
-
-def _pin(values: SimpleNamespace) -> Iterator[str]:
+def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
+    """Why the drive cannot be built: value, limit and way out."""
     geometry = geneva(values)
     limits = {
         "no locking disc is left beside it": geometry.slot_depth,
         "the slots run into each other where they end": geometry.slot_spacing,
     }
-    for reason, most in limits.items():
-        if values.pin_diameter >= most:
-            yield (
-                f"pin_diameter = {values.pin_diameter:.6g} m is too thick for slot_count = {values.slot_count:g} and "
-                f"centre_distance = {values.centre_distance:.6g} m: {reason}. Give less than {most:.6g} m, or a larger "
-                "centre_distance."
-            )
+    return tuple(
+        Finding(
+            at_most(most, values.pin_diameter),
+            "pin_diameter = {:.6g} m is too thick for slot_count = {:g} and centre_distance = {:.6g} m: "
+            f"{reason}. Give less than {{:.6g}} m, or a larger centre_distance.",
+            (values.pin_diameter, values.slot_count, values.centre_distance, most),
+        )
+        for reason, most in limits.items()
+    )

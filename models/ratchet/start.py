@@ -81,4 +81,5 @@ def angle_near_wheel(values: SimpleNamespace) -> Number:
 def tip_distance(values: SimpleNamespace) -> Number:
     """Start distance of the guided pawl's tip from the struck root, along the slope [m]. Needs |height| <= b."""
     pin, b = crank_pin(values), values.pawl_length
-    return pin.distance - sqrt(b * b - pin.height * pin.height)
+    rest = b * b - pin.height * pin.height
+    return pin.distance - sqrt(where_positive(rest, rest, 0.0))

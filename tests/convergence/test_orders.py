@@ -52,7 +52,7 @@ def fixed_steps(block, y, step, count, fractions, inside):
     for _ in range(count):
         s.y_start[:] = y
         derivative(block, y, s.derivatives[0])
-        try_step(block, step)
+        try_step(block, 0.0, step)
         y[:] = s.y_new
     for f in range(fractions.shape[0]):
         interpolate(s.new_dense, fractions[f], inside[f])

@@ -19,6 +19,18 @@ def geneva(geneva_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
     return Fmu.unzip(geneva_fmu, tmp_path_factory.mktemp("geneva"))
 
 
+@pytest.fixture(scope="session")
+def native_ratchet(native_ratchet_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The native ratchet's FMU, unzipped."""
+    return Fmu.unzip(native_ratchet_fmu, tmp_path_factory.mktemp("native_ratchet"))
+
+
+@pytest.fixture(scope="session")
+def native_geneva(native_geneva_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The native Geneva drive's FMU, unzipped."""
+    return Fmu.unzip(native_geneva_fmu, tmp_path_factory.mktemp("native_geneva"))
+
+
 @pytest.fixture
 def instance(ratchet: Fmu) -> Iterator[Callable[..., Instance]]:
     """A function that makes instances of the ratchet; they are freed after the test."""

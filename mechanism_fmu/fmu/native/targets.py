@@ -26,7 +26,7 @@ class Target:
 
 TARGETS = (
     Target("x86_64-linux", "linux64", "x86_64-unknown-linux-gnu", "x86_64-linux-gnu.2.17", ".so"),
-    Target("x86_64-windows", "win64", "x86_64-pc-windows-gnu", "x86_64-windows-gnu", ".dll"),
+    Target("x86_64-windows", "win64", "x86_64-pc-windows-msvc", "x86_64-windows-gnu", ".dll"),
     Target("x86_64-darwin", "darwin64", "x86_64-apple-macosx11.0.0", "x86_64-macos.11.0", ".dylib"),
     Target("aarch64-linux", "aarch64-linux", "aarch64-unknown-linux-gnu", "aarch64-linux-gnu.2.17", ".so"),
     Target("aarch64-darwin", "aarch64-darwin", "arm64-apple-macosx11.0.0", "aarch64-macos.11.0", ".dylib"),

@@ -1,4 +1,4 @@
-"""The FMUs that every conformance test runs on: a new model is one more entry of `SUBJECTS`."""
+"""The FMUs that every conformance test runs on, in both flavours: a new model is one more entry of `SUBJECTS`."""
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -10,7 +10,7 @@ from tests.fmu.conformance.alone import refusals, run_alone
 from tests.fmu.conformance.host import Instance
 from tests.fmu.conformance.subject import Subject
 
-#: By the name of the session fixture that gives the unzipped FMU.
+#: By the name of the session fixture that gives the unzipped FMU; the native flavour's has "native_" before it.
 SUBJECTS: dict[str, dict[str, Any]] = {
     "ratchet": {
         "rough": {"restitution": 0.5, "tooth_count": 15},
@@ -35,12 +35,13 @@ SUBJECTS: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.fixture(scope="session", params=SUBJECTS)
+@pytest.fixture(scope="session", params=[flavour + name for name in SUBJECTS for flavour in ("", "native_")])
 def subject(request: pytest.FixtureRequest) -> Subject:
     """An FMU that has shown in another process that what it refuses does not end the host."""
     fmu = request.getfixturevalue(request.param)
     run_alone(refusals, fmu.folder)
-    return Subject(fmu, **SUBJECTS[request.param])
+    native = request.param.startswith("native_")
+    return Subject(fmu, native=native, **SUBJECTS[request.param.removeprefix("native_")])
 
 
 @pytest.fixture

@@ -146,6 +146,11 @@ class Instance:
     def reference(self, name: str) -> int:
         return int(self._by_name[name].valueReference)
 
+    @property
+    def refusal(self) -> str:
+        """Why the last call that was refused was refused."""
+        return [message.text for message in self.log if message.category == "logStatusError"][-1]
+
     # --- states ---
 
     def save(self) -> c_void_p:

@@ -18,6 +18,7 @@ class Subject:
         inputs: range of each input in which the motion stays smooth enough for short tests.
         until: a time [s] by which the rough run has had impacts.
         impossible: parameter values that are each within their limits, and that no mechanism can have together.
+        native: whether no Python runs in it.
     """
 
     fmu: Fmu
@@ -25,6 +26,7 @@ class Subject:
     inputs: Mapping[str, tuple[float, float]]
     until: float
     impossible: Mapping[str, Value]
+    native: bool = False
 
     def reference(self, one: Instance, until: float | None = None) -> dict[str, Value]:
         """All outputs at the end of the rough run."""

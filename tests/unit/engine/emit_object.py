@@ -22,8 +22,9 @@ import numpy as np
 from numba import types
 
 from mechanism_fmu.engine.assembly import begin
+from mechanism_fmu.engine.output_rates import read_output_rates
 from mechanism_fmu.engine.outputs import read_outputs
-from mechanism_fmu.engine.stepper import advance
+from mechanism_fmu.engine.stepper import advance, begin_step, go_on
 from mechanism_fmu.engine.subset import entry
 
 TRIPLE = "x86_64-unknown-linux-gnu"
@@ -41,7 +42,14 @@ def engine() -> Any:
             return begin(memory, time)
         if which == 1:
             return advance(memory, time)
-        read_outputs(memory)
+        if which == 2:
+            return begin_step(memory)
+        if which == 3:
+            return go_on(memory, time, words)
+        if which == 4:
+            read_output_rates(memory)
+        else:
+            read_outputs(memory)
         return 0
 
     return mechanism

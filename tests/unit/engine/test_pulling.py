@@ -7,6 +7,7 @@ import pytest
 from carried import FREQUENCY, LARGEST, carried, seat_force
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from mechanism_fmu import codes
 from mechanism_fmu.simulation import Simulation
@@ -80,3 +81,14 @@ def test_the_first_pull_is_kept_when_an_input_changes_later():
         simulation.set_input("torque", -press * LARGEST)
     assert simulation.pulling_contacts() == {"seat": pytest.approx(first_pull(0.0), abs=1e-6)}
     assert simulation.counters[codes.COUNT_PULLS] == 1
+
+
+@settings(deadline=None, max_examples=20)
+@given(st.floats(0.0, 0.9), st.floats(-0.5, -0.1))
+def test_the_first_pull_under_a_torque_that_ramps(press, slope):
+    """Located inside a step, where the force is that of the torque at that time."""
+    expected = brentq(lambda t: press + slope * t + math.cos(FREQUENCY * t), 0.0, math.pi / FREQUENCY, xtol=1e-14)
+    simulation = Simulation(carried(press, tolerance=1e-12))
+    simulation.set_slope("torque", -slope * LARGEST)
+    simulation.advance(3.0)
+    assert simulation.pulling_contacts() == {"seat": pytest.approx(expected, abs=2e-8)}

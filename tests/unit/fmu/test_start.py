@@ -264,7 +264,7 @@ def test_the_cache_directory_is_the_systems(
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
     monkeypatch.setattr(sys, "platform", platform)
-    assert original._cache_directory() == Path(expected)
+    assert original.cache_directory() == Path(expected)
 
 
 def test_tidying_up_keeps_one_entry_and_returns_the_borrowed_reference(

@@ -34,7 +34,7 @@ def gap(values, normal):
 @pytest.mark.parametrize(("teeth", "angle"), PAPER)
 def test_no_case_of_the_paper_is_refused(teeth, angle):
     values = paper_values(teeth, angle)
-    assert MODEL.objections(values) == []
+    assert MODEL.refused(values) == []
     MODEL.build(values).compile()
 
 
@@ -56,12 +56,12 @@ def test_start_angle_of_the_paper_holds_between_90_and_95_degrees():
 
 @pytest.mark.parametrize(("teeth", "angle"), PAPER)
 def test_only_the_wheels_with_25_teeth_start_beyond_the_apex(teeth, angle):
-    warnings = MODEL.warnings(paper_values(teeth, angle))
+    warnings = MODEL.warned(paper_values(teeth, angle))
     assert len(warnings) == (1 if teeth == 25 else 0)
 
 
 def test_warning_says_by_how_much_the_tip_is_beyond_the_apex():
-    (warning,) = MODEL.warnings(paper_values(25, 90))
+    (warning,) = MODEL.warned(paper_values(25, 90))
     # tip 31.7268 mm from the root, slope 1.115 * 0.2 m sin(7.2 deg) = 27.9493 mm
     for fragment in ("0.00377749 m beyond the apex", "0.0317268 m", "0.0279493 m", "fewer", "slope_ratio"):
         assert fragment in warning
@@ -149,7 +149,7 @@ def slopes_in_reach(values):
     )
 )
 def test_a_free_pawl_starts_with_its_tip_on_the_profile_wherever_it_reaches_a_slope(changes):
-    if MODEL.objections(MODEL.values(guided=0, **changes)):
+    if MODEL.refused(MODEL.values(guided=0, **changes)):
         return
     try:
         values, tip = free_start(**changes)
@@ -180,7 +180,7 @@ def test_a_free_pawl_too_short_for_the_teeth_is_refused_with_the_missing_length(
     _, message = refused(guided=0, pawl_length=shortest - 0.01)
     assert "0.01 m too short" in message
     assert f"more than {shortest:.6g} m" in message
-    assert MODEL.objections(MODEL.values(guided=0, pawl_length=shortest + 0.01)) == []
+    assert MODEL.refused(MODEL.values(guided=0, pawl_length=shortest + 0.01)) == []
 
 
 @pytest.mark.parametrize(
@@ -197,7 +197,7 @@ def test_a_free_pawl_that_cannot_come_to_the_roots_is_refused_with_the_lengths_t
     assert least == pytest.approx(abs(distance - values.wheel_inner_radius), rel=1e-5)
     assert most == pytest.approx(distance + values.wheel_inner_radius, rel=1e-5)
     for length in (least + 1e-4, most - 1e-4):
-        assert MODEL.objections(MODEL.values(**changes | {"guided": 0, "pawl_length": length})) == []
+        assert MODEL.refused(MODEL.values(**changes | {"guided": 0, "pawl_length": length})) == []
 
 
 def test_a_given_pawl_angle_above_the_teeth_is_kept():
@@ -236,7 +236,7 @@ def test_blunt_teeth_are_refused_with_the_least_slope_ratio():
     _, message = refused(slope_ratio=0.9)
     assert "slope_ratio = 0.9" in message
     assert "more than 0.951057" in message  # cos 18 deg
-    assert MODEL.objections(MODEL.values(slope_ratio=0.952)) == []
+    assert MODEL.refused(MODEL.values(slope_ratio=0.952)) == []
 
 
 def test_short_pawl_is_refused_with_the_missing_length():
@@ -244,7 +244,7 @@ def test_short_pawl_is_refused_with_the_missing_length():
     _, message = refused(pawl_length=height - 0.01)
     assert "0.01 m too short" in message
     assert f"at least {height:.6g} m" in message
-    assert MODEL.objections(MODEL.values(pawl_length=height + 1e-9)) == []
+    assert MODEL.refused(MODEL.values(pawl_length=height + 1e-9)) == []
 
 
 def test_long_pawl_is_refused_with_the_excess_and_the_depth_behind_the_face():
@@ -255,7 +255,7 @@ def test_long_pawl_is_refused_with_the_excess_and_the_depth_behind_the_face():
     assert "0.02 m too long" in message
     assert f"{-gap(values, tooth.face_normal):.6g} m behind the face" in message
     assert f"less than {longest:.6g} m" in message
-    assert MODEL.objections(MODEL.values(pawl_length=longest - 1e-9)) == []
+    assert MODEL.refused(MODEL.values(pawl_length=longest - 1e-9)) == []
 
 
 @pytest.mark.parametrize(
@@ -325,12 +325,12 @@ def test_values_within_limits_are_refused_in_words_or_start_on_the_slope(changes
         values = MODEL.values(**changes)
     except MechanismError:
         return
-    objections = MODEL.objections(values)
+    objections = MODEL.refused(values)
     if objections:
         assert all(objection.endswith(".") for objection in objections)
         return
     MODEL.build(values).compile()
-    assert all("beyond the apex" in warning for warning in MODEL.warnings(values))
+    assert all("beyond the apex" in warning for warning in MODEL.warned(values))
     size = max(values.hinge_distance, values.crank_length, values.pawl_length, values.wheel_inner_radius)
     assert gap(values, tooth(values).slope_normal) == pytest.approx(0, abs=1e-12 * size)
     assert gap(values, tooth(values).face_normal) > -1e-12 * size

@@ -9,9 +9,9 @@
     Instance *x = c;        \
     if (!x) return fmi2Error
 
-static void pass_on(const Instance *x, Status status, const char *category, const char *text) {
+OWN_FRAME static void pass_on(const Instance *x, Status status, const char *category, const char *text) {
     /* The logger takes a printf format, in which % must be doubled. */
-    char format[4096];
+    char format[3000];
     size_t n = 0;
     for (; *text && n < sizeof format - 2; text++) {
         if (*text == '%') format[n++] = '%';

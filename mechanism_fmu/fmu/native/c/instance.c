@@ -49,7 +49,7 @@ void free_instance(Instance *x) { x->release(x); }
 
 void reset(Instance *x) {
     x->head = (Head){.phase = INSTANTIATED, .stop_time = INFINITY, .tolerance = INFINITY};
-    memcpy(x->block, model.block, model.words * sizeof(double));
+    memcpy(x->block, model.block, model.given * sizeof(double));
     const Variable *parameter = model.variables + model.inputs + model.outputs;
     for (size_t k = 0; k < model.parameters; k++)
         x->parameters[k] = parameter[k].start;
@@ -112,7 +112,8 @@ static Status check_parameters(const Instance *x) {
         size_t length = strlen(text);
         snprintf(text + length, sizeof text - length, "%s", length ? " " : "");
         length = strlen(text);
-        snprintf(text + length, sizeof text - length, model.objections[k].text, n[1], n[2], n[3], n[4], n[5], n[6]);
+        snprintf(text + length, sizeof text - length, model.objections[k].text, n[1], n[2], n[3], n[4], n[5], n[6], n[7],
+                 n[8]);
     }
     if (*text) return refuse(x, "%s", text);
     for (size_t k = 0; k < model.dependent_count; k++)
@@ -156,7 +157,8 @@ Status initialized(Instance *x) {
     if (prepare(x) != OK) return ERROR;
     for (size_t k = 0; k < model.warning_count; k++) {
         const double *n = x->findings + model.warnings[k].at;
-        if (n[0] > 0) say(x, WARNING, "logStatusWarning", model.warnings[k].text, n[1], n[2], n[3], n[4], n[5], n[6]);
+        if (n[0] > 0) say(x, WARNING, "logStatusWarning", model.warnings[k].text, n[1], n[2], n[3], n[4], n[5], n[6], n[7],
+                 n[8]);
     }
     x->head.phase = STEPPING;
     tell_news(x);

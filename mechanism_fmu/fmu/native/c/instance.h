@@ -85,8 +85,10 @@ Status deserialize(Instance *x, const unsigned char *bytes, size_t size, Saved *
 
 void tell_news(Instance *x);
 void forget_news(Instance *x);
-void say(const Instance *x, Status status, const char *category, const char *format, ...);
-Status refuse(const Instance *x, const char *format, ...);
+/* No frame may be larger than a page of the stack (4 kB): Windows would need a run-time library to grow the stack. */
+#define OWN_FRAME __attribute__((noinline))
+OWN_FRAME void say(const Instance *x, Status status, const char *category, const char *format, ...);
+OWN_FRAME Status refuse(const Instance *x, const char *format, ...);
 const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size);
 
 /* The entry `index` of a field of the block. */

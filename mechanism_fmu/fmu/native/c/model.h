@@ -40,12 +40,12 @@ typedef struct {
 } Contact;
 
 typedef struct {
-    const char *name, *guid, *token; /* modelName; GUID of FMI 2.0; instantiation token of FMI 3.0 */
+    const char *name, *guid;         /* the GUID of FMI 2.0 is the instantiation token of FMI 3.0 */
     unsigned char mark[16];          /* what a serialized state is recognised by */
     const Variable *variables;
     size_t variable_count, inputs, outputs, parameters; /* in this order; calculated parameters follow */
     const double *block;                                /* of an instance before its first call */
-    size_t words;
+    size_t given, words;                                /* without and with work, which is 0 */
     size_t numbers; /* of all findings */
     const Finding *objections, *warnings;
     size_t objection_count, warning_count;

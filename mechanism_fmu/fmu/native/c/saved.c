@@ -4,7 +4,7 @@
 
 #include "instance.h"
 
-static const char MAGIC[8] = "MechFMUn";
+static const char MAGIC[] = {'M', 'e', 'c', 'h', 'F', 'M', 'U', 'n'};
 
 /* Parameters and the engine's state follow. */
 struct Saved {

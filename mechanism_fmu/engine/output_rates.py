@@ -1,0 +1,61 @@
+"""Derivatives of outputs with respect to time, at the current time."""
+
+from __future__ import annotations
+
+import math
+
+from .. import codes
+from .acceleration import derivative
+from .forces import kinetic_power, spring_power
+from .guards import gap
+from .kinematics import place_bodies
+from .ports import feed
+from .room import Array
+from .stepper import state_at_time
+from .subset import entry, jit
+from .views import bodies, contacts, ports, sizes, stages
+
+
+@entry
+def read_output_rates(block: Array) -> None:
+    """Write dz/dt of every output z, shape (outputs,), to the work field `output_rates`; the motion is not touched.
+
+    Jumps in impacts do not count. Not a number: what jumps only, and what follows accelerations (forces of contacts,
+    torques of shafts), whose derivatives depend on those of inputs.
+    """
+    table = ports(block)
+    s = stages(block)
+    state_at_time(block, s.y_at)
+    feed(block, table.inputs)  # one that was set after the last step acts already
+    derivative(block, s.y_at, s.dy_at)
+    place_bodies(block, s.y_at)
+    for o in range(table.outputs.shape[0]):
+        table.output_rates[o] = _rate(block, table.output_kind[o], table.output_index[o])
+    feed(block, table.held_inputs)
+
+
+@jit
+def _rate(block: Array, kind: int, index: int) -> float:
+    """The derivative of one output; `index` as in `ports.output_index`."""
+    n = sizes(block).coordinates
+    s = stages(block)
+    rate = math.nan
+    if kind == codes.CONSTANT:
+        rate = 0.0
+    elif kind == codes.COORDINATE:
+        rate = s.dy_at[index]
+    elif kind == codes.RATE:
+        rate = s.dy_at[n + index]
+    elif kind == codes.CONTACT_GAP:
+        rate = 0.0  # closed
+        if contacts(block).mode[index] == codes.OPEN:
+            _, rate = gap(block, index)
+    elif kind == codes.KINETIC_ENERGY:
+        rate = kinetic_power(bodies(block).inverse_mass, s.y_at[n:], s.dy_at[n:], n)
+    elif kind == codes.SPRING_ENERGY:
+        rate = spring_power(block, s.y_at)
+    elif kind == codes.WORK_DONE:
+        rate = s.dy_at[2 * n]
+    elif kind == codes.ENERGY_LOST:
+        rate = s.dy_at[2 * n + 1]
+    return rate

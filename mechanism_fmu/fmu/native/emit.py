@@ -1,0 +1,56 @@
+"""From the engine's intermediate code to an object file for each platform.
+
+    python -m mechanism_fmu.fmu.native.emit FOLDER      writes FOLDER/<target>.o
+
+To be run in a process of its own, because numba must be imported for a generic processor (see `objects`).
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import llvmlite.binding as llvm
+
+from ...engine.library import EXPORTS, intermediate_code
+from .targets import TARGETS, Target
+
+
+def object_file(codes: list[str], target: Target) -> bytes:
+    """One object of all exported functions, optimised as a whole; nothing else can be linked to.
+
+    With everything but the exports internal, the optimiser proves that no error path exists, and nothing of numba or
+    Python is left.
+    """
+    module = llvm.parse_assembly(codes[0])
+    for code in codes[1:]:
+        module.link_in(llvm.parse_assembly(code))
+    machine = llvm.Target.from_triple(target.triple).create_target_machine(opt=3, reloc="pic", codemodel="default")
+    module.triple = target.triple
+    module.data_layout = str(machine.target_data)
+    for symbol in (*module.functions, *module.global_variables):
+        if symbol.name in EXPORTS:
+            symbol.visibility = "hidden"  # several FMUs in one process must not see each other's engine
+        elif not symbol.is_declaration:
+            symbol.linkage = "internal"
+    passes = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=3))
+    passes.getModulePassManager().run(module, passes)
+    emitted: bytes = machine.emit_object(module)
+    return emitted
+
+
+def main(folder: Path) -> None:
+    """Write the object of every target, each by one rename."""
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    codes = [intermediate_code(name) for name in EXPORTS]
+    for target in TARGETS:
+        temporary = folder / f".{target.name}.{os.getpid()}"
+        temporary.write_bytes(object_file(codes, target))
+        os.replace(temporary, folder / f"{target.name}.o")
+        print(target.name, flush=True)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

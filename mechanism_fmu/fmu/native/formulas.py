@@ -1,0 +1,117 @@
+"""A model's formulas as C: from parameter values to the tables in an instance's block, and to what is wrong or odd."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engine.layout import Array
+from ...model.findings import MOST_NUMBERS, Finding, pieces
+from ...model.functions import Number
+from ...model.symbol import Operation, Symbol
+from ...model.trace import Trace
+from .entries import Entry, entries
+
+_FORMS = {
+    "add": "{} + {}",
+    "subtract": "{} - {}",
+    "multiply": "{} * {}",
+    "divide": "{} / {}",
+    "negate": "-{}",
+    "sin": "sin({})",
+    "cos": "cos({})",
+    "tan": "tan({})",
+    "sqrt": "sqrt({})",
+    "atan2": "atan2({}, {})",
+    "where_positive": "{} > 0.0 ? {} : {}",
+}
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """C source of a model's formulas, and what C must know to use it.
+
+    Attributes:
+        source: a file with the one function `void mechanism_formulas(const double *p, double *block,
+            double *findings)`. `p` holds the parameter values in the model's order; every word of `block`'s tables that
+            depends on a parameter is written, no other; `findings` gets, for each objection and then each warning, how
+            far it applies (it does where that is > 0) and the numbers of its text. Nothing fails: what does not exist
+            is not finite. Compile it with -ffp-contract=off, or its numbers differ from Python's in the last bits.
+        objections, warnings: of each, its text for printf and the index of its `applies` in `findings`; its numbers
+            follow there.
+        findings: length that the array `findings` must have. It is longer than what is written, so that
+            `MOST_NUMBERS` numbers can be handed to printf behind every `applies`: set it to 0 first.
+        words: of each word that is written, its index in `block` and its name for the user, e.g. "joint_data of pin".
+    """
+
+    source: str
+    objections: tuple[tuple[str, int], ...]
+    warnings: tuple[tuple[str, int], ...]
+    findings: int
+    words: tuple[tuple[int, str], ...]
+
+
+def formulas(traced: Trace, block: Array) -> Formulas:
+    """The C formulas of a traced model for a block of its structure, e.g. that of the default values."""
+    written = entries(traced, block)
+    findings = (*traced.objections, *traced.warnings)
+    numbers = [x for finding in findings for x in (finding.applies, *finding.numbers)]
+    sizes = [1 + len(finding.numbers) for finding in findings]
+    places = [int(place) for place in np.cumsum([0, *sizes[:-1]])] if sizes else []
+    texts = [(printf_text(finding), place) for finding, place in zip(findings, places, strict=True)]
+    split = len(traced.objections)
+    return Formulas(
+        source="\n".join(_source(traced, written, numbers)) + "\n",
+        objections=tuple(texts[:split]),
+        warnings=tuple(texts[split:]),
+        findings=len(numbers) + MOST_NUMBERS,
+        words=tuple((entry.word, entry.label) for entry in written),
+    )
+
+
+def printf_text(finding: Finding) -> str:
+    """The text of a finding as a format of C's printf."""
+    return "".join(plain.replace("%", "%%") + (f"%{form}" if form else "") for plain, form in pieces(finding.text))
+
+
+def c_number(x: float) -> str:
+    """A number as a C constant that is exactly it; it needs math.h."""
+    if math.isnan(x):
+        return "NAN"
+    text = "INFINITY" if math.isinf(x) else abs(x).hex()
+    return f"(-{text})" if math.copysign(1, x) < 0 else text
+
+
+def _source(traced: Trace, written: Iterable[Entry], findings: Iterable[Number]) -> Iterator[str]:
+    written, findings = list(written), list(findings)
+    names: dict[int, str] = {}
+    yield f"/* The formulas of {traced.model.name}; written by mechanism_fmu. */"
+    yield "#include <math.h>"
+    yield ""
+    yield "void mechanism_formulas(const double *p, double *block, double *findings)"
+    yield "{"
+    yield "    (void)p; (void)block; (void)findings;"
+    for number in traced.needed([*(entry.value for entry in written), *findings]):
+        operation = traced.operations[number]
+        if operation.name in ("parameter", "constant"):
+            names[number] = _given(operation)
+        else:
+            form = _FORMS[operation.name].format(*(names[i] for i in operation.operands))
+            names[number] = f"t{number}"
+            yield f"    const double {names[number]} = {form};"
+    for entry in written:
+        yield f"    block[{entry.word}] = {_name(entry.value, names)};"
+    for place, x in enumerate(findings):
+        yield f"    findings[{place}] = {_name(x, names)};"
+    yield "}"
+
+
+def _given(operation: Operation) -> str:
+    return f"p[{int(operation.value)}]" if operation.name == "parameter" else c_number(operation.value)
+
+
+def _name(x: Number, names: dict[int, str]) -> str:
+    return names[x.number] if isinstance(x, Symbol) else c_number(float(x))

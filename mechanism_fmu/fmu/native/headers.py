@@ -1,0 +1,50 @@
+"""engine.h: what the C surface knows of the engine, written from the engine's own declarations."""
+
+from __future__ import annotations
+
+from ... import codes
+from ...engine import status
+from ...engine.layout import FIELDS, SIZES, size_slot, slot
+
+_PROTOTYPES = """\
+int64_t mechanism_begin(double *block, int64_t words, double time);
+void mechanism_begin_step(double *block, int64_t words);
+int64_t mechanism_go_on(double *block, int64_t words, double target, int64_t rule);
+void mechanism_read_outputs(double *block, int64_t words);
+void mechanism_read_output_rates(double *block, int64_t words);
+"""
+
+
+def engine_header() -> str:
+    """The text of engine.h: codes, header words of a block, statuses with their advice, prototypes."""
+    rooms = [field.room for field in FIELDS]
+    edges = {"FIRST_OF_STATE": rooms.index("state"), "END_OF_STATE": rooms.index("work")}
+    enums = {
+        "CODE": {name: value for name, value in vars(codes).items() if name.isupper()},
+        "SIZE": {name: size_slot(name) for name in SIZES},
+        "SLOT": {
+            **{field.name: slot(field.name) for field in FIELDS},
+            **{edge: slot(FIELDS[index].name) for edge, index in edges.items()},
+        },
+        "STATUS": {name: value for name, value in vars(status).items() if isinstance(value, int) and name.isupper()},
+    }
+    lines = ["/* The engine for C: written by headers.py from codes.py, layout.py and status.py. */"]
+    lines += ["#ifndef ENGINE_H", "#define ENGINE_H", "#include <stdint.h>"]
+    for prefix, entries in enums.items():
+        lines += ["enum {", *(f"    {prefix}_{name} = {value}," for name, value in entries.items()), "};"]
+    return "\n".join([*lines, _PROTOTYPES, "extern const char *const ADVICE[];", "#endif", ""])
+
+
+def advice_table() -> str:
+    """The definition of ADVICE: what each status means and what to do."""
+    entries = ", ".join(f"[{outcome}] = {c_text(advice)}" for outcome, advice in status.ADVICE.items())
+    return f"const char *const ADVICE[] = {{{entries}}};\n"
+
+
+def c_text(text: str) -> str:
+    """A C string literal of ASCII characters only."""
+    escaped = "".join(
+        f"\\{char}" if char in '"\\' else char if " " <= char <= "~" else "".join(f"\\{b:03o}" for b in char.encode())
+        for char in text
+    )
+    return f'"{escaped}"'

@@ -1,0 +1,93 @@
+"""From objects and C files to a shared library, with the C compiler and linker of the `ziglang` wheel."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from ...model import MechanismError
+from ..start import cache_directory
+from .targets import Target
+
+_SURFACE = Path(__file__).with_name("c")
+
+_FLAGS = (
+    "-std=c11",
+    "-O2",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-ffp-contract=off",  # the numbers of Python: no fused multiply-add
+    "-fno-sanitize=all",
+    "-fno-stack-protector",
+    "-fvisibility=hidden",
+    "-shared",
+    "-s",
+)
+
+#: Windows: straight on the system's own C library (the Universal CRT), whose import libraries zig makes in no time; its
+#: mingw runtime would take minutes to compile and add nothing that is used.
+_WINDOWS_LIBRARIES = ("math", "heap", "stdio", "string", "private")
+
+
+def has_linker() -> bool:
+    """Whether the `ziglang` wheel is installed."""
+    return importlib.util.find_spec("ziglang") is not None
+
+
+def need_linker() -> None:
+    """Refuse to go on without the `ziglang` wheel.
+
+    Raises:
+        MechanismError: it is not installed.
+    """
+    if not has_linker():
+        raise MechanismError(
+            "A native FMU needs the linker of the package ziglang, which is not installed; install it with: "
+            'python -m pip install "mechanism_fmu[native]", or python -m pip install ziglang'
+        )
+
+
+def link(target: Target, inputs: Sequence[Path], includes: Sequence[Path], path: Path) -> None:
+    """Link C files and objects to a shared library for a platform.
+
+    Args:
+        target: the platform.
+        inputs: C files and objects.
+        includes: folders of C headers, beside the surface's own.
+        path: of the library; its name becomes part of the file on some platforms.
+
+    Raises:
+        MechanismError: there is no linker, or it has refused, with what it printed.
+    """
+    need_linker()
+    headers = [f"-I{folder}" for folder in (_SURFACE, *includes)]
+    command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *_FLAGS, *headers]
+    command += [*map(str, inputs), *_platform(target), "-o", path.name]
+    environment = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(cache_directory() / "mechanism_fmu" / "zig")}
+    done = subprocess.run(command, cwd=path.parent, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise MechanismError(f"Linking for {target.name} failed:\n{done.stderr.strip()}")
+
+
+def surface(*names: str) -> list[Path]:
+    """C files of the surface by name."""
+    return [_SURFACE / name for name in names]
+
+
+def _platform(target: Target) -> list[str]:
+    if not target.name.endswith("windows"):
+        return ["-fPIC", "-lm"]
+    libc = _zig_library() / "libc" / "include" / "any-windows-any"
+    libraries = [f"-lapi-ms-win-crt-{name}-l1-1-0" for name in _WINDOWS_LIBRARIES]
+    return ["-nostdlib", "-isystem", str(libc), "-D_UCRT", *map(str, surface("windows.c")), *libraries]
+
+
+def _zig_library() -> Path:
+    spec = importlib.util.find_spec("ziglang")
+    assert spec is not None and spec.origin is not None  # `need_linker` has seen it
+    return Path(spec.origin).with_name("lib")

@@ -1,0 +1,115 @@
+"""model.c: a model as constants for the C surface, and its formulas."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from ...engine.layout import FIELDS, slot
+from ...engine.pack import pack
+from ...model import Mechanism, Model, PointLineContact
+from ..variables import Variable, variables_of
+from .description3 import array_layout
+from .formulas import Formulas, c_number
+from .headers import advice_table, c_text
+
+_CAUSALITIES = {"input": "INPUT", "output": "OUTPUT", "parameter": "PARAMETER", "calculatedParameter": "CALCULATED"}
+
+
+def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> str:
+    """The text of model.c.
+
+    Args:
+        model: the model.
+        formulas: its parameters-to-tables function, traced.
+        guid: of the FMU.
+        mark: 16 bytes by which a serialized state is recognised.
+    """
+    mechanism = model.mechanism(model.values())
+    block = pack(mechanism.compile())
+    first_of_work = next(field.name for field in FIELDS if field.room == "work")
+    given = int(block.view("int64")[slot(first_of_work)])
+    variables = variables_of(model)
+    counts = {c: sum(v.causality == c for v in variables) for c in _CAUSALITIES}
+    members = {
+        "name": c_text(model.name),
+        "guid": c_text(guid),
+        "mark": "{" + ", ".join(map(str, mark)) + "}",
+        "variables": "VARIABLES",
+        "variable_count": len(variables),
+        "inputs": counts["input"],
+        "outputs": counts["output"],
+        "parameters": counts["parameter"],
+        "block": "(const double *)BLOCK",
+        "given": given,
+        "words": len(block),
+        "numbers": formulas.findings,
+        "objections": "OBJECTIONS",
+        "warnings": "WARNINGS",
+        "objection_count": len(formulas.objections),
+        "warning_count": len(formulas.warnings),
+        "dependent": "DEPENDENT",
+        "dependent_count": len(formulas.words),
+        "joints": "JOINTS",
+        "contacts": "CONTACTS",
+        "patterns": "PATTERNS",
+        "functions": "FUNCTIONS",
+    }
+    return "\n".join(
+        [
+            f"/* {model.name}: written by model_data.py. */",
+            '#include "engine.h"',
+            '#include "model.h"',
+            "#include <math.h>",
+            advice_table(),
+            _array("Variable", "VARIABLES", map(_variable, variables, array_layout(variables))),
+            _array("uint64_t", "BLOCK", (f"{word:#x}" for word in block[:given].view("uint64").tolist())),
+            _array("Finding", "OBJECTIONS", (f"{{{c_text(text)}, {at}}}" for text, at in formulas.objections)),
+            _array("Finding", "WARNINGS", (f"{{{c_text(text)}, {at}}}" for text, at in formulas.warnings)),
+            _array("Word", "DEPENDENT", (f"{{{word}, {c_text(label)}}}" for word, label in formulas.words)),
+            *_names(mechanism),
+            "const Model model = {",
+            *(f"    .{name} = {value}," for name, value in members.items()),
+            "};",
+            formulas.source,
+        ]
+    )
+
+
+def _array(kind: str, name: str, entries: Iterable[str]) -> str:
+    """An array constant; one without entries gets an empty one, because C has no arrays of length 0."""
+    text = ",\n    ".join(entries)
+    return f"static const {kind} {name}[] = {{\n    {text or 0}\n}};"
+
+
+def _names(mechanism: Mechanism) -> list[str]:
+    joints = (f"{{{c_text(joint.name)}, {joint.rows}}}" for joint in mechanism.joints)
+    contacts = (
+        f"{{{c_text(c.name)}, {c_text(c.body_i)}, {c_text(c.body_j)}, {int(isinstance(c, PointLineContact))}}}"
+        for c in mechanism.contacts
+    )
+    return [
+        _array("Joint", "JOINTS", joints),
+        _array("Contact", "CONTACTS", contacts),
+        _array("char *const", "PATTERNS", (c_text(pattern.name) for pattern in mechanism.patterns)),
+        _array("char *const", "FUNCTIONS", (c_text(function.name) for function in mechanism.functions)),
+    ]
+
+
+def _variable(variable: Variable, layout: tuple[int, int]) -> str:
+    unit = "" if variable.unit in (None, "1") else f" {variable.unit}"
+    numbers = (
+        float(variable.start or 0.0),
+        -math.inf if variable.minimum is None else variable.minimum,
+        math.inf if variable.maximum is None else variable.maximum,
+    )
+    entries: Sequence[str] = (
+        c_text(variable.name),
+        c_text(unit),
+        variable.type.upper(),
+        _CAUSALITIES[variable.causality],
+        *(c_number(float(number)) for number in numbers),
+        *map(str, layout),
+    )
+    return f"{{{', '.join(entries)}}}"
+

@@ -1,0 +1,52 @@
+"""The engine's object files: compiled once for each state of its sources, and kept in the user's cache directory."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from ...model import MechanismError
+from ..archive import content_hash
+from ..start import cache_directory
+from .targets import TARGETS
+
+_LIBRARY = Path(__file__).parents[2]
+
+#: What makes numba compile for any processor of a kind, without Intel's own vector functions.
+_GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_DISABLE_INTEL_SVML": "1"}
+
+
+def engine_digest() -> str:
+    """Fingerprint of the engine's sources, of the targets, and of what compiles them."""
+    own = [Path(__file__).with_name(name) for name in ("emit.py", "targets.py")]
+    sources = [*(_LIBRARY / "engine").rglob("*.py"), _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
+    contents = {str(path.relative_to(_LIBRARY)): path.read_bytes() for path in sources}
+    compilers = " ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "llvmlite"))
+    return content_hash({**contents, "compilers": compilers.encode()})[:16]
+
+
+def engine_objects() -> dict[str, Path]:
+    """The engine's object file for each target, by the target's name; compiled now if need be.
+
+    Raises:
+        MechanismError: the compilation failed, with what it printed.
+    """
+    folder = cache_directory() / "mechanism_fmu" / f"native_{engine_digest()}"
+    objects = {target.name: folder / f"{target.name}.o" for target in TARGETS}
+    if not all(path.is_file() for path in objects.values()):
+        folder.mkdir(parents=True, exist_ok=True)
+        _emit(folder)
+    return objects
+
+
+def _emit(folder: Path) -> None:
+    path = os.pathsep.join(filter(None, [str(_LIBRARY.parent), os.environ.get("PYTHONPATH", "")]))
+    environment = {**os.environ, **_GENERIC, "PYTHONPATH": path}
+    environment.pop("NUMBA_DISABLE_JIT", None)
+    command = [sys.executable, "-m", "mechanism_fmu.fmu.native.emit", str(folder)]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise MechanismError(f"The engine could not be compiled ahead of time:\n{done.stderr.strip()}")

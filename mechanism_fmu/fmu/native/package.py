@@ -1,0 +1,107 @@
+"""From a model to a native FMU: no Python on the target."""
+
+from __future__ import annotations
+
+import tempfile
+import uuid
+import zipfile
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from types import ModuleType
+
+import fmpy
+
+from ...engine.pack import pack
+from ...model import Model
+from ...model.trace import trace
+from ..archive import DESCRIPTION, content_hash, write_archive
+from ..contents import common_entries, file_in, model_of
+from ..model_description import model_description, to_bytes
+from .formulas import Formulas, formulas
+from .headers import engine_header
+from .link import link, need_linker, surface
+from .model_data import model_source
+from .objects import engine_objects
+from .targets import TARGETS, Target
+
+#: The files of the C surface; both versions of FMI stand in one library.
+_SURFACE = ("instance.c", "values.c", "saved.c", "log.c", "fmi2.c", "fmi3.c")
+
+#: The headers of both standards, which the package fmpy brings.
+_STANDARD = Path(fmpy.__file__).with_name("c-code")
+
+_FACTS = (
+    "The FMU needs nothing where it runs: no Python, no run-time library beside the system's own C library. Binaries for "
+    + ", ".join(target.name for target in TARGETS)
+    + " are inside; on Linux they run with glibc 2.17 or later, on macOS from 11 on, on Windows with the Universal CRT.",
+    "A value or a call that is refused gives a message in the log and the status <em>error</em>; nothing has changed "
+    "then, and the instance goes on. Messages arrive only if the host switched logging on.",
+    "Any number of instances, also of different FMUs of this project, may run in one process; an instance must not be "
+    "called by two threads at once.",
+    "Memory comes from the host's callbacks where it gives any.",
+    "An input with a derivative (fmi2SetRealInputDerivatives) changes at that rate during the next step, and then keeps "
+    "the value it has reached.",
+)
+
+
+def build_native_fmu(module: ModuleType, destination: Path) -> Path:
+    """Build the native FMU of a model: the same bytes from the same sources and versions of the tools.
+
+    Args:
+        module: what holds `MODEL`, e.g. `models.ratchet.model`.
+        destination: folder, made if need be, for "<model name>.fmu".
+
+    Returns:
+        Path of the FMU.
+
+    Raises:
+        MechanismError: there is no linker, the module has no model, or one that cannot be traced.
+        OSError: the destination cannot be written.
+    """
+    need_linker()
+    model, folder = model_of(module)
+    path = file_in(destination, f"{model.name}.fmu")
+    traced = formulas(trace(model), pack(model.build(model.values()).compile()))
+    entries = common_entries(model, folder, _FACTS, ("mechanism_fmu",))
+    objects = engine_objects()
+    guid = _fingerprint(model, traced, entries, objects)
+    entries[DESCRIPTION] = to_bytes(model_description(model, f"{{{guid}}}", native=True))
+    source = model_source(model, traced, f"{{{guid}}}", guid.bytes)
+    for target, binary in _binaries(model, source, objects).items():
+        entries[f"binaries/{target.fmi2}/{model.name}{target.suffix}"] = binary
+    write_archive(entries, path, zipfile.ZIP_DEFLATED)
+    return path
+
+
+def _fingerprint(
+    model: Model, traced: Formulas, entries: Mapping[str, bytes], objects: Mapping[str, Path]
+) -> uuid.UUID:
+    """A GUID that is a hash of everything that the FMU is made from."""
+    parts = {
+        **entries,
+        DESCRIPTION: to_bytes(model_description(model, "", native=True)),
+        "model.c": model_source(model, traced, "", bytes(16)).encode(),
+        **{file.name: file.read_bytes() for file in surface(*_SURFACE, "model.h", "instance.h", "windows.c")},
+        **{name: object_file.read_bytes() for name, object_file in objects.items()},
+    }
+    return uuid.UUID(content_hash(parts)[:32])
+
+
+def _binaries(model: Model, source: str, objects: Mapping[str, Path]) -> dict[Target, bytes]:
+    """The shared library of each platform."""
+    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary:
+        folder = Path(temporary)
+        (folder / "engine.h").write_text(engine_header(), encoding="ascii")
+        (folder / "model.c").write_text(source, encoding="ascii")
+
+        def binary(target: Target) -> bytes:
+            place = folder / target.name
+            place.mkdir()
+            inputs = [*surface(*_SURFACE), folder / "model.c", objects[target.name]]
+            library = place / f"{model.name}{target.suffix}"
+            link(target, inputs, [folder, _STANDARD], library)
+            return library.read_bytes()
+
+        with ThreadPoolExecutor() as pool:
+            return dict(zip(TARGETS, pool.map(binary, TARGETS), strict=True))

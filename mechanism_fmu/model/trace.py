@@ -1,0 +1,143 @@
+"""A model's tables, objections and warnings as one recorded calculation: for targets without Python."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, fields, replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from . import functions
+from .compile import MechanismTables, Table, compile_tables
+from .errors import MechanismError
+from .findings import Finding, messages
+from .functions import Number
+from .mechanism import Mechanism
+from .model import Model
+from .symbol import Operation, Recorder, Symbol
+
+_APPLY: dict[str, Callable[..., float]] = {
+    "add": operator.add,
+    "subtract": operator.sub,
+    "multiply": operator.mul,
+    "divide": operator.truediv,
+    "negate": operator.neg,
+    "sin": functions.sin,
+    "cos": functions.cos,
+    "tan": functions.tan,
+    "sqrt": functions.sqrt,
+    "atan2": functions.atan2,
+    "where_positive": functions.where_positive,
+}
+
+
+@dataclass(frozen=True)
+class Trace:
+    """What a model calculates from its parameters.
+
+    Numbers in `tables`, `objections` and `warnings` are `Symbol`s where they depend on a parameter; the `number` of a
+    symbol is that of the operation in `operations` that gives it.
+
+    Attributes:
+        model: what was traced.
+        mechanism: the mechanism with symbolic numbers: its parts in the order of the tables' rows.
+        operations: in an order in which they can be carried out; some may be needed for nothing.
+        tables: of dtype object where a number is symbolic.
+        objections, warnings: as the model gives them.
+    """
+
+    model: Model
+    mechanism: Mechanism
+    operations: tuple[Operation, ...]
+    tables: MechanismTables
+    objections: tuple[Finding, ...]
+    warnings: tuple[Finding, ...]
+
+    def evaluate(self, values: SimpleNamespace) -> MechanismTables:
+        """The tables for parameter values, carried out operation by operation.
+
+        Raises:
+            ValueError, ZeroDivisionError: where the model's own functions do, because a result does not exist.
+        """
+        tables = {name: table for name, table in _arrays(self.tables) if table.dtype == object}
+        known = self._results(values, (x for table in tables.values() for x in table.flat))
+        plain: dict[str, Any] = {
+            name: np.array([_value(x, known) for x in table.flat], dtype=np.float64).reshape(table.shape)
+            for name, table in tables.items()
+        }
+        return replace(self.tables, **plain)
+
+    def refused(self, values: SimpleNamespace) -> list[str]:
+        """As `Model.refused`, from the recorded operations."""
+        return self._messages(self.objections, values)
+
+    def warned(self, values: SimpleNamespace) -> list[str]:
+        """As `Model.warned`, from the recorded operations."""
+        return self._messages(self.warnings, values)
+
+    def needed(self, numbers: Iterable[Number]) -> list[int]:
+        """The operations, in order, on which numbers depend; plain numbers depend on none."""
+        needed = {x.number for x in numbers if isinstance(x, Symbol)}
+        for number in range(len(self.operations) - 1, -1, -1):
+            if number in needed:
+                needed.update(self.operations[number].operands)
+        return sorted(needed)
+
+    def _messages(self, findings: tuple[Finding, ...], values: SimpleNamespace) -> list[str]:
+        known = self._results(values, (x for f in findings for x in (f.applies, *f.numbers)))
+        return messages(
+            Finding(_value(f.applies, known), f.text, tuple(_value(x, known) for x in f.numbers)) for f in findings
+        )
+
+    def _results(self, values: SimpleNamespace, numbers: Iterable[Number]) -> dict[int, float]:
+        given = [float(getattr(values, parameter.name)) for parameter in self.model.parameters]
+        known: dict[int, float] = {}
+        for number in self.needed(numbers):
+            operation = self.operations[number]
+            if operation.name == "parameter":
+                known[number] = given[int(operation.value)]
+            elif operation.name == "constant":
+                known[number] = operation.value
+            else:
+                known[number] = _APPLY[operation.name](*(known[i] for i in operation.operands))
+        return known
+
+
+def trace(model: Model) -> Trace:
+    """Record what a model calculates from its parameters.
+
+    Raises:
+        MechanismError: the model branches on a parameter, or an integer table or a table's shape depends on one.
+    """
+    recorder = Recorder()
+    values = SimpleNamespace(**{p.name: recorder.parameter(i) for i, p in enumerate(model.parameters)})
+    plain = model.build(model.values()).compile()
+    mechanism = model.mechanism(values)
+    tables = compile_tables(mechanism)
+    _check_structure(model, dict(_arrays(tables)), dict(_arrays(plain)))
+    objections, warnings = tuple(model.objections(values)), tuple(model.warnings(values))
+    return Trace(model, mechanism, tuple(recorder.operations), tables, objections, warnings)
+
+
+def _check_structure(model: Model, tables: Mapping[str, Table], plain: Mapping[str, Table]) -> None:
+    for name, table in tables.items():
+        integer = plain[name].dtype == np.int64
+        if integer and table.dtype == object:
+            raise MechanismError(
+                f"{model.name}: the table {name} holds structure, but depends on a parameter; "
+                "let parameters change numbers only (a part is switched off by its `enabled`)."
+            )
+        if table.shape != plain[name].shape or (integer and not np.array_equal(table, plain[name])):
+            raise MechanismError(f"{model.name}: the table {name} is not the same at every call; build the same parts.")
+
+
+def _arrays(tables: MechanismTables) -> list[tuple[str, Table]]:
+    named: list[tuple[str, Any]] = [(f.name, getattr(tables, f.name)) for f in fields(tables)]
+    return [(name, table) for name, table in named if isinstance(table, np.ndarray)]
+
+
+def _value(x: Number, known: Mapping[int, float]) -> float:
+    return known[x.number] if isinstance(x, Symbol) else float(x)
