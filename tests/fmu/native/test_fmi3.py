@@ -17,8 +17,8 @@ from tests.fmu.native.host3 import Instance3
 #: The paper's base case, with the digits that the table has.
 IMPACT = pytest.approx(0.9399211769, abs=5.1e-11)
 AFTER = {"impact_crank_speed": 0.0191482997, "impact_pawl_speed": -0.0069073680, "impact_wheel_speed": 0.0227388573}
-#: A bouncing pawl: many impacts of several kinds within two seconds.
-ROUGH = {"restitution": 0.5, "tooth_count": 15}
+#: A bouncing pawl: eighteen impacts within two seconds.
+ROUGH = {"guided": False, "restitution": 0.5, "tooth_count": 15, "drive_torque": 5e-3}
 #: Outputs that speak of the last communication step alone.
 OF_STEP = ("impacts", "events")
 
@@ -87,7 +87,7 @@ def test_the_motion_is_bit_equal_to_that_of_fmi_2(instance3, native_ratchet):
             for one in (stopping, watched):
                 one.run(point, 1)
                 assert lasting(one.outputs()) == lasting(expected)
-    assert plain["impact_count"] > 3
+    assert plain["impact_count"] > 10
 
 
 def test_an_impact_ends_a_step(instance3):
@@ -102,7 +102,7 @@ def test_an_impact_ends_a_step(instance3):
     assert one["impact"]
     assert one["time"] == one["impact_time"] == step.reached
     assert one.get(AFTER) == pytest.approx(AFTER, rel=1e-7)
-    assert one["wheel_speed"] == one["impact_wheel_speed"]
+    assert one["wheel_speed"] == pytest.approx(one["impact_wheel_speed"], rel=1e-9)
     one.slave.updateDiscreteStates()
     assert not one["impact"]
     one.slave.enterStepMode()
@@ -122,7 +122,7 @@ def test_every_impact_ends_a_step(instance3):
             seen = one["impact_count"]
             assert one["impact_time"] == steps[-1].reached
             one.leave_event_mode()
-    assert seen > 3
+    assert seen > 10
     assert [step.event for step in steps[:-1]] == [True] * (len(steps) - 1)
 
 
@@ -139,10 +139,11 @@ def test_a_host_without_early_return_learns_of_impacts_at_the_end(instance3):
     one = instance3(event_mode=True).begin()
     steps = one.run(0.9, 9)
     assert not any(step.event or step.early for step in steps)
-    assert one.step(0.1) == (True, False, False, 1.0)
+    assert one.step_to(1.0) == (True, False, False, 1.0)
     one.slave.enterEventMode()
     assert one["impact"]
-    assert one["impacts.time"] == [IMPACT, *[0.0] * 7]
+    assert one["impacts_in_step"] == 1
+    assert one["impacts.time"][0] == one["impact_time"] == IMPACT
     one.slave.enterStepMode()
     assert not one["impact"]
     assert one.step(0.1).event is False
@@ -303,7 +304,7 @@ def test_types_that_no_variable_has(instance3):
     kinds = ("Float32", "Int8", "UInt8", "Int16", "UInt16", "UInt32", "Int64", "UInt64", "String")
     for kind in kinds:
         assert f"type {kind}" in one.refusal(getattr(one.slave, f"get{kind}"), [0])
-        value = b"" if kind == "String" else 0
+        value = "" if kind == "String" else 0
         assert f"type {kind}" in one.refusal(getattr(one.slave, f"set{kind}"), [0], [value])
     none = one.slave.fmi3GetInt8
     none(one.slave.component, None, 0, None, 0)
