@@ -25,8 +25,8 @@ def _begin(block: Any, words: int, time: float) -> int:
     return begin(carray(block, (words,)), time)
 
 
-def _begin_step(block: Any, words: int) -> None:
-    begin_step(carray(block, (words,)))
+def _begin_step(block: Any, words: int) -> int:
+    return begin_step(carray(block, (words,)))
 
 
 def _go_on(block: Any, words: int, target: float, rule: int) -> int:
@@ -44,7 +44,7 @@ def _read_output_rates(block: Any, words: int) -> None:
 #: The exported functions by name, with the types of result and arguments.
 EXPORTS: dict[str, tuple[Callable[..., Any], Any]] = {
     "mechanism_begin": (_begin, types.int64(_BLOCK, types.int64, types.float64)),
-    "mechanism_begin_step": (_begin_step, types.void(_BLOCK, types.int64)),
+    "mechanism_begin_step": (_begin_step, types.int64(_BLOCK, types.int64)),
     "mechanism_go_on": (_go_on, types.int64(_BLOCK, types.int64, types.float64, types.int64)),
     "mechanism_read_outputs": (_read_outputs, types.void(_BLOCK, types.int64)),
     "mechanism_read_output_rates": (_read_output_rates, types.void(_BLOCK, types.int64)),

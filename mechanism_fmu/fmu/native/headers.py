@@ -8,7 +8,7 @@ from ...engine.layout import FIELDS, SIZES, size_slot, slot
 
 _PROTOTYPES = """\
 int64_t mechanism_begin(double *block, int64_t words, double time);
-void mechanism_begin_step(double *block, int64_t words);
+int64_t mechanism_begin_step(double *block, int64_t words);
 int64_t mechanism_go_on(double *block, int64_t words, double target, int64_t rule);
 void mechanism_read_outputs(double *block, int64_t words);
 void mechanism_read_output_rates(double *block, int64_t words);

@@ -6,11 +6,13 @@ import importlib.metadata
 import os
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 from ...model import MechanismError
 from ..archive import content_hash
 from ..start import cache_directory
+from .headers import engine_header
 from .targets import TARGETS
 
 _LIBRARY = Path(__file__).parents[2]
@@ -19,27 +21,43 @@ _LIBRARY = Path(__file__).parents[2]
 _GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_DISABLE_INTEL_SVML": "1"}
 
 
-def engine_digest() -> str:
+def _digest() -> str:
     """Fingerprint of the engine's sources, of the targets, and of what compiles them."""
-    own = [Path(__file__).with_name(name) for name in ("emit.py", "targets.py")]
+    own = [Path(__file__).with_name(name) for name in ("emit.py", "targets.py", "headers.py")]
     sources = [*(_LIBRARY / "engine").rglob("*.py"), _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
     contents = {str(path.relative_to(_LIBRARY)): path.read_bytes() for path in sources}
     compilers = " ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "llvmlite"))
     return content_hash({**contents, "compilers": compilers.encode()})[:16]
 
 
-def engine_objects() -> dict[str, Path]:
-    """The engine's object file for each target, by the target's name; compiled now if need be.
+@dataclass(frozen=True)
+class Engine:
+    """The compiled engine.
+
+    Attributes:
+        objects: the object file for each target, by the target's name.
+        headers: folder of engine.h.
+    """
+
+    objects: dict[str, Path]
+    headers: Path
+
+
+def compiled_engine() -> Engine:
+    """The engine's object files and header; compiled now if need be.
 
     Raises:
         MechanismError: the compilation failed, with what it printed.
     """
-    folder = cache_directory() / "mechanism_fmu" / f"native_{engine_digest()}"
+    folder = cache_directory() / "mechanism_fmu" / f"native_{_digest()}"
     objects = {target.name: folder / f"{target.name}.o" for target in TARGETS}
-    if not all(path.is_file() for path in objects.values()):
+    header = folder / "engine.h"
+    if not (header.is_file() and all(path.is_file() for path in objects.values())):
         folder.mkdir(parents=True, exist_ok=True)
         _emit(folder)
-    return objects
+        # Always in the same place, so that the compiler of the C files finds again what it has compiled.
+        header.write_text(engine_header(), encoding="ascii")
+    return Engine(objects, folder)
 
 
 def _emit(folder: Path) -> None:

@@ -7,6 +7,7 @@ import uuid
 import zipfile
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 
@@ -18,11 +19,11 @@ from ...model.trace import trace
 from ..archive import DESCRIPTION, content_hash, write_archive
 from ..contents import common_entries, file_in, model_of
 from ..model_description import model_description, to_bytes
+from .description3 import model_description3
 from .formulas import Formulas, formulas
-from .headers import engine_header
 from .link import link, need_linker, surface
 from .model_data import model_source
-from .objects import engine_objects
+from .objects import Engine, compiled_engine
 from .targets import TARGETS, Target
 
 #: The files of the C surface; both versions of FMI stand in one library.
@@ -45,12 +46,13 @@ _FACTS = (
 )
 
 
-def build_native_fmu(module: ModuleType, destination: Path) -> Path:
+def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2) -> Path:
     """Build the native FMU of a model: the same bytes from the same sources and versions of the tools.
 
     Args:
         module: what holds `MODEL`, e.g. `models.ratchet.model`.
         destination: folder, made if need be, for "<model name>.fmu".
+        fmi: major version of the standard, 2 or 3.
 
     Returns:
         Path of the FMU.
@@ -64,43 +66,44 @@ def build_native_fmu(module: ModuleType, destination: Path) -> Path:
     path = file_in(destination, f"{model.name}.fmu")
     traced = formulas(trace(model), pack(model.build(model.values()).compile()))
     entries = common_entries(model, folder, _FACTS, ("mechanism_fmu",))
-    objects = engine_objects()
-    guid = _fingerprint(model, traced, entries, objects)
-    entries[DESCRIPTION] = to_bytes(model_description(model, f"{{{guid}}}", native=True))
+    engine = compiled_engine()
+    guid = _fingerprint(model, traced, entries | {DESCRIPTION: _description(model, "", fmi)}, engine)
+    entries[DESCRIPTION] = _description(model, f"{{{guid}}}", fmi)
     source = model_source(model, traced, f"{{{guid}}}", guid.bytes)
-    for target, binary in _binaries(model, source, objects).items():
-        entries[f"binaries/{target.fmi2}/{model.name}{target.suffix}"] = binary
+    for target, binary in _binaries(model, source, engine).items():
+        entries[f"binaries/{target.fmi2 if fmi == 2 else target.name}/{model.name}{target.suffix}"] = binary
     write_archive(entries, path, zipfile.ZIP_DEFLATED)
     return path
 
 
-def _fingerprint(
-    model: Model, traced: Formulas, entries: Mapping[str, bytes], objects: Mapping[str, Path]
-) -> uuid.UUID:
-    """A GUID that is a hash of everything that the FMU is made from."""
+def _description(model: Model, token: str, fmi: int) -> bytes:
+    describe = model_description3 if fmi == 3 else partial(model_description, native=True)
+    return to_bytes(describe(model, token))
+
+
+def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], engine: Engine) -> uuid.UUID:
+    """A hash of everything that the FMU is made from: the GUID of FMI 2.0, the instantiation token of FMI 3.0."""
     parts = {
         **entries,
-        DESCRIPTION: to_bytes(model_description(model, "", native=True)),
         "model.c": model_source(model, traced, "", bytes(16)).encode(),
         **{file.name: file.read_bytes() for file in surface(*_SURFACE, "model.h", "instance.h", "windows.c")},
-        **{name: object_file.read_bytes() for name, object_file in objects.items()},
+        **{name: object_file.read_bytes() for name, object_file in engine.objects.items()},
     }
     return uuid.UUID(content_hash(parts)[:32])
 
 
-def _binaries(model: Model, source: str, objects: Mapping[str, Path]) -> dict[Target, bytes]:
+def _binaries(model: Model, source: str, engine: Engine) -> dict[Target, bytes]:
     """The shared library of each platform."""
     with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary:
         folder = Path(temporary)
-        (folder / "engine.h").write_text(engine_header(), encoding="ascii")
         (folder / "model.c").write_text(source, encoding="ascii")
 
         def binary(target: Target) -> bytes:
             place = folder / target.name
             place.mkdir()
-            inputs = [*surface(*_SURFACE), folder / "model.c", objects[target.name]]
+            inputs = [*surface(*_SURFACE), folder / "model.c", engine.objects[target.name]]
             library = place / f"{model.name}{target.suffix}"
-            link(target, inputs, [folder, _STANDARD], library)
+            link(target, inputs, [engine.headers, _STANDARD], library)
             return library.read_bytes()
 
         with ThreadPoolExecutor() as pool:

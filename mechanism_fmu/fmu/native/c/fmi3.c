@@ -15,7 +15,7 @@
 /* In a call from within the callback of an intermediate update, only values may be read. */
 #define OUTSIDE_UPDATE (~IN(INTERMEDIATE))
 
-static void pass_on(const Instance *x, Status status, const char *category, const char *text) {
+OWN_FRAME static void pass_on(const Instance *x, Status status, const char *category, const char *text) {
     /* In a message, # begins the value reference of a variable, and stands for itself when it is doubled. */
     char message[3000];
     size_t n = 0;
@@ -371,8 +371,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     int stops = x->event_mode && x->early_return;
     int64_t rule = x->intermediate_update ? CODE_STOP_AT_STEP : stops ? CODE_STOP_AT_IMPACT : CODE_STOP_AT_TARGET;
     double end = target; /* sooner when the host asks for it at an intermediate update */
-    mechanism_begin_step(x->block, (int64_t)model.words);
-    Status status = OK;
+    Status status = begin_step(x);
     while (status == OK && time_of(x) < end && !(stops && *impacts != before)) {
         status = go_on(x, end, rule);
         if (status == OK && x->intermediate_update) end = intermediate_update(x, end);

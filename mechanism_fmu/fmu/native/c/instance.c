@@ -144,7 +144,7 @@ Status prepare(Instance *x) {
     clear_state(x);
     int64_t words = (int64_t)model.words;
     int64_t outcome = mechanism_begin(x->block, words, x->head.start_time);
-    if (outcome == STATUS_OK) mechanism_begin_step(x->block, words);
+    if (outcome == STATUS_OK) outcome = mechanism_begin_step(x->block, words);
     if (outcome == STATUS_OK) outcome = mechanism_go_on(x->block, words, x->head.start_time, CODE_STOP_AT_TARGET);
     if (outcome != STATUS_OK) return failed(x, outcome);
     x->head.prepared = 1;
@@ -157,8 +157,8 @@ Status initialized(Instance *x) {
     if (prepare(x) != OK) return ERROR;
     for (size_t k = 0; k < model.warning_count; k++) {
         const double *n = x->findings + model.warnings[k].at;
-        if (n[0] > 0) say(x, WARNING, "logStatusWarning", model.warnings[k].text, n[1], n[2], n[3], n[4], n[5], n[6], n[7],
-                 n[8]);
+        if (!(n[0] > 0)) continue;
+        say(x, WARNING, "logStatusWarning", model.warnings[k].text, n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]);
     }
     x->head.phase = STEPPING;
     tell_news(x);
@@ -190,10 +190,15 @@ Status step_target(Instance *x, const char *call, double current_time, double si
     return OK;
 }
 
-Status go_on(Instance *x, double target, int64_t rule) {
+static Status judge(Instance *x, int64_t outcome) {
     x->outputs_read = 0;
-    int64_t outcome = mechanism_go_on(x->block, (int64_t)model.words, target, rule);
     if (outcome == STATUS_OK) return OK;
     char details[1200];
     return refuse(x, "t = %.9g s: %s%s", time_of(x), ADVICE[outcome], advice_details(x, outcome, details, sizeof details));
+}
+
+Status begin_step(Instance *x) { return judge(x, mechanism_begin_step(x->block, (int64_t)model.words)); }
+
+Status go_on(Instance *x, double target, int64_t rule) {
+    return judge(x, mechanism_go_on(x->block, (int64_t)model.words, target, rule));
 }
