@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from ctypes import c_bool
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any, NamedTuple, Self
 
 import fmpy
+import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Slave
+from fmpy.fmi3 import FMU3Slave, fmi3Error, fmi3ValueReference
 from fmpy.model_description import ModelDescription, ModelVariable
 
 Value = Any
@@ -82,6 +84,8 @@ class Instance3:
         on_update: Callable[[Update], float | None] | None = None,
         intermediate: Iterable[str] = (),
         token: str | None = None,
+        name: str = "one",
+        logging: bool = True,
     ) -> None:
         self.fmu = fmu
         self.log: list[Message] = []
@@ -92,7 +96,7 @@ class Instance3:
             guid=token or fmu.description.guid,
             unzipDirectory=fmu.folder,
             modelIdentifier=fmu.description.coSimulation.modelIdentifier,
-            instanceName="one",
+            instanceName=name,
         )
 
         def update(_environment: object, *told: Any) -> None:
@@ -103,7 +107,7 @@ class Instance3:
                 requested[0], when[0] = True, wanted
 
         self.slave.instantiate(
-            loggingOn=True,
+            loggingOn=logging,
             eventModeUsed=event_mode,
             earlyReturnAllowed=early_return,
             logMessage=lambda _, *message: self._told(*message),
@@ -166,11 +170,9 @@ class Instance3:
         """The value of a variable; that of an array as a list."""
         variable = self._by_name[name]
         if variable.type == "Clock":
-            values = [False]
-            pointer = (fmpy.fmi3.fmi3Clock * 1)()
-            references = (fmpy.fmi3.fmi3ValueReference * 1)(self.reference(name))
-            self.slave.fmi3GetClock(self.slave.component, references, 1, pointer)
-            values = list(pointer)
+            values = (c_bool * 1)()
+            references = (fmi3ValueReference * 1)(self.reference(name))
+            self.slave.fmi3GetClock(self.slave.component, references, 1, values)
         else:
             count = variable.shape[0] if variable.dimensions else 1
             values = getattr(self.slave, f"get{variable.type}")([self.reference(name)], nValues=count)
@@ -208,14 +210,12 @@ class Instance3:
     def refusal(self, call: Callable[..., object], *arguments: Any) -> str:
         """What the log says to a call that is refused, with an error."""
         before = len(self.log)
-        try:
+        with pytest.raises(FMICallException) as caught:
             call(*arguments)
-        except FMICallException as error:
-            assert error.status == fmpy.fmi3.fmi3Error
-            (message,) = self.log[before:]
-            assert message.category == "logStatusError"
-            return message.text
-        raise AssertionError("The call was not refused.")
+        (message,) = self.log[before:]
+        assert caught.value.status == message.status == fmi3Error
+        assert message.category == "logStatusError"
+        return message.text
 
     def _told(self, status: int, category: bytes, text: bytes) -> None:
         self.log.append(Message(status, category.decode(), text.decode()))

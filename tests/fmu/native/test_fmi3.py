@@ -1,7 +1,7 @@
 """FMI 3.0: event mode, early return, the clock of impacts, arrays, intermediate updates, states, refusals."""
 
 import math
-from ctypes import c_bool, c_size_t
+from ctypes import c_bool, c_double, c_size_t
 
 import fmpy
 import numpy as np
@@ -381,6 +381,23 @@ def test_each_impact_is_told_once(instance3):
         assert {message.category for message in told} == {"logEvents"}
 
 
+def test_a_number_sign_in_a_message_is_no_value_reference(instance3):
+    one = instance3(name="ratchet#1")
+
+    assert one.refusal(one.slave.terminate).startswith("ratchet##1: ")
+
+
+def test_logging_is_off_until_it_is_switched_on(instance3):
+    one = instance3(logging=False).begin()
+    with pytest.raises(FMICallException):
+        one.slave.enterEventMode()
+    one.step(0.5)
+    assert one.log == []
+    one.slave.setDebugLogging(True, ["logEvents"])
+    one.step(0.5)
+    assert {message.category for message in one.log} == {"logEvents"}
+
+
 def test_the_stop_time_ends_it(instance3):
     one = instance3().begin(stopTime=0.5, tolerance=1e-8)
     one.step(0.5)
@@ -430,9 +447,7 @@ def test_calls_out_of_order_are_refused(instance3):
     assert "cannot be set" in one.refusal(one.set, {"tooth_pitch": 1.0})
     assert "structural" in one.refusal(slave.enterConfigurationMode)
     count = c_size_t()
-    assert "those of elements" in one.refusal(
-        slave.fmi3GetNumberOfVariableDependencies, slave.component, 0, count
-    )
+    assert "those of elements" in one.refusal(slave.fmi3GetNumberOfVariableDependencies, slave.component, 0, count)
     one.step(0.1)
     slave.terminate()
     assert "terminated" in one.refusal(slave.doStep, one.time, 0.1)
@@ -443,7 +458,24 @@ def test_version(instance3):
     assert instance3().slave.fmi3GetVersion() == b"3.0"
 
 
-def test_a_missing_result_pointer_is_refused(instance3):
+def test_null_pointers_are_refused(instance3):
     one = instance3().begin()
-    with pytest.raises((FMICallException, TypeError)):
-        one.slave.fmi3DoStep(one.slave.component, 0.0, 0.1, True, None, None, None, None)
+    slave, component = one.slave, one.slave.component
+    references, values = (fmpy.fmi3.fmi3ValueReference * 1)(0), (c_double * 1)()
+
+    for call in (
+        lambda: slave.fmi3DoStep(component, 0.0, 0.1, True, None, None, None, None),
+        lambda: slave.fmi3GetFloat64(component, None, 1, values, 1),
+        lambda: slave.fmi3GetFloat64(component, references, 1, None, 1),
+        lambda: slave.fmi3SetFloat64(component, None, 1, values, 1),
+        lambda: slave.fmi3SetFloat64(component, references, 1, None, 1),
+        lambda: slave.fmi3GetClock(component, None, 1, None),
+        lambda: slave.fmi3GetOutputDerivatives(component, references, 1, None, values, 1),
+        lambda: slave.fmi3GetFMUState(component, None),
+        lambda: slave.fmi3SetFMUState(component, None),
+        lambda: slave.fmi3SerializedFMUStateSize(component, None, None),
+    ):
+        assert "null" in one.refusal(call)
+    slave.fmi3GetFloat64(component, None, 0, None, 0)
+    slave.fmi3FreeFMUState(component, None)
+    one.step(0.1)

@@ -199,7 +199,8 @@ static int has_clock(void) {
     return 0;
 }
 
-static Status check_clocks(const Instance *x, const fmi3ValueReference vr[], size_t count) {
+static Status check_clocks(const Instance *x, const fmi3ValueReference vr[], size_t count, const fmi3Clock values[]) {
+    if (count > 0 && (!vr || !values)) return refuse(x, "A pointer to value references or clocks is null.");
     for (size_t k = 0; k < count; k++)
         if (vr[k] != model.variable_count || !has_clock())
             return refuse(x, "There is no clock with value reference %u.", (unsigned)vr[k]);
@@ -208,7 +209,7 @@ static Status check_clocks(const Instance *x, const fmi3ValueReference vr[], siz
 
 fmi3Status fmi3GetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Clock values[]) {
     SELF(c);
-    if (check_clocks(x, vr, count) != OK) return fmi3Error;
+    if (check_clocks(x, vr, count, values) != OK) return fmi3Error;
     for (size_t k = 0; k < count; k++)
         values[k] = x->head.phase == EVENT && x->head.clock ? fmi3ClockActive : fmi3ClockInactive;
     return fmi3OK;
@@ -216,7 +217,7 @@ fmi3Status fmi3GetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t co
 
 fmi3Status fmi3SetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Clock values[]) {
     SELF(c);
-    if (check_clocks(x, vr, count) != OK) return fmi3Error;
+    if (check_clocks(x, vr, count, values) != OK) return fmi3Error;
     return count == 0 ? fmi3OK : (fmi3Status)refuse(x, "fmi3SetClock: the clock is an output and cannot be set.");
 }
 
