@@ -155,7 +155,8 @@ Status set_slopes(Instance *x, const unsigned vr[], size_t count, const int orde
     return OK;
 }
 
-Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order[], double values[], size_t value_count) {
+Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order[], double values[],
+                 size_t value_count) {
     if (check_references(x, REAL, vr, count, values, value_count) != OK) return ERROR;
     if (count > 0 && !order) return refuse(x, "The pointer to the orders of the derivatives is null.");
     if (prepare(x) != OK) return ERROR;
