@@ -46,8 +46,8 @@ static Instance *instance(const char *name, fmi3InstanceEnvironment environment,
 static Status check_token(const Instance *x, const char *call, const char *token) {
     if (token && strcmp(token, model.guid) == 0) return OK;
     return refuse(x,
-                  "%s: the instantiation token %s is not this FMU's, %s: modelDescription.xml and binary are not of the "
-                  "same build.",
+                  "%s: the instantiation token %s is not this FMU's, %s: modelDescription.xml and binary are not of "
+                  "the same build.",
                   call, token ? token : "(null)", model.guid);
 }
 
@@ -57,8 +57,8 @@ static Status check_intermediate(const Instance *x, const fmi3ValueReference vr[
         const Variable *v = vr[k] < model.variable_count ? model.variables + vr[k] : NULL;
         if (!v || v->type != REAL || v->causality != OUTPUT || v->count != 1)
             return refuse(x,
-                          "fmi3InstantiateCoSimulation: the required intermediate variable with value reference %u is no "
-                          "continuous output (those with intermediateUpdate in modelDescription.xml).",
+                          "fmi3InstantiateCoSimulation: the required intermediate variable with value reference %u is "
+                          "no continuous output (those with intermediateUpdate in modelDescription.xml).",
                           (unsigned)vr[k]);
     }
     return OK;
@@ -199,7 +199,8 @@ static int has_clock(void) {
     return 0;
 }
 
-static Status check_clocks(const Instance *x, const fmi3ValueReference vr[], size_t count) {
+static Status check_clocks(const Instance *x, const fmi3ValueReference vr[], size_t count, const fmi3Clock values[]) {
+    if (count > 0 && (!vr || !values)) return refuse(x, "A pointer to value references or clocks is null.");
     for (size_t k = 0; k < count; k++)
         if (vr[k] != model.variable_count || !has_clock())
             return refuse(x, "There is no clock with value reference %u.", (unsigned)vr[k]);
@@ -208,7 +209,7 @@ static Status check_clocks(const Instance *x, const fmi3ValueReference vr[], siz
 
 fmi3Status fmi3GetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Clock values[]) {
     SELF(c);
-    if (check_clocks(x, vr, count) != OK) return fmi3Error;
+    if (check_clocks(x, vr, count, values) != OK) return fmi3Error;
     for (size_t k = 0; k < count; k++)
         values[k] = x->head.phase == EVENT && x->head.clock ? fmi3ClockActive : fmi3ClockInactive;
     return fmi3OK;
@@ -216,7 +217,7 @@ fmi3Status fmi3GetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t co
 
 fmi3Status fmi3SetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Clock values[]) {
     SELF(c);
-    if (check_clocks(x, vr, count) != OK) return fmi3Error;
+    if (check_clocks(x, vr, count, values) != OK) return fmi3Error;
     return count == 0 ? fmi3OK : (fmi3Status)refuse(x, "fmi3SetClock: the clock is an output and cannot be set.");
 }
 
@@ -307,7 +308,8 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference vr[
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) {
     SELF(c);
     if (require(x, "fmi3GetFMUState", OUTSIDE_UPDATE) != OK) return fmi3Error;
-    return state ? (fmi3Status)save(x, (Saved **)state) : (fmi3Status)refuse(x, "fmi3GetFMUState: the pointer is null.");
+    if (!state) return (fmi3Status)refuse(x, "fmi3GetFMUState: the pointer is null.");
+    return (fmi3Status)save(x, (Saved **)state);
 }
 
 fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) {

@@ -29,7 +29,9 @@ static size_t elements(const Instance *x, unsigned vr) {
 }
 
 /* Check references, and that the values given are as many as their elements. */
-static Status check_references(const Instance *x, int type, const unsigned vr[], size_t count, size_t value_count) {
+static Status check_references(const Instance *x, int type, const unsigned vr[], size_t count, const void *values,
+                               size_t value_count) {
+    if (count > 0 && (!vr || !values)) return refuse(x, "A pointer to value references or values is null.");
     size_t needed = 0;
     for (size_t k = 0; k < count; k++) {
         if (check_reference(x, type, vr[k]) != OK) return ERROR;
@@ -79,7 +81,7 @@ static double take(const void *values, size_t k, Form form) {
 
 Status get_values(Instance *x, int type, const unsigned vr[], size_t count, Form form, void *values,
                   size_t value_count) {
-    if (check_references(x, type, vr, count, value_count) != OK || read_for(x, vr, count) != OK) return ERROR;
+    if (check_references(x, type, vr, count, values, value_count) != OK || read_for(x, vr, count) != OK) return ERROR;
     size_t next = 0;
     for (size_t k = 0; k < count; k++) {
         if (is_time(x, vr[k])) {
@@ -125,7 +127,7 @@ static Status check_set(Instance *x, unsigned vr, double value) {
 /* Set all values, or none when one is refused. No variable that can be set is an array. */
 Status set_values(Instance *x, int type, const unsigned vr[], size_t count, Form form, const void *values,
                   size_t value_count) {
-    if (check_references(x, type, vr, count, value_count) != OK) return ERROR;
+    if (check_references(x, type, vr, count, values, value_count) != OK) return ERROR;
     for (size_t k = 0; k < count; k++)
         if (check_set(x, vr[k], take(values, k, form)) != OK) return ERROR;
     for (size_t k = 0; k < count; k++) *place(x, vr[k]) = take(values, k, form);
@@ -140,6 +142,8 @@ static Status check_order(const Instance *x, int order) {
 }
 
 Status set_slopes(Instance *x, const unsigned vr[], size_t count, const int order[], const double values[]) {
+    if (count > 0 && (!vr || !order || !values))
+        return refuse(x, "A pointer to value references, orders or values is null.");
     for (size_t k = 0; k < count; k++) {
         if (check_order(x, order[k]) != OK) return ERROR;
         if (vr[k] >= model.inputs)
@@ -151,8 +155,10 @@ Status set_slopes(Instance *x, const unsigned vr[], size_t count, const int orde
     return OK;
 }
 
-Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order[], double values[], size_t value_count) {
-    if (check_references(x, REAL, vr, count, value_count) != OK) return ERROR;
+Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order[], double values[],
+                 size_t value_count) {
+    if (check_references(x, REAL, vr, count, values, value_count) != OK) return ERROR;
+    if (count > 0 && !order) return refuse(x, "The pointer to the orders of the derivatives is null.");
     if (prepare(x) != OK) return ERROR;
     mechanism_read_output_rates(x->block, (int64_t)model.words);
     for (size_t k = 0; k < count; k++) {

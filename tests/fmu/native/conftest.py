@@ -1,0 +1,28 @@
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+
+import models
+from mechanism_fmu.fmu.native.package import build_native_fmu
+from tests.fmu.native.host3 import Fmu3, Instance3
+
+
+@pytest.fixture(scope="session")
+def ratchet_fmi3(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built Ratchet.fmu of FMI 3.0."""
+    return build_native_fmu(models.load("ratchet"), tmp_path_factory.mktemp("fmi3"), fmi=3)
+
+
+@pytest.fixture(scope="session")
+def ratchet3(ratchet_fmi3: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu3:
+    """The ratchet's FMU of FMI 3.0, unzipped."""
+    return Fmu3.unzip(ratchet_fmi3, tmp_path_factory.mktemp("ratchet3"))
+
+
+@pytest.fixture
+def instance3(ratchet3: Fmu3) -> Iterator[Callable[..., Instance3]]:
+    """A function that makes instances of the ratchet; they are freed after the test."""
+    with ExitStack() as stack:
+        yield lambda **kwargs: stack.enter_context(Instance3(ratchet3, **kwargs))
