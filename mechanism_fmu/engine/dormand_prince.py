@@ -74,6 +74,7 @@ def try_step(block: Array, start: float, size_: float) -> float:
 @jit
 def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
     """The derivative at one stage, with the inputs' values at its `time` [s]."""
+    keep_small()
     feed_at(block, time)
     derivative(block, y, dy)
     _note_pushes(block)
