@@ -508,7 +508,7 @@ static void stage(Engine *e, const double *y, double *k)
 
 static double square_of(double x) { return x * x; }
 
-/* One step from y_start with k[0] there: y_new, all k, new_dense, least_push; return the error norm (<= 1: accurate). */
+/* One step from y_start with k[0] there: y_new, all k, new_dense, least_push; return the error norm (<= 1: good). */
 static double try_step(Engine *e, double h)
 {
     int n = e->unknowns;
@@ -551,7 +551,7 @@ static double try_step(Engine *e, double h)
 }
 
 /* y at `fraction` of the step whose coefficients are `dense`. */
-static void interpolate(const double dense[5][MAX_UNKNOWNS], double fraction, double *y, int n)
+static void interpolate(double (*dense)[MAX_UNKNOWNS], double fraction, double *y, int n)
 {
     double rest = 1.0 - fraction;
     for (int i = 0; i < n; i++)
@@ -595,7 +595,8 @@ static const double OPENS = -2.0;       /* push_ratio */
 static const double PULLS_BELOW = -1e-9; /* N */
 
 typedef struct { /* a gap that is watched over a step */
-    bool watched, armed;
+    int contact;
+    bool armed;
     double floor;
     Gap now, next;
 } Watch;
@@ -650,6 +651,7 @@ static double after_opening(Engine *e, int contact, double after)
 /* Note a gap at the step's start; true when it fires right there. */
 static bool begin_watch(Engine *e, Watch *w, int contact)
 {
+    w->contact = contact;
     w->now = gap(e, contact);
     w->armed = true;
     w->floor = 0.0;
@@ -666,8 +668,9 @@ static bool begin_watch(Engine *e, Watch *w, int contact)
 }
 
 /* Where between two looks a gap reaches zero; 2.0 when it does not. */
-static double zero_between(Engine *e, Watch *w, int contact, double before, double after)
+static double zero_between(Engine *e, Watch *w, double before, double after)
 {
+    int contact = w->contact;
     Gap next = w->next;
     double fraction = 2.0;
     if (!w->armed) {
@@ -705,28 +708,29 @@ static Event first_zero(Engine *e)
 {
     Event none = {GUARD_NONE, -1, 2.0}, found = none;
     Watch watch[MAX_CONTACTS];
-    int count = e->mechanism.contacts;
+    int count = 0;
     interpolate(e->new_dense, 0.0, e->y_at, e->unknowns);
     place_bodies(e, e->y_at);
-    for (int c = 0; c < count; c++) {
-        watch[c].watched = !e->state.mode[c].closed;
-        if (watch[c].watched && begin_watch(e, &watch[c], c))
+    for (int c = 0; c < e->mechanism.contacts; c++) {
+        if (e->state.mode[c].closed)
+            continue;
+        if (begin_watch(e, &watch[count++], c))
             return (Event){GUARD_GAP, c, 0.0};
     }
+    if (count == 0)
+        return none;
     double before = 0.0;
     for (int look = 1; look <= LOOKS; look++) {
         double after = (double)look / LOOKS;
         interpolate(e->new_dense, after, e->y_at, e->unknowns);
         place_bodies(e, e->y_at);
-        for (int c = 0; c < count; c++)
-            if (watch[c].watched)
-                watch[c].next = gap(e, c);
-        for (int c = 0; c < count; c++)
-            if (watch[c].watched) {
-                double fraction = zero_between(e, &watch[c], c, before, after);
-                if (fraction < found.fraction)
-                    found = (Event){GUARD_GAP, c, fraction};
-            }
+        for (Watch *w = watch; w < watch + count; w++)
+            w->next = gap(e, w->contact);
+        for (Watch *w = watch; w < watch + count; w++) {
+            double fraction = zero_between(e, w, before, after);
+            if (fraction < found.fraction)
+                found = (Event){GUARD_GAP, w->contact, fraction};
+        }
         if (found.guard != GUARD_NONE)
             return found;
         before = after;
@@ -1158,7 +1162,7 @@ int engine_run(Engine *e, const double values[2], double step, int first, int co
 /* y at the time reached. */
 void engine_read(Engine *e, double *y)
 {
-    const State *s = &e->state;
+    State *s = &e->state;
     if (s->time < s->step_end)
         interpolate(s->dense, (s->time - s->step_start) / s->step_size, y, e->unknowns);
     else

@@ -1,4 +1,4 @@
-"""`engine.c` compiled by the system's C compiler, and called by ctypes; its structs, filled from the engine's tables."""
+"""`engine.c`: compiled by the system's C compiler, called by ctypes, its structs filled from the engine's tables."""
 
 from __future__ import annotations
 
@@ -17,8 +17,11 @@ from mechanism_fmu.engine.layout import field_of, sizes_of
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
-#: No fast-math and no fused operations: sums are rounded as the engine's are.
+#: For this very processor, as the engine is compiled. No fast-math and no fused operations: numbers are rounded alike.
 _OPTIONS = ("-std=c11", "-O3", "-march=native", "-ffp-contract=off", "-fPIC", "-shared")
+
+#: Communication step [s].
+STEP = 1e-3
 
 # As in engine.c.
 _MAX_PINS, _MAX_FORCES, _MAX_CONTACTS, _MAX_INPUTS, _MAX_COLUMNS = 5, 8, 4, 8, 16
@@ -79,13 +82,17 @@ def build(folder: Path) -> ctypes.CDLL:
     """Compile engine.c into `folder` and load it.
 
     Raises:
-        NoCompilerError: neither $CC nor `cc` is a program.
+        NoCompilerError: there is no program `cc`, nor what the variable CC names.
+        RuntimeError: the compiler cannot compile it.
     """
-    compiler = shutil.which(os.environ.get("CC", "cc"))
-    if compiler is None:
-        raise NoCompilerError("No C compiler (cc, or what the variable CC names).")
+    command = os.environ.get("CC", "cc").split()
+    if not command or shutil.which(command[0]) is None:
+        raise NoCompilerError("There is no C compiler (cc, or what the variable CC names).")
     target = folder / "c_limit.so"
-    subprocess.run([compiler, *_OPTIONS, str(Path(__file__).with_name("engine.c")), "-o", str(target), "-lm"], check=True)
+    source = Path(__file__).with_name("engine.c")
+    done = subprocess.run([*command, *_OPTIONS, str(source), "-o", str(target), "-lm"], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"{source.name} cannot be compiled by {' '.join(command)}:\n{done.stderr}")
     library = ctypes.CDLL(str(target))
     library.engine_size.restype = library.engine_state_size.restype = library.engine_mechanism_size.restype = c_size_t
     library.engine_state.restype = c_void_p
@@ -100,11 +107,7 @@ def build(folder: Path) -> ctypes.CDLL:
 
 
 class Limit:
-    """An instance of the C program, which begins where an engine's block stands: assembled, at rest, at time 0.
-
-    Attributes:
-        steps: how many steps of its own it has accepted.
-    """
+    """An instance of the C program, which begins where an engine's block stands: assembled, at rest, at time 0."""
 
     def __init__(self, library: ctypes.CDLL, block: Array) -> None:
         mechanism = export(block)
@@ -122,6 +125,7 @@ class Limit:
 
     @property
     def steps(self) -> int:
+        """How many steps of its own it has accepted."""
         return int(self._library.engine_steps(self.address))
 
     @property
@@ -129,13 +133,13 @@ class Limit:
         """Time of the last impact [s]; 0 before the first."""
         return float(self._library.engine_impact_time(self.address))
 
-    def run(self, torques: Array, step: float, first: int, count: int) -> None:
-        """Make `count` communication steps of `step` [s] to the ends of number `first` and on, torques in turns.
+    def run(self, torques: Array, first: int, count: int) -> None:
+        """Make `count` communication steps, from number `first` on, with two drive torques in turns.
 
         Raises:
             RuntimeError: the motion cannot go on.
         """
-        outcome = self._library.engine_run(self.address, torques.ctypes.data, step, first, count)
+        outcome = self._library.engine_run(self.address, torques.ctypes.data, STEP, first, count)
         if outcome:
             raise RuntimeError(f"engine.c ends with status {outcome}.")
 
