@@ -122,7 +122,7 @@ static Status check_parameters(const Instance *x) {
     return OK;
 }
 
-/* Give the engine's state back its values from before the first call, but for inputs and their slopes. */
+/* Give the engine's state back its values from before the first call, but for the inputs. */
 static void clear_state(Instance *x) {
     const int64_t *slot = (const int64_t *)x->block;
     size_t first = (size_t)slot[SLOT_FIRST_OF_STATE], end = (size_t)slot[SLOT_END_OF_STATE];
@@ -141,12 +141,16 @@ Status prepare(Instance *x) {
     if (x->head.prepared) return OK;
     write_tables(x);
     if (check_parameters(x) != OK) return ERROR;
+    /* Slopes of the inputs are for the first step that leads on, which the step to the start time itself is not. */
+    double *slopes = x->findings + model.numbers + model.inputs;
+    memcpy(slopes, FIELD(x, input_slopes), model.inputs * sizeof(double));
     clear_state(x);
     int64_t words = (int64_t)model.words;
     int64_t outcome = mechanism_begin(x->block, words, x->head.start_time);
     if (outcome == STATUS_OK) outcome = mechanism_begin_step(x->block, words);
     if (outcome == STATUS_OK) outcome = mechanism_go_on(x->block, words, x->head.start_time, CODE_STOP_AT_TARGET);
     if (outcome != STATUS_OK) return failed(x, outcome);
+    memcpy(FIELD(x, input_slopes), slopes, model.inputs * sizeof(double));
     x->head.prepared = 1;
     forget_news(x);
     x->told_impacts = x->told_events = x->told_lost = 0;

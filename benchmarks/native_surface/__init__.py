@@ -1,0 +1,1 @@
+"""The native FMU against the bare engine, from C: what the FMI surface costs."""

@@ -1,0 +1,62 @@
+"""Steps, starts and saved states of the native FMU, and steps of the bare engine, timed by a C program."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import zipfile
+from pathlib import Path
+
+import fmpy
+
+import models
+from mechanism_fmu.engine.layout import field_of
+from mechanism_fmu.engine.pack import pack
+from mechanism_fmu.engine.run import library_path
+from mechanism_fmu.fmu.native.libraries import engine_libraries
+from mechanism_fmu.fmu.native.link import has_linker
+from mechanism_fmu.fmu.native.package import build_native_fmu
+
+from ..timing import Comparison
+
+#: The engine's share of a step's time must be at least this: the FMU may take 1.15 times as long.
+_LEAST_SHARE = 1 / 1.15
+#: What the surface may add to a step, and what a start and a saved and restored state may take [s].
+_MOST_SURFACE, _MOST_START, _MOST_STATE = 0.5e-6, 5e-3, 2e-6
+_SUBJECT = "native FMU from C (baseline: the bare engine)"
+
+
+def compare(folder: Path, rounds: int) -> list[Comparison]:
+    """Compare in a process without Python; nothing where there is no C compiler, no linker, or no ELF loader."""
+    compiler = shutil.which("cc")
+    if compiler is None or not has_linker() or not Path("/proc").is_dir():
+        return []
+    model = models.load("ratchet").MODEL
+    with zipfile.ZipFile(build_native_fmu(models.load("ratchet"), folder / "native")) as fmu:
+        fmu.extractall(folder / "native")
+    description = fmpy.read_model_description(str(folder / "native"))
+    block = pack(model.build(model.values()).compile())
+    (folder / "block").write_bytes(block.tobytes())
+    library = library_path(folder)
+    assert library is not None
+    library.write_bytes(engine_libraries()[library.name])
+    host = folder / "host"
+    headers = Path(fmpy.__file__).with_name("c-code")
+    source = Path(__file__).with_name("host.c")
+    subprocess.run([compiler, "-O2", "-std=c11", f"-I{headers}", str(source), "-o", str(host), "-ldl"], check=True)
+    inputs = [port.name for port in model.mechanism(model.values()).inputs]
+    torque = inputs.index("drive_torque")
+    word = (field_of(block, "inputs").ctypes.data - block.ctypes.data) // 8 + torque
+    binary = next((folder / "native" / "binaries" / "linux64").glob("*.so"))
+    command = [host, binary, description.guid, library, folder / "block", len(block), word, torque, rounds + 1]
+    done = subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True)
+    lines = [[float(x) * 1e-9 for x in line.split()] for line in done.stdout.splitlines()][1:]
+    engine, fmu_, engine_new, fmu_new, start, state = map(tuple, zip(*lines, strict=True))
+    added = tuple(b - a for a, b in zip(engine, fmu_, strict=True))
+    return [
+        Comparison(_SUBJECT, "1 ms step, constant input", engine, fmu_, least_ratio=_LEAST_SHARE),
+        Comparison(_SUBJECT, "1 ms step, new input each step", engine_new, fmu_new, least_ratio=_LEAST_SHARE),
+        Comparison(_SUBJECT, "what the surface adds to a step", engine, added, longest=_MOST_SURFACE),
+        Comparison(_SUBJECT, "instantiate .. exitInitializationMode", engine, start, longest=_MOST_START),
+        Comparison(_SUBJECT, "state saved and restored", engine, state, longest=_MOST_STATE),
+    ]
