@@ -40,7 +40,8 @@ class Script:
     def __init__(self, fmu: Any) -> None:
         self.lines = ["make 0"]
         self.time = 0.0
-        self._variables = {name: f"{_KINDS[v.type]} {v.valueReference}" for name, v in fmu.variables.items()}
+        known = {name: v for name, v in fmu.variables.items() if v.type in _KINDS}
+        self._variables = {name: f"{_KINDS[v.type]} {v.valueReference}" for name, v in known.items()}
 
     def begin(self, start: Mapping[str, float] | None = None) -> Script:
         self.set(start or {})
