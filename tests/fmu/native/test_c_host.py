@@ -45,7 +45,9 @@ def test_a_whole_indexing_cycle_without_any_environment(program, native_ratchet,
 def test_it_needs_the_systems_c_library_only(native_ratchet, ratchet3):
     for fmu, library in ((native_ratchet, LIBRARY[2]), (ratchet3, LIBRARY[3])):
         done = subprocess.run(["ldd", str(Path(fmu.folder, library))], capture_output=True, text=True, check=True)
-        assert {re.split(r"\.\d|/", line.strip().removeprefix("/lib64/"))[0] for line in done.stdout.splitlines()} <= SYSTEM
+        assert {
+            re.split(r"\.\d|/", line.strip().removeprefix("/lib64/"))[0] for line in done.stdout.splitlines()
+        } <= SYSTEM
 
 
 def everything(fmu, steps=40):
