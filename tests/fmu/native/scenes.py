@@ -6,9 +6,11 @@ Each scene is a function of an `Instance`, or of a `Script`, which knows no valu
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from mechanism_fmu.simulation import Simulation
+from models.ratchet.model import MODEL
 from tests.fmu.conformance.host import Instance, Value
 from tests.fmu.test_indexing_cycle import CYCLE, PERIOD, stroke
 
@@ -42,7 +44,33 @@ def cycle(one: Any, look: Look, until: float = 4 * PERIOD) -> None:
         look(one)
 
 
-def steps(scene: Callable[[Any, Look], None], one: Instance) -> list[dict[str, Value]]:
+class InEngine:
+    """The ratchet without an FMU: parameters to tables in Python, the engine compiled just in time.
+
+    Attributes:
+        time: that has been reached [s].
+    """
+
+    def begin(self, start: Mapping[str, float] | None = None) -> None:
+        given = dict(start or {})
+        names = {port.name for port in MODEL.build(MODEL.values()).inputs}
+        mechanism = MODEL.build(MODEL.values(**{name: given[name] for name in given.keys() - names}))
+        self._simulation = Simulation(mechanism, inputs=[given.get(port.name, port.start) for port in mechanism.inputs])
+        self.time = 0.0
+
+    def set(self, values: Mapping[str, float]) -> None:
+        for name, value in values.items():
+            self._simulation.set_input(name, value)
+
+    def step(self, size: float) -> None:
+        self._simulation.advance(self.time + size)
+        self.time += size
+
+    def outputs(self) -> dict[str, float]:
+        return self._simulation.read()
+
+
+def steps(scene: Callable[[Any, Look], None], one: Instance | InEngine) -> list[dict[str, Value]]:
     """All outputs after each communication step."""
     found: list[dict[str, Value]] = []
     scene(one, lambda one: found.append(one.outputs()))

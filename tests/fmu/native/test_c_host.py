@@ -1,5 +1,6 @@
 """The native FMU in a plain host in C: nothing of Python around it."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -86,7 +87,7 @@ def check_everything(printed):
 def test_memory_is_neither_misused_nor_lost(request, program, fmi, tmp_path):
     fmu = request.getfixturevalue("native_ratchet" if fmi == 2 else "ratchet3")
     valgrind = ("valgrind", "--quiet", "--error-exitcode=9", "--leak-check=full", "--show-leak-kinds=all")
-    host = Host(program[fmi], (*valgrind, "--errors-for-leak-kinds=all"), {"PATH": "/usr/bin:/bin"})
+    host = Host(program[fmi], (*valgrind, "--errors-for-leak-kinds=all"), {"PATH": os.defpath})
     check_everything(host.run(fmu, LIBRARY[fmi], everything(fmu), tmp_path))
 
 
@@ -94,7 +95,7 @@ def test_memory_is_neither_misused_nor_lost(request, program, fmi, tmp_path):
 def test_valgrind_sees_a_state_that_is_lost(program, native_ratchet, tmp_path):
     valgrind = ("valgrind", "--quiet", "--error-exitcode=9", "--leak-check=full")
     script = Script(native_ratchet).begin().say("step 0.1", "save 0", "forget 1", "copy 0", "free", "unload")
-    host = Host(program[2], (*valgrind, "--errors-for-leak-kinds=all"), {"PATH": "/usr/bin:/bin"})
+    host = Host(program[2], (*valgrind, "--errors-for-leak-kinds=all"), {"PATH": os.defpath})
     assert host.run(native_ratchet, LIBRARY[2], script, tmp_path).code == 9
 
 

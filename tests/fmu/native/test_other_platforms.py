@@ -3,6 +3,7 @@
 Their mathematical functions come from another C library, or from another version of it, and differ in last bits.
 """
 
+import os
 import shutil
 import sys
 from pathlib import Path
@@ -30,10 +31,11 @@ def zig(name):
 def windows(tmp_path_factory):
     if shutil.which("wine") is None:
         pytest.skip("wine is not installed")
-    home = str(tmp_path_factory.mktemp("wine"))
-    environment = {"PATH": "/usr/bin:/bin", "HOME": home, "WINEPREFIX": f"{home}/prefix", "WINEDEBUG": "-all"}
+    home = tmp_path_factory.mktemp("wine")
+    environment = {"PATH": os.defpath, "HOME": str(home), "WINEPREFIX": f"{home}/prefix", "WINEDEBUG": "-all"}
     program = cross_compile_host(tmp_path_factory.mktemp("windows"), zig("x86_64-windows"))
-    return Host(program, ("wine",), environment), "binaries/win64/Ratchet.dll"
+    yield Host(program, ("wine",), environment), "binaries/win64/Ratchet.dll"
+    shutil.rmtree(home, ignore_errors=True)  # 700 MB that pytest would keep
 
 
 @pytest.fixture(scope="module")
