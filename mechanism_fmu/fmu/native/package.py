@@ -32,6 +32,12 @@ _SURFACE = ("instance.c", "values.c", "saved.c", "log.c", "fmi2.c", "fmi3.c")
 #: The headers of both standards, which the package fmpy brings.
 _STANDARD = Path(fmpy.__file__).with_name("c-code")
 
+#: Where FMI 3.0 wants what has another name in FMI 2.0 (sections 2.5.1.2 and 2.5.1.5).
+_PLACES3 = {
+    "model.png": "terminalsAndIcons/icon.png",
+    "documentation/licenses/mechanism_fmu.txt": "documentation/licenses/license.txt",
+}
+
 _FACTS = (
     "The FMU needs nothing where it runs: no Python, no library but the system's own C library. Binaries for "
     f"{', '.join(target.name for target in TARGETS)} are inside; they run with glibc 2.17 or later, on macOS from 11 "
@@ -66,6 +72,8 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2) -> Pat
     path = file_in(destination, f"{model.name}.fmu")
     traced = formulas(trace(model), pack(model.build(model.values()).compile()))
     entries = common_entries(model, folder, _FACTS, ("mechanism_fmu",))
+    if fmi == 3:
+        entries = {_PLACES3.get(name, name): contents for name, contents in entries.items()}
     engine = compiled_engine()
     guid = _fingerprint(model, traced, entries | {DESCRIPTION: _description(model, "", fmi)}, engine)
     entries[DESCRIPTION] = _description(model, f"{{{guid}}}", fmi)
