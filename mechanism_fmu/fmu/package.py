@@ -42,10 +42,10 @@ _WRAPPER = (
     "Any GUID and any FMU type are accepted at instantiation.",
     "Unzip the FMU to a path of ASCII letters without <code># % + ? &amp;</code>; other paths crash the host.",
     "Each instantiation in the same process costs less than 1 kB of memory that is not given back.",
-    "The engine is inside, compiled for the platforms that <code>resources/requirements.txt</code> names; elsewhere, or "
-    "if it names none, the first start compiles it with numba (some seconds).",
-    "What runs is kept in the user's cache directory, in a folder <code>mechanism_fmu</code>; the environment "
-    "variable <code>MECHANISM_FMU_CACHE</code> chooses another. The folder may be deleted at any time.",
+    "The engine is inside, compiled for the platforms that <code>resources/requirements.txt</code> names; elsewhere, "
+    "or if it names none, the first start compiles it with numba (some seconds).",
+    "What runs is kept in the user's cache directory, in a folder <code>mechanism_fmu</code>; the environment variable "
+    "<code>MECHANISM_FMU_CACHE</code> chooses another. The folder may be deleted at any time.",
 )
 
 #: The slave file: it only imports, because a class defined here would leak at every instantiation.
