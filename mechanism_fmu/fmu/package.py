@@ -18,6 +18,7 @@ from .closure import Home, closure
 from .contents import common_entries, file_in, model_of
 from .native.libraries import engine_libraries
 from .native.link import has_linker
+from .native.objects import Report, silently
 from .native.targets import TARGETS
 from .project import dependencies
 
@@ -58,7 +59,7 @@ tidy_up(globals())
 '''
 
 
-def build_fmu(module: ModuleType, destination: Path) -> Path:
+def build_fmu(module: ModuleType, destination: Path, report: Report = silently) -> Path:
     """Build the FMU of a model: the same bytes from the same sources and versions of the tools.
 
     Where the package ziglang is installed, the engine travels compiled. Where it is not, the engine is compiled on the
@@ -67,6 +68,7 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
     Args:
         module: what holds `MODEL`, e.g. `models.ratchet.model`; it may import its neighbours and `mechanism_fmu`.
         destination: folder, made if need be, for "<model name>.fmu".
+        report: see `native.objects.compiled_engine`.
 
     Returns:
         Path of the FMU.
@@ -82,7 +84,7 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
     sources = closure(homes, ("fmu.slave", main))
     code = {name: text.encode() for name, text in sources.files.items()}
-    compiled = engine_libraries() if has_linker() else {}
+    compiled = engine_libraries(report) if has_linker() else {}
     code |= {f"engine/compiled/{name}": library for name, library in compiled.items()}
     start = (_LIBRARY / "fmu" / "start.py").read_text(encoding="utf-8")
 
