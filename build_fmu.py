@@ -81,8 +81,8 @@ def build(
         raise typer.Exit(1) from None
     if flavour is Flavour.PYTHONFMU and not has_linker():
         messages.print(
-            "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs numba, "
-            "and its first start takes 15 to 30 s. For a fast one: python -m pip install ziglang, and build again.",
+            "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "
+            "numba, and its first start takes 15 to 30 s. For a fast one: python -m pip install ziglang, and build again.",
             style="yellow",
             markup=False,
         )
