@@ -82,7 +82,8 @@ def build(
     if flavour is Flavour.PYTHONFMU and not has_linker():
         messages.print(
             "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "
-            "numba, and its first start takes 15 to 30 s. For a fast one: python -m pip install ziglang, and build again.",
+            "numba, and its first start takes 15 to 30 s. For a fast one, install it and build again: "
+            "python -m pip install ziglang",
             style="yellow",
             markup=False,
         )
