@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from .body import GROUND, Body
+from .body import GROUND
 from .check_contacts import check_contacts
+from .check_numbers import number_findings
 from .errors import MechanismError
-from .forces import CompliantShaft, Damper, TorsionSpring
-from .joints import Translational
+from .findings import messages
 from .ports import Calculated, Input, Output
 from .sources import resolve_output
 
@@ -25,15 +24,11 @@ def check(mechanism: Mechanism) -> None:
         MechanismError: with every problem found, one sentence each.
     """
     problems = [
+        *messages(number_findings(mechanism)),
         *_names(mechanism),
-        *(p for body in mechanism.bodies for p in _body(body)),
         *_references(mechanism),
         *check_contacts(mechanism),
-        *_coefficients(mechanism),
-        *_numbers(mechanism),
-        *_axes(mechanism),
         *_ports(mechanism),
-        *_settings(mechanism),
     ]
     if problems:
         raise MechanismError(" ".join(problems))
@@ -59,14 +54,6 @@ def _names(mechanism: Mechanism) -> Iterator[str]:
         taken.add(port.name)
 
 
-def _body(body: Body) -> Iterator[str]:
-    for what, value, unit in (("mass", body.mass, "kg"), ("inertia", body.inertia, "kg.m2")):
-        if not (math.isfinite(value) and value > 0):
-            yield f"Body {body.name!r}: {what} = {value:g} {unit}, but it must be positive and finite."
-    if not all(math.isfinite(v) for v in (*body.start, *body.start_rate)):
-        yield f"Body {body.name!r}: start {body.start} or start_rate {body.start_rate} is not finite."
-
-
 def _references(mechanism: Mechanism) -> Iterator[str]:
     known = [body.name for body in mechanism.bodies]
     pairs = (*mechanism.joints, *mechanism.contacts, *mechanism.patterns)
@@ -79,37 +66,6 @@ def _references(mechanism: Mechanism) -> Iterator[str]:
                 yield f"{label} is attached to unknown body {name!r}; there are {', '.join(known)} and {GROUND!r}."
         if bodies[0] == bodies[1]:
             yield f"{label} joins {bodies[0]!r} to itself; attach it to two different bodies."
-
-
-def _coefficients(mechanism: Mechanism) -> Iterator[str]:
-    for force in mechanism.forces:
-        values = []
-        if isinstance(force, (TorsionSpring, CompliantShaft)):
-            values.append(("stiffness", force.stiffness, "N.m/rad"))
-        if isinstance(force, (Damper, CompliantShaft)):
-            values.append(("damping", force.damping, "N.m.s/rad"))
-        for what, value, unit in values:
-            if not value >= 0:
-                label = f"{type(force).__name__} {force.name!r}"
-                yield f"{label}: {what} = {value:g} {unit}, but it must not be negative."
-    for joint in mechanism.joints:
-        if not (math.isfinite(joint.friction) and joint.friction >= 0):
-            yield f"Joint {joint.name!r}: its friction, {joint.friction:g}, must be finite and not negative."
-
-
-def _numbers(mechanism: Mechanism) -> Iterator[str]:
-    for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts, *mechanism.patterns):
-        if not all(math.isfinite(number) for number in part.data()):
-            yield f"{type(part).__name__} {part.name!r} holds a number that is not finite; give finite ones."
-    for port in mechanism.inputs:
-        if not math.isfinite(port.start):
-            yield f"Input {port.name!r}: start = {port.start} is not finite."
-
-
-def _axes(mechanism: Mechanism) -> Iterator[str]:
-    for joint in mechanism.joints:
-        if isinstance(joint, Translational) and not (math.hypot(*joint.axis_i) > 0 and math.hypot(*joint.axis_j) > 0):
-            yield f"Joint {joint.name!r}: an axis of length zero has no direction; give both axes a length."
 
 
 def _ports(mechanism: Mechanism) -> Iterator[str]:
@@ -136,12 +92,3 @@ def _ports(mechanism: Mechanism) -> Iterator[str]:
     for held in mechanism.held:
         if held not in names:
             yield f"Held coordinate {held!r} does not exist; choose among {', '.join(names)}."
-
-
-def _settings(mechanism: Mechanism) -> Iterator[str]:
-    settings = mechanism.settings
-    if not 1e-13 <= settings.relative_tolerance <= 1e-3:
-        yield f"relative_tolerance = {settings.relative_tolerance:g} is outside 1e-13..1e-3."
-    for name in ("baumgarte_alpha", "baumgarte_beta"):
-        if not (math.isfinite(getattr(settings, name)) and getattr(settings, name) >= 0):
-            yield f"{name} = {getattr(settings, name):g} must be finite and not negative."

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import codes
 from .body import GROUND
-from .functions import Number, sqrt
+from .functions import Number, is_plain, sqrt
 from .logic import resolve_function, switch
 from .sources import resolve_output
 
@@ -160,7 +160,7 @@ def _numbers(values: Sequence[Number]) -> Table:
 
 
 def _symbolic(values: Sequence[Number]) -> bool:
-    return any(not isinstance(v, (int, float, np.number, np.bool_)) for v in values)
+    return not all(map(is_plain, values))
 
 
 def _rows(rows: Sequence[Sequence[Number]], columns: int) -> Table:

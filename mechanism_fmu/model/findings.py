@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from string import Formatter
 
+from .conditions import plain, unless
 from .errors import MechanismError
 from .functions import Number, where_positive
 
@@ -71,6 +72,16 @@ def pieces(text: str) -> list[tuple[str, str | None]]:
 def messages(findings: Iterable[Finding]) -> list[str]:
     """The messages of those findings, of plain numbers, that apply."""
     return [finding.message for finding in findings if finding.applies > 0]
+
+
+def literal(text: str) -> str:
+    """A text to stand as it is in the text of a finding, e.g. a name."""
+    return text.replace("{", "{{").replace("}", "}}")
+
+
+def refuse_unless(condition: Number, text: str, *numbers: Number) -> Finding:
+    """The finding that applies where `condition` is not positive, also where it is NaN."""
+    return Finding(unless(condition), text, tuple(map(plain, numbers)))
 
 
 def where(condition: Number, *findings: Finding) -> tuple[Finding, ...]:

@@ -9,8 +9,15 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 #: A float, or a symbolic stand-in for one.
 Number = Any
+
+
+def is_plain(x: object) -> bool:
+    """Whether a number is a plain one, not a symbolic."""
+    return isinstance(x, (int, float, np.number, np.bool_))
 
 
 def _apply(name: str, x: Number) -> Number:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import NoReturn
 
-import numpy as np
-
 from .errors import MechanismError
-from .functions import Number
+from .functions import Number, is_plain
 
 
 @dataclass(frozen=True)
@@ -27,6 +25,15 @@ class Operation:
     value: float = 0.0
 
 
+@dataclass(frozen=True)
+class Limits:
+    """What is known of a parameter's values: they are finite, from `low` to `high`, and perhaps whole numbers."""
+
+    low: float
+    high: float
+    whole: bool = False
+
+
 @dataclass
 class Recorder:
     """The operations of a calculation in their order, each once.
@@ -35,11 +42,19 @@ class Recorder:
     """
 
     operations: list[Operation] = field(default_factory=list)
+    _limits: dict[int, Limits] = field(default_factory=dict)
     _known: dict[tuple[str, tuple[int, ...], str], int] = field(default_factory=dict)
 
-    def parameter(self, place: int) -> Symbol:
-        """The symbol of the parameter at a place."""
-        return Symbol(self, self._number("parameter", (), float(place)))
+    def parameter(self, place: int, limits: Limits | None = None) -> Symbol:
+        """The symbol of the parameter at a place, whose values may be known to have limits."""
+        symbol = Symbol(self, self._number("parameter", (), float(place)))
+        if limits is not None:
+            self._limits[symbol.number] = limits
+        return symbol
+
+    def limits(self, symbol: Symbol) -> Limits | None:
+        """The limits of a parameter; of the result of any other operation, none are known."""
+        return self._limits.get(symbol.number)
 
     def apply(self, name: str, *operands: Number) -> Symbol:
         """The symbol of an operation's result; operands are symbols of this recorder and plain numbers."""
@@ -124,6 +139,11 @@ class Symbol:
     def __pos__(self) -> Symbol:
         return self
 
+    @property
+    def limits(self) -> Limits | None:
+        """What is known of its values, where it is a parameter and nothing more."""
+        return self.recorder.limits(self)
+
     def sin(self) -> Symbol:
         """Sine."""
         return self.recorder.apply("sin", self)
@@ -149,7 +169,7 @@ class Symbol:
         return self.recorder.apply("where_positive", self, positive, otherwise)
 
     def _binary(self, name: str, left: Number, right: Number) -> Number:
-        if not all(isinstance(x, (Symbol, int, float, np.number, np.bool_)) for x in (left, right)):
+        if not all(isinstance(x, Symbol) or is_plain(x) for x in (left, right)):
             return NotImplemented
         return self.recorder.apply(name, left, right)
 

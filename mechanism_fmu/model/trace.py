@@ -1,7 +1,8 @@
-"""A model's tables, objections and warnings as one recorded calculation: for targets without Python."""
+"""A model's tables, objections, problems and warnings as one recorded calculation: for targets without Python."""
 
 from __future__ import annotations
 
+import math
 import operator
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
@@ -11,13 +12,15 @@ from typing import Any
 import numpy as np
 
 from . import functions
+from .check_numbers import number_findings
 from .compile import MechanismTables, Table, compile_tables
 from .errors import MechanismError
 from .findings import Finding, messages
 from .functions import Number
 from .mechanism import Mechanism
 from .model import Model
-from .symbol import Operation, Recorder, Symbol
+from .ports import Parameter
+from .symbol import Limits, Operation, Recorder, Symbol
 
 _APPLY: dict[str, Callable[..., float]] = {
     "add": operator.add,
@@ -38,7 +41,7 @@ _APPLY: dict[str, Callable[..., float]] = {
 class Trace:
     """What a model calculates from its parameters.
 
-    Numbers in `tables`, `objections` and `warnings` are `Symbol`s where they depend on a parameter; the `number` of a
+    Numbers in `tables` and the findings are `Symbol`s where they depend on a parameter; the `number` of a
     symbol is that of the operation in `operations` that gives it.
 
     Attributes:
@@ -47,6 +50,8 @@ class Trace:
         operations: in an order in which they can be carried out; some may be needed for nothing.
         tables: of dtype object where a number is symbolic.
         objections, warnings: as the model gives them.
+        problems: those of the mechanism's numbers (`number_findings`) that depend on parameters and that no
+            limits of a parameter exclude.
     """
 
     model: Model
@@ -54,6 +59,7 @@ class Trace:
     operations: tuple[Operation, ...]
     tables: MechanismTables
     objections: tuple[Finding, ...]
+    problems: tuple[Finding, ...]
     warnings: tuple[Finding, ...]
 
     def evaluate(self, values: SimpleNamespace) -> MechanismTables:
@@ -73,6 +79,14 @@ class Trace:
     def refused(self, values: SimpleNamespace) -> list[str]:
         """As `Model.refused`, from the recorded operations."""
         return self._messages(self.objections, values)
+
+    def impossible(self, values: SimpleNamespace) -> list[str]:
+        """What `check` says of the numbers of the mechanism for parameter values, from the recorded operations.
+
+        Raises:
+            ValueError, ZeroDivisionError: where `evaluate` does; ask only where nothing is refused.
+        """
+        return self._messages(self.problems, values)
 
     def warned(self, values: SimpleNamespace) -> list[str]:
         """As `Model.warned`, from the recorded operations."""
@@ -113,13 +127,23 @@ def trace(model: Model) -> Trace:
         MechanismError: the model branches on a parameter, or an integer table or a table's shape depends on one.
     """
     recorder = Recorder()
-    values = SimpleNamespace(**{p.name: recorder.parameter(i) for i, p in enumerate(model.parameters)})
+    values = SimpleNamespace(**{p.name: recorder.parameter(i, _limits(p)) for i, p in enumerate(model.parameters)})
     plain = model.build(model.values()).compile()
     mechanism = model.mechanism(values)
     tables = compile_tables(mechanism)
     _check_structure(model, dict(_arrays(tables)), dict(_arrays(plain)))
     objections, warnings = tuple(model.objections(values)), tuple(model.warnings(values))
-    return Trace(model, mechanism, tuple(recorder.operations), tables, objections, warnings)
+    # What depends on no parameter, or only on one whose limits exclude it, is not asked again.
+    problems = tuple(f for f in number_findings(mechanism) if isinstance(f.applies, Symbol))
+    return Trace(model, mechanism, tuple(recorder.operations), tables, objections, problems, warnings)
+
+
+def _limits(parameter: Parameter) -> Limits:
+    if parameter.type == "Boolean":
+        return Limits(0.0, 1.0, whole=True)
+    low = -math.inf if parameter.minimum is None else parameter.minimum
+    high = math.inf if parameter.maximum is None else parameter.maximum
+    return Limits(low, high, whole=parameter.type == "Integer")
 
 
 def _check_structure(model: Model, tables: Mapping[str, Table], plain: Mapping[str, Table]) -> None:

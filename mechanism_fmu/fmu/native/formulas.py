@@ -37,11 +37,12 @@ class Formulas:
     Attributes:
         source: a file with the one function `void mechanism_formulas(const double *p, double *block,
             double *findings)`. `p` holds the parameter values in the model's order; every word of `block`'s tables that
-            depends on a parameter is written, no other; `findings` gets, for each objection and then each warning, how
-            far it applies (it does where that is > 0) and the numbers of its text. Nothing fails: what does not exist
-            is not finite. Compile it with -ffp-contract=off, or its numbers differ from Python's in the last bits.
-        objections, warnings: of each, its text for printf and the index of its `applies` in `findings`; its numbers
-            follow there.
+            depends on a parameter is written, no other; `findings` gets, for each objection, then each warning and each
+            problem, how far it applies (it does where that is > 0) and the numbers of its text. Nothing fails: what
+            does not exist is not finite. Compile it with -ffp-contract=off, or its numbers differ from Python's in the
+            last bits.
+        objections, warnings, problems: of each, its text for printf and the index of its `applies` in `findings`; its
+            numbers follow there. Problems are to be said only where no objection applies.
         findings: length that the array `findings` must have. It is longer than what is written, so that
             `MOST_NUMBERS` numbers can be handed to printf behind every `applies`: set it to 0 first.
         words: of each word that is written, its index in `block` and its name for the user, e.g. "joint_data of pin".
@@ -50,6 +51,7 @@ class Formulas:
     source: str
     objections: tuple[tuple[str, int], ...]
     warnings: tuple[tuple[str, int], ...]
+    problems: tuple[tuple[str, int], ...]
     findings: int
     words: tuple[tuple[int, str], ...]
 
@@ -57,16 +59,18 @@ class Formulas:
 def formulas(traced: Trace, block: Array) -> Formulas:
     """The C formulas of a traced model for a block of its structure, e.g. that of the default values."""
     written = entries(traced, block)
-    findings = (*traced.objections, *traced.warnings)
+    findings = (*traced.objections, *traced.warnings, *traced.problems)
     numbers = [x for finding in findings for x in (finding.applies, *finding.numbers)]
     sizes = [1 + len(finding.numbers) for finding in findings]
     places = [int(place) for place in np.cumsum([0, *sizes[:-1]])] if sizes else []
     texts = [(printf_text(finding), place) for finding, place in zip(findings, places, strict=True)]
-    split = len(traced.objections)
+    warnings = len(traced.objections)
+    problems = warnings + len(traced.warnings)
     return Formulas(
         source="\n".join(_source(traced, written, numbers)) + "\n",
-        objections=tuple(texts[:split]),
-        warnings=tuple(texts[split:]),
+        objections=tuple(texts[:warnings]),
+        warnings=tuple(texts[warnings:problems]),
+        problems=tuple(texts[problems:]),
         findings=len(numbers) + MOST_NUMBERS,
         words=tuple((entry.word, entry.label) for entry in written),
     )

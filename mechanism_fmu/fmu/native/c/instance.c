@@ -97,24 +97,31 @@ void write_tables(Instance *x) {
         return;
     memcpy(x->block, model.block, (size_t)((const int64_t *)x->block)[SLOT_FIRST_OF_STATE] * sizeof(double));
     mechanism_formulas(x->parameters, x->block, x->findings);
+    for (size_t k = 0; k < model.numbers; k++)
+        if (isnan(x->findings[k])) x->findings[k] = NAN; /* without sign or kind, which some printf show */
     double *relative = FIELD(x, settings) + CODE_RELATIVE_TOLERANCE;
     *relative = fmin(*relative, tolerance);
     memcpy(x->written, x->parameters, model.parameters * sizeof(double));
     x->written_tolerance = tolerance;
 }
 
+/* Append those findings that apply. */
+static void append_findings(const Instance *x, const Finding *findings, size_t count, char *text, size_t size) {
+    for (size_t k = 0; k < count; k++) {
+        const double *n = x->findings + findings[k].at;
+        if (!(n[0] > 0)) continue;
+        size_t length = strlen(text);
+        snprintf(text + length, size - length, "%s", length ? " " : "");
+        length = strlen(text);
+        snprintf(text + length, size - length, findings[k].text, n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]);
+    }
+}
+
 /* Refuse parameter values that no mechanism can have. */
 static Status check_parameters(const Instance *x) {
     char text[2000] = "";
-    for (size_t k = 0; k < model.objection_count; k++) {
-        const double *n = x->findings + model.objections[k].at;
-        if (!(n[0] > 0)) continue;
-        size_t length = strlen(text);
-        snprintf(text + length, sizeof text - length, "%s", length ? " " : "");
-        length = strlen(text);
-        snprintf(text + length, sizeof text - length, model.objections[k].text, n[1], n[2], n[3], n[4], n[5], n[6], n[7],
-                 n[8]);
-    }
+    append_findings(x, model.objections, model.objection_count, text, sizeof text);
+    if (!*text) append_findings(x, model.problems, model.problem_count, text, sizeof text);
     if (*text) return refuse(x, "%s", text);
     for (size_t k = 0; k < model.dependent_count; k++)
         if (!isfinite(x->block[model.dependent[k].word]))

@@ -47,8 +47,8 @@ typedef struct {
     const double *block;                                /* of an instance before its first call */
     size_t given, words;                                /* without and with work, which is 0 */
     size_t numbers; /* of all findings */
-    const Finding *objections, *warnings;
-    size_t objection_count, warning_count;
+    const Finding *objections, *problems, *warnings; /* problems: of the mechanism, where nothing is objected to */
+    size_t objection_count, problem_count, warning_count;
     const Word *dependent; /* on parameters */
     size_t dependent_count;
     const Joint *joints;

@@ -1,0 +1,94 @@
+"""What cannot be right of a mechanism's numbers, as findings: asked of plain numbers, and traced for native FMUs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from .body import Body
+from .check_contact_numbers import contact_findings, pattern_findings
+from .conditions import (
+    any_of,
+    both,
+    finite,
+    finite_not_negative,
+    finite_positive,
+    not_negative,
+    not_zero,
+    within,
+)
+from .findings import Finding, literal, refuse_unless
+from .forces import CompliantShaft, Damper, ForceElement, TorsionSpring
+from .functions import Number
+from .joints import Joint, Translational
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism, Settings
+
+
+def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
+    """Every problem that the numbers of a mechanism, plain or symbolic, can have: a finding each, applying or not."""
+    for body in mechanism.bodies:
+        yield from _body(body)
+    for contact in mechanism.contacts:
+        yield from contact_findings(contact)
+    for pattern in mechanism.patterns:
+        yield from pattern_findings(pattern)
+    for function in mechanism.functions:
+        text = f"Logical function {literal(repr(function.name))}: its limit {{:g}} is not finite."
+        yield refuse_unless(finite(function.below), text, function.below)
+    for force in mechanism.forces:
+        yield from _force(force)
+    for joint in mechanism.joints:
+        text = f"Joint {literal(repr(joint.name))}: its friction, {{:g}}, must be finite and not negative."
+        yield refuse_unless(finite_not_negative(joint.friction), text, joint.friction)
+    for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts, *mechanism.patterns):
+        label = f"{type(part).__name__} {literal(repr(part.name))}"
+        yield refuse_unless(finite(*part.data()), f"{label} holds a number that is not finite; give finite ones.")
+    for port in mechanism.inputs:
+        text = f"Input {literal(repr(port.name))}: start = {{:g}} is not finite."
+        yield refuse_unless(finite(port.start), text, port.start)
+    for joint in mechanism.joints:
+        yield from _axes(joint)
+    yield from _settings(mechanism.settings)
+
+
+def _body(body: Body) -> Iterator[Finding]:
+    label = f"Body {literal(repr(body.name))}"
+    for what, value, unit in (("mass", body.mass, "kg"), ("inertia", body.inertia, "kg.m2")):
+        text = f"{label}: {what} = {{:g}} {unit}, but it must be positive and finite."
+        yield refuse_unless(finite_positive(value), text, value)
+    start = (*body.start, *body.start_rate)
+    text = f"{label}: start ({{:g}}, {{:g}}, {{:g}}) or start_rate ({{:g}}, {{:g}}, {{:g}}) is not finite."
+    yield refuse_unless(finite(*start), text, *start)
+
+
+def _force(force: ForceElement) -> Iterator[Finding]:
+    values = []
+    if isinstance(force, (TorsionSpring, CompliantShaft)):
+        values.append(("stiffness", force.stiffness, "N.m/rad"))
+    if isinstance(force, (Damper, CompliantShaft)):
+        values.append(("damping", force.damping, "N.m.s/rad"))
+    label = f"{type(force).__name__} {literal(repr(force.name))}"
+    for what, value, unit in values:
+        text = f"{label}: {what} = {{:g}} {unit}, but it must not be negative."
+        yield refuse_unless(not_negative(value), text, value)
+
+
+def _axes(joint: Joint) -> Iterator[Finding]:
+    if isinstance(joint, Translational):
+        text = f"Joint {literal(repr(joint.name))}: an axis of length zero has no direction; give both axes a length."
+        yield refuse_unless(both(_has_length(joint.axis_i), _has_length(joint.axis_j)), text)
+
+
+def _has_length(axis: tuple[Number, Number]) -> Number:
+    return any_of(not_zero(axis[0]), not_zero(axis[1]))
+
+
+def _settings(settings: Settings) -> Iterator[Finding]:
+    tolerance = settings.relative_tolerance
+    text = "relative_tolerance = {:g} is outside 1e-13..1e-3."
+    yield refuse_unless(within(tolerance, 1e-13, 1e-3), text, tolerance)
+    for name in ("baumgarte_alpha", "baumgarte_beta"):
+        value = getattr(settings, name)
+        yield refuse_unless(finite_not_negative(value), f"{name} = {{:g}} must be finite and not negative.", value)
