@@ -47,6 +47,7 @@ def build(
     from rich.console import Console
 
     import models
+    from mechanism_fmu.fmu.native.link import has_linker
     from mechanism_fmu.fmu.native.package import build_native_fmu
     from mechanism_fmu.fmu.package import build_fmu
     from mechanism_fmu.model import MechanismError
@@ -65,13 +66,27 @@ def build(
         raise typer.Exit(_USAGE_ERROR)
     began = time.perf_counter()
     try:
-        with messages.status(f"Building the FMU of {model}; a first build compiles the engine ..."):
+        with messages.status(f"Building the FMU of {model} ...") as status:
+
+            def report(text: str, done: float) -> None:
+                status.update(f"The engine is compiled once for all platforms, {100 * done:.0f} %: {text} ...")
+
             module = models.load(model)
-            native = flavour is Flavour.NATIVE
-            path = build_native_fmu(module, output, fmi) if native else build_fmu(module, output)
+            if flavour is Flavour.NATIVE:
+                path = build_native_fmu(module, output, fmi, report)
+            else:
+                path = build_fmu(module, output, report)
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(1) from None
+    if flavour is Flavour.PYTHONFMU and not has_linker():
+        messages.print(
+            "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "
+            "numba, and its first start takes 15 to 30 s. For a fast one, install it and build again: "
+            "python -m pip install ziglang",
+            style="yellow",
+            markup=False,
+        )
     seconds = time.perf_counter() - began
     typer.echo(f"{path}  {path.stat().st_size / 1e3:.0f} kB  GUID {_guid(path)}  {seconds:.1f} s")
 

@@ -12,8 +12,12 @@ import typer
 from rich.console import Console
 
 from mechanism_fmu.fmu.start import CACHE_VARIABLE
+from mechanism_fmu.model import MechanismError
 
 from . import acceleration, cycle, fmu_step, fmus, impacts, startup, step
+from .c_limit import compare as c_limit
+from .c_limit.library import NoCompilerError
+from .native_surface import compare as native_surface
 from .table import as_json, table, this_machine
 from .timing import Comparison, DisagreementError
 
@@ -52,18 +56,28 @@ def run(
 
 def _compare(folder: Path, progress: Console) -> list[Comparison]:
     cache = folder / "cache"
-    progress.print("1/6  one acceleration (compiles the engine first)")
+    progress.print("1/8  one acceleration (compiles the engine first)")
     comparisons = acceleration.compare(_ROUNDS)
-    progress.print("2/6  one step")
+    progress.print("2/8  one step")
     comparisons += step.compare(_ROUNDS)
-    progress.print("3/6  one impact")
+    progress.print("3/8  one impact")
     comparisons += impacts.compare(_ROUNDS)
-    progress.print("4/6  one simulated second of the free ratchet")
+    progress.print("4/8  one simulated second of the free ratchet")
     comparisons += cycle.compare(_ROUNDS)
-    progress.print("5/6  start of the FMU (builds it; the first start compiles the engine)")
+    progress.print("5/8  the same algorithm by hand in C")
+    try:
+        comparisons += c_limit.compare(folder, _ROUNDS)
+    except NoCompilerError as error:
+        progress.print(f"     left out: {error}")
+    progress.print("6/8  the native FMU, from C (builds it; a first build compiles the engine ahead of time)")
+    try:
+        comparisons += native_surface.compare(folder, _ROUNDS)
+    except (NoCompilerError, MechanismError) as error:
+        progress.print(f"     left out: {error}")
+    progress.print("7/8  start of the FMU by pythonfmu (and one that compiles the engine)")
     ratchet, plain = fmus.build_ratchet(folder), fmus.build_plain(folder)
     starts = startup.compare(ratchet, folder, cache)
-    progress.print("6/6  one step of the FMU")
+    progress.print("8/8  one step of the FMU by pythonfmu")
     os.environ[CACHE_VARIABLE] = str(cache)
     return [*comparisons, *fmu_step.compare(plain, ratchet, folder, _ROUNDS), *starts]
 

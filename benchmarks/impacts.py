@@ -17,7 +17,7 @@ Vector = NDArray[np.float64]
 LENGTH, MASS, INERTIA = 0.02, 1e-3, 1e-6
 TORQUE, STIFFNESS = 1e-2, 0.05
 SPEED = 0.5
-_ABOUT_HINGE = INERTIA + MASS * (LENGTH / 2) ** 2
+ABOUT_HINGE = INERTIA + MASS * (LENGTH / 2) ** 2
 _TOLERANCE = 1e-9
 _IMPACTS = 50
 _ENGINE_IMPACTS = 2000
@@ -26,7 +26,7 @@ _LEAST_RATIO = 20.0
 
 def compare(rounds: int) -> list[Comparison]:
     """Compare over the same hops; the baseline has the advantage of a single coordinate."""
-    mechanism = _pawl()
+    mechanism = pawl()
     simulation = Simulation(mechanism)
     _until(simulation, _IMPACTS)
     require_agreement("times of impacts", plain(_IMPACTS), [simulation.field("last_impact")[codes.RECORD_TIME]], 1e-8)
@@ -47,7 +47,7 @@ def plain(impacts: int) -> list[float]:
     time, state = 0.0, np.array([0.0, SPEED])
 
     def rates(_time: float, y: Vector) -> list[float]:
-        return [y[1], -(TORQUE + STIFFNESS * y[0]) / _ABOUT_HINGE]
+        return [y[1], -(TORQUE + STIFFNESS * y[0]) / ABOUT_HINGE]
 
     def touches(_time: float, y: Vector) -> float:
         return float(y[0])
@@ -63,14 +63,15 @@ def plain(impacts: int) -> list[float]:
 
 def _until(simulation: Simulation, impacts: int) -> None:
     """Advance by steps of about four hops until there have been so many impacts."""
-    step = 8 * SPEED * _ABOUT_HINGE / TORQUE
+    step = 8 * SPEED * ABOUT_HINGE / TORQUE
     while simulation.counters[codes.COUNT_IMPACTS] < impacts - 4:
         simulation.advance(simulation.time + step)
     while simulation.counters[codes.COUNT_IMPACTS] < impacts:
         simulation.advance(simulation.time + step / 16)
 
 
-def _pawl() -> Mechanism:
+def pawl() -> Mechanism:
+    """The pawl, just leaving its stop."""
     half = LENGTH / 2
     return Mechanism(
         bodies=(Body("pawl", MASS, INERTIA, (half, 0.0, 0.0), (0.0, SPEED * half, SPEED)),),

@@ -16,6 +16,7 @@ from .timing import Comparison
 
 _PACKAGES = ("numpy", "scipy", "numba", "fmpy", "pythonfmu")
 _UNITS = (("s", 1.0), ("ms", 1e-3), ("us", 1e-6))
+_WHOLE_FROM = 5.0
 _VERDICTS = {True: "[green]met[/]", False: "[bold red]missed[/]", None: ""}
 
 
@@ -29,7 +30,7 @@ def table(comparisons: Sequence[Comparison]) -> Table:
         result.add_row(f"[bold]{subject}[/]")
         for c in (comparison for comparison in comparisons if comparison.subject == subject):
             result.add_row(
-                f"  {c.case}", _span(c.slow), _span(c.fast), f"{c.ratio:.0f}", _required(c), _VERDICTS[c.met]
+                f"  {c.case}", _span(c.slow), _span(c.fast), _factor(c.ratio), _required(c), _VERDICTS[c.met]
             )
     return result
 
@@ -74,7 +75,12 @@ def _span(times: Sequence[float]) -> str:
     return f"{middle / unit:.3g} {name}{span}"
 
 
+def _factor(ratio: float) -> str:
+    """Whole numbers, but where the two are about as fast."""
+    return f"{ratio:.0f}" if ratio >= _WHOLE_FROM else f"{ratio:.2f}"
+
+
 def _required(comparison: Comparison) -> str:
     if comparison.longest is not None:
         return f"< {comparison.longest:g} s"
-    return "" if comparison.least_ratio is None else f">= {comparison.least_ratio:g}"
+    return "" if comparison.least_ratio is None else f">= {_factor(comparison.least_ratio)}"

@@ -14,9 +14,9 @@ from mechanism_fmu.engine.layout import field_of
 from mechanism_fmu.engine.pack import pack
 from mechanism_fmu.engine.run import library_path
 from mechanism_fmu.fmu.native.libraries import engine_libraries
-from mechanism_fmu.fmu.native.link import has_linker
 from mechanism_fmu.fmu.native.package import build_native_fmu
 
+from ..c_limit.library import NoCompilerError
 from ..timing import Comparison
 
 #: The engine's share of a step's time must be at least this: the FMU may take 1.15 times as long.
@@ -27,18 +27,22 @@ _SUBJECT = "native FMU from C (baseline: the bare engine)"
 
 
 def compare(folder: Path, rounds: int) -> list[Comparison]:
-    """Compare in a process without Python; nothing where there is no C compiler, no linker, or no ELF loader."""
+    """Compare in a process without Python.
+
+    Raises:
+        NoCompilerError: there is no C compiler, or the system is not Linux on x86-64.
+        MechanismError: there is no linker.
+    """
     compiler = shutil.which("cc")
-    if compiler is None or not has_linker() or not Path("/proc").is_dir():
-        return []
+    library = library_path(folder)
+    if compiler is None or library is None or library.name != "x86_64-linux.so":
+        raise NoCompilerError("it needs the C compiler cc, and Linux on x86-64.")
     model = models.load("ratchet").MODEL
     with zipfile.ZipFile(build_native_fmu(models.load("ratchet"), folder / "native")) as fmu:
         fmu.extractall(folder / "native")
     description = fmpy.read_model_description(str(folder / "native"))
     block = pack(model.build(model.values()).compile())
     (folder / "block").write_bytes(block.tobytes())
-    library = library_path(folder)
-    assert library is not None
     library.write_bytes(engine_libraries()[library.name])
     host = folder / "host"
     headers = Path(fmpy.__file__).with_name("c-code")

@@ -25,7 +25,6 @@ def derivative(block: Array, y: Array, dy: Array) -> None:
     qdd = qdd_f + M^-1/2 D^+ (gamma - Phi_q qdd_f), eq (3). `linear_system.multiplier` afterwards holds the force along
     each active row (M qdd = F + Phi_q^T multiplier; for a contact, positive when it pushes).
     """
-    keep_small()
     n = sizes(block).coordinates
     place_bodies(block, y)
     count = active_rows(block)
@@ -47,7 +46,6 @@ def derivative(block: Array, y: Array, dy: Array) -> None:
 @jit
 def accelerate(block: Array, count: int) -> None:
     """Solve D z = gamma - Phi_q qdd_f with D = Phi_q M^-1/2 and qdd_f = M^-1 F, eq (2)."""
-    keep_small()
     n = sizes(block).coordinates
     mass = bodies(block)
     load = loads(block)
@@ -67,7 +65,6 @@ def accelerate(block: Array, count: int) -> None:
 @jit
 def scale_rows(block: Array, count: int) -> None:
     """D = Phi_q M^-1/2, eq (2)."""
-    keep_small()
     n = sizes(block).coordinates
     root = bodies(block).inverse_root_mass
     row = rows(block)

@@ -36,7 +36,6 @@ def try_step(block: Array, start: float, size_: float) -> float:
 
     Writes y_new, all seven derivatives (the last one belongs to y_new), the dense output, and `contacts.least_push`.
     """
-    keep_small()
     n = sizes(block).unknowns
     s = stages(block)
     k = s.derivatives
@@ -83,7 +82,6 @@ def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
 @jit
 def _note_pushes(block: Array) -> None:
     """After an acceleration: keep the least force of every closed contact."""
-    keep_small()
     table = contacts(block)
     count = row_count(block)
     for c in range(table.mode.shape[0]):
@@ -94,7 +92,6 @@ def _note_pushes(block: Array) -> None:
 @jit
 def _error_norm(block: Array, h: float) -> float:
     """Root mean square of the local error over its tolerance."""
-    keep_small()
     n = sizes(block).unknowns
     s = stages(block)
     k = s.derivatives
@@ -110,7 +107,6 @@ def _error_norm(block: Array, h: float) -> float:
 @jit
 def _write_dense(block: Array, h: float) -> None:
     """Coefficients of the continuous extension of order 4, rows 0..4."""
-    keep_small()
     n = sizes(block).unknowns
     s = stages(block)
     k = s.derivatives
@@ -130,7 +126,6 @@ def _write_dense(block: Array, h: float) -> None:
 @jit
 def interpolate(dense: Array, fraction: float, y: Array) -> None:
     """Y at `fraction` (0..1) of the step whose coefficients are `dense`, shape (5, unknowns)."""
-    keep_small()
     rest = 1.0 - fraction
     for i in range(y.shape[0]):
         y[i] = dense[0, i] + fraction * (

@@ -91,29 +91,31 @@ def _first_zero(block: Array) -> tuple[int, float]:
     """The first guard that reaches zero, and where; (`codes.NONE`, 2.0) when none does."""
     keep_small()
     look_at = watch(block)
-    count = sizes(block).guards
     _place(block, 0.0)
-    for g in range(count):
-        look_at.watched[g] = 0
+    count = 0
+    for g in range(sizes(block).guards):
         if is_watched(block, g):
-            look_at.watched[g] = 1
             if _begin(block, g):
                 return g, 0.0
+            look_at.watched[count] = g
+            count += 1
+    if count == 0:
+        return codes.NONE, 2.0
     before = 0.0
     for look in range(1, _LOOKS + 1):
         after = look / _LOOKS
         _place(block, after)
-        for g in range(count):
-            if look_at.watched[g] == 1:
-                look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, g)
+        for k in range(count):
+            g = look_at.watched[k]
+            look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, g)
         which = codes.NONE
         earliest = 2.0
-        for g in range(count):
-            if look_at.watched[g] == 1:
-                fraction = _zero_between(block, g, before, after)
-                if fraction < earliest:
-                    earliest = fraction
-                    which = g
+        for k in range(count):
+            g = look_at.watched[k]
+            fraction = _zero_between(block, g, before, after)
+            if fraction < earliest:
+                earliest = fraction
+                which = g
         if which != codes.NONE:
             return which, earliest
         before = after

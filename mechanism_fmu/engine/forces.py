@@ -16,7 +16,6 @@ def apply_forces(block: Array, y: Array) -> tuple[float, float]:
     Given: by torques, forces, shafts, and the preloads of springs (the linear part of a spring stores energy instead).
     Lost: in dampers.
     """
-    keep_small()
     n = sizes(block).coordinates
     force = loads(block).force
     clear(force)

@@ -28,7 +28,6 @@ def minimum_norm(block: Array, count: int, width: int) -> int:
     Reads D = `scaled`[:count, :width] and b = `right_side`[:count] of the linear system; writes z = D^+ b to
     `solution`[:width] and the minimum-norm solution of D^T multiplier = z to `multiplier`[:count].
     """
-    keep_small()
     system = linear_system(block)
     rank = _orthogonalise(block, count, width)
     if rank == count:
@@ -45,7 +44,6 @@ def minimum_norm(block: Array, count: int, width: int) -> int:
 @jit
 def _orthogonalise(block: Array, count: int, width: int) -> int:
     """D = L Q; row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i. Return the rank."""
-    keep_small()
     system = linear_system(block)
     basis = system.basis
     for i in range(count):
@@ -106,7 +104,6 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> bool:
 @jit
 def _solve_full_rank(block: Array, count: int) -> None:
     """L coefficient = b forwards, then L^T multiplier = coefficient backwards."""
-    keep_small()
     system = linear_system(block)
     for r in range(count):
         p = system.order[r]

@@ -25,6 +25,8 @@ _OPTIONS: dict[str, Any] = {
     "boundscheck": False,
     "fastmath": False,
     "nogil": True,
+    # no counting of references: the caller holds the block, and two atomic operations a call cost a tenth of the time
+    "_nrt": False,
     "cache": KEEP_COMPILED,
 }
 
@@ -54,7 +56,8 @@ def jit(function: _Function) -> _Function:
 def keep_small() -> None:
     """Compile the calling function for size.
 
-    The compiler would otherwise unroll loops over a handful of entries, which costs compilation time and gains nothing.
+    The compiler would otherwise unroll loops over a handful of entries, which costs compilation time. Functions without
+    this mark are those that each acceleration and each stage of a step call: there it gains a tenth of the time.
     """
 
 

@@ -18,6 +18,7 @@ from .closure import Home, closure
 from .contents import common_entries, file_in, model_of
 from .native.libraries import engine_libraries
 from .native.link import has_linker
+from .native.objects import Report, silently
 from .native.targets import TARGETS
 from .project import dependencies
 
@@ -42,9 +43,10 @@ _WRAPPER = (
     "Any GUID and any FMU type are accepted at instantiation.",
     "Unzip the FMU to a path of ASCII letters without <code># % + ? &amp;</code>; other paths crash the host.",
     "Each instantiation in the same process costs less than 1 kB of memory that is not given back.",
-    "The first start compiles the engine (some seconds) and keeps the result in the user's cache directory, in a "
-    "folder <code>mechanism_fmu</code>; the environment variable <code>MECHANISM_FMU_CACHE</code> chooses another. "
-    "The folder may be deleted at any time.",
+    "The engine is inside, compiled for the platforms that <code>resources/requirements.txt</code> names; elsewhere, "
+    "or if it names none, the first start compiles it with numba (some seconds).",
+    "What runs is kept in the user's cache directory, in a folder <code>mechanism_fmu</code>; the environment variable "
+    "<code>MECHANISM_FMU_CACHE</code> chooses another. The folder may be deleted at any time.",
 )
 
 #: The slave file: it only imports, because a class defined here would leak at every instantiation.
@@ -57,14 +59,16 @@ tidy_up(globals())
 '''
 
 
-def build_fmu(module: ModuleType, destination: Path) -> Path:
-    """Build the FMU of a model: the same bytes from the same sources, wherever it is built.
+def build_fmu(module: ModuleType, destination: Path, report: Report = silently) -> Path:
+    """Build the FMU of a model: the same bytes from the same sources and versions of the tools.
 
-    The engine is compiled on the way, into the user's cache, so that the FMU starts fast here.
+    Where the package ziglang is installed, the engine travels compiled. Where it is not, the engine is compiled on the
+    way, into the user's cache, so that the FMU starts fast here.
 
     Args:
         module: what holds `MODEL`, e.g. `models.ratchet.model`; it may import its neighbours and `mechanism_fmu`.
         destination: folder, made if need be, for "<model name>.fmu".
+        report: see `native.objects.compiled_engine`.
 
     Returns:
         Path of the FMU.
@@ -80,7 +84,7 @@ def build_fmu(module: ModuleType, destination: Path) -> Path:
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
     sources = closure(homes, ("fmu.slave", main))
     code = {name: text.encode() for name, text in sources.files.items()}
-    compiled = engine_libraries() if has_linker() else {}
+    compiled = engine_libraries(report) if has_linker() else {}
     code |= {f"engine/compiled/{name}": library for name, library in compiled.items()}
     start = (_LIBRARY / "fmu" / "start.py").read_text(encoding="utf-8")
 

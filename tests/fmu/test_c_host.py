@@ -1,19 +1,16 @@
-"""The FMU in a host that is not Python."""
+"""The FMU by pythonfmu in a host that is not Python."""
 
 import math
 import os
-import shutil
-import subprocess
 import sys
 import sysconfig
-import zipfile
 from pathlib import Path
 
 import pytest
 
+from tests.fmu.c_host import COMPILER, Host, Script, compile_host
 from tests.fmu.conformance.host import Fmu
 
-COMPILER = shutil.which("cc") or shutil.which("gcc")
 LIBPYTHON = Path(sysconfig.get_config_var("LIBDIR") or "", sysconfig.get_config_var("INSTSONAME") or "none")
 
 pytestmark = pytest.mark.skipif(
@@ -23,39 +20,18 @@ pytestmark = pytest.mark.skipif(
 
 
 @pytest.fixture(scope="module")
-def host(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    program = tmp_path_factory.mktemp("host") / "c_host"
-    source = Path(__file__).with_name("c_host.c")
-    subprocess.run([str(COMPILER), "-o", str(program), str(source), "-ldl"], check=True)
-    return program
-
-
-@pytest.fixture(scope="module")
-def unzipped(ratchet_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("unzipped")
-    zipfile.ZipFile(ratchet_fmu).extractall(folder)
-    return folder
-
-
-@pytest.mark.parametrize(("instances", "unload"), [(1, "never"), (3, "never"), (2, "end")])
-def test_it_runs_and_leaves_in_peace(host: Path, unzipped: Path, ratchet: Fmu, instances: int, unload: str) -> None:
+def host(tmp_path_factory: pytest.TempPathFactory) -> Host:
     environment = os.environ | {"LD_PRELOAD": str(LIBPYTHON), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    library = unzipped / "binaries" / "linux64" / "Ratchet.so"
-    done = subprocess.run(
-        [
-            str(host),
-            str(unzipped),
-            str(library),
-            str(instances),
-            unload,
-            str(ratchet.variables["wheel_angle"].valueReference),
-        ],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    return Host(compile_host(tmp_path_factory.mktemp("host")), environment=environment)
+
+
+@pytest.mark.parametrize(("instances", "unload"), [(1, False), (3, False), (2, True)])
+def test_it_runs_and_leaves_in_peace(host: Host, ratchet: Fmu, tmp_path: Path, instances: int, unload: bool) -> None:
+    script = Script(ratchet).say(*["free", "make 0"] * (instances - 1)).begin().say("step 1e-3 10")
+    script.get(["wheel_angle"])
+    script.say("free", *["unload"] * unload)
+    printed = host.run(ratchet, "binaries/linux64/Ratchet.so", script, tmp_path)
     # pythonfmu's wrapper by itself ends every such host with an abort (see start.py).
-    assert (done.returncode, done.stderr) == (0, "")
+    assert (printed.code, printed.log) == (0, [])
     # the wheel's angle has hardly moved from its start of 75 deg after 10 ms
-    assert float(done.stdout) == pytest.approx(math.radians(75), abs=1e-6)
+    assert printed.numbers == [pytest.approx(math.radians(75), abs=1e-6)]

@@ -1,5 +1,6 @@
 import io
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -7,9 +8,15 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+import models
 from benchmarks import acceleration, fmu_step, fmus, reference, step
+from benchmarks.c_limit import compare as c_limit
+from benchmarks.c_limit.library import Limit, NoCompilerError, build, export
 from benchmarks.table import as_json, table, this_machine
 from benchmarks.timing import Comparison, DisagreementError, in_turns, require_agreement
+from mechanism_fmu import codes
+from mechanism_fmu.engine.layout import field_of
+from mechanism_fmu.engine.pack import pack
 
 
 @pytest.mark.parametrize(
@@ -64,14 +71,77 @@ def test_the_fmus_agree_through_the_impact(ratchet_fmu: Path, tmp_path: Path) ->
     assert [c.case for c in found].count("new input each step, after impact") == 2
 
 
+needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="There is no C compiler here.")
+
+
+@pytest.fixture(scope="module")
+def engine() -> c_limit.Engine:
+    return c_limit.Engine()
+
+
+@needs_compiler
+@pytest.mark.parametrize("drive", c_limit.DRIVES)
+def test_the_hand_written_c_takes_the_same_steps(drive: str, engine: c_limit.Engine, tmp_path: Path) -> None:
+    start = engine.save()
+    limit = Limit(build(tmp_path), engine.block)
+    c_limit.require_same_motion(drive, engine, limit)
+    assert engine.steps == limit.steps > 300
+    assert limit.impact_time == pytest.approx(0.9399, abs=1e-4)
+    engine.restore(start)
+
+
+@needs_compiler
+def test_engine_and_hand_written_c_are_timed(tmp_path: Path) -> None:
+    found = c_limit.compare(tmp_path, 1)
+    assert [c.case for c in found] == ["constant input", "new input each step", "before impact", "after impact"]
+    assert all(times > 0 for c in found for times in (*c.slow, *c.fast))
+
+
+@needs_compiler
+def test_c_of_another_mechanism_is_not_timed(engine: c_limit.Engine, tmp_path: Path) -> None:
+    start, settings = engine.save(), field_of(engine.block, "settings")
+    limit = Limit(build(tmp_path), engine.block)
+    settings[codes.BAUMGARTE_ALPHA] += 1.0
+    with pytest.raises(DisagreementError, match="constant input"):
+        c_limit.require_same_motion("constant input", engine, limit)
+    settings[codes.BAUMGARTE_ALPHA] -= 1.0
+    engine.restore(start)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "what"),
+    [({"guided": 0.0}, "free contacts"), ({"friction": 0.1}, "friction"), ({"joint_friction_radius": 0.1}, "friction")],
+)
+def test_the_c_program_refuses_what_it_does_not_know(parameters: dict[str, float], what: str) -> None:
+    model = models.load("ratchet").MODEL
+    block = pack(model.build(model.values(**parameters)).compile())
+    with pytest.raises(ValueError, match=what):
+        export(block)
+
+
+def test_without_a_compiler_there_is_no_c_program(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("CC", "no_such_compiler")
+    with pytest.raises(NoCompilerError, match="CC"):
+        build(tmp_path)
+
+
+@needs_compiler
+def test_what_the_compiler_says_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("CC", "cc --no-such-option")
+    with pytest.raises(RuntimeError, match="no-such-option"):
+        build(tmp_path)
+
+
 def test_the_table_shows_median_range_ratio_and_verdict() -> None:
     found = [
         Comparison("one step", "calm", (2.6e-3, 2e-3, 3e-3), (4e-5, 5e-5, 6e-5), least_ratio=50.0),
         Comparison("start", "cold", (30.0,), (1.6, 1.7), longest=1.5),
+        Comparison("limit", "C", (2e-6,), (2.2e-6,), least_ratio=1 / 1.15),
     ]
     text = io.StringIO()
     Console(width=120, file=text).print(table(found))
     lines = [line.split() for line in text.getvalue().splitlines()]
     assert lines[2] == ["calm", "2.6", "ms", "[2-3]", "50", "us", "[40-60]", "52", ">=", "50", "met"]
     assert lines[4] == ["cold", "30", "s", "1.65", "s", "[1.6-1.7]", "18", "<", "1.5", "s", "missed"]
+    assert lines[6] == ["C", "2", "us", "2.2", "us", "0.91", ">=", "0.87", "met"]
     assert json.loads(json.dumps(as_json(this_machine(), found)))["comparisons"][0]["slow"] == [2.6e-3, 2e-3, 3e-3]

@@ -1,6 +1,6 @@
 """From the engine's intermediate code to an object file for each platform.
 
-    python -m mechanism_fmu.fmu.native.emit FOLDER      writes FOLDER/<target>.o
+    python -m mechanism_fmu.fmu.native.emit FOLDER      writes FOLDER/<target>.o and prints what it is about to do
 
 To be run in a process of its own, because numba must be imported for a generic processor (see `objects`).
 """
@@ -44,12 +44,15 @@ def main(folder: Path) -> None:
     """Write the object of every target, each by one rename."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    codes = [intermediate_code(name) for name in EXPORTS]
+    codes = []
+    for name in EXPORTS:
+        print(f"compiling {name}", flush=True)
+        codes.append(intermediate_code(name))
     for target in TARGETS:
+        print(f"optimising for {target.name}", flush=True)
         temporary = folder / f".{target.name}.{os.getpid()}"
         temporary.write_bytes(object_file(codes, target))
         os.replace(temporary, folder / f"{target.name}.o")
-        print(target.name, flush=True)
 
 
 if __name__ == "__main__":

@@ -8,17 +8,20 @@ from pathlib import Path
 
 from ..archive import content_hash
 from .link import link, surface
-from .objects import compiled_engine
+from .objects import Report, compiled_engine, silently
 from .targets import TARGETS
 
 
-def engine_libraries() -> dict[str, bytes]:
+def engine_libraries(report: Report = silently) -> dict[str, bytes]:
     """The library of each platform, by the file name under which `mechanism_fmu.engine.run` looks for it.
+
+    Args:
+        report: see `compiled_engine`.
 
     Raises:
         MechanismError: there is no linker, or the engine cannot be compiled.
     """
-    engine = compiled_engine()
+    engine = compiled_engine(report)
     made_from = content_hash({"library.c": surface("library.c")[0].read_bytes()})[:8]
     found = {}
     for target in TARGETS:

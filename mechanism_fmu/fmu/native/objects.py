@@ -6,6 +6,8 @@ import importlib.metadata
 import os
 import subprocess
 import sys
+import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,6 +32,17 @@ def _digest() -> str:
     return content_hash({**contents, "compilers": compilers.encode()})[:16]
 
 
+#: Lines that a compilation prints: five exported functions and the targets.
+_PARTS = 5 + len(TARGETS)
+
+#: Takes what comes next, and which part of the whole is done (0..1).
+Report = Callable[[str, float], None]
+
+
+def silently(_next: str, _done: float) -> None:
+    """Report nothing."""
+
+
 @dataclass(frozen=True)
 class Engine:
     """The compiled engine.
@@ -43,8 +56,11 @@ class Engine:
     headers: Path
 
 
-def compiled_engine() -> Engine:
-    """The engine's object files and header; compiled now if need be.
+def compiled_engine(report: Report = silently) -> Engine:
+    """The engine's object files and header; compiled now if need be, in one or two minutes.
+
+    Args:
+        report: is told what comes next, and which part of the whole is done (0..1).
 
     Raises:
         MechanismError: the compilation failed, with what it printed.
@@ -54,17 +70,24 @@ def compiled_engine() -> Engine:
     header = folder / "engine.h"
     if not (header.is_file() and all(path.is_file() for path in objects.values())):
         folder.mkdir(parents=True, exist_ok=True)
-        _emit(folder)
+        _emit(folder, report)
         # Always in the same place, so that the compiler of the C files finds again what it has compiled.
         header.write_text(engine_header(), encoding="ascii")
     return Engine(objects, folder)
 
 
-def _emit(folder: Path) -> None:
+def _emit(folder: Path, report: Report) -> None:
     path = os.pathsep.join(filter(None, [str(_LIBRARY.parent), os.environ.get("PYTHONPATH", "")]))
     environment = {**os.environ, **_GENERIC, "PYTHONPATH": path}
     environment.pop("NUMBA_DISABLE_JIT", None)
     command = [sys.executable, "-m", "mechanism_fmu.fmu.native.emit", str(folder)]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise MechanismError(f"The engine could not be compiled ahead of time:\n{done.stderr.strip()}")
+    with (
+        tempfile.TemporaryFile("w+") as complaints,
+        subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=complaints, text=True) as process,
+    ):
+        assert process.stdout is not None
+        for done, line in enumerate(process.stdout):
+            report(line.strip(), done / _PARTS)
+        if process.wait() != 0:
+            complaints.seek(0)
+            raise MechanismError(f"The engine could not be compiled ahead of time:\n{complaints.read().strip()}")

@@ -23,7 +23,7 @@ from .description3 import model_description3
 from .formulas import Formulas, formulas
 from .link import link, need_linker, surface
 from .model_data import model_source
-from .objects import Engine, compiled_engine
+from .objects import Engine, Report, compiled_engine, silently
 from .targets import TARGETS, Target
 
 #: The files of the C surface; both versions of FMI stand in one library.
@@ -31,6 +31,12 @@ _SURFACE = ("instance.c", "values.c", "saved.c", "log.c", "fmi2.c", "fmi3.c")
 
 #: The headers of both standards, which the package fmpy brings.
 _STANDARD = Path(fmpy.__file__).with_name("c-code")
+
+#: Where FMI 3.0 wants what has another name in FMI 2.0 (sections 2.5.1.2 and 2.5.1.5).
+_PLACES3 = {
+    "model.png": "terminalsAndIcons/icon.png",
+    "documentation/licenses/mechanism_fmu.txt": "documentation/licenses/license.txt",
+}
 
 _FACTS = (
     "The FMU needs nothing where it runs: no Python, no library but the system's own C library. Binaries for "
@@ -46,13 +52,14 @@ _FACTS = (
 )
 
 
-def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2) -> Path:
+def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report: Report = silently) -> Path:
     """Build the native FMU of a model: the same bytes from the same sources and versions of the tools.
 
     Args:
         module: what holds `MODEL`, e.g. `models.ratchet.model`.
         destination: folder, made if need be, for "<model name>.fmu".
         fmi: major version of the standard, 2 or 3.
+        report: see `compiled_engine`.
 
     Returns:
         Path of the FMU.
@@ -66,7 +73,9 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2) -> Pat
     path = file_in(destination, f"{model.name}.fmu")
     traced = formulas(trace(model), pack(model.build(model.values()).compile()))
     entries = common_entries(model, folder, _FACTS, ("mechanism_fmu",))
-    engine = compiled_engine()
+    if fmi == 3:
+        entries = {_PLACES3.get(name, name): contents for name, contents in entries.items()}
+    engine = compiled_engine(report)
     guid = _fingerprint(model, traced, entries | {DESCRIPTION: _description(model, "", fmi)}, engine)
     entries[DESCRIPTION] = _description(model, f"{{{guid}}}", fmi)
     source = model_source(model, traced, f"{{{guid}}}", guid.bytes)

@@ -37,8 +37,11 @@ class Reader(HTMLParser):
         self.text += data
 
 
+FACTS = ("It runs <em>everywhere</em>.",)
+
+
 def test_every_variable_is_listed_with_unit_start_and_limits(tmp_path: Path) -> None:
-    html = page(MODEL, tmp_path)
+    html = page(MODEL, tmp_path, FACTS)
     assert "<td><code>length</code></td><td>Real</td><td>m</td><td>1.5 (1500 mm)</td>" in html
     assert "<td>0.1 (100 mm) … 10 (10000 mm)</td><td>Length of the arm</td>" in html
     assert "<td><code>guided</code></td><td>Boolean</td><td></td><td>true</td><td></td>" in html
@@ -46,7 +49,7 @@ def test_every_variable_is_listed_with_unit_start_and_limits(tmp_path: Path) -> 
 
 
 def test_special_letters_are_escaped(tmp_path: Path) -> None:
-    assert "An arm &amp; a wall" in page(MODEL, tmp_path)
+    assert "An arm &amp; a wall" in page(MODEL, tmp_path, FACTS)
 
 
 def test_the_readme_becomes_part_of_the_page(tmp_path: Path) -> None:
@@ -55,7 +58,7 @@ def test_the_readme_becomes_part_of_the_page(tmp_path: Path) -> None:
         "# Arm\n\n![drawing](drawing.svg)\n\n| a | b |\n| --- | --- |\n| 1 | 2 |\n\n"
         "[data](reference.csv) [site](https://example.org)\n\n<script>alert(1)</script>\n"
     )
-    html = page(MODEL, tmp_path)
+    html = page(MODEL, tmp_path, FACTS)
     assert "<h2>Arm</h2>" in html
     assert "<td>1</td>" in html
     assert "<script>" not in html
@@ -67,17 +70,16 @@ def test_the_readme_becomes_part_of_the_page(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", sorted(models.available()))
 def test_the_page_of_every_model_stands_alone(name: str) -> None:
     module = models.load(name)
-    read = Reader(page(module.MODEL, models.available()[name]))
+    read = Reader(page(module.MODEL, models.available()[name], FACTS))
     assert read.open == []
     assert all(r.startswith(("data:", "https://", "#")) for r in read.references)
     assert any(r.startswith("data:image/svg+xml") for r in read.references)
     assert read.headings.count("h1") == 1
-    for word in ("fatal", "LD_PRELOAD", "MECHANISM_FMU_CACHE", "Any GUID", "# % + ? &"):
-        assert word in read.text
+    assert "It runs everywhere." in read.text
 
 
 def test_the_licences_travel(tmp_path: Path) -> None:
-    files = documentation(MODEL, tmp_path)
+    files = documentation(MODEL, tmp_path, FACTS, ("mechanism_fmu", "pythonfmu"))
     assert set(files) == {
         "documentation/index.html",
         "documentation/licenses/mechanism_fmu.txt",

@@ -53,7 +53,7 @@ def test_the_same_model_gives_the_same_bytes():
 
 
 def test_the_documentation_shows_diagram_and_tables():
-    html = page(RATCHET, models.available()["ratchet"])
+    html = page(RATCHET, models.available()["ratchet"], ())
     assert "<h2>Modes and transitions</h2>" in html
     assert '<svg xmlns="http://www.w3.org/2000/svg" class="statechart"' in html
     assert "<td><code>face.touches and face.approaches</code></td>" in html

@@ -156,6 +156,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
     SELF(c);
+    if (!state) return (fmi2Status)refuse(x, "fmi2GetFMUstate: the pointer is null.");
     return (fmi2Status)save(x, (Saved **)state);
 }
 
@@ -176,6 +177,7 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
     SELF(c);
     (void)state;
+    if (!size) return (fmi2Status)refuse(x, "fmi2SerializedFMUstateSize: the pointer to the size is null.");
     *size = serialized_size();
     return fmi2OK;
 }
@@ -187,6 +189,7 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte b
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
     SELF(c);
+    if (!state) return (fmi2Status)refuse(x, "fmi2DeSerializeFMUstate: the pointer is null.");
     return (fmi2Status)deserialize(x, (const unsigned char *)bytes, size, (Saved **)state);
 }
 
@@ -237,6 +240,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
     SELF(c);
     if (kind != fmi2LastSuccessfulTime)
         return (fmi2Status)refuse(x, "fmi2GetRealStatus knows fmi2LastSuccessfulTime only.");
+    if (!value) return (fmi2Status)refuse(x, "fmi2GetRealStatus: the pointer to the value is null.");
     *value = time_of(x);
     return fmi2OK;
 }
@@ -250,6 +254,7 @@ fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value) {
     SELF(c);
     if (kind != fmi2Terminated) return no_pending(x, "fmi2GetBooleanStatus");
+    if (!value) return (fmi2Status)refuse(x, "fmi2GetBooleanStatus: the pointer to the value is null.");
     *value = fmi2False; /* the mechanism never asks for the end of the simulation */
     return fmi2OK;
 }

@@ -370,6 +370,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     if (require(x, "fmi3DoStep", IN(STEPPING)) != OK) return fmi3Error;
     if (step_target(x, "fmi3DoStep", current_time, size, &target) != OK) return fmi3Error;
     const int64_t *impacts = COUNTERS(x) + CODE_COUNT_IMPACTS, before = *impacts;
+    int64_t events_before = COUNTERS(x)[CODE_COUNT_EVENTS];
     int stops = x->event_mode && x->early_return;
     int64_t rule = x->intermediate_update ? CODE_STOP_AT_STEP : stops ? CODE_STOP_AT_IMPACT : CODE_STOP_AT_TARGET;
     double end = target; /* sooner when the host asks for it at an intermediate update */
@@ -380,7 +381,8 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     }
     tell_news(x);
     note_impacts(x, before);
-    *event = x->head.clock != 0;
+    /* Discrete outputs change at any event; only impacts make the clock tick, and the step end early. */
+    *event = x->event_mode && COUNTERS(x)[CODE_COUNT_EVENTS] != events_before;
     *terminate = fmi3False;
     *early = status == OK && time_of(x) < target;
     *reached = time_of(x);

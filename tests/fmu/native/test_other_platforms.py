@@ -1,0 +1,81 @@
+"""The binaries for other platforms run there: on Windows' functions as wine has them, and on another processor.
+
+Their mathematical functions come from another C library, or from another version of it, and differ in last bits.
+"""
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from mechanism_fmu.fmu.native.targets import TARGETS
+from tests.fmu.c_host import Host, Script, cross_compile_host
+from tests.fmu.conformance.host import Instance
+from tests.fmu.native.scenes import LASTING, samples
+from tests.fmu.native.test_c_host import check_everything, everything
+
+UNTIL = 17.0
+#: The C library for that processor, by Debian's package libc6-arm64-cross.
+ARM = Path("/usr/aarch64-linux-gnu")
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="wine and qemu are looked for on Linux")
+
+
+def zig(name):
+    return next(target.zig for target in TARGETS if target.name == name)
+
+
+@pytest.fixture(scope="module")
+def windows(tmp_path_factory):
+    if shutil.which("wine") is None:
+        pytest.skip("wine is not installed")
+    home = str(tmp_path_factory.mktemp("wine"))
+    environment = {"PATH": "/usr/bin:/bin", "HOME": home, "WINEPREFIX": f"{home}/prefix", "WINEDEBUG": "-all"}
+    program = cross_compile_host(tmp_path_factory.mktemp("windows"), zig("x86_64-windows"))
+    return Host(program, ("wine",), environment), "binaries/win64/Ratchet.dll"
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory):
+    emulator = shutil.which("qemu-aarch64")
+    if emulator is None or not ARM.is_dir():
+        pytest.skip(f"qemu-aarch64 (Debian: qemu-user), or {ARM} (Debian: libc6-arm64-cross), is not installed")
+    program = cross_compile_host(tmp_path_factory.mktemp("arm"), zig("aarch64-linux"))
+    return Host(program, (emulator, "-L", str(ARM))), "binaries/aarch64-linux/Ratchet.so"
+
+
+@pytest.fixture(params=["windows", "arm"])
+def elsewhere(request):
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(scope="module")
+def here(native_ratchet):
+    with Instance(native_ratchet) as one:
+        return samples(one, until=UNTIL)
+
+
+def test_the_indexing_cycle_is_the_same(elsewhere, native_ratchet, here, tmp_path):
+    host, library = elsewhere
+    script = Script(native_ratchet)
+    samples(script, until=UNTIL)
+    printed = host.run(native_ratchet, library, script, tmp_path)
+    assert printed.code == 0, printed.log
+    differences = largest_differences(printed.numbers, here)
+    print(f"{library}: largest differences", differences)
+    assert max(differences.values()) <= 1e-9, differences
+
+
+def largest_differences(found, expected):
+    """Of each output, relative to its largest value."""
+    columns = {name: (found[k :: len(LASTING)], expected[k :: len(LASTING)]) for k, name in enumerate(LASTING)}
+    return {
+        name: max(abs(a - b) for a, b in zip(*pair, strict=True)) / (max(map(abs, pair[1])) or 1.0)
+        for name, pair in columns.items()
+    }
+
+
+def test_states_refusals_and_resets_work_there(elsewhere, native_ratchet, tmp_path):
+    host, library = elsewhere
+    check_everything(host.run(native_ratchet, library, everything(native_ratchet), tmp_path))

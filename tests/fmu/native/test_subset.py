@@ -1,0 +1,90 @@
+"""The compiled engine needs mathematics and memory from outside, and nothing else: no Python, nothing of numba."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+from numba import carray, cfunc, types
+
+from mechanism_fmu.engine.library import EXPORTS
+from mechanism_fmu.fmu.native.emit import object_file
+from mechanism_fmu.fmu.native.objects import compiled_engine
+from mechanism_fmu.fmu.native.targets import TARGETS
+from tests.fmu.native.symbols import undefined_symbols
+
+#: Functions of double precision that any platform's C library has (C99, 7.12), and what LLVM makes of them.
+MATHEMATICS = {
+    *("acos", "asin", "atan", "atan2", "cos", "cosh", "exp", "log", "pow", "sin", "sinh", "sqrt", "tan", "tanh"),
+    *("ceil", "fabs", "floor", "fmod", "hypot", "round", "trunc", "sincos", "__sincos_stret"),
+}
+MEMORY = {"memcpy", "memmove", "memset", "bzero", "__bzero"}
+#: A mark of floating-point numbers on Windows, which is no function.
+MARKS = {"_fltused"}
+
+#: Compiles a small exported function as `emit` does, and prints the object's fingerprint.
+_FINGERPRINT = """
+import hashlib, sys
+import llvmlite.binding as llvm
+from mechanism_fmu.engine.library import intermediate_code
+from mechanism_fmu.fmu.native.emit import object_file
+from mechanism_fmu.fmu.native.targets import TARGETS
+llvm.initialize_all_targets()
+llvm.initialize_all_asmprinters()
+print(hashlib.sha256(object_file([intermediate_code("mechanism_read_outputs")], TARGETS[0])).hexdigest())
+"""
+
+
+def strangers(data: bytes) -> set[str]:
+    return undefined_symbols(data) - MATHEMATICS - MEMORY - MARKS
+
+
+@pytest.fixture(scope="module")
+def objects():
+    return {name: path.read_bytes() for name, path in compiled_engine().objects.items()}
+
+
+@pytest.mark.parametrize("target", [target.name for target in TARGETS])
+def test_the_engine_needs_mathematics_and_memory_only(objects, target):
+    found = strangers(objects[target])
+    assert not found, f"{', '.join(sorted(found))}: a line of the engine has left the subset of docs/decisions/001."
+    assert {"sin", "cos", "pow"} <= undefined_symbols(objects[target])
+
+
+def allocating(block, words):
+    carray(block, (words,))[0] = np.zeros(words).sum()
+
+
+def raising(block, words):
+    if words > 3:
+        raise ValueError("too many")
+
+
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="there is no compiler to ask")
+@pytest.mark.parametrize(("function", "prefix"), [(allocating, "NRT_"), (raising, "numba_")])
+def test_a_function_that_leaves_the_subset_is_found_out(function, prefix):
+    import llvmlite.binding as llvm
+
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    compiled = cfunc(types.void(types.CPointer(types.float64), types.int64), nopython=True)(function)
+    code = compiled.inspect_llvm().replace(compiled.native_name, next(iter(EXPORTS)))
+    found = strangers(object_file([code], TARGETS[0]))
+    assert any(name.startswith(prefix) for name in found), found
+
+
+def test_another_process_emits_the_same_object():
+    processes = [
+        subprocess.Popen(
+            [sys.executable, "-c", _FINGERPRINT],
+            cwd=Path(__file__).parents[3],
+            env={"PYTHONHASHSEED": seed, "PATH": "", "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for seed in ("1", "2")
+    ]
+    first, second = (process.communicate()[0] for process in processes)
+    assert first == second != ""
