@@ -41,13 +41,13 @@ def build(
     `python build_fmu.py ratchet -o build/` writes build/Ratchet.fmu, which runs where there is a Python with numpy.
     With `--flavour native` it runs everywhere: binaries for Linux, Windows and macOS, no Python; add `--fmi 3` for FMI
     3.0 with event mode and early return at impacts. Where it is built, the native flavour needs the package ziglang
-    (`python -m pip install ziglang`). The first build compiles the engine, which takes a minute or two;
+    (`python -m pip install ziglang==0.17.0`). The first build compiles the engine, which takes a minute or two;
     the same sources always give the same GUID.
     """
     from rich.console import Console
 
     import models
-    from mechanism_fmu.fmu.native.link import has_linker
+    from mechanism_fmu.fmu.native.link import INSTALL, has_linker
     from mechanism_fmu.fmu.native.package import build_native_fmu
     from mechanism_fmu.fmu.package import build_fmu
     from mechanism_fmu.model import MechanismError
@@ -82,8 +82,7 @@ def build(
     if flavour is Flavour.PYTHONFMU and not has_linker():
         messages.print(
             "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "
-            "numba, and its first start takes 15 to 30 s. For a fast one, install it and build again: "
-            "python -m pip install ziglang",
+            "numba, and its first start takes 15 to 30 s. For a fast one, install it and build again: " + INSTALL,
             style="yellow",
             markup=False,
         )

@@ -40,8 +40,8 @@ def _rate(block: Array, kind: int, index: int) -> float:
     n = sizes(block).coordinates
     s = stages(block)
     rate = math.nan
-    if kind == codes.CONSTANT:
-        rate = 0.0
+    if kind == codes.CONSTANT or kind == codes.STOP_REFERENCE:
+        rate = 0.0  # the latter between clicks
     elif kind == codes.COORDINATE:
         rate = s.dy_at[index]
     elif kind == codes.RATE:

@@ -50,16 +50,16 @@ def experiment(start_time: float, stop_time: float | None, tolerance: float | No
     """
     if not abs(start_time) <= _LATEST_START:
         raise FmiError(
-            f"fmi2SetupExperiment: the start time {start_time} s must be finite and within +-{_LATEST_START:g} s, "
+            f"fmi2SetupExperiment: the start time {start_time:g} s must be finite and within +-{_LATEST_START:g} s, "
             "where the clock still resolves microseconds."
         )
     if stop_time is not None and not start_time <= stop_time < math.inf:
         raise FmiError(
-            f"fmi2SetupExperiment: the stop time {stop_time} s must be finite and not before the start time "
-            f"{start_time} s."
+            f"fmi2SetupExperiment: the stop time {stop_time:g} s must be finite and not before the start time "
+            f"{start_time:g} s."
         )
     if tolerance is not None and not 0 < tolerance < math.inf:
-        raise FmiError(f"fmi2SetupExperiment: the tolerance {tolerance} must be positive and finite.")
+        raise FmiError(f"fmi2SetupExperiment: the tolerance {tolerance:g} must be positive and finite.")
     return Experiment(
         start_time,
         math.inf if stop_time is None else stop_time,
@@ -91,7 +91,7 @@ def step_target(reached: float, current_time: float, step_size: float, stop_time
         FmiError: the step does not begin where the last one ended, does not lead forward, or leads past the stop time.
     """
     if not math.isfinite(current_time) or not math.isfinite(step_size):
-        raise FmiError(f"fmi2DoStep: time {current_time} s or step size {step_size} s is not a finite number.")
+        raise FmiError(f"fmi2DoStep: time {current_time:g} s or step size {step_size:g} s is not a finite number.")
     if not step_size > 0:
         raise FmiError(f"fmi2DoStep: step size {step_size:g} s must be positive; to go back, restore a saved state.")
     rounding = _ROUNDINGS * math.ulp(reached)
@@ -107,7 +107,7 @@ def step_target(reached: float, current_time: float, step_size: float, stop_time
         )
     if target > stop_time + _SAME_TIME * max(1.0, abs(stop_time)):
         raise FmiError(
-            f"fmi2DoStep: the step to {target:.12g} s leads past the stop time {stop_time:.12g} s that "
-            "fmi2SetupExperiment has given; end there, or give a later stop time or none."
+            f"fmi2DoStep: the step to {target:.12g} s leads past the stop time {stop_time:.12g} s that the "
+            "host has given; end there, or give a later stop time or none."
         )
     return target

@@ -293,7 +293,13 @@ class MechanismSlave(Fmi2Slave):
 
 @functools.cache
 def make_slave_class(model: Model) -> type[MechanismSlave]:
-    """The slave class of a model, named after it."""
+    """The slave class of a model, named after it.
+
+    Raises:
+        ModuleNotFoundError: the engine is not there in compiled form, and numba is not installed.
+    """
+    if compiled_library() is None:
+        import numba  # noqa: F401  (to be missed here, where the start says what to install, and not in a run)
     variables = variables_of(model)
     # In an FMU the package's name holds the hash of all sources: a state is for the very same ones.
     sizes = sizes_of(pack(model.build(model.values()).compile()))

@@ -57,7 +57,8 @@ def slave_class(package: str, model: str) -> type:
         made: type = slave.make_slave_class(importlib.import_module(f"{package}.{model}").MODEL)
     except ModuleNotFoundError as error:
         lines = (_RESOURCES / "requirements.txt").read_text(encoding="utf-8").splitlines()
-        requirements = [line for line in lines if not line.startswith("#")]
+        # Of the comments, those that are no sentence are packages for platforms without a compiled engine.
+        requirements = [line.removeprefix("# ") for line in lines if not line.endswith(":")]
         install = f"python -m pip install {' '.join(map(repr, requirements))}"
         raise _refusal(f"there is no {error.name}. Install what it needs with: {install}") from error
     return made

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 import operator
+import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -129,13 +131,36 @@ def trace(model: Model) -> Trace:
     recorder = Recorder()
     values = SimpleNamespace(**{p.name: recorder.parameter(i, _limits(p)) for i, p in enumerate(model.parameters)})
     plain = model.build(model.values()).compile()
-    mechanism = model.mechanism(values)
-    tables = compile_tables(mechanism)
+    try:
+        mechanism = model.mechanism(values)
+        tables = compile_tables(mechanism)
+        objections, warnings = tuple(model.objections(values)), tuple(model.warnings(values))
+    except (ArithmeticError, AttributeError, MechanismError, TypeError, ValueError) as error:
+        raise MechanismError(f"{model.name} cannot be traced, {_place(error)}: {error}") from error
     _check_structure(model, dict(_arrays(tables)), dict(_arrays(plain)))
-    objections, warnings = tuple(model.objections(values)), tuple(model.warnings(values))
     # What depends on no parameter, or only on one whose limits exclude it, is not asked again.
     problems = tuple(f for f in number_findings(mechanism) if isinstance(f.applies, Symbol))
-    return Trace(model, mechanism, tuple(recorder.operations), tables, objections, problems, warnings)
+    traced = Trace(model, mechanism, tuple(recorder.operations), tables, objections, problems, warnings)
+    _check_numbers(traced, plain)
+    return traced
+
+
+def _place(error: Exception) -> str:
+    """Where in the model's own code an error came from."""
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if Path(frame.filename).parent != Path(__file__).parent] or list(frames)
+    return f"{own[-1].filename}, line {own[-1].lineno} ({own[-1].line})"
+
+
+def _check_numbers(traced: Trace, plain: MechanismTables) -> None:
+    """With the default values, the trace must give the model's numbers; else the model has looked at types."""
+    again = dict(_arrays(traced.evaluate(traced.model.values())))
+    for name, table in _arrays(plain):
+        if not np.array_equal(again[name], table, equal_nan=table.dtype == np.float64):
+            raise MechanismError(
+                f"{traced.model.name}: with symbols instead of numbers the table {name} comes out differently; "
+                "calculate it by plain arithmetic and mechanism_fmu.model.functions alone."
+            )
 
 
 def _limits(parameter: Parameter) -> Limits:

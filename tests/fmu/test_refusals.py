@@ -112,7 +112,7 @@ def illegal_calls():
     yield "setup too late", "where the clock still", lambda one: one.slave.setupExperiment(startTime=1e12)
     yield (
         "stop before start",
-        "not before the start time 2.0 s",
+        "not before the start time 2 s",
         lambda one: one.slave.setupExperiment(startTime=2.0, stopTime=1.0),
     )
     yield (

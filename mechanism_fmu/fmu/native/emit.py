@@ -1,7 +1,8 @@
 """From the engine's intermediate code to an object file for each platform.
 
-    python -m mechanism_fmu.fmu.native.emit FOLDER      writes FOLDER/<target>.o and prints what it is about to do
+    python -m mechanism_fmu.fmu.native.emit FOLDER      writes FOLDER/<target>.o
 
+It prints what it is about to do: how many parts are done, of how many, what is next.
 To be run in a process of its own, because numba must be imported for a generic processor (see `objects`).
 """
 
@@ -44,12 +45,13 @@ def main(folder: Path) -> None:
     """Write the object of every target, each by one rename."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    codes = []
-    for name in EXPORTS:
-        print(f"compiling {name}", flush=True)
+    parts = len(EXPORTS) + len(TARGETS)
+    codes: list[str] = []
+    for done, name in enumerate(EXPORTS):
+        print(done, parts, f"compiling {name}", flush=True)
         codes.append(intermediate_code(name))
-    for target in TARGETS:
-        print(f"optimising for {target.name}", flush=True)
+    for done, target in enumerate(TARGETS, len(EXPORTS)):
+        print(done, parts, f"optimising for {target.name}", flush=True)
         temporary = folder / f".{target.name}.{os.getpid()}"
         temporary.write_bytes(object_file(codes, target))
         os.replace(temporary, folder / f"{target.name}.o")

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 from ..archive import content_hash
-from .link import link, surface
+from .link import link, linked_with, surface
 from .objects import Report, compiled_engine, silently
 from .targets import TARGETS
 
@@ -22,7 +22,7 @@ def engine_libraries(report: Report = silently) -> dict[str, bytes]:
         MechanismError: there is no linker, or the engine cannot be compiled.
     """
     engine = compiled_engine(report)
-    made_from = content_hash({"library.c": surface("library.c")[0].read_bytes()})[:8]
+    made_from = content_hash(linked_with("library.c"))[:8]
     found = {}
     for target in TARGETS:
         path = engine.headers / made_from / f"{target.name}{target.suffix}"

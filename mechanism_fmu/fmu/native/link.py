@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import importlib.util
 import os
 import subprocess
@@ -16,7 +17,7 @@ from .targets import Target
 _SURFACE = Path(__file__).with_name("c")
 
 _FLAGS = (
-    "-std=c11",
+    "-std=gnu11",  # c11 would take ??! in a text for a trigraph
     "-O2",
     "-Wall",
     "-Wextra",
@@ -34,6 +35,10 @@ _FLAGS = (
 _WINDOWS_LIBRARIES = ("math", "heap", "stdio", "string", "private")
 
 
+#: How to get the version that the extra `native` pins.
+INSTALL = "python -m pip install ziglang==0.17.0"
+
+
 def has_linker() -> bool:
     """Whether the `ziglang` wheel is installed."""
     return importlib.util.find_spec("ziglang") is not None
@@ -47,8 +52,7 @@ def need_linker() -> None:
     """
     if not has_linker():
         raise MechanismError(
-            "A native FMU needs the linker of the package ziglang, which is not installed; install it with: "
-            'python -m pip install "mechanism_fmu[native]", or python -m pip install ziglang'
+            f"A native FMU needs the linker of the package ziglang, which is not installed. Install it: {INSTALL}"
         )
 
 
@@ -74,6 +78,15 @@ def link(target: Target, inputs: Sequence[Path], includes: Sequence[Path], path:
         raise MechanismError(f"Linking for {target.name} failed:\n{done.stderr.strip()}")
 
 
+def linked_with(*names: str) -> dict[str, bytes]:
+    """What decides on the bytes of a library beside objects and generated files: contents by name."""
+    files = [Path(__file__), *surface(*names, "windows.c")]
+    return {
+        **{file.name: file.read_bytes() for file in files},
+        "ziglang": importlib.metadata.version("ziglang").encode(),
+    }
+
+
 def surface(*names: str) -> list[Path]:
     """C files of the surface by name."""
     return [_SURFACE / name for name in names]
@@ -81,7 +94,7 @@ def surface(*names: str) -> list[Path]:
 
 def _platform(target: Target) -> list[str]:
     if not target.name.endswith("windows"):
-        return ["-fPIC", "-lm"]
+        return ["-fPIC", "-lm", *(["-Wl,-z,defs"] if target.suffix == ".so" else [])]
     libc = _zig_library() / "libc" / "include" / "any-windows-any"
     libraries = [f"-lapi-ms-win-crt-{name}-l1-1-0" for name in _WINDOWS_LIBRARIES]
     return ["-nostdlib", "-isystem", str(libc), "-D_UCRT", *map(str, surface("windows.c")), *libraries]

@@ -25,15 +25,12 @@ _GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_DISABL
 
 def _digest() -> str:
     """Fingerprint of the engine's sources, of the targets, and of what compiles them."""
-    own = [Path(__file__).with_name(name) for name in ("emit.py", "targets.py", "headers.py")]
+    own = [Path(__file__).with_name(name) for name in ("emit.py", "targets.py", "headers.py", "objects.py")]
     sources = [*(_LIBRARY / "engine").rglob("*.py"), _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
     contents = {str(path.relative_to(_LIBRARY)): path.read_bytes() for path in sources}
     compilers = " ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "llvmlite"))
     return content_hash({**contents, "compilers": compilers.encode()})[:16]
 
-
-#: Lines that a compilation prints: five exported functions and the targets.
-_PARTS = 5 + len(TARGETS)
 
 #: Takes what comes next, and which part of the whole is done (0..1).
 Report = Callable[[str, float], None]
@@ -72,22 +69,26 @@ def compiled_engine(report: Report = silently) -> Engine:
         folder.mkdir(parents=True, exist_ok=True)
         _emit(folder, report)
         # Always in the same place, so that the compiler of the C files finds again what it has compiled.
-        header.write_text(engine_header(), encoding="ascii")
+        temporary = folder / f".engine.h.{os.getpid()}"
+        temporary.write_text(engine_header(), encoding="ascii")
+        os.replace(temporary, header)
     return Engine(objects, folder)
 
 
 def _emit(folder: Path, report: Report) -> None:
     path = os.pathsep.join(filter(None, [str(_LIBRARY.parent), os.environ.get("PYTHONPATH", "")]))
-    environment = {**os.environ, **_GENERIC, "PYTHONPATH": path}
-    environment.pop("NUMBA_DISABLE_JIT", None)
+    # Settings of numba that the user has for other work would change what is compiled.
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
+    environment = {**inherited, **_GENERIC, "PYTHONPATH": path}
     command = [sys.executable, "-m", "mechanism_fmu.fmu.native.emit", str(folder)]
     with (
         tempfile.TemporaryFile("w+") as complaints,
         subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=complaints, text=True) as process,
     ):
         assert process.stdout is not None
-        for done, line in enumerate(process.stdout):
-            report(line.strip(), done / _PARTS)
+        for line in process.stdout:
+            done, whole, text = line.strip().split(" ", 2)
+            report(text, int(done) / int(whole))
         if process.wait() != 0:
             complaints.seek(0)
             raise MechanismError(f"The engine could not be compiled ahead of time:\n{complaints.read().strip()}")

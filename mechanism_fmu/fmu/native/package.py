@@ -21,10 +21,11 @@ from ..contents import common_entries, file_in, model_of
 from ..model_description import model_description, to_bytes
 from .description3 import model_description3
 from .formulas import Formulas, formulas
-from .link import link, need_linker, surface
+from .link import link, linked_with, need_linker, surface
 from .model_data import model_source
 from .objects import Engine, Report, compiled_engine, silently
 from .targets import TARGETS, Target
+from .universal import universal
 
 #: The files of the C surface; both versions of FMI stand in one library.
 _SURFACE = ("instance.c", "values.c", "saved.c", "log.c", "fmi2.c", "fmi3.c")
@@ -79,8 +80,12 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
     guid = _fingerprint(model, traced, entries | {DESCRIPTION: _description(model, "", fmi)}, engine)
     entries[DESCRIPTION] = _description(model, f"{{{guid}}}", fmi)
     source = model_source(model, traced, f"{{{guid}}}", guid.bytes)
+    binaries: dict[str, list[bytes]] = {}
     for target, binary in _binaries(model, source, engine).items():
-        entries[f"binaries/{target.fmi2 if fmi == 2 else target.name}/{model.name}{target.suffix}"] = binary
+        folder_name = target.fmi2 if fmi == 2 else target.name
+        binaries.setdefault(f"binaries/{folder_name}/{model.name}{target.suffix}", []).append(binary)
+    for name, libraries in binaries.items():
+        entries[name] = universal(libraries) if len(libraries) > 1 else libraries[0]
     write_archive(entries, path, zipfile.ZIP_DEFLATED)
     return path
 
@@ -95,7 +100,8 @@ def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], e
     parts = {
         **entries,
         "model.c": model_source(model, traced, "", bytes(16)).encode(),
-        **{file.name: file.read_bytes() for file in surface(*_SURFACE, "model.h", "instance.h", "windows.c")},
+        **linked_with(*_SURFACE, "model.h", "instance.h"),
+        **{file.name: file.read_bytes() for file in sorted(_STANDARD.glob("fmi[23]*.h"))},
         **{name: object_file.read_bytes() for name, object_file in engine.objects.items()},
     }
     return uuid.UUID(content_hash(parts)[:32])

@@ -11,7 +11,8 @@ class Target:
 
     Attributes:
         name: of the folder in an FMI 3.0 FMU (specification 3.0, section 2.5.1.4.1).
-        fmi2: of the folder in an FMI 2.0 FMU; for platforms that FMI 2.0 has no name for, importers use that of 3.0.
+        fmi2: of the folder in an FMI 2.0 FMU; two for one folder become a universal binary. FMI 2.0 has no name for
+            Linux on ARM: the folder named as in 3.0 is for importers that look there, and for hands.
         triple: what LLVM calls it.
         zig: what `zig cc -target` calls it: the oldest system library that the binary runs with is part of it.
         suffix: of shared libraries.
@@ -29,5 +30,5 @@ TARGETS = (
     Target("x86_64-windows", "win64", "x86_64-pc-windows-msvc", "x86_64-windows-gnu", ".dll"),
     Target("x86_64-darwin", "darwin64", "x86_64-apple-macosx11.0.0", "x86_64-macos.11.0", ".dylib"),
     Target("aarch64-linux", "aarch64-linux", "aarch64-unknown-linux-gnu", "aarch64-linux-gnu.2.17", ".so"),
-    Target("aarch64-darwin", "aarch64-darwin", "arm64-apple-macosx11.0.0", "aarch64-macos.11.0", ".dylib"),
+    Target("aarch64-darwin", "darwin64", "arm64-apple-macosx11.0.0", "aarch64-macos.11.0", ".dylib"),
 )

@@ -260,8 +260,12 @@ def test_derivatives_of_outputs(instance3):
 
     assert rates == [0.0] * len(rates)
     assert derivatives(["wheel_angle", "crank_angle"]) == [one["wheel_speed"], one["crank_speed"]]
-    for name in ("time", "drive_torque", "impact_time"):
+    for name in ("time", "drive_torque"):
         assert name in one.refusal(derivatives, [name])
+    with pytest.raises(FMICallException):
+        derivatives(["impact_time"])
+    assert one.log[-1].category == "logStatusDiscard"
+    assert "impact_time has no derivative" in one.log[-1].text
     assert "order 2" in one.refusal(one.slave.getOutputDerivatives, [one.reference("wheel_angle")], [2])
 
 

@@ -88,6 +88,16 @@ def test_what_is_no_slope_of_an_input_is_refused(one, reference, order, slope):
     one.step(0.1)
 
 
+def test_a_slope_that_leads_beyond_the_limits_of_its_input_is_refused(one):
+    one.begin()
+    one.slave.setRealInputDerivatives([one.reference(TORQUE)], [1], [1e9])
+    with pytest.raises(FMICallException):
+        one.step(0.1)
+    assert "The derivative of drive_torque leads to 1e+08 N.m" in one.refusal
+    one.slave.setRealInputDerivatives([one.reference(TORQUE)], [1], [0.0])
+    one.step(0.1)
+
+
 def test_derivatives_of_outputs_are_those_of_the_motion(one):
     one.begin().run(0.5, 0.1)
     names = ["wheel_angle", "wheel_speed", "crank_speed", "work_done", "kinetic_energy"]
@@ -105,7 +115,8 @@ def test_what_jumps_has_no_derivative(one):
     for name in ("impact_time", "contact_force"):
         with pytest.raises(FMICallException):
             one.slave.getRealOutputDerivatives([one.reference(name)], [1])
-        assert f"{name} has no derivative" in one.refusal
+        assert one.log[-1].category == "logStatusDiscard"
+        assert f"{name} has no derivative" in one.log[-1].text
 
 
 def test_all_memory_comes_from_the_host_and_goes_back_to_it(native_ratchet):

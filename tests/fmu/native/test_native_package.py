@@ -14,7 +14,7 @@ from mechanism_fmu.fmu.archive import read_entries
 from mechanism_fmu.fmu.native.package import build_native_fmu
 
 FOLDERS = {
-    2: {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-linux": ".so", "aarch64-darwin": ".dylib"},
+    2: {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-linux": ".so"},
     3: {
         "x86_64-linux": ".so",
         "x86_64-windows": ".dll",
@@ -24,7 +24,7 @@ FOLDERS = {
     },
 }
 #: First bytes of a library, and where its processor stands: (magic, offset of the code or of its pointer, codes).
-ELF, MACH_O, PE = b"\x7fELF", b"\xcf\xfa\xed\xfe", b"MZ"
+ELF, MACH_O, UNIVERSAL, PE = b"\x7fELF", b"\xcf\xfa\xed\xfe", b"\xca\xfe\xba\xbe", b"MZ"
 
 
 @pytest.fixture(params=[2, 3])
@@ -53,9 +53,21 @@ def test_there_is_a_binary_of_the_right_kind_for_every_platform(fmu, fmi):
     binaries = {name for name in entries if name.startswith("binaries/")}
     assert binaries == {f"binaries/{folder}/Ratchet{suffix}" for folder, suffix in FOLDERS[fmi].items()}
     for name in binaries:
-        kind = {".so": ELF, ".dll": PE, ".dylib": MACH_O}[name[name.rindex(".") :]]
+        kind = {".so": ELF, ".dll": PE, ".dylib": UNIVERSAL if fmi == 2 else MACH_O}[name[name.rindex(".") :]]
         assert entries[name].startswith(kind), name
-        assert processor(entries[name]) == ("aarch64" if "aarch64" in name else "x86_64"), name
+        if kind != UNIVERSAL:
+            assert processor(entries[name]) == ("aarch64" if "aarch64" in name else "x86_64"), name
+
+
+def test_the_universal_binary_holds_the_libraries_of_both_processors(native_ratchet_fmu):
+    whole = read_entries(native_ratchet_fmu)["binaries/darwin64/Ratchet.dylib"]
+    (count,) = struct.unpack_from(">I", whole, 4)
+    parts = [struct.unpack_from(">5I", whole, 8 + 20 * k) for k in range(count)]
+    inside = [whole[offset : offset + size] for _, _, offset, size, _ in parts]
+    assert [processor(library) for library in inside] == ["x86_64", "aarch64"]
+    assert all(library.startswith(MACH_O) for library in inside)
+    assert all(offset % 2**alignment == 0 for _, _, offset, _, alignment in parts)
+    assert [part[:2] for part in parts] == [struct.unpack_from("<II", library, 4) for library in inside]
 
 
 def test_nothing_else_is_inside_that_does_not_belong_there(fmu, fmi):

@@ -157,3 +157,22 @@ def test_structure_that_is_not_the_same_at_every_call_is_refused():
 
     with pytest.raises(MechanismError, match="is not the same at every call"):
         trace(replace(MODEL, mechanism=mechanism))
+
+
+def test_a_model_that_looks_at_types_is_refused():
+    def mechanism(values):
+        factor = 2.0 if isinstance(values.mass, float) else 1.0
+        return Mechanism(bodies=(Body("one", values.mass * factor, 1.0),))
+
+    model = Model("Sly", "Looks at types.", (Parameter("mass", 1.0, "Mass", "kg", 0.1, 10.0),), mechanism)
+    with pytest.raises(MechanismError, match="the table inverse_mass comes out differently"):
+        trace(model)
+
+
+def test_what_cannot_be_traced_is_shown_with_its_line():
+    def mechanism(values):
+        return Mechanism(bodies=(Body("one", np.exp(values.mass), 1.0),))
+
+    model = Model("Numpy", "Uses numpy.", (Parameter("mass", 1.0, "Mass", "kg", 0.1, 10.0),), mechanism)
+    with pytest.raises(MechanismError, match=r"Numpy cannot be traced, .*test_trace\.py, line \d+ \(return Mechanism"):
+        trace(model)

@@ -215,7 +215,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real current_time, fmi2Real size, fmi
     double target;
     if (require(x, "fmi2DoStep", IN(STEPPING)) != OK) return fmi2Error;
     if (step_target(x, "fmi2DoStep", current_time, size, &target) != OK) return fmi2Error;
-    Status status = begin_step(x);
+    Status status = begin_step(x, target);
     if (status == OK) status = go_on(x, target, CODE_STOP_AT_TARGET);
     tell_news(x);
     return (fmi2Status)status;

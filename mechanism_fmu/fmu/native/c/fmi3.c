@@ -374,7 +374,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     int stops = x->event_mode && x->early_return;
     int64_t rule = x->intermediate_update ? CODE_STOP_AT_STEP : stops ? CODE_STOP_AT_IMPACT : CODE_STOP_AT_TARGET;
     double end = target; /* sooner when the host asks for it at an intermediate update */
-    Status status = begin_step(x);
+    Status status = begin_step(x, target);
     while (status == OK && time_of(x) < end && !(stops && *impacts != before)) {
         status = go_on(x, end, rule);
         if (status == OK && x->intermediate_update) end = intermediate_update(x, end);

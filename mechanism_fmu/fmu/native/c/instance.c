@@ -156,11 +156,11 @@ Status prepare(Instance *x) {
     int64_t outcome = mechanism_begin(x->block, words, x->head.start_time);
     if (outcome == STATUS_OK) outcome = mechanism_begin_step(x->block, words);
     if (outcome == STATUS_OK) outcome = mechanism_go_on(x->block, words, x->head.start_time, CODE_STOP_AT_TARGET);
-    if (outcome != STATUS_OK) return failed(x, outcome);
     memcpy(FIELD(x, input_slopes), slopes, model.inputs * sizeof(double));
-    x->head.prepared = 1;
-    forget_news(x);
+    if (outcome != STATUS_OK) return failed(x, outcome);
+    forget_news(x); /* while it is not prepared, nothing counts as told */
     x->told_impacts = x->told_events = x->told_lost = 0;
+    x->head.prepared = 1;
     return OK;
 }
 
@@ -181,7 +181,8 @@ double time_of(const Instance *x) { return x->head.prepared ? FIELD(x, clock)[CO
 Status step_target(Instance *x, const char *call, double current_time, double size, double *target) {
     double reached = time_of(x);
     if (!isfinite(current_time) || !isfinite(size))
-        return refuse(x, "%s: time %g s or step size %g s is not a finite number.", call, current_time, size);
+        return refuse(x, "%s: time %g s or step size %g s is not a finite number.", call,
+                      isnan(current_time) ? NAN : current_time, isnan(size) ? NAN : size);
     if (!(size > 0))
         return refuse(x, "%s: step size %g s must be positive; to go back, restore a saved state.", call, size);
     double rounding = ROUNDINGS * (nextafter(fabs(reached), INFINITY) - fabs(reached));
@@ -208,7 +209,16 @@ static Status judge(Instance *x, int64_t outcome) {
     return refuse(x, "t = %.9g s: %s%s", time_of(x), ADVICE[outcome], advice_details(x, outcome, details, sizeof details));
 }
 
-Status begin_step(Instance *x) { return judge(x, mechanism_begin_step(x->block, (int64_t)model.words)); }
+Status begin_step(Instance *x, double target) {
+    for (size_t k = 0; k < model.inputs; k++) {
+        const Variable *v = model.variables + k;
+        double end = FIELD(x, inputs)[k] + FIELD(x, input_slopes)[k] * (target - time_of(x));
+        if (!(v->minimum <= end && end <= v->maximum))
+            return refuse(x, "The derivative of %s leads to %g%s at the end of the step, beyond its limits, %g .. %g%s.",
+                          v->name, end, v->unit, v->minimum, v->maximum, v->unit);
+    }
+    return judge(x, mechanism_begin_step(x->block, (int64_t)model.words));
+}
 
 Status go_on(Instance *x, double target, int64_t rule) {
     return judge(x, mechanism_go_on(x->block, (int64_t)model.words, target, rule));

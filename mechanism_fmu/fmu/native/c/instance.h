@@ -68,7 +68,7 @@ Status require(Instance *x, const char *call, unsigned phases); /* a bit for eac
 
 double time_of(const Instance *x);
 Status step_target(Instance *x, const char *call, double current_time, double size, double *target);
-Status begin_step(Instance *x);
+Status begin_step(Instance *x, double target);
 Status go_on(Instance *x, double target, int64_t rule);
 
 Status get_values(Instance *x, int type, const unsigned vr[], size_t count, Form form, void *values, size_t value_count);

@@ -24,7 +24,8 @@ Status set_logging(Instance *x, int on, size_t count, const char *const categori
                           categories && categories[k] ? categories[k] : "(null)");
         bits |= strcmp(categories[k], "logAll") == 0 ? ~0u : bit;
     }
-    x->categories = on ? x->categories | bits : x->categories & ~bits;
+    unsigned kept = x->fmi == 2 && on ? 0 : x->categories; /* FMI 2.0 chooses categories, FMI 3.0 adds them */
+    x->categories = on ? kept | bits : kept & ~bits;
     return OK;
 }
 
@@ -95,6 +96,7 @@ static void tell_impacts(Instance *x) {
 
 /* The events that are new; of a step with many, the last ones. */
 static void tell_events(Instance *x, int64_t new_events) {
+    if (!x->log || !(x->categories & bit_of("logEvents"))) return;
     int64_t known = COUNTERS(x)[CODE_EVENTS_IN_STEP];
     if (new_events > known)
         say(x, OK, "logEvents",

@@ -31,6 +31,8 @@ Status save(Instance *x, Saved **state) {
 
 Status restore(Instance *x, const Saved *state) {
     if (!state) return refuse(x, "There is no state to restore: the pointer is null.");
+    if (state->head.phase == EVENT && !x->event_mode)
+        return refuse(x, "The state was saved in event mode, and this instance was made without it.");
     x->head = state->head;
     memcpy(x->parameters, state->words, model.parameters * sizeof(double));
     memcpy(x->block + first_of_state(), state->words + model.parameters, state_words() * sizeof(double));

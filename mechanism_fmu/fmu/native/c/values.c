@@ -15,8 +15,8 @@ static int is_time(const Instance *x, unsigned vr) { return x->fmi == 3 && vr ==
 static Status check_reference(const Instance *x, int type, unsigned vr) {
     if (is_time(x, vr) && type == REAL) return OK;
     if (vr >= model.variable_count || (x->fmi == 3 && model.variables[vr].count == 0))
-        return refuse(x, "There is no variable with value reference %u; they run from 0 to %zu.", vr,
-                      model.variable_count - 1);
+        return refuse(x, "There is no variable of type %s with value reference %u; references run from 0 to %zu.",
+                      type_name(x, type), vr, model.variable_count - 1 + (x->fmi == 3 ? 2 : 0));
     const Variable *v = model.variables + vr;
     if (v->type == type) return OK;
     return refuse(x, "%s (value reference %u) is of type %s, not %s.", v->name, vr, type_name(x, v->type),
@@ -69,7 +69,7 @@ static Status read_for(Instance *x, const unsigned vr[], size_t count) {
 
 static void put(void *values, size_t k, Form form, double value) {
     if (form == AS_DOUBLE) ((double *)values)[k] = value;
-    if (form == AS_INT32) ((int32_t *)values)[k] = (int32_t)value;
+    if (form == AS_INT32) ((int32_t *)values)[k] = (int32_t)fmax(fmin(value, INT32_MAX), INT32_MIN);
     if (form == AS_BYTE) ((unsigned char *)values)[k] = value != 0;
 }
 
@@ -130,7 +130,10 @@ Status set_values(Instance *x, int type, const unsigned vr[], size_t count, Form
     if (check_references(x, type, vr, count, values, value_count) != OK) return ERROR;
     for (size_t k = 0; k < count; k++)
         if (check_set(x, vr[k], take(values, k, form)) != OK) return ERROR;
-    for (size_t k = 0; k < count; k++) *place(x, vr[k]) = take(values, k, form);
+    for (size_t k = 0; k < count; k++) {
+        double value = take(values, k, form);
+        *place(x, vr[k]) = type == BOOLEAN ? value != 0 : value; /* hosts pass -1 and 255, too */
+    }
     x->outputs_read = 0;
     if (x->head.phase == INSTANTIATED || x->head.phase == INITIALIZATION) x->head.prepared = 0;
     return OK;
@@ -165,8 +168,12 @@ Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order
         if (check_order(x, order[k]) != OK) return ERROR;
         if (is_time(x, vr[k])) return refuse(x, "time is no output; there are derivatives of outputs only.");
         const Variable *v = model.variables + vr[k];
-        double rate = v->causality == OUTPUT ? FIELD(x, output_rates)[vr[k] - model.inputs] : NAN;
-        if (isnan(rate)) return refuse(x, "%s has no derivative with respect to time.", v->name);
+        if (v->causality != OUTPUT) return refuse(x, "%s is no output; there are derivatives of outputs only.", v->name);
+        double rate = FIELD(x, output_rates)[vr[k] - model.inputs];
+        if (isnan(rate)) {
+            say(x, DISCARD, "logStatusDiscard", "%s: %s has no derivative with respect to time.", x->name, v->name);
+            return DISCARD;
+        }
         values[k] = rate; /* no array gets here: they are all discrete */
     }
     return OK;
