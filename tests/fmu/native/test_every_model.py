@@ -1,0 +1,33 @@
+"""Every model in every form: FMI 3.0 goes the way of FMI 2.0, and fmpy finds no fault in it."""
+
+import pytest
+from fmpy import simulate_fmu
+from fmpy.validation import validate_fmu
+
+import models
+from mechanism_fmu.fmu.native.package import build_native_fmu
+from tests.fmu.conformance.conftest import SUBJECTS
+
+OUTPUTS = ["wheel_angle", "wheel_speed", "impact_count", "energy_lost"]
+
+
+@pytest.mark.parametrize("name", sorted(models.available()))
+def test_fmi3_goes_the_way_of_fmi2(name, request, tmp_path):
+    second = request.getfixturevalue(f"native_{name}_fmu")
+    third = build_native_fmu(models.load(name), tmp_path, fmi=3)
+    assert validate_fmu(str(second)) == validate_fmu(str(third)) == []
+
+    def run(fmu, **options):
+        subject = SUBJECTS[name]
+        start = dict(subject["rough"])
+        return simulate_fmu(
+            str(fmu), stop_time=subject["until"], output_interval=0.125, start_values=start, output=OUTPUTS, **options
+        )
+
+    expected, found = run(second), run(third)
+    for output in OUTPUTS:
+        assert list(found[output]) == list(expected[output]), output
+    assert found["impact_count"][-1] > 0
+    at_impacts = run(third, use_event_mode=True, early_return_allowed=True)
+    assert at_impacts["impact_count"][-1] == expected["impact_count"][-1]
+    assert at_impacts["energy_lost"][-1] == pytest.approx(expected["energy_lost"][-1], rel=1e-9)
