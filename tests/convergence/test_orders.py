@@ -13,6 +13,7 @@ from mechanism_fmu.engine.acceleration import derivative
 from mechanism_fmu.engine.dormand_prince import interpolate, try_step
 from mechanism_fmu.engine.pack import pack
 from mechanism_fmu.engine.subset import entry
+from mechanism_fmu.engine.vectors import copy
 from mechanism_fmu.engine.views import stages
 from mechanism_fmu.model import GROUND, Body, Mechanism, Output, Revolute, Settings, TorsionSpring
 from mechanism_fmu.simulation import Simulation
@@ -50,10 +51,10 @@ def fixed_steps(block, y, step, count, fractions, inside):
     """Take `count` steps from y, in place; `inside`, shape (fractions, unknowns), is the last one's dense output."""
     s = stages(block)
     for _ in range(count):
-        s.y_start[:] = y
+        copy(y, s.y_start)
         derivative(block, y, s.derivatives[0])
         try_step(block, 0.0, step)
-        y[:] = s.y_new
+        copy(s.y_new, y)
     for f in range(fractions.shape[0]):
         interpolate(s.new_dense, fractions[f], inside[f])
 
