@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 #: A communication point may differ from the time reached by this [s], by 1 % of the step, and by some rounding.
-_SAME_TIME = 1e-9
-_SAME_TIME_OF_STEP = 0.01
-_ROUNDINGS = 8
+SAME_TIME = 1e-9
+SAME_TIME_OF_STEP = 0.01
+ROUNDINGS = 8
 #: Beyond this the clock itself resolves no more than 2e-6 s.
-_LATEST_START = 1e10
+LATEST_START = 1e10
+#: The engine's tightest relative tolerance.
+TIGHTEST = 1e-13
 
 
 class Phase(IntEnum):
@@ -48,9 +50,9 @@ def experiment(start_time: float, stop_time: float | None, tolerance: float | No
     Raises:
         FmiError: an argument that cannot be.
     """
-    if not abs(start_time) <= _LATEST_START:
+    if not abs(start_time) <= LATEST_START:
         raise FmiError(
-            f"fmi2SetupExperiment: the start time {start_time:g} s must be finite and within +-{_LATEST_START:g} s, "
+            f"fmi2SetupExperiment: the start time {start_time:g} s must be finite and within +-{LATEST_START:g} s, "
             "where the clock still resolves microseconds."
         )
     if stop_time is not None and not start_time <= stop_time < math.inf:
@@ -94,8 +96,8 @@ def step_target(reached: float, current_time: float, step_size: float, stop_time
         raise FmiError(f"fmi2DoStep: time {current_time:g} s or step size {step_size:g} s is not a finite number.")
     if not step_size > 0:
         raise FmiError(f"fmi2DoStep: step size {step_size:g} s must be positive; to go back, restore a saved state.")
-    rounding = _ROUNDINGS * math.ulp(reached)
-    if abs(current_time - reached) > rounding + min(_SAME_TIME, _SAME_TIME_OF_STEP * step_size):
+    rounding = ROUNDINGS * math.ulp(reached)
+    if abs(current_time - reached) > rounding + min(SAME_TIME, SAME_TIME_OF_STEP * step_size):
         raise FmiError(
             f"fmi2DoStep: the communication point {current_time:.12g} s is not the time reached, {reached:.12g} s; "
             "steps follow each other without gap, and a step back needs a saved state."
@@ -105,7 +107,7 @@ def step_target(reached: float, current_time: float, step_size: float, stop_time
         raise FmiError(
             f"fmi2DoStep: step size {step_size:g} s is lost in rounding at {reached:.12g} s; take larger steps."
         )
-    if target > stop_time + _SAME_TIME * max(1.0, abs(stop_time)):
+    if target > stop_time + SAME_TIME * max(1.0, abs(stop_time)):
         raise FmiError(
             f"fmi2DoStep: the step to {target:.12g} s leads past the stop time {stop_time:.12g} s that the "
             "host has given; end there, or give a later stop time or none."

@@ -23,13 +23,11 @@ from ..model.model import check_value
 from ..simulation import Simulation, SimulationError
 from . import saved_state
 from .news import News
-from .protocol import Experiment, FmiError, Phase, experiment, require, step_target
+from .protocol import TIGHTEST, Experiment, FmiError, Phase, experiment, require, step_target
 from .saved_state import SavedState, SavedStateError
 from .variables import Variable, variables_of
 from .wrapper import Told, fmi_call, survive_release
 
-#: The engine's tightest relative tolerance.
-_TIGHTEST = 1e-13
 _SETTABLE = {
     "input": (Phase.INSTANTIATED, Phase.INITIALIZATION, Phase.STEPPING),
     "parameter": (Phase.INSTANTIATED, Phase.INITIALIZATION),
@@ -230,7 +228,7 @@ class MechanismSlave(Fmi2Slave):
         if self._simulation is None:
             setup = self._experiment or Experiment(0.0)
             mechanism = self.model.build(self.model.checked(self._parameter_values()))
-            tolerance = min(mechanism.settings.relative_tolerance, max(setup.tolerance, _TIGHTEST))
+            tolerance = min(mechanism.settings.relative_tolerance, max(setup.tolerance, TIGHTEST))
             mechanism = replace(mechanism, settings=replace(mechanism.settings, relative_tolerance=tolerance))
             self._simulation = Simulation(mechanism, setup.start_time, self._inputs)
         return self._simulation

@@ -1,10 +1,12 @@
-"""engine.h: what the C surface knows of the engine, written from the engine's own declarations."""
+"""engine.h: what the C surface knows of the engine and shares with the slave, written from the Python declarations."""
 
 from __future__ import annotations
 
 from ... import codes
 from ...engine import status
 from ...engine.layout import FIELDS, SIZES, size_slot, slot
+from .. import protocol
+from ..model_description import LOG_CATEGORIES
 
 _PROTOTYPES = """\
 int64_t mechanism_begin(double *block, int64_t words, double time);
@@ -16,7 +18,7 @@ void mechanism_read_output_rates(double *block, int64_t words);
 
 
 def engine_header() -> str:
-    """The text of engine.h: codes, header words of a block, statuses with their advice, prototypes."""
+    """The text of engine.h: codes, header words of a block, statuses, limits of the protocol, prototypes."""
     rooms = [field.room for field in FIELDS]
     edges = {"FIRST_OF_STATE": rooms.index("state"), "END_OF_STATE": rooms.index("work")}
     enums = {
@@ -28,10 +30,13 @@ def engine_header() -> str:
         },
         "STATUS": {name: value for name, value in vars(status).items() if isinstance(value, int) and name.isupper()},
     }
-    lines = ["/* The engine for C: written by headers.py from codes.py, layout.py and status.py. */"]
+    limits = ("LATEST_START", "SAME_TIME", "SAME_TIME_OF_STEP", "ROUNDINGS", "TIGHTEST")
+    lines = ["/* The engine for C: written by headers.py from the Python sources. */"]
     lines += ["#ifndef ENGINE_H", "#define ENGINE_H", "#include <stdint.h>"]
     for prefix, entries in enums.items():
         lines += ["enum {", *(f"    {prefix}_{name} = {value}," for name, value in entries.items()), "};"]
+    lines += [f"#define {name} {getattr(protocol, name)!r} /* as in protocol.py */" for name in limits]
+    lines += [f"#define LOG_CATEGORIES {{{', '.join(map(c_text, LOG_CATEGORIES))}}}"]
     return "\n".join([*lines, _PROTOTYPES, "extern const char *const ADVICE[];", "#endif", ""])
 
 

@@ -6,15 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Beyond this start time [s] the clock itself resolves no more than 2e-6 s. */
-#define LATEST_START 1e10
-/* A communication point may differ from the time reached by this [s], by this share of the step, and by some rounding. */
-#define SAME_TIME 1e-9
-#define SAME_TIME_OF_STEP 0.01
-#define ROUNDINGS 8
-/* The engine's tightest relative tolerance. */
-#define TIGHTEST 1e-13
-
 static const char *const PHASES[] = {"instantiated", "initialization", "stepping", "terminated", "event",
                                      "intermediate update"};
 

@@ -5,8 +5,7 @@
 
 #include "instance.h"
 
-static const char *const CATEGORIES[] = {"logEvents",      "logStatusWarning", "logStatusDiscard",
-                                         "logStatusError", "logStatusFatal",   "logAll"};
+static const char *const CATEGORIES[] = LOG_CATEGORIES;
 enum { CATEGORY_COUNT = sizeof CATEGORIES / sizeof *CATEGORIES };
 
 static unsigned bit_of(const char *category) {
