@@ -19,7 +19,7 @@ from .contents import common_entries, file_in, model_of
 from .native.libraries import engine_libraries
 from .native.link import has_linker
 from .native.objects import Report, silently
-from .native.targets import TARGETS
+from .native.targets import WRAPPED
 from .project import dependencies
 
 _LIBRARY = Path(__file__).parents[1]
@@ -157,9 +157,5 @@ def _requirements(packages: set[str], compiled: bool) -> str:
             f"The model imports {', '.join(sorted(unknown))}, which mechanism_fmu does not depend on; "
             "an FMU can ask for nothing else. Remove the import."
         )
-    note = (
-        f"# on other platforms than {', '.join(t.name for t in TARGETS)} also:\n# {pins[_COMPILER]}\n"
-        if compiled
-        else ""
-    )
+    note = f"# on other platforms than {', '.join(WRAPPED)} also:\n# {pins[_COMPILER]}\n" if compiled else ""
     return "".join(f"{pins[name]}\n" for name in sorted(needed - ({_COMPILER} if compiled else set()))) + note

@@ -9,11 +9,11 @@ from pathlib import Path
 from ..archive import content_hash
 from .link import link, linked_with, surface
 from .objects import Report, compiled_engine, silently
-from .targets import TARGETS
+from .targets import TARGETS, WRAPPED
 
 
 def engine_libraries(report: Report = silently) -> dict[str, bytes]:
-    """The library of each platform, by the file name under which `mechanism_fmu.engine.run` looks for it.
+    """The library of each platform of pythonfmu, by the file name under which `mechanism_fmu.engine.run` looks for it.
 
     Args:
         report: see `compiled_engine`.
@@ -24,7 +24,7 @@ def engine_libraries(report: Report = silently) -> dict[str, bytes]:
     engine = compiled_engine(report)
     made_from = content_hash(linked_with("library.c"))[:8]
     found = {}
-    for target in TARGETS:
+    for target in (target for target in TARGETS if target.fmi2 in WRAPPED):
         path = engine.headers / made_from / f"{target.name}{target.suffix}"
         if not path.is_file():
             path.parent.mkdir(exist_ok=True)

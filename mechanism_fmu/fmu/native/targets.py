@@ -25,6 +25,9 @@ class Target:
     suffix: str
 
 
+#: The platforms that pythonfmu's wheel has a wrapper for.
+WRAPPED = ("linux64", "win64")
+
 TARGETS = (
     Target("x86_64-linux", "linux64", "x86_64-unknown-linux-gnu", "x86_64-linux-gnu.2.17", ".so"),
     Target("x86_64-windows", "win64", "x86_64-pc-windows-msvc", "x86_64-windows-gnu", ".dll"),
