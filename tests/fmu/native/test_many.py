@@ -4,6 +4,7 @@
 """
 
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from functools import partial
 
 import pytest
@@ -38,12 +39,11 @@ def test_eight_threads_do_what_each_does_alone(native_ratchet):
         with Instance(native_ratchet) as one:
             expected.append(steps(scene, one))
 
-    def run(number):
-        with Instance(native_ratchet, str(number)) as one:
-            return steps(scenes[number % 2], one)
-
-    with ThreadPoolExecutor(THREADS) as pool:
-        found = list(pool.map(run, range(THREADS)))
+    with ExitStack() as stack:
+        # Loaded one after the other: for that, fmpy changes the working directory of the whole process and back.
+        instances = [stack.enter_context(Instance(native_ratchet, str(number))) for number in range(THREADS)]
+        pool = stack.enter_context(ThreadPoolExecutor(THREADS))
+        found = list(pool.map(lambda number: steps(scenes[number % 2], instances[number]), range(THREADS)))
     assert found == expected * (THREADS // 2)
 
 
