@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from .. import codes
 from .body import Point
+from .curves import Curve
 from .functions import Number
 
 
@@ -36,6 +37,9 @@ class PointLineContact:
     """
 
     kind: ClassVar[int] = codes.POINT_LINE
+    rows: ClassVar[int] = 1
+    alphas: ClassVar[int] = 0
+    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
 
     name: str
     body_i: str
@@ -74,6 +78,9 @@ class AngleStop:
     """
 
     kind: ClassVar[int] = codes.ANGLE_STOP
+    rows: ClassVar[int] = 1
+    alphas: ClassVar[int] = 0
+    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
     closed: ClassVar[Number] = False
     friction: ClassVar[Number] = 0.0
     beam_length: ClassVar[Number] = 0.0
@@ -110,6 +117,9 @@ class AngleLock:
     """
 
     kind: ClassVar[int] = codes.ANGLE_LOCK
+    rows: ClassVar[int] = 1
+    alphas: ClassVar[int] = 0
+    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
     closed: ClassVar[Number] = False
     restitution: ClassVar[Number] = 0.0
     friction: ClassVar[Number] = 0.0
