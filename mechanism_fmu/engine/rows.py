@@ -17,10 +17,11 @@ from .joints.translational_driver import translational_driver
 from .joints.x_driver import x_driver
 from .joints.y_driver import y_driver
 from .point_line import point_line
+from .profile_row import profile_row
 from .room import Array
 from .subset import jit, keep_small
 from .vectors import clear
-from .views import contacts, joints, options, pose, rows, sizes
+from .views import contacts, joints, linear_system, options, pose, rows, sizes
 
 
 @jit
@@ -103,6 +104,8 @@ def contact_row(block: Array, contact: int, row: int) -> None:
     j = table.body_j[contact]
     if table.kind[contact] == codes.POINT_LINE:
         point_line(pose(block), out, row, i, j, table.data[contact], table.line[contact])
+    elif table.alpha[contact] != codes.NONE:
+        profile_row(block, contact, row)
     else:
         angle_row(pose(block), out, row, i, j, table.line[contact])
 
@@ -150,6 +153,27 @@ def active_rows(block: Array) -> int:
         else:
             table.row[c] = -1
     return count
+
+
+@jit
+def follow_open_contacts(block: Array) -> None:
+    """Write the rates of the contact coordinates of open contacts; those of closed ones come with their rows."""
+    keep_small()
+    table = contacts(block)
+    for c in range(table.mode.shape[0]):
+        if table.alpha[c] != codes.NONE and table.mode[c] != codes.CLOSED:
+            contact_row(block, c, spare_row(block))
+
+
+@jit
+def driver_power(block: Array) -> float:
+    """Power that drivers give, by the multipliers of the last solve: multiplier nu, summed over their rows [W]."""
+    table = joints(block)
+    power = 0.0
+    for k in range(table.kind.shape[0]):
+        if table.curve[k] != codes.NONE:
+            power += linear_system(block).multiplier[table.row[k]] * rows(block).nu[table.row[k]]
+    return power
 
 
 @jit
