@@ -9,6 +9,7 @@ from .. import codes
 from .body import Point
 from .curves import Curve
 from .functions import Number
+from .joints import CamFlatFollower, CamFollower, PointFollower
 
 
 @dataclass(frozen=True)
@@ -141,4 +142,4 @@ class AngleLock:
 
 
 #: Any contact.
-Contact = PointLineContact | AngleStop | AngleLock
+Contact = PointLineContact | AngleStop | AngleLock | CamFollower | CamFlatFollower | PointFollower
