@@ -18,7 +18,6 @@ from .conditions import (
 )
 from .findings import Finding, literal, refuse_unless
 from .forces import CompliantShaft, Damper, ForceElement, TorsionSpring
-from .functions import Number
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism, Settings
