@@ -1,11 +1,12 @@
 """Functions of one variable: the profiles of cams and slots, and the motions of drivers.
 
-A curve consists of pieces, each of which begins at a value of the variable; a piece is a sum of terms, and a term is a
+How to make them: `mechanism_fmu.model.profiles` and `mechanism_fmu.model.motions`. A curve consists of pieces, each of which begins at a value of the variable; a piece is a sum of terms, and a term is a
 polynomial of at most the fifth degree plus one harmonic. So the engine knows three derivatives of all of them.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from .functions import Number
@@ -56,3 +57,18 @@ class Curve:
     start: Number = 0.0
     span: Number = 0.0
     periodic: bool = False
+
+
+def constant(value: Number) -> Term:
+    """A term that does not vary."""
+    return Term((value,))
+
+
+def cosine(amplitude: Number, frequency: Number) -> Term:
+    """amplitude cos(frequency xi)."""
+    return Term((), amplitude, frequency, math.pi / 2)
+
+
+def sine(amplitude: Number, frequency: Number, phase: Number = 0.0) -> Term:
+    """amplitude sin(frequency xi + phase)."""
+    return Term((), amplitude, frequency, phase)
