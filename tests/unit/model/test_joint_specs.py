@@ -5,6 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 from mechanism_fmu import codes
 from mechanism_fmu.model import (
@@ -20,6 +22,8 @@ from mechanism_fmu.model import (
     InternalGears,
     Mechanism,
     MechanismError,
+    Model,
+    Parameter,
     Piece,
     PointFollower,
     RackAndPinion,
@@ -31,7 +35,9 @@ from mechanism_fmu.model import (
     YDriver,
 )
 from mechanism_fmu.model.check_numbers import number_findings
+from mechanism_fmu.model.compile import compile_tables
 from mechanism_fmu.model.findings import messages
+from mechanism_fmu.model.trace import trace
 
 RAMP = Curve((Piece(0.0, (Term((1.0, 2.0)),)),))
 SWING = Curve((Piece(0.0, (Term((), 0.5, 3.0, 0.25),)), Piece(1.0, (Term((4.0,)), Term((), 5.0, 6.0)))), 0.0, 2.0, True)
@@ -197,3 +203,45 @@ def test_refusal_names_the_part_and_the_limit(change, fragments):
 
 def test_nothing_is_wrong_with_the_good_one():
     assert messages(number_findings(GOOD)) == []
+
+
+def _mechanism(values):
+    size, axis = values.size, (values.axis, 0.0)
+    motion = Curve((Piece(0.0, (Term((size, axis[0])),)),))
+    return replace(
+        GOOD,
+        joints=(
+            replace(ROD, distance=size),
+            replace(GUIDE, axis_i=axis),
+            replace(PAIR, radius_i=size),
+            replace(RING, radius_j=size),
+            replace(RACK, radius_j=size),
+            replace(PUSH, axis_i=axis, motion=motion),
+        ),
+        contacts=(
+            replace(ROLLER, unilateral=values.unilateral, profile_j=replace(motion, span=size, periodic=True)),
+            replace(FLAT, unilateral=values.unilateral, direction_j=axis),
+        ),
+    )
+
+
+PARAMETERS = (
+    Parameter("size", 1.0, "Sizes", "m"),
+    Parameter("axis", 2.0, "Length of directions"),
+    Parameter("unilateral", 0.0, "A switch", type="Boolean"),
+)
+TRACED = trace(Model("Joints", "All that has numbers of its own", PARAMETERS, _mechanism))
+ODD = st.sampled_from([0.0, -0.0, 1.0, 3.0, -2.0, 5e-324, 1e-170, 1e200, 1.7976931348623157e308])
+
+
+@settings(deadline=None)
+@given(ODD | st.floats(-5, 5), ODD | st.floats(-5, 5), st.sampled_from([0.0, 1.0]))
+@example(1.0, 2.0, 0.0)
+def test_numbers_may_be_symbolic(size, axis, unilateral):
+    """Traced, mechanisms have the same tables to the last bit, and the same is refused."""
+    values = TRACED.model.values(size=size, axis=axis, unilateral=unilateral)
+    mechanism = _mechanism(values)
+    assert list(TRACED.impossible(values)) == messages(number_findings(mechanism))
+    expected, found = compile_tables(mechanism), TRACED.evaluate(values)
+    for name in ("joint_data", "contact_data", "contact_value", "curve_range", "term_data"):
+        assert getattr(found, name).tobytes() == getattr(expected, name).tobytes(), name
