@@ -18,7 +18,7 @@ from .room import Array
 from .rows import active_rows
 from .subset import entry, jit, keep_small
 from .transition import switch_contacts
-from .vectors import clear, copy, largest
+from .vectors import clear, copy
 from .views import (
     bodies,
     contacts,
@@ -202,17 +202,16 @@ def _close_rates(block: Array) -> bool:
     n = sizes(block).coordinates
     y = course(block).y_end
     count = active_rows(block)
-    if options(block).held.shape[0] == 0 or largest(rows(block).residual_rate, count) <= RATES_WITHIN:
-        agree: bool = _largest(rows(block).residual_rate, count) <= RATES_WITHIN
-        return agree
+    worst = _largest(rows(block).residual_rate, count)
+    if options(block).held.shape[0] == 0 or worst <= RATES_WITHIN:
+        return worst <= RATES_WITHIN
     for _ in range(2):  # once more, for what rounding has left
         _newton_direction(block, count, rows(block).residual_rate)
         for k in range(n):
             y[n + k] += loads(block).weight[k] * linear_system(block).solution[k]
         place_bodies(block, y)
         active_rows(block)
-    agree = _largest(rows(block).residual_rate, count) <= RATES_WITHIN
-    return agree
+    return _largest(rows(block).residual_rate, count) <= RATES_WITHIN
 
 
 @jit

@@ -202,11 +202,12 @@ def _depth(block: Array, contact: int) -> float:
     j = table.body_j[contact]
     dx = at.x[i] + touch.ax - at.x[j]
     dy = at.y[i] + touch.ay - at.y[j]
-    if table.kind[contact] == codes.CAM_FLAT_FOLLOWER:
-        return touch.tx * (dy - touch.by) - touch.ty * (dx - touch.bx)
-    c = at.cosine[j]
-    s = at.sine[j]
-    x = c * dx + s * dy - table.data[contact, 2]
-    y = c * dy - s * dx - table.data[contact, 3]
-    rho, _, _, _ = curve(block, table.curve_j[contact], math.atan2(y, x))
-    return rho - math.sqrt(x * x + y * y)
+    depth: float = touch.tx * (dy - touch.by) - touch.ty * (dx - touch.bx)
+    if table.kind[contact] == codes.CAM_FOLLOWER:
+        c = at.cosine[j]
+        s = at.sine[j]
+        x = c * dx + s * dy - table.data[contact, 2]
+        y = c * dy - s * dx - table.data[contact, 3]
+        rho, _, _, _ = curve(block, table.curve_j[contact], math.atan2(y, x))
+        depth = rho - math.sqrt(x * x + y * y)
+    return depth

@@ -13,7 +13,7 @@ from .ports import feed
 from .room import Array
 from .stepper import state_at_time
 from .subset import entry, jit
-from .views import bodies, contacts, course, pose, ports, sizes, stages
+from .views import bodies, contacts, course, ports, pose, sizes, stages
 
 
 @entry

@@ -11,7 +11,7 @@ from .ports import feed
 from .room import Array
 from .stepper import state_at_time
 from .subset import entry, jit
-from .views import bodies, contacts, course, linear_system, patterns, pose, ports, sizes, stages
+from .views import bodies, contacts, course, linear_system, patterns, ports, pose, sizes, stages
 
 
 @entry

@@ -32,7 +32,7 @@ ADVICE = {
     "are.",
     OVERLAP: "The mechanism starts with two profiles that overlap: they touch at one point and run into each other at "
     "another, because one has a hollow that the other does not fit into.",
-    NO_CONTACT_POINT: "The contact point of two profiles is no longer determined: one of them has a hollow there that the "
-    "other does not fit into, or a tip. Check the profile's curvature, or give a smaller roller.",
+    NO_CONTACT_POINT: "The contact point of two profiles is no longer determined: one of them has a hollow there that "
+    "the other does not fit into, or a tip. Check the profile's curvature, or give a smaller roller.",
     NO_PLACE: "No copy of a pattern was found on which the point can start.",
 }

@@ -20,7 +20,7 @@ from .drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from .events import first_event, refine
 from .guards import gap
 from .kinematics import place_bodies
-from .ports import feed, set_time, inputs_changed, show_reached, take_inputs
+from .ports import feed, inputs_changed, set_time, show_reached, take_inputs
 from .pulling import watch_at, watch_step
 from .records import clear_records
 from .room import Array

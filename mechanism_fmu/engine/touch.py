@@ -87,7 +87,7 @@ def look(block: Array, contact: int) -> Touch:
 
 @jit
 def _profile(block: Array, number: int, alpha: float) -> tuple[float, float, float, float, float, float]:
-    """rho e(alpha) of a profile and its first two derivatives, in the body's frame [m]."""
+    """Point rho e(alpha) of a profile and its first two derivatives, in the body's frame [m]."""
     keep_small()
     rho, rate, bend, _ = curve(block, number, alpha)
     c = math.cos(alpha)

@@ -325,9 +325,7 @@ class Pose(NamedTuple):
     instant: Array
 
 
-pose = room(
-    Pose, "x", "y", "phi", "cosine", "sine", "x_rate", "y_rate", "phi_rate", "alpha", "alpha_rate", "instant"
-)
+pose = room(Pose, "x", "y", "phi", "cosine", "sine", "x_rate", "y_rate", "phi_rate", "alpha", "alpha_rate", "instant")
 
 
 class Rows(NamedTuple):

@@ -13,7 +13,7 @@ from .body import GROUND
 from .curves import Curve
 from .functions import Number, is_plain, sqrt
 from .logic import resolve_function, switch
-from .sources import resolve_output
+from .sources import output_factor, resolve_output
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
@@ -174,7 +174,9 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         output_kind=_integers([kind for kind, _, _ in outputs + constants]),
         output_index=_integers([index for _, index, _ in outputs + constants]),
         output_slot=_integers([slot for _, _, slot in outputs + constants]),
-        output_value=_numbers([0.0] * len(outputs) + [c.value for c in mechanism.calculated]),
+        output_value=_numbers(
+            [output_factor(o.source, mechanism) for o in mechanism.outputs] + [c.value for c in mechanism.calculated]
+        ),
         settings=_numbers(
             [
                 mechanism.settings.relative_tolerance,

@@ -141,5 +141,19 @@ class AngleLock:
         return (self.angle, self.pitch)
 
 
+def is_angular(contact: Contact) -> bool:
+    """Whether a contact's gap is an angle, and its force a torque."""
+    return contact.kind in (codes.ANGLE_STOP, codes.ANGLE_LOCK)
+
+
+def too_deep(contact: Contact) -> tuple[str, str]:
+    """How to say that a contact starts inside the other body: what stands before and behind the depth."""
+    if contact.kind == codes.POINT_LINE:
+        return f"the point of {contact.body_i!r} is", f"m behind the line on {contact.body_j!r}"
+    if is_angular(contact):
+        return f"{contact.body_i!r} is", f"rad beyond its stop on {contact.body_j!r}"
+    return f"{contact.body_i!r} reaches", f"m into {contact.body_j!r}"
+
+
 #: Any contact.
 Contact = PointLineContact | AngleStop | AngleLock | CamFollower | CamFlatFollower | PointFollower

@@ -1,7 +1,8 @@
 """Functions of one variable: the profiles of cams and slots, and the motions of drivers.
 
-How to make them: `mechanism_fmu.model.profiles` and `mechanism_fmu.model.motions`. A curve consists of pieces, each of which begins at a value of the variable; a piece is a sum of terms, and a term is a
-polynomial of at most the fifth degree plus one harmonic. So the engine knows three derivatives of all of them.
+A curve consists of pieces, each of which begins at a value of the variable; a piece is a sum of terms, and a term is a
+polynomial of at most the fifth degree plus one harmonic. So the engine knows three derivatives of all of them. How to
+make them: `profiles` and `motions` beside this file.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from .functions import Number
 
 @dataclass(frozen=True)
 class Term:
-    """sum over k of polynomial[k] xi^k, plus amplitude sin(frequency xi + phase), where xi counts from the piece's start.
+    """Sum over k of polynomial[k] xi^k, plus amplitude sin(frequency xi + phase); xi counts from the piece's start.
 
     Attributes:
         polynomial: at most six coefficients, constant first.
@@ -65,10 +66,10 @@ def constant(value: Number) -> Term:
 
 
 def cosine(amplitude: Number, frequency: Number) -> Term:
-    """amplitude cos(frequency xi)."""
+    """The term amplitude cos(frequency xi)."""
     return Term((), amplitude, frequency, math.pi / 2)
 
 
 def sine(amplitude: Number, frequency: Number, phase: Number = 0.0) -> Term:
-    """amplitude sin(frequency xi + phase)."""
+    """The term amplitude sin(frequency xi + phase)."""
     return Term((), amplitude, frequency, phase)

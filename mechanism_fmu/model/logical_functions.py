@@ -15,7 +15,7 @@ from ..tolerances import (
     STICK_SPEED,
     TOUCHES_WITHIN,
 )
-from .contacts import AngleLock, AngleStop, Contact
+from .contacts import AngleStop, Contact, is_angular
 from .patterns import CircularPattern
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def definitions(mechanism: Mechanism) -> Iterator[Definition]:
 
 def _of_contact(contact: Contact) -> Iterator[Definition]:
     name = contact.name
-    length, force = ("rad", "N.m") if isinstance(contact, (AngleStop, AngleLock)) else ("m", "N")
+    length, force = ("rad", "N.m") if is_angular(contact) else ("m", "N")
     speed = f"{length}/s"
     yield Definition(
         f"{name}.touches",

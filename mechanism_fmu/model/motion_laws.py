@@ -19,12 +19,12 @@ def dwell(start: Number, value: Number, _rise: Number, _width: Number) -> tuple[
 
 
 def cycloidal(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
-    """rise (u - sin(2 pi u)/(2 pi)), u = xi/width: largest acceleration 6.283 rise/width^2, continuous everywhere."""
+    """Lift = rise (u - sin(2 pi u)/(2 pi)), u = xi/width: largest acceleration 6.283 rise/width^2."""
     return (Piece(start, (Term((value, rise / width), -rise / (2 * math.pi), 2 * math.pi / width),)),)
 
 
 def polynomial_345(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
-    """rise (10 u^3 - 15 u^4 + 6 u^5), u = xi/width: largest acceleration 5.7735 rise/width^2."""
+    """Lift = rise (10 u^3 - 15 u^4 + 6 u^5), u = xi/width: largest acceleration 5.7735 rise/width^2."""
     third = rise / (width * width * width)
     fourth = third / width
     return (Piece(start, (Term((value, 0.0, 0.0, 10 * third, -15 * fourth, 6 * fourth / width)),)),)

@@ -22,7 +22,7 @@ def circle(radius: Number) -> Curve:
 
 
 def harmonic_profile(mean: Number, cosines: Sequence[Number] = (), sines: Sequence[Number] = ()) -> Curve:
-    """mean + sum over k = 1, 2 ... of cosines[k-1] cos(k alpha) + sines[k-1] sin(k alpha) [m]."""
+    """Radius rho = mean + sum over k = 1, 2 ... of cosines[k-1] cos(k alpha) + sines[k-1] sin(k alpha) [m]."""
     terms = [constant(mean)]
     terms += [cosine(a, float(k)) for k, a in enumerate(cosines, start=1)]
     terms += [sine(b, float(k)) for k, b in enumerate(sines, start=1)]

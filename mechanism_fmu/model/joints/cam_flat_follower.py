@@ -34,7 +34,7 @@ class CamFlatFollower:
         profile_i: rho [m] over alpha [rad], about the cam's centre.
         point_j: a point of the face in the frame of body j [m].
         direction_j: along the face in the frame of body j (any length > 0; u_j is its unit vector), so that R u_j,
-            which is u_j turned by +90 deg, points from the face towards the cam.
+            u_j turned by +90 deg, points from the face towards the cam.
         centre_i: s, the centre of the profile in the frame of body i [m].
         unilateral, restitution, closed, enabled: as of `CamFollower`.
     """
