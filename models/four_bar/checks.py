@@ -27,8 +27,8 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
     return first(
         Finding(
             at_most(distance, _IN_LINE * both),
-            "At crank_angle_start = {:.6g} deg the crank pin lies on the rocker's hinge, so that coupler and rocker can "
-            "point anywhere: crank_length and ground_length are both {:.6g} m. Change crank_angle_start or a length.",
+            "At crank_angle_start = {:.6g} deg the crank pin lies on the rocker's hinge, so that coupler and rocker "
+            "can point anywhere: crank_length and ground_length are {:.6g} m. Change one, or crank_angle_start.",
             (where[0], values.crank_length),
         ),
         Finding(
