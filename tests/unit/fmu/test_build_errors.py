@@ -73,13 +73,16 @@ APP.command()(command.build)
 def test_an_unknown_model_is_answered_with_the_list() -> None:
     result = CliRunner().invoke(APP, ["rachet"])
     assert result.exit_code == 2
-    assert result.stderr == "There is no model 'rachet'; there are: geneva, ratchet.\n"
+    assert result.stderr == "There is no model 'rachet'; there are: four_bar, geneva, ratchet, slider_crank.\n"
     assert result.stdout == ""
 
 
 def test_no_model_is_answered_with_the_list() -> None:
     result = CliRunner().invoke(APP, [])
-    assert (result.exit_code, result.stderr) == (2, "Say which model to build; there are: geneva, ratchet.\n")
+    assert (result.exit_code, result.stderr) == (
+        2,
+        "Say which model to build; there are: four_bar, geneva, ratchet, slider_crank.\n",
+    )
 
 
 def test_the_list_describes_the_models() -> None:
