@@ -98,11 +98,10 @@ def _library(source, path):
     return ctypes.CDLL(str(path.with_suffix(".so")))
 
 
-@pytest.fixture(
-    scope="module",
-    params=[*(models.load(name).MODEL for name in models.available()), SMALL],
-    ids=lambda model: model.name,
-)
+MODELS = [*(models.load(name).MODEL for name in models.available()), SMALL]
+
+
+@pytest.fixture(scope="module", params=MODELS, ids=lambda model: model.name)
 def compiled(request, tmp_path_factory):
     if COMPILER is None or sys.platform == "win32":
         pytest.skip("needs a C compiler")
