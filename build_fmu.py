@@ -25,7 +25,11 @@ class Flavour(StrEnum):
 
 def build(
     model: Annotated[
-        str | None, typer.Argument(help="Name of a model, e.g. 'ratchet'; see --list.", show_default=False)
+        str | None,
+        typer.Argument(
+            help="Name of a ready-made model, e.g. 'ratchet' (see --list), or file of your own mechanism.",
+            show_default=False,
+        ),
     ] = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Folder for the FMU; it is made if need be.", file_okay=False)
@@ -39,6 +43,8 @@ def build(
     """Build the FMU of a model: one file that any FMI co-simulation tool can load.
 
     `python build_fmu.py ratchet -o build/` writes build/Ratchet.fmu, which runs where there is a Python with numpy.
+    `python build_fmu.py my_mechanism.py` builds a mechanism of your own: a file that sets MODEL (to begin with one,
+    run `mechanism-fmu new my_mechanism`; see docs/your-own-mechanism.md).
     With `--flavour native` it runs everywhere: binaries for Linux, Windows and macOS, no Python; add `--fmi 3` for FMI
     3.0 with event mode and early return at impacts. Where it is built, the native flavour needs the package ziglang
     (`python -m pip install ziglang==0.17.0`). The first build compiles the engine, which takes a minute or two;
@@ -49,7 +55,11 @@ def build(
     import models
     from mechanism_fmu.fmu.native.link import INSTALL, has_linker
     from mechanism_fmu.fmu.native.package import build_native_fmu
+    from mechanism_fmu.fmu.own.examine import examine
+    from mechanism_fmu.fmu.own.find import WrongUseError, find, looks_like_a_file
+    from mechanism_fmu.fmu.own.load import load
     from mechanism_fmu.fmu.package import build_fmu
+    from mechanism_fmu.fmu.self_check import StartError
     from mechanism_fmu.model import MechanismError
 
     if show_list:
@@ -57,9 +67,13 @@ def build(
             typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
         return
     messages = Console(stderr=True, highlight=False, soft_wrap=True)
-    if model not in models.available():
+    ready_made = model in models.available()
+    if model is None or not (ready_made or looks_like_a_file(model)):
         asked = f"There is no model {model!r}" if model else "Say which model to build"
-        messages.print(f"{asked}; there are: {', '.join(models.available())}.", style="red", markup=False)
+        names = ", ".join(models.available())
+        file = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
+        text = f"{asked}; there are: {names}. For a mechanism of your own, give its file, e.g. {file}."
+        messages.print(text, style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR)
     if fmi == 3 and flavour is not Flavour.NATIVE:
         messages.print("FMI 3.0 comes in the native flavour only; add --flavour native.", style="red", markup=False)
@@ -71,14 +85,18 @@ def build(
             def report(text: str, done: float) -> None:
                 status.update(f"The engine is compiled once for all platforms, {100 * done:.0f} %: {text} ...")
 
-            module = models.load(model)
+            module = models.load(model) if ready_made else load(find(model))
+            if not ready_made:
+                for remark in examine(module, Path(model), native=flavour is Flavour.NATIVE):
+                    messages.print(f"Warning: {remark}", style="yellow", markup=False)
             if flavour is Flavour.NATIVE:
                 path = build_native_fmu(module, output, fmi, report)
             else:
                 path = build_fmu(module, output, report)
     except (MechanismError, OSError) as error:
-        messages.print(str(error), style="red", markup=False)
-        raise typer.Exit(1) from None
+        where = f"{model}: " if isinstance(error, StartError) else ""
+        messages.print(f"{where}{error}", style="red", markup=False)
+        raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
     if flavour is Flavour.PYTHONFMU and not has_linker():
         messages.print(
             "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "
