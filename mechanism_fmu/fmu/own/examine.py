@@ -13,6 +13,7 @@ from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output
 from ...model.trace import trace
 from ..contents import model_of
 from ..drawing import drawing
+from ..logic import logic
 from ..model_description import model_description
 from ..units import UnitError, parse_unit
 from ..variables import variables_of
@@ -34,7 +35,7 @@ def examine(module: ModuleType, path: Path, native: bool) -> list[str]:
     Args:
         module: of `load`.
         path: of the file.
-        native: the FMU is to be a native one, whose builder says by itself what cannot be traced.
+        native: the FMU is to be a native one, which refuses what pythonfmu's takes: what cannot be traced.
 
     Returns:
         Warnings.
@@ -52,12 +53,15 @@ def examine(module: ModuleType, path: Path, native: bool) -> list[str]:
         _check_variables(model)
         model_description(model, "")
         drawing(model)
+        logic(model)  # which calls the model's functions with other values than the default ones
         remarks = [*_degrees(model, mechanism), *_units(model, mechanism)]
     try:
-        trace(model)
+        with explained(path):
+            trace(model)
     except MechanismError as error:
-        if not native:
-            remarks.append(f"as it is, --flavour native cannot build it. {error}")
+        if native:
+            raise
+        remarks.append(f"as it is, it cannot be built with --flavour native. {error}")
     return [f"{path}: {remark}" for remark in remarks]
 
 
