@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 import zipfile
+from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -55,11 +56,10 @@ def build(
     import models
     from mechanism_fmu.fmu.native.link import INSTALL, has_linker
     from mechanism_fmu.fmu.native.package import build_native_fmu
-    from mechanism_fmu.fmu.own.examine import examine
-    from mechanism_fmu.fmu.own.find import WrongUseError, find, looks_like_a_file
-    from mechanism_fmu.fmu.own.load import load
+    from mechanism_fmu.fmu.own.find import WrongUseError, looks_like_a_file
+    from mechanism_fmu.fmu.own.mistakes import explained_in_fmu
+    from mechanism_fmu.fmu.own.prepare import prepare
     from mechanism_fmu.fmu.package import build_fmu
-    from mechanism_fmu.fmu.self_check import StartError
     from mechanism_fmu.model import MechanismError
 
     if show_list:
@@ -67,12 +67,11 @@ def build(
             typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
         return
     messages = Console(stderr=True, highlight=False, soft_wrap=True)
-    ready_made = model in models.available()
-    if model is None or not (ready_made or looks_like_a_file(model)):
+    if model is None or not (model in models.available() or looks_like_a_file(model)):
         asked = f"There is no model {model!r}" if model else "Say which model to build"
         names = ", ".join(models.available())
-        file = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
-        text = f"{asked}; there are: {names}. For a mechanism of your own, give its file, e.g. {file}."
+        example = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
+        text = f"{asked}; there are: {names}. For a mechanism of your own, give its file, e.g. {example}."
         messages.print(text, style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR)
     if fmi == 3 and flavour is not Flavour.NATIVE:
@@ -80,22 +79,25 @@ def build(
         raise typer.Exit(_USAGE_ERROR)
     began = time.perf_counter()
     try:
-        with messages.status(f"Building the FMU of {model} ...") as status:
+        with messages.status(f"Building the FMU of {model} ...") as status, ExitStack() as explanations:
 
             def report(text: str, done: float) -> None:
                 status.update(f"The engine is compiled once for all platforms, {100 * done:.0f} %: {text} ...")
 
-            module = models.load(model) if ready_made else load(find(model))
-            if not ready_made:
-                for remark in examine(module, Path(model), native=flavour is Flavour.NATIVE):
-                    messages.print(f"Warning: {remark}", style="yellow", markup=False)
+            def warn(text: str) -> None:
+                messages.print(f"Warning: {text}", style="yellow", markup=False)
+
+            if model in models.available():
+                module = models.load(model)
+            else:
+                module, file = prepare(model, flavour is Flavour.NATIVE, warn)
+                explanations.enter_context(explained_in_fmu(file))
             if flavour is Flavour.NATIVE:
                 path = build_native_fmu(module, output, fmi, report)
             else:
                 path = build_fmu(module, output, report)
     except (MechanismError, OSError) as error:
-        where = f"{model}: " if isinstance(error, StartError) else ""
-        messages.print(f"{where}{error}", style="red", markup=False)
+        messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
     if flavour is Flavour.PYTHONFMU and not has_linker():
         messages.print(

@@ -326,7 +326,8 @@ def _compile_engine(model: Model) -> None:
     collects = gc.isenabled()
     gc.disable()  # the compiler makes millions of small objects and keeps them: looking for garbage costs a tenth
     try:
-        simulation = Simulation(model.build(model.values()))
+        with start_explained():
+            simulation = Simulation(model.build(model.values()))
         simulation.advance(1e-3)
         simulation.read()
     finally:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from difflib import get_close_matches
@@ -14,6 +14,7 @@ from types import SimpleNamespace
 from ... import model as public
 from ...model import MechanismError
 from ..contents import OWN
+from ..self_check import StartError
 
 
 @contextmanager
@@ -29,20 +30,48 @@ def explained(path: Path) -> Iterator[None]:
         text = str(error)
         if text.startswith(str(path)):
             raise
-        raise MechanismError(f"{_place(error, path) or _part(text, path) or path}: {text}") from error
+        raise MechanismError(f"{_place(error) or _part(text, path) or path}: {text}") from error
     except SyntaxError as error:
         shown = f" ({error.text.strip()})" if error.text else ""
         place = f"{error.filename or path}, line {error.lineno}"
         raise MechanismError(f"{place}{shown}: this is no Python: {error.msg}.") from error
     except (Exception, SystemExit) as error:
-        raise MechanismError(f"{_place(error, path) or path}: {_in_words(error, path)}") from error
+        raise MechanismError(f"{_place(error) or path}: {_in_words(error, path)}") from error
 
 
-def _place(error: BaseException, path: Path) -> str:
+@contextmanager
+def explained_in_fmu(path: Path) -> Iterator[None]:
+    """Say of what only comes up in the FMU, where a user's file runs again and starts, that it is about this file.
+
+    Raises:
+        MechanismError: the mistake, with the file; errors that are not the file's pass.
+    """
+    try:
+        yield
+    except StartError as error:
+        raise MechanismError(f"{path}: {error}") from error
+    except MechanismError:
+        raise
+    except Exception as error:
+        place = _last_place(error, lambda module: ".models." in module)
+        if not place:
+            raise
+        raise MechanismError(
+            f"{path.parent / Path(place).name}: in the FMU, where the file runs again from another folder, it raises "
+            f"{type(error).__name__}: {error}. An FMU by pythonfmu takes along nothing but Python files; write numbers "
+            "into one, or build with --flavour native."
+        ) from error
+
+
+def _place(error: BaseException) -> str:
     """File and line of the user's in which an error came up; "" when it was elsewhere."""
+    return _last_place(error, lambda module: module.startswith(OWN))
+
+
+def _last_place(error: BaseException, is_own: Callable[[str], bool]) -> str:
     place, trace = "", error.__traceback__
     while trace is not None:
-        if str(trace.tb_frame.f_globals.get("__name__", "")).startswith(OWN):
+        if is_own(str(trace.tb_frame.f_globals.get("__name__", ""))):
             place = f"{trace.tb_frame.f_code.co_filename}, line {trace.tb_lineno}"
         trace = trace.tb_next
     return place

@@ -119,10 +119,10 @@ def test_a_file_that_is_not_in_utf8_is_refused(folder: Path) -> None:
 )
 def test_an_import_that_fails_or_cannot_travel_is_told_with_its_line(line: str, said: str, folder: Path) -> None:
     (folder / "parts.py").write_text("A = 1\n")
-    change(folder, "from math import radians", line + "\nfrom math import radians")
+    number = change(folder, "from math import radians", line + "\nfrom math import radians")
     code, output = build()
     assert code == 1
-    assert output.startswith("lever.py, line 7: ")
+    assert output.startswith(f"lever.py, line {number}: ")
     assert said in output
 
 
@@ -159,6 +159,19 @@ def test_an_exception_of_the_file_is_told_with_its_line(old: str, new: str, said
     code, output = build()
     assert code == 1
     assert output.startswith(f"lever.py, line {line}: {said}")
+
+
+def test_a_data_file_does_not_travel_by_pythonfmu(folder: Path) -> None:
+    (folder / "start.csv").write_text("0.5")
+    line = change(
+        folder, "radians(30)", "float(__import__('pathlib').Path(__file__).with_name('start.csv').read_text())"
+    )
+    code, said = build()
+    assert code == 1
+    assert said.startswith(
+        f"lever.py, line {line}: in the FMU, where the file runs again from another folder, it raises"
+    )
+    assert build("--flavour", "native")[0] == 0
 
 
 def test_arguments_that_are_missing_are_named(folder: Path) -> None:
