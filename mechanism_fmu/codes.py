@@ -9,6 +9,16 @@ NONE = -1
 # joint_kind
 REVOLUTE = 0
 TRANSLATIONAL = 1
+DISTANCE = 2
+REVOLUTE_TRANSLATIONAL = 3
+GEARS = 4
+INTERNAL_GEARS = 5
+RACK = 6
+X_DRIVER = 7
+Y_DRIVER = 8
+ANGLE_DRIVER = 9
+DISTANCE_DRIVER = 10
+TRANSLATIONAL_DRIVER = 11
 
 # force_kind
 TORQUE = 0
@@ -34,8 +44,12 @@ FORCE_Y = 1
 POINT_LINE = 0
 ANGLE_STOP = 1
 ANGLE_LOCK = 2
+CAM_FOLLOWER = 3
+CAM_FLAT_FOLLOWER = 4
+POINT_FOLLOWER = 5
 
-# contact_data columns: of POINT_LINE the point and (as contact_line) the line; of ANGLE_STOP and ANGLE_LOCK:
+# contact_data columns: of POINT_LINE the point and (as contact_line) the line; of profiles see `data` of their specs; of
+# ANGLE_STOP and ANGLE_LOCK:
 POINT_X = 0
 STOP_ANGLE = 0
 STOP_PITCH = 1
@@ -56,6 +70,13 @@ CLOSED = 1
 # function_kind: what a logical function looks at
 ALONG = 0
 ANGLE = 1
+
+# term_data columns: a term of a curve is a polynomial and one harmonic
+POLYNOMIAL = 0
+AMPLITUDE = 6
+FREQUENCY = 7
+PHASE = 8
+TERM_COLUMNS = 9
 
 # settings columns
 RELATIVE_TOLERANCE = 0
@@ -86,6 +107,8 @@ SHAFT_TORQUE = 19
 EVENT_COUNT = 20
 EVENTS_IN_STEP_OUT = 21
 BUFFERED_EVENT = 22
+JOINT_FORCE = 23
+CONTACT_POINT = 24
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before, then after
 RECORD_TIME = 0

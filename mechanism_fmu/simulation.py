@@ -13,10 +13,15 @@ from .engine import status
 from .engine.layout import field_of, state_of
 from .engine.pack import pack
 from .engine.run import engine_for
-from .model import Mechanism, MechanismError, PointLineContact
+from .model import Mechanism, MechanismError
+from .model.contacts import too_deep
 from .model.event_names import event_name
 
 Array = np.ndarray[Any, np.dtype[Any]]
+
+
+#: Failures that are about contacts.
+_ABOUT_CONTACTS = (status.CHATTERING, status.NO_CHOICE, status.JAMMED, status.ROW_AWAY, status.NO_CONTACT_POINT)
 
 
 class SimulationError(RuntimeError):
@@ -189,7 +194,7 @@ class Simulation:
 
     def _involved(self, outcome: int) -> str:
         """The contacts that a failed event is about."""
-        if outcome not in (status.CHATTERING, status.NO_CHOICE, status.JAMMED, status.ROW_AWAY):
+        if outcome not in _ABOUT_CONTACTS:
             return ""
         names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
         return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
@@ -198,7 +203,11 @@ class Simulation:
         outcome = self._engine.begin(float(time)) or self._engine.advance(float(time))
         if outcome == status.OK:
             return
-        details = {status.NOT_ASSEMBLED: self._residuals, status.START_INSIDE: self._penetration}
+        details = {
+            status.NOT_ASSEMBLED: self._residuals,
+            status.START_INSIDE: self._penetration,
+            status.OVERLAP: self._penetration,
+        }
         raise MechanismError(status.ADVICE[outcome] + (details[outcome]() if outcome in details else ""))
 
     def _residuals(self) -> str:
@@ -217,8 +226,5 @@ class Simulation:
         """Which contact point starts inside, and by how much."""
         contact = self._mechanism.contacts[self.counters.item(codes.PENDING_SUBJECT)]
         depth = -field_of(self._block, "residual").item(-1)
-        if isinstance(contact, PointLineContact):
-            where = f"the point of {contact.body_i!r} is {depth:.6g} m behind the line on {contact.body_j!r}"
-        else:
-            where = f"{contact.body_i!r} is {depth:.6g} rad beyond its stop on {contact.body_j!r}"
-        return f" Contact {contact.name!r}: {where}; change the start angles or the lengths."
+        before, behind = too_deep(contact)
+        return f" Contact {contact.name!r}: {before} {depth:.6g} {behind}; change the start angles or the lengths."

@@ -9,9 +9,9 @@ from .friction import has_friction, resist
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
 from .room import Array
-from .rows import active_rows, stabilise
+from .rows import active_rows, driver_power, follow_open_contacts, stabilise
 from .subset import jit, keep_small
-from .views import bodies, linear_system, loads, rows, sizes
+from .views import bodies, linear_system, loads, pose, rows, sizes
 
 #: Friction and normal forces agree when no multiplier changes by more than this part of the largest one.
 _AGREE = 1e-13
@@ -20,7 +20,7 @@ _ROUNDS = 200
 
 @jit
 def derivative(block: Array, y: Array, dy: Array) -> None:
-    """Derivative of y = (q, qd, work, loss): dy = (qd, qdd, powers), all of shape (2 coordinates + 2,).
+    """Derivative of y = (q, qd, work, loss, alpha): dy = (qd, qdd, powers, alpha'), all of shape (unknowns,).
 
     qdd = qdd_f + M^-1/2 D^+ (gamma - Phi_q qdd_f), eq (3). `linear_system.multiplier` afterwards holds the force along
     each active row (M qdd = F + Phi_q^T multiplier; for a contact, positive when it pushes).
@@ -39,8 +39,13 @@ def derivative(block: Array, y: Array, dy: Array) -> None:
     for k in range(n):
         dy[k] = y[n + k]
         dy[n + k] = free[k] + root[k] * correction[k]
-    dy[2 * n] = given
+    dy[2 * n] = given + driver_power(block)
     dy[2 * n + 1] = lost
+    alphas = sizes(block).alphas
+    if alphas > 0:
+        follow_open_contacts(block)
+    for k in range(alphas):
+        dy[2 * n + 2 + k] = pose(block).alpha_rate[k]
 
 
 @jit

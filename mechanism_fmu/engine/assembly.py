@@ -7,11 +7,12 @@ import math
 from .. import codes
 from ..tolerances import STICK_SPEED, TOUCHES_WITHIN
 from . import status
+from .contact_points import find_contact_points, overlap, settle_contact_points
 from .copies import place_contact, place_pattern
 from .guards import function_value, gap, guard_value
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
-from .ports import take_inputs
+from .ports import set_time, take_inputs
 from .records import clear_impact, clear_records
 from .room import Array
 from .rows import active_rows
@@ -53,6 +54,7 @@ def begin(block: Array, time: float) -> int:
     Phi. When it starts inside, PENDING_SUBJECT and the last entry of `rows.residual` hold the contact and its gap [m].
     """
     outcome = status.NOT_ASSEMBLED
+    set_time(block, time)
     for k in range(_MOST_ASSEMBLIES + 1):
         _start_guess(block, _neighbour(k))
         outcome = assemble(block)
@@ -105,12 +107,13 @@ def assemble(block: Array) -> int:
         for k in range(3):
             now.y_end[3 * i + k] = bodies(block).start[i, k]
     place_bodies(block, now.y_end)
+    find_contact_points(block, now.y_end)
     count = active_rows(block)
     worst = _largest(rows(block).residual, count)
     for _ in range(_NEWTON_STEPS):
         if worst == 0.0:
             return status.OK
-        _newton_direction(block, count)
+        _newton_direction(block, count, rows(block).residual)
         step = 1.0
         improved = False
         for _ in range(_HALVINGS):
@@ -118,6 +121,7 @@ def assemble(block: Array) -> int:
             for k in range(n):
                 s.y_new[k] += step * loads(block).weight[k] * linear_system(block).solution[k]
             place_bodies(block, s.y_new)
+            settle_contact_points(block, s.y_new)
             active_rows(block)
             after = _largest(rows(block).residual, count)
             if after < worst:
@@ -156,8 +160,14 @@ def start(block: Array, time: float) -> int:
     now.y_end[2 * n] = 0.0
     now.y_end[2 * n + 1] = 0.0
     place_bodies(block, now.y_end)
-    count = active_rows(block)
-    if not _largest(rows(block).residual_rate, count) <= RATES_WITHIN:
+    for c in range(table.mode.shape[0]):
+        if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
+            depth = overlap(block, c)
+            if depth > 0.0 and table.mode[c] == codes.CLOSED:
+                now.counters[codes.PENDING_SUBJECT] = c
+                rows(block).residual[sizes(block).rows - 1] = -depth
+                return status.OVERLAP
+    if not _close_rates(block):
         return status.START_RATES
     for c in range(table.mode.shape[0]):
         table.pull_time[c] = math.inf
@@ -180,6 +190,28 @@ def start(block: Array, time: float) -> int:
     now.counters[codes.PENDING_GUARD] = codes.GUARD_BEGIN
     now.counters[codes.PENDING_SUBJECT] = codes.NONE
     return status.OK
+
+
+@jit
+def _close_rates(block: Array) -> bool:
+    """Whether the start rates agree with the active rows, after those of coordinates that are not held have given way.
+
+    Without held coordinates nothing tells which rates are meant, and all stay as they are given.
+    """
+    keep_small()
+    n = sizes(block).coordinates
+    y = course(block).y_end
+    count = active_rows(block)
+    worst = _largest(rows(block).residual_rate, count)
+    if options(block).held.shape[0] == 0 or worst <= RATES_WITHIN:
+        return worst <= RATES_WITHIN
+    for _ in range(2):  # once more, for what rounding has left
+        _newton_direction(block, count, rows(block).residual_rate)
+        for k in range(n):
+            y[n + k] += loads(block).weight[k] * linear_system(block).solution[k]
+        place_bodies(block, y)
+        active_rows(block)
+    return _largest(rows(block).residual_rate, count) <= RATES_WITHIN
 
 
 @jit
@@ -244,15 +276,15 @@ def _find_copies(block: Array) -> bool:
 
 
 @jit
-def _newton_direction(block: Array, count: int) -> None:
-    """Minimum-norm solution of Phi_q dq = -Phi over the coordinates that are not held."""
+def _newton_direction(block: Array, count: int, left: Array) -> None:
+    """Minimum-norm solution of Phi_q dq = -left over the coordinates that are not held; left is Phi, or Phi'."""
     keep_small()
     n = sizes(block).coordinates
     row = rows(block)
     weight = loads(block).weight
     system = linear_system(block)
     for r in range(count):
-        system.right_side[r] = -row.residual[r]
+        system.right_side[r] = -left[r]
         for k in range(n):
             system.scaled[r, k] = row.jacobian[r, k] * weight[k]
     minimum_norm(block, count, n)

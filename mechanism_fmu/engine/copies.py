@@ -26,7 +26,7 @@ def place_contact(block: Array, contact: int) -> None:
         if pattern != codes.NONE:
             angle = patterns(block).copy[pattern] * patterns(block).pitch[pattern]
         turn_line(data[2:], angle, line)
-    else:
+    elif table.alpha[contact] == codes.NONE:
         turns = float(table.clicks[contact])
         pitch = data[codes.STOP_PITCH]
         if table.kind[contact] == codes.ANGLE_LOCK:

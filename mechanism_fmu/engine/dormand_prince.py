@@ -7,7 +7,7 @@ import math
 from .. import codes
 from .acceleration import derivative
 from .complementarity import push_ratio
-from .ports import feed_at
+from .ports import set_time
 from .room import Array
 from .rows import row_count
 from .subset import jit, keep_small
@@ -74,7 +74,7 @@ def try_step(block: Array, start: float, size_: float) -> float:
 def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
     """The derivative at one stage, with the inputs' values at its `time` [s]."""
     keep_small()
-    feed_at(block, time)
+    set_time(block, time)
     derivative(block, y, dy)
     _note_pushes(block)
 
@@ -154,7 +154,7 @@ def initial_step_size(block: Array) -> float:
         first = 0.01 * size_y / size_dy
     for i in range(n):
         s.y_stage[i] = now.y_end[i] + first * now.dy_end[i]
-    feed_at(block, now.clock[codes.STEP_END] + first)
+    set_time(block, now.clock[codes.STEP_END] + first)
     derivative(block, s.y_stage, s.dy_at)
     bend = 0.0
     for i in range(n):

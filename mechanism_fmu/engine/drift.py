@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .acceleration import scale_rows
+from .contact_points import settle_contact_points
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
 from .room import Array
@@ -29,10 +30,12 @@ def mend(block: Array, most: float, most_rate: float) -> bool:
     y = course(block).y_end
     moved = False
     place_bodies(block, y)
+    settle_contact_points(block, y)
     count = active_rows(block)
     if largest(rows(block).residual, count) > most:
         _correct(block, count, rows(block).residual, y)
         place_bodies(block, y)
+        settle_contact_points(block, y)
         active_rows(block)
         moved = True
     if moved or largest(rows(block).residual_rate, count) > most_rate:

@@ -17,7 +17,7 @@ from .complementarity import push_ratio
 from .dormand_prince import interpolate, try_step
 from .guards import gap, guard_of, guard_value, is_watched
 from .kinematics import place_bodies
-from .ports import feed_at
+from .ports import set_time
 from .room import Array
 from .rows import row_count
 from .subset import jit, keep_small
@@ -263,6 +263,6 @@ def _push_at(block: Array, contact: int, fraction: float) -> float:
     keep_small()
     s = stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
-    feed_at(block, s.tried[0] + fraction * s.tried[1])
+    set_time(block, s.tried[0] + fraction * s.tried[1])
     derivative(block, s.y_at, s.dy_at)
     return push_ratio(block, contact, row_count(block))

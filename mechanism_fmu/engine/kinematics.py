@@ -11,7 +11,10 @@ from .views import pose, sizes
 
 @jit
 def place_bodies(block: Array, y: Array) -> None:
-    """Write poses and rates from y = (q, qd, ...); q and qd are (x, y, phi) of each body in turn, shape (3 bodies,)."""
+    """Write poses and rates from y = (q, qd, ..., alpha).
+
+    q and qd are (x, y, phi) of each body in turn, shape (3 bodies,); alpha are the contact coordinates.
+    """
     keep_small()
     bodies = sizes(block).bodies
     at = pose(block)
@@ -34,3 +37,6 @@ def place_bodies(block: Array, y: Array) -> None:
     at.x_rate[bodies] = 0.0
     at.y_rate[bodies] = 0.0
     at.phi_rate[bodies] = 0.0
+    alphas = sizes(block).alphas
+    for k in range(alphas):
+        at.alpha[k] = y[y.shape[0] - alphas + k]

@@ -20,18 +20,24 @@ SIZES = (
     "bodies",
     "coordinates",  # 3 a body
     "columns",  # coordinates, and 3 more for the ground
+    "wide",  # columns, and one a contact coordinate
     "frames",  # bodies, and the ground
     "joints",
     "forces",
     "contacts",
     "patterns",
     "functions",
+    "curves",
+    "pieces",
+    "terms",
+    "alphas",  # contact coordinates
     "held",
     "inputs",
     "outputs",
     "joint_rows",
-    "rows",  # joint rows, one a contact, and a spare one
-    "unknowns",  # positions, rates, work done, energy lost in dampers and friction
+    "contact_rows",  # of all contacts, when contact coordinates count as coordinates
+    "rows",  # joint rows, contact rows, and a spare one
+    "unknowns",  # positions, rates, work done, energy lost in dampers and friction, contact coordinates
     "guards",  # two a contact, two a pattern, one a logical function
     "record",  # columns of an impact record
     "buffer",  # impacts that are kept of one communication step
@@ -56,8 +62,9 @@ FIELDS = (
     Field("tables", "joint_body_i", ("joints",), True),
     Field("tables", "joint_body_j", ("joints",), True),
     Field("tables", "joint_row", ("joints",), True),
-    Field("tables", "joint_data", ("joints", 8)),
+    Field("tables", "joint_data", ("joints", 9)),
     Field("tables", "joint_friction", ("joints",)),
+    Field("tables", "joint_curve", ("joints",), True),
     Field("tables", "force_kind", ("forces",), True),
     Field("tables", "force_body", ("forces",), True),
     Field("tables", "force_reaction", ("forces",), True),
@@ -69,6 +76,10 @@ FIELDS = (
     Field("tables", "contact_function", ("contacts",), True),
     Field("tables", "contact_closes_when", ("contacts",), True),
     Field("tables", "contact_data", ("contacts", 6)),
+    Field("tables", "contact_row_first", ("contacts",), True),
+    Field("tables", "contact_alpha", ("contacts",), True),
+    Field("tables", "contact_curve_i", ("contacts",), True),
+    Field("tables", "contact_curve_j", ("contacts",), True),
     Field("tables", "contact_value", ("contacts", codes.CONTACT_VALUES)),
     Field("tables", "pattern_body_i", ("patterns",), True),
     Field("tables", "pattern_body_j", ("patterns",), True),
@@ -78,6 +89,14 @@ FIELDS = (
     Field("tables", "function_kind", ("functions",), True),
     Field("tables", "function_index", ("functions",), True),
     Field("tables", "function_limit", ("functions",)),
+    Field("tables", "curve_piece", ("curves",), True),
+    Field("tables", "curve_pieces", ("curves",), True),
+    Field("tables", "curve_periodic", ("curves",), True),
+    Field("tables", "curve_range", ("curves", 2)),
+    Field("tables", "piece_term", ("pieces",), True),
+    Field("tables", "piece_terms", ("pieces",), True),
+    Field("tables", "piece_start", ("pieces",)),
+    Field("tables", "term_data", ("terms", codes.TERM_COLUMNS)),
     Field("tables", "held", ("held",), True),
     Field("tables", "input_force", ("inputs",), True),
     Field("tables", "input_column", ("inputs",), True),
@@ -116,6 +135,9 @@ FIELDS = (
     Field("work", "x_rate", ("frames",)),
     Field("work", "y_rate", ("frames",)),
     Field("work", "phi_rate", ("frames",)),
+    Field("work", "alpha", ("alphas",)),
+    Field("work", "alpha_rate", ("alphas",)),
+    Field("work", "instant", (1,)),
     Field("work", "contact_row", ("contacts",), True),
     Field("work", "contact_role", ("contacts",), True),
     Field("work", "contact_target", ("contacts",)),
@@ -133,7 +155,8 @@ FIELDS = (
     Field("work", "residual", ("rows",)),
     Field("work", "residual_rate", ("rows",)),
     Field("work", "gamma", ("rows",)),
-    Field("work", "jacobian", ("rows", "columns")),
+    Field("work", "nu", ("rows",)),
+    Field("work", "jacobian", ("rows", "wide")),
     Field("work", "scaled", ("rows", "columns")),
     Field("work", "right_side", ("rows",)),
     Field("work", "solution", ("columns",)),
@@ -183,8 +206,8 @@ def allocate(sizes: dict[str, int]) -> Array:
     """A zeroed block with its header filled in.
 
     Args:
-        sizes: bodies, joints, forces, contacts, patterns, functions, held, inputs, outputs and joint_rows; the others
-            follow.
+        sizes: bodies, joints, forces, contacts, patterns, functions, curves, pieces, terms, alphas, held, inputs,
+            outputs, joint_rows and contact_rows; the others follow.
 
     Returns:
         The block, float64 of shape (words,).
@@ -236,9 +259,10 @@ def _complete(sizes: dict[str, int]) -> dict[str, int]:
     return sizes | {
         "coordinates": coordinates,
         "columns": coordinates + 3,
+        "wide": coordinates + 3 + sizes["alphas"],
         "frames": sizes["bodies"] + 1,
-        "rows": sizes["joint_rows"] + sizes["contacts"] + 1,
-        "unknowns": 2 * coordinates + 2,
+        "rows": sizes["joint_rows"] + sizes["contact_rows"] + 1,
+        "unknowns": 2 * coordinates + 2 + sizes["alphas"],
         "guards": 2 * sizes["contacts"] + 2 * sizes["patterns"] + sizes["functions"],
         "record": codes.RECORD_CONTACT_IMPULSES + sizes["contacts"] + 2 * coordinates,
         "buffer": codes.IMPACT_BUFFER_LENGTH,

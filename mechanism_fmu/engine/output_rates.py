@@ -13,7 +13,7 @@ from .ports import feed
 from .room import Array
 from .stepper import state_at_time
 from .subset import entry, jit
-from .views import bodies, contacts, ports, sizes, stages
+from .views import bodies, contacts, course, ports, pose, sizes, stages
 
 
 @entry
@@ -26,6 +26,7 @@ def read_output_rates(block: Array) -> None:
     table = ports(block)
     s = stages(block)
     state_at_time(block, s.y_at)
+    pose(block).instant[0] = course(block).clock[codes.TIME]
     feed(block, table.inputs)  # one that was set after the last step acts already
     derivative(block, s.y_at, s.dy_at)
     place_bodies(block, s.y_at)
@@ -58,4 +59,6 @@ def _rate(block: Array, kind: int, index: int) -> float:
         rate = s.dy_at[2 * n]
     elif kind == codes.ENERGY_LOST:
         rate = s.dy_at[2 * n + 1]
+    elif kind == codes.CONTACT_POINT:
+        rate = s.dy_at[2 * n + 2 + index]
     return rate

@@ -11,7 +11,7 @@ from .ports import feed
 from .room import Array
 from .stepper import state_at_time
 from .subset import entry, jit
-from .views import bodies, contacts, course, linear_system, patterns, ports, sizes, stages
+from .views import bodies, contacts, course, linear_system, patterns, ports, pose, sizes, stages
 
 
 @entry
@@ -23,6 +23,7 @@ def read_outputs(block: Array) -> None:
     s = stages(block)
     contact = contacts(block)
     state_at_time(block, s.y_at)
+    pose(block).instant[0] = now.clock[codes.TIME]
     feed(block, table.inputs)  # one that was set after the last step acts already
     if _needs_multipliers(block):
         derivative(block, s.y_at, s.dy_at)
@@ -75,6 +76,10 @@ def read_outputs(block: Array) -> None:
             value = float(now.counters[codes.COUNT_EVENTS])
         elif kind == codes.EVENTS_IN_STEP_OUT:
             value = float(now.counters[codes.EVENTS_IN_STEP])
+        elif kind == codes.JOINT_FORCE:
+            value *= linear_system(block).multiplier[index]
+        elif kind == codes.CONTACT_POINT:
+            value = s.y_at[2 * n + 2 + index]
         elif kind == codes.BUFFERED_EVENT:
             value = _buffered_event(block, table.output_slot[o], index)
         table.outputs[o] = value
@@ -98,6 +103,9 @@ def _needs_multipliers(block: Array) -> bool:
     table = ports(block)
     contact = contacts(block)
     for o in range(table.outputs.shape[0]):
-        if table.output_kind[o] == codes.CONTACT_FORCE and contact.mode[table.output_index[o]] == codes.CLOSED:
+        kind = table.output_kind[o]
+        if kind == codes.JOINT_FORCE:
+            return True
+        if kind == codes.CONTACT_FORCE and contact.mode[table.output_index[o]] == codes.CLOSED:
             return True
     return False

@@ -26,10 +26,15 @@ def pack(tables: Any) -> Array:
             "contacts": len(tables.contact_body_i),
             "patterns": len(tables.pattern_pitch),
             "functions": len(tables.function_kind),
+            "curves": len(tables.curve_piece),
+            "pieces": len(tables.piece_term),
+            "terms": len(tables.term_data),
+            "alphas": tables.alphas,
             "held": len(tables.held),
             "inputs": len(tables.input_force),
             "outputs": len(tables.output_kind),
             "joint_rows": tables.joint_rows,
+            "contact_rows": tables.contact_rows,
         }
     )
     write_tables(block, tables)

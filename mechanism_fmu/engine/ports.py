@@ -1,8 +1,8 @@
 """Ports: inputs are written into table entries, outputs are read from the state. No model-specific code.
 
 An input may have a slope, which acts during one communication step only. The step's first value and slope are kept
-(`held_inputs`, `held_slopes`, from RAMP_START on), and whoever moves the time calls `feed_at` before forces are asked
-for.
+(`held_inputs`, `held_slopes`, from RAMP_START on), and whoever moves the time calls `set_time` before forces or rows
+are asked for.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from .. import codes
 from .room import Array
 from .subset import jit, keep_small
-from .views import course, forces, ports
+from .views import course, forces, ports, pose
 
 
 @jit
@@ -51,8 +51,9 @@ def feed(block: Array, values: Array) -> None:
 
 
 @jit
-def feed_at(block: Array, time: float) -> None:
-    """Feed the inputs' values at `time` [s]; without slopes there is nothing to do."""
+def set_time(block: Array, time: float) -> None:
+    """Make `time` [s] the instant that drivers see, and feed the inputs' values there, if any has a slope."""
+    pose(block).instant[0] = time
     if course(block).counters[codes.RAMPING] != 0:
         _feed_ramp(block, time)
 

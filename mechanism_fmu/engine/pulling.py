@@ -7,7 +7,7 @@ import math
 from .. import codes
 from .acceleration import derivative
 from .dormand_prince import interpolate
-from .ports import feed_at
+from .ports import set_time
 from .room import Array
 from .subset import jit, keep_small
 from .views import contacts, course, linear_system, stages
@@ -55,7 +55,7 @@ def _locate(block: Array, contact: int) -> float:
     for _ in range(_BISECTIONS):
         middle = 0.5 * (before + after)
         interpolate(now.dense, middle, s.y_at)
-        feed_at(block, now.clock[codes.STEP_START] + middle * now.clock[codes.STEP_SIZE])
+        set_time(block, now.clock[codes.STEP_START] + middle * now.clock[codes.STEP_SIZE])
         derivative(block, s.y_at, s.dy_at)
         if linear_system(block).multiplier[table.row[contact]] < _PULLS_BELOW:
             after = middle

@@ -4,18 +4,29 @@ from __future__ import annotations
 
 from .. import codes
 from .angle_row import angle_row
+from .curves import curve
+from .joints.angle_driver import angle_driver
+from .joints.distance import distance
+from .joints.distance_driver import distance_driver
+from .joints.gears import gears, internal_gears
+from .joints.rack_and_pinion import rack_and_pinion
 from .joints.revolute import revolute
+from .joints.revolute_translational import revolute_translational
 from .joints.translational import translational
+from .joints.translational_driver import translational_driver
+from .joints.x_driver import x_driver
+from .joints.y_driver import y_driver
 from .point_line import point_line
+from .profile_row import profile_row
 from .room import Array
 from .subset import jit, keep_small
 from .vectors import clear
-from .views import contacts, joints, options, pose, rows, sizes
+from .views import contacts, joints, linear_system, options, pose, rows, sizes
 
 
 @jit
 def joint_rows(block: Array) -> None:
-    """Write the rows of all joints from the bodies' poses and rates (see `place_bodies`)."""
+    """Write the rows of all joints from the bodies' poses and rates (see `place_bodies`), and `pose.instant`."""
     at = pose(block)
     table = joints(block)
     out = rows(block)
@@ -27,8 +38,59 @@ def joint_rows(block: Array) -> None:
         j = table.body_j[k]
         if table.kind[k] == codes.REVOLUTE:
             revolute(at, out, row, i, j, table.data[k])
-        else:
+        elif table.kind[k] == codes.TRANSLATIONAL:
             translational(at, out, row, i, j, table.data[k])
+        elif table.kind[k] < codes.X_DRIVER:
+            _other_joint(block, k)
+        else:
+            _driver(block, k)
+
+
+@jit
+def _other_joint(block: Array, joint: int) -> None:
+    """Write the rows of a joint that is neither of the two frequent ones nor a driver."""
+    keep_small()
+    table = joints(block)
+    kind = table.kind[joint]
+    row = table.row[joint]
+    i = table.body_i[joint]
+    j = table.body_j[joint]
+    data = table.data[joint]
+    if kind == codes.DISTANCE:
+        distance(pose(block), rows(block), row, i, j, data)
+    elif kind == codes.REVOLUTE_TRANSLATIONAL:
+        revolute_translational(pose(block), rows(block), row, i, j, data)
+    elif kind == codes.GEARS:
+        gears(pose(block), rows(block), row, i, j, data)
+    elif kind == codes.INTERNAL_GEARS:
+        internal_gears(pose(block), rows(block), row, i, j, data)
+    else:
+        rack_and_pinion(pose(block), rows(block), row, i, j, data)
+
+
+@jit
+def _driver(block: Array, joint: int) -> None:
+    """Write the row of a driver, whose motion is a curve over time."""
+    keep_small()
+    at = pose(block)
+    out = rows(block)
+    table = joints(block)
+    kind = table.kind[joint]
+    row = table.row[joint]
+    i = table.body_i[joint]
+    j = table.body_j[joint]
+    data = table.data[joint]
+    c, c_rate, c_bend, _ = curve(block, table.curve[joint], at.instant[0])
+    if kind == codes.X_DRIVER:
+        x_driver(at, out, row, i, j, data, c, c_rate, c_bend)
+    elif kind == codes.Y_DRIVER:
+        y_driver(at, out, row, i, j, data, c, c_rate, c_bend)
+    elif kind == codes.ANGLE_DRIVER:
+        angle_driver(at, out, row, i, j, data, c, c_rate, c_bend)
+    elif kind == codes.DISTANCE_DRIVER:
+        distance_driver(at, out, row, i, j, data, c, c_rate, c_bend)
+    else:
+        translational_driver(at, out, row, i, j, data, c, c_rate, c_bend)
 
 
 @jit
@@ -42,6 +104,8 @@ def contact_row(block: Array, contact: int, row: int) -> None:
     j = table.body_j[contact]
     if table.kind[contact] == codes.POINT_LINE:
         point_line(pose(block), out, row, i, j, table.data[contact], table.line[contact])
+    elif table.alpha[contact] != codes.NONE:
+        profile_row(block, contact, row)
     else:
         angle_row(pose(block), out, row, i, j, table.line[contact])
 
@@ -89,6 +153,27 @@ def active_rows(block: Array) -> int:
         else:
             table.row[c] = -1
     return count
+
+
+@jit
+def follow_open_contacts(block: Array) -> None:
+    """Write the rates of the contact coordinates of open contacts; those of closed ones come with their rows."""
+    keep_small()
+    table = contacts(block)
+    for c in range(table.mode.shape[0]):
+        if table.alpha[c] != codes.NONE and table.mode[c] != codes.CLOSED:
+            contact_row(block, c, spare_row(block))
+
+
+@jit
+def driver_power(block: Array) -> float:
+    """Power that drivers give, by the multipliers of the last solve: multiplier nu, summed over their rows [W]."""
+    table = joints(block)
+    power = 0.0
+    for k in range(table.kind.shape[0]):
+        if table.curve[k] != codes.NONE:
+            power += linear_system(block).multiplier[table.row[k]] * rows(block).nu[table.row[k]]
+    return power
 
 
 @jit

@@ -11,6 +11,8 @@ CHATTERING = 7
 NO_PLACE = 8
 JAMMED = 9
 ROW_AWAY = 10
+OVERLAP = 11
+NO_CONTACT_POINT = 12
 
 ADVICE = {
     NOT_ASSEMBLED: "The joints cannot be closed from the given start positions.",
@@ -28,5 +30,9 @@ ADVICE = {
     "line of action away from the friction cone.",
     ROW_AWAY: "A logical function closes a row where the bodies are not on it. Give the function a limit at which they "
     "are.",
+    OVERLAP: "The mechanism starts with two profiles that overlap: they touch at one point and run into each other at "
+    "another, because one has a hollow that the other does not fit into.",
+    NO_CONTACT_POINT: "The contact point of two profiles is no longer determined: one of them has a hollow there that "
+    "the other does not fit into, or a tip. Check the profile's curvature, or give a smaller roller.",
     NO_PLACE: "No copy of a pattern was found on which the point can start.",
 }

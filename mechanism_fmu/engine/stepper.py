@@ -14,12 +14,13 @@ from .. import codes
 from ..tolerances import GAP_NOISE
 from . import status
 from .acceleration import derivative
+from .contact_points import least_fit
 from .dormand_prince import initial_step_size, interpolate, try_step
 from .drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from .events import first_event, refine
 from .guards import gap
 from .kinematics import place_bodies
-from .ports import feed, feed_at, inputs_changed, show_reached, take_inputs
+from .ports import feed, inputs_changed, set_time, show_reached, take_inputs
 from .pulling import watch_at, watch_step
 from .records import clear_records
 from .room import Array
@@ -37,6 +38,8 @@ MOST_STEPS = 200_000
 MOST_TURN = 1.0
 #: A step that comes so near to where slopes end goes there.
 _NEARLY = 0.99
+#: Where steps shrink to nothing and profiles fit less well than this, that is why [rad/rad].
+_FITS_BARELY = 0.01
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0
@@ -128,7 +131,7 @@ def _move(block: Array, target: float, rule: int) -> int:
         impacts = now.counters[codes.COUNT_IMPACTS]
         guard = now.counters[codes.PENDING_GUARD]
         if guard != codes.GUARD_NONE:
-            feed_at(block, now.clock[codes.STEP_END])
+            set_time(block, now.clock[codes.STEP_END])
             outcome = transit(block, guard, now.counters[codes.PENDING_SUBJECT])
             if outcome != status.OK:
                 now.counters[codes.PENDING_GUARD] = codes.GUARD_FAILED
@@ -151,7 +154,7 @@ def restart(block: Array) -> None:
     now.clock[codes.STEP_SIZE] = 0.0
     now.counters[codes.PENDING_GUARD] = codes.GUARD_NONE
     now.counters[codes.PENDING_SUBJECT] = codes.NONE
-    feed_at(block, now.clock[codes.STEP_END])
+    set_time(block, now.clock[codes.STEP_END])
     derivative(block, now.y_end, now.dy_end)
     watch_at(block, now.clock[codes.STEP_END])
 
@@ -172,6 +175,7 @@ def resume(block: Array) -> int:
             table.pull_time[c] = math.inf
             now.counters[codes.COUNT_PULLS] -= 1
     take_inputs(block)
+    set_time(block, time)
     outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
     restart(block)
     return outcome
@@ -188,7 +192,7 @@ def _step_back(block: Array) -> None:
     s = stages(block)
     start = now.clock[codes.STEP_START]
     feed(block, ports(block).held_inputs)
-    feed_at(block, start)
+    set_time(block, start)
     copy(now.dense[0], s.y_start)
     derivative(block, s.y_start, s.derivatives[0])
     try_step(block, start, now.clock[codes.TIME] - start)
@@ -243,7 +247,7 @@ def take_step(block: Array) -> int:
             step = refine(block, subject, step)
         else:
             try_step(block, start, step)
-        if math.isnan(s.y_new[s.y_new.shape[0] - 1]):
+        if math.isnan(s.y_new[2 * sizes(block).coordinates + 1]):
             return _why_no_step(block)
     now.counters[codes.PENDING_GUARD] = guard
     now.counters[codes.PENDING_SUBJECT] = subject
@@ -262,9 +266,11 @@ def take_step(block: Array) -> int:
     if guard == codes.GUARD_GAP:
         struck = subject
     release(block, struck)
+    set_time(block, now.clock[codes.STEP_END])
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
-        feed_at(block, now.clock[codes.STEP_END])
         derivative(block, now.y_end, now.dy_end)
+    if sizes(block).alphas > 0 and not least_fit(block) > 0.0:
+        return status.NO_CONTACT_POINT
     return status.OK
 
 
@@ -282,10 +288,14 @@ def _within_ramp(block: Array, start: float, step: float) -> float:
 def _why_no_step(block: Array) -> int:
     """What has made the step shrink to nothing: the power lost is not a number where friction found no agreement."""
     s = stages(block)
-    last = s.derivatives.shape[1] - 1
+    lost = 2 * sizes(block).coordinates + 1
     for k in range(1, s.derivatives.shape[0]):
-        if math.isnan(s.derivatives[k, last]) and not math.isnan(s.derivatives[k, 0]):
+        if math.isnan(s.derivatives[k, lost]) and not math.isnan(s.derivatives[k, 0]):
             return status.JAMMED
+    if sizes(block).alphas > 0:
+        place_bodies(block, s.y_start)
+        if not least_fit(block) > _FITS_BARELY:
+            return status.NO_CONTACT_POINT
     return status.STEP_TOO_SMALL
 
 

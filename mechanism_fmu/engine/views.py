@@ -13,16 +13,22 @@ class Sizes(NamedTuple):
     bodies: int
     coordinates: int
     columns: int
+    wide: int
     frames: int
     joints: int
     forces: int
     contacts: int
     patterns: int
     functions: int
+    curves: int
+    pieces: int
+    terms: int
+    alphas: int
     held: int
     inputs: int
     outputs: int
     joint_rows: int
+    contact_rows: int
     rows: int
     unknowns: int
     guards: int
@@ -46,7 +52,7 @@ bodies = room(Bodies, "inverse_mass", "inverse_root_mass", "body_start", "body_s
 
 
 class Joints(NamedTuple):
-    """The joints' specifications."""
+    """The joints' specifications; `curve` is the motion of a driver."""
 
     kind: Array
     body_i: Array
@@ -54,9 +60,38 @@ class Joints(NamedTuple):
     row: Array
     data: Array
     friction: Array
+    curve: Array
 
 
-joints = room(Joints, "joint_kind", "joint_body_i", "joint_body_j", "joint_row", "joint_data", "joint_friction")
+joints = room(
+    Joints, "joint_kind", "joint_body_i", "joint_body_j", "joint_row", "joint_data", "joint_friction", "joint_curve"
+)
+
+
+class Curves(NamedTuple):
+    """Functions of one variable, in pieces that are sums of terms (columns in `codes`), with their ranges."""
+
+    piece: Array
+    pieces: Array
+    periodic: Array
+    range: Array
+    piece_term: Array
+    piece_terms: Array
+    piece_start: Array
+    term: Array
+
+
+curves = room(
+    Curves,
+    "curve_piece",
+    "curve_pieces",
+    "curve_periodic",
+    "curve_range",
+    "piece_term",
+    "piece_terms",
+    "piece_start",
+    "term_data",
+)
 
 
 class Forces(NamedTuple):
@@ -78,6 +113,8 @@ class Contacts(NamedTuple):
     gap was zero when the step began, the clicks of a stop with memory, the line of the present copy (of stops and
     locks: the present angle), and the first time at which a guided contact pulled [s] (infinity: never). `row` is the
     constraint row of a closed contact; `least_push` the least contact force of the step last tried, over its tolerance.
+    Contacts of profiles have contact coordinates, the first of which is `alpha`, and curves; `row_first` counts the
+    rows that contacts have when contact coordinates are coordinates.
     """
 
     kind: Array
@@ -87,6 +124,10 @@ class Contacts(NamedTuple):
     function: Array
     closes_when: Array
     data: Array
+    row_first: Array
+    alpha: Array
+    curve_i: Array
+    curve_j: Array
     value: Array
     mode: Array
     touching: Array
@@ -106,6 +147,10 @@ contacts = room(
     "contact_function",
     "contact_closes_when",
     "contact_data",
+    "contact_row_first",
+    "contact_alpha",
+    "contact_curve_i",
+    "contact_curve_j",
     "contact_value",
     "contact_mode",
     "contact_touching",
@@ -261,7 +306,11 @@ course = room(Course, "clock", "counters", "ledger", "y_end", "dy_end", "dense",
 
 
 class Pose(NamedTuple):
-    """Positions and rates of all bodies at the instant that is looked at; the last entry is the ground."""
+    """Positions and rates of all bodies at the instant that is looked at; the last entry is the ground.
+
+    `alpha` are the contact coordinates and `alpha_rate` what goes with the rates of the bodies; `instant` is the time
+    [s], on which drivers depend.
+    """
 
     x: Array
     y: Array
@@ -271,21 +320,29 @@ class Pose(NamedTuple):
     x_rate: Array
     y_rate: Array
     phi_rate: Array
+    alpha: Array
+    alpha_rate: Array
+    instant: Array
 
 
-pose = room(Pose, "x", "y", "phi", "cosine", "sine", "x_rate", "y_rate", "phi_rate")
+pose = room(Pose, "x", "y", "phi", "cosine", "sine", "x_rate", "y_rate", "phi_rate", "alpha", "alpha_rate", "instant")
 
 
 class Rows(NamedTuple):
-    """The constraint rows at the instant that is looked at: Phi, Phi', gamma (with Baumgarte's terms), Phi_q."""
+    """The constraint rows at the instant that is looked at: Phi, Phi', gamma (with Baumgarte's terms), nu, Phi_q.
+
+    The entries of `nu` count for drivers only. Columns of contact coordinates, behind those of the ground, are written
+    only where these count as coordinates (see `textbook`).
+    """
 
     residual: Array
     residual_rate: Array
     gamma: Array
+    nu: Array
     jacobian: Array
 
 
-rows = room(Rows, "residual", "residual_rate", "gamma", "jacobian")
+rows = room(Rows, "residual", "residual_rate", "gamma", "nu", "jacobian")
 
 
 class LinearSystem(NamedTuple):

@@ -22,7 +22,8 @@ class Body:
         mass: [kg], > 0.
         inertia: about the centre of mass [kg m2], > 0.
         start: guess of (x [m], y [m], phi [rad]) that `assemble` closes.
-        start_rate: (xd [m/s], yd [m/s], phid [rad/s]) at the start; must agree with the joints.
+        start_rate: (xd [m/s], yd [m/s], phid [rad/s]) at the start. They must agree with the joints; where there are
+            held coordinates, their rates are kept and the others follow.
     """
 
     name: str

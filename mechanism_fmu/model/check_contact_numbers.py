@@ -19,6 +19,7 @@ from .conditions import (
 )
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
 from .findings import Finding, literal, refuse_unless
+from .joints import CamFlatFollower, CamFollower, PointFollower
 from .patterns import CircularPattern
 
 #: A normal must have unit length to this accuracy.
@@ -35,7 +36,10 @@ def contact_findings(contact: Contact) -> Iterator[Finding]:
     for what, value, unit in (("beam_length", contact.beam_length, " m"), ("friction", contact.friction, "")):
         text = f"{label}: {what} = {{:g}}{unit} must be finite and not negative."
         yield refuse_unless(finite_not_negative(value), text, value)
-    for what, switch in (("enabled", contact.enabled), ("guided", contact.guided), ("closed", contact.closed)):
+    holds = ("guided", contact.guided)
+    if isinstance(contact, (CamFollower, CamFlatFollower, PointFollower)):
+        holds = ("unilateral", contact.unilateral)
+    for what, switch in (("enabled", contact.enabled), holds, ("closed", contact.closed)):
         text = f"{label}: {what} = {{:g}} is neither true (1) nor false (0); give one of the two."
         yield refuse_unless(true_or_false(switch), text, switch)
     if contact.closed_while is not None:

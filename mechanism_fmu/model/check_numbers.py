@@ -7,20 +7,17 @@ from typing import TYPE_CHECKING
 
 from .body import Body
 from .check_contact_numbers import contact_findings, pattern_findings
+from .check_joint_numbers import curve_findings, joint_findings, pair_findings
+from .compile import curve_owners
 from .conditions import (
-    any_of,
-    both,
     finite,
     finite_not_negative,
     finite_positive,
     not_negative,
-    not_zero,
     within,
 )
 from .findings import Finding, literal, refuse_unless
 from .forces import CompliantShaft, Damper, ForceElement, TorsionSpring
-from .functions import Number
-from .joints import Joint, Translational
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism, Settings
@@ -49,7 +46,11 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         text = f"Input {literal(repr(port.name))}: start = {{:g}} is not finite."
         yield refuse_unless(finite(port.start), text, port.start)
     for joint in mechanism.joints:
-        yield from _axes(joint)
+        yield from joint_findings(joint)
+    for contact in mechanism.contacts:
+        yield from pair_findings(contact)
+    for owner, curve in curve_owners(mechanism):
+        yield from curve_findings(owner, curve)
     yield from _settings(mechanism.settings)
 
 
@@ -73,16 +74,6 @@ def _force(force: ForceElement) -> Iterator[Finding]:
     for what, value, unit in values:
         text = f"{label}: {what} = {{:g}} {unit}, but it must not be negative."
         yield refuse_unless(not_negative(value), text, value)
-
-
-def _axes(joint: Joint) -> Iterator[Finding]:
-    if isinstance(joint, Translational):
-        text = f"Joint {literal(repr(joint.name))}: an axis of length zero has no direction; give both axes a length."
-        yield refuse_unless(both(_has_length(joint.axis_i), _has_length(joint.axis_j)), text)
-
-
-def _has_length(axis: tuple[Number, Number]) -> Number:
-    return any_of(not_zero(axis[0]), not_zero(axis[1]))
 
 
 def _settings(settings: Settings) -> Iterator[Finding]:

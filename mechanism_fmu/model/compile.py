@@ -10,15 +10,16 @@ import numpy as np
 
 from .. import codes
 from .body import GROUND
+from .curves import Curve
 from .functions import Number, is_plain, sqrt
 from .logic import resolve_function, switch
-from .sources import resolve_output
+from .sources import output_factor, resolve_output
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
 #: Width of `joint_data`, `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
-JOINT_COLUMNS = 8
+JOINT_COLUMNS = 9
 FORCE_COLUMNS = 4
 LINE_COLUMNS = 6
 
@@ -31,7 +32,8 @@ class MechanismTables:
     """A mechanism as arrays, in the order of its parts; body number `bodies` (one past the last) is the ground.
 
     Integer tables hold structure and never depend on parameter values; the others hold numbers (SI units).
-    `joint_rows` is the number of rows of all joints;
+    `joint_rows` is the number of rows of all joints, `contact_rows` that of all contacts when contact coordinates
+    count as coordinates, `alphas` the number of these.
     `inverse_mass` and `inverse_root_mass` have 3 entries a body and 3 zeros for the ground.
     """
 
@@ -46,6 +48,7 @@ class MechanismTables:
     joint_rows: int
     joint_data: Table
     joint_friction: Table
+    joint_curve: Table
     force_kind: Table
     force_body: Table
     force_reaction: Table
@@ -57,6 +60,12 @@ class MechanismTables:
     contact_function: Table
     contact_closes_when: Table
     contact_data: Table
+    contact_row_first: Table
+    contact_rows: int
+    contact_alpha: Table
+    alphas: int
+    contact_curve_i: Table
+    contact_curve_j: Table
     contact_value: Table
     pattern_body_i: Table
     pattern_body_j: Table
@@ -66,6 +75,14 @@ class MechanismTables:
     function_kind: Table
     function_index: Table
     function_limit: Table
+    curve_piece: Table
+    curve_pieces: Table
+    curve_periodic: Table
+    curve_range: Table
+    piece_term: Table
+    piece_terms: Table
+    piece_start: Table
+    term_data: Table
     held: Table
     input_force: Table
     input_column: Table
@@ -89,6 +106,12 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     switches = [switch(contact.closed_while) for contact in contacts]
     masses = [m for body in mechanism.bodies for m in (body.mass, body.mass, body.inertia)]
     first_rows = np.cumsum([0, *(joint.rows for joint in mechanism.joints)])
+    first_contact_rows = np.cumsum([0, *(contact.rows for contact in contacts)])
+    first_alphas = np.cumsum([0, *(contact.alphas for contact in contacts)])
+    curves = [curve for _, curve in curve_owners(mechanism)]
+    first_pieces = np.cumsum([0, *(len(curve.pieces) for curve in curves)])
+    pieces = [piece for curve in curves for piece in curve.pieces]
+    first_terms = np.cumsum([0, *(len(piece.terms) for piece in pieces)])
     targets = [i.target.split(".") for i in mechanism.inputs]
     outputs = [resolve_output(o.source, mechanism) for o in mechanism.outputs]
     constants = [(codes.CONSTANT, 0, 0)] * len(mechanism.calculated)
@@ -104,6 +127,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         joint_rows=int(first_rows[-1]),
         joint_data=_rows([j.data() for j in mechanism.joints], JOINT_COLUMNS),
         joint_friction=_numbers([j.friction for j in mechanism.joints]),
+        joint_curve=_integers([_number_of(joint.motion, curves) for joint in mechanism.joints]),
         force_kind=_integers([f.kind for f in mechanism.forces]),
         force_body=_integers([bodies[f.body] for f in mechanism.forces]),
         force_reaction=_integers([bodies[f.reaction] for f in mechanism.forces]),
@@ -115,6 +139,14 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         contact_function=_integers([codes.NONE if f is None else functions[f] for f, _ in switches]),
         contact_closes_when=_integers([int(value) for _, value in switches]),
         contact_data=_rows([c.data() for c in contacts], LINE_COLUMNS),
+        contact_row_first=_integers(list(first_contact_rows[:-1])),
+        contact_rows=int(first_contact_rows[-1]),
+        contact_alpha=_integers(
+            [first if c.alphas else codes.NONE for c, first in zip(contacts, first_alphas, strict=False)]
+        ),
+        alphas=int(first_alphas[-1]),
+        contact_curve_i=_integers([_number_of(c.profiles[0], curves) for c in contacts]),
+        contact_curve_j=_integers([_number_of(c.profiles[1], curves) for c in contacts]),
         contact_value=_rows(
             [(c.restitution, c.friction, c.beam_length, c.guided, c.enabled, c.closed) for c in contacts],
             codes.CONTACT_VALUES,
@@ -127,6 +159,14 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         function_kind=_integers([kind for kind, _ in watched]),
         function_index=_integers([index for _, index in watched]),
         function_limit=_numbers([function.below for function in mechanism.functions]),
+        curve_piece=_integers(list(first_pieces[:-1])),
+        curve_pieces=_integers([len(curve.pieces) for curve in curves]),
+        curve_periodic=_integers([int(curve.periodic) for curve in curves]),
+        curve_range=_rows([(curve.start, curve.span) for curve in curves], 2),
+        piece_term=_integers(list(first_terms[:-1])),
+        piece_terms=_integers([len(piece.terms) for piece in pieces]),
+        piece_start=_numbers([piece.start for piece in pieces]),
+        term_data=_rows([term.data() for piece in pieces for term in piece.terms], codes.TERM_COLUMNS),
         held=_integers([coordinate_index(h, mechanism) for h in mechanism.held]),
         input_force=_integers([forces[force] for force, _ in targets]),
         input_column=_integers([mechanism.forces[forces[force]].columns[entry] for force, entry in targets]),
@@ -134,7 +174,9 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         output_kind=_integers([kind for kind, _, _ in outputs + constants]),
         output_index=_integers([index for _, index, _ in outputs + constants]),
         output_slot=_integers([slot for _, _, slot in outputs + constants]),
-        output_value=_numbers([0.0] * len(outputs) + [c.value for c in mechanism.calculated]),
+        output_value=_numbers(
+            [output_factor(o.source, mechanism) for o in mechanism.outputs] + [c.value for c in mechanism.calculated]
+        ),
         settings=_numbers(
             [
                 mechanism.settings.relative_tolerance,
@@ -143,6 +185,18 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             ]
         ),
     )
+
+
+def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:
+    """The motions of drivers, then the profiles of contacts, as the tables number them, each with its part's name."""
+    motions = [(joint.name, joint.motion) for joint in mechanism.joints]
+    profiles = [(contact.name, profile) for contact in mechanism.contacts for profile in contact.profiles]
+    return [(name, curve) for name, curve in (*motions, *profiles) if curve is not None]
+
+
+def _number_of(curve: Curve | None, curves: list[Curve]) -> int:
+    """The place of a curve itself (not of one with the same numbers), or `codes.NONE`."""
+    return next((k for k, other in enumerate(curves) if other is curve), codes.NONE)
 
 
 def coordinate_index(name: str, mechanism: Mechanism) -> int:

@@ -7,7 +7,9 @@ from typing import ClassVar
 
 from .. import codes
 from .body import Point
+from .curves import Curve
 from .functions import Number
+from .joints import CamFlatFollower, CamFollower, PointFollower
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,9 @@ class PointLineContact:
     """
 
     kind: ClassVar[int] = codes.POINT_LINE
+    rows: ClassVar[int] = 1
+    alphas: ClassVar[int] = 0
+    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
 
     name: str
     body_i: str
@@ -74,6 +79,9 @@ class AngleStop:
     """
 
     kind: ClassVar[int] = codes.ANGLE_STOP
+    rows: ClassVar[int] = 1
+    alphas: ClassVar[int] = 0
+    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
     closed: ClassVar[Number] = False
     friction: ClassVar[Number] = 0.0
     beam_length: ClassVar[Number] = 0.0
@@ -110,6 +118,9 @@ class AngleLock:
     """
 
     kind: ClassVar[int] = codes.ANGLE_LOCK
+    rows: ClassVar[int] = 1
+    alphas: ClassVar[int] = 0
+    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
     closed: ClassVar[Number] = False
     restitution: ClassVar[Number] = 0.0
     friction: ClassVar[Number] = 0.0
@@ -130,5 +141,19 @@ class AngleLock:
         return (self.angle, self.pitch)
 
 
+def is_angular(contact: Contact) -> bool:
+    """Whether a contact's gap is an angle, and its force a torque."""
+    return contact.kind in (codes.ANGLE_STOP, codes.ANGLE_LOCK)
+
+
+def too_deep(contact: Contact) -> tuple[str, str]:
+    """How to say that a contact starts inside the other body: what stands before and behind the depth."""
+    if contact.kind == codes.POINT_LINE:
+        return f"the point of {contact.body_i!r} is", f"m behind the line on {contact.body_j!r}"
+    if is_angular(contact):
+        return f"{contact.body_i!r} is", f"rad beyond its stop on {contact.body_j!r}"
+    return f"{contact.body_i!r} reaches", f"m into {contact.body_j!r}"
+
+
 #: Any contact.
-Contact = PointLineContact | AngleStop | AngleLock
+Contact = PointLineContact | AngleStop | AngleLock | CamFollower | CamFlatFollower | PointFollower

@@ -15,7 +15,7 @@ from ..tolerances import (
     STICK_SPEED,
     TOUCHES_WITHIN,
 )
-from .contacts import AngleLock, AngleStop, Contact, PointLineContact
+from .contacts import AngleStop, Contact, is_angular
 from .patterns import CircularPattern
 
 if TYPE_CHECKING:
@@ -61,9 +61,9 @@ def definitions(mechanism: Mechanism) -> Iterator[Definition]:
         yield Definition(function.name, meaning, unit, f"{MARGIN:g} {unit}", function.name)
 
 
-def _of_contact(contact: PointLineContact | AngleStop | AngleLock) -> Iterator[Definition]:
+def _of_contact(contact: Contact) -> Iterator[Definition]:
     name = contact.name
-    length, force = ("m", "N") if isinstance(contact, PointLineContact) else ("rad", "N.m")
+    length, force = ("rad", "N.m") if is_angular(contact) else ("m", "N")
     speed = f"{length}/s"
     yield Definition(
         f"{name}.touches",

@@ -37,7 +37,7 @@ class Mechanism:
     Attributes:
         bodies, joints, forces, contacts, patterns, functions: the parts; names are unique over all of them.
         inputs, outputs, calculated: what the outside sees.
-        held: coordinates, as "<body>.x|y|angle", that `assemble` must not move.
+        held: coordinates, as "<body>.x|y|angle", that assembly must not move, nor their rates.
         settings: how the engine integrates.
     """
 

@@ -8,7 +8,9 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from .. import codes
+from .efforts import EFFORTS, effort
 from .errors import MechanismError
+from .functions import Number
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
@@ -55,7 +57,7 @@ MOST_CONTACTS_OF_A_MODE = 31
 
 
 def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
-    """The (kind, index, slot) of an output's source (see `Output`).
+    """The (kind, index, slot) of an output's source (see `Output`); the factor of an effort is `output_factor`.
 
     Raises:
         MechanismError: the source names no such part or quantity.
@@ -68,6 +70,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         or _of_contact(part, quantity, mechanism)
         or _of_pattern(part, quantity, mechanism)
         or _of_force(part, quantity, mechanism)
+        or _of_joint(part, quantity, mechanism)
     )
     if part == "energy" and quantity in _ENERGIES:
         found = (_ENERGIES[quantity], 0, 0)
@@ -76,7 +79,8 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
         raise MechanismError(
             f"output source {source!r} is unknown{meant}<body>.x|y|angle|x_rate|y_rate|speed, "
-            f"<contact>.{'|'.join(_OF_CONTACT)}, <pattern>.index, <shaft>.torque, event.count|in_step, "
+            f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, <pattern>.index, <shaft>.torque, "
+            f"<joint>.force|force_x|force_y|normal_force|torque as the joint has them, event.count|in_step, "
             f"events[k].{'|'.join(_EVENT_FIELDS)}, energy.{'|'.join(_ENERGIES)}, "
             f"impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
             f"bodies {', '.join(b.name for b in mechanism.bodies)} and contacts "
@@ -95,6 +99,8 @@ def _common_sources(mechanism: Mechanism) -> Iterator[str]:
         yield f"impact.impulse:{contact.name}"
     yield from (f"{pattern.name}.index" for pattern in mechanism.patterns)
     yield from (f"{force.name}.torque" for force in mechanism.forces if force.kind == codes.SHAFT)
+    for joint in mechanism.joints:
+        yield from (f"{joint.name}.{quantity}" for quantity in EFFORTS.get(joint.kind, ()))
     yield from (f"energy.{kind}" for kind in _ENERGIES)
     yield from (f"impact.{field}" for field in (*_COUNTERS, *_FIELDS))
     yield from (f"impacts[1].{field}" for field in _FIELDS)
@@ -115,12 +121,43 @@ def _of_body(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, 
 
 def _of_contact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     names = [c.name for c in mechanism.contacts]
+    if part in names and quantity in ("alpha_i", "alpha_j"):
+        return _of_profiles(names.index(part), int(quantity == "alpha_j"), mechanism)
     if part not in names or quantity not in _OF_CONTACT:
         return None
     is_stop = mechanism.contacts[names.index(part)].kind == codes.ANGLE_STOP
     if quantity in ("clicks", "latched") and not is_stop:
         return None
     return _OF_CONTACT[quantity], names.index(part), 0
+
+
+def _of_profiles(contact: int, which: int, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    """A contact coordinate: of profile i or j of a contact, where it has one."""
+    profiles = mechanism.contacts[contact].profiles
+    if profiles[which] is None:
+        return None
+    before = sum(other.alphas for other in mechanism.contacts[:contact])
+    return codes.CONTACT_POINT, before + which * (profiles[0] is not None), 0
+
+
+def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    row = 0
+    for joint in mechanism.joints:
+        if joint.name == part:
+            found = effort(joint, quantity)
+            return None if found is None else (codes.JOINT_FORCE, row + found[0], 0)
+        row += joint.rows
+    return None
+
+
+def output_factor(source: str, mechanism: Mechanism) -> Number:
+    """The factor by which a joint's multiplier becomes the effort that a source names; 0 for other sources."""
+    part, _, quantity = source.partition(".")
+    for joint in mechanism.joints:
+        if joint.name == part:
+            found = effort(joint, quantity)
+            return 0.0 if found is None else found[1]
+    return 0.0
 
 
 def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...engine.layout import FIELDS, Array, field_of, slot
 from ...model import GROUND, Mechanism, MechanismError, Settings
+from ...model.compile import curve_owners
 from ...model.symbol import Symbol
 from ...model.trace import Trace
 
@@ -55,6 +56,7 @@ def _labels(table: str, mechanism: Mechanism) -> list[str]:
     if table == "settings":
         return [setting.name for setting in fields(Settings)]
     bodies = [body.name for body in mechanism.bodies]
+    owners = curve_owners(mechanism)
     parts = {
         "inverse": [*bodies, GROUND],
         "body": bodies,
@@ -63,6 +65,9 @@ def _labels(table: str, mechanism: Mechanism) -> list[str]:
         "contact": [contact.name for contact in mechanism.contacts],
         "pattern": [pattern.name for pattern in mechanism.patterns],
         "function": [function.name for function in mechanism.functions],
+        "curve": [name for name, _ in owners],
+        "piece": [name for name, curve in owners for _ in curve.pieces],
+        "term": [name for name, curve in owners for piece in curve.pieces for _ in piece.terms],
         "held": list(mechanism.held),
         "input": [port.name for port in mechanism.inputs],
         "output": [*(port.name for port in mechanism.outputs), *(port.name for port in mechanism.calculated)],

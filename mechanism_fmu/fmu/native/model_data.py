@@ -7,7 +7,8 @@ from collections.abc import Iterable, Sequence
 
 from ...engine.layout import FIELDS, slot
 from ...engine.pack import pack
-from ...model import Mechanism, Model, PointLineContact
+from ...model import Mechanism, Model
+from ...model.contacts import too_deep
 from ..variables import Variable, variables_of
 from .description3 import array_layout
 from .formulas import Formulas, c_number
@@ -87,10 +88,7 @@ def _array(kind: str, name: str, entries: Iterable[str]) -> str:
 
 def _names(mechanism: Mechanism) -> list[str]:
     joints = (f"{{{c_text(joint.name)}, {joint.rows}}}" for joint in mechanism.joints)
-    contacts = (
-        f"{{{c_text(c.name)}, {c_text(c.body_i)}, {c_text(c.body_j)}, {int(isinstance(c, PointLineContact))}}}"
-        for c in mechanism.contacts
-    )
+    contacts = (f"{{{', '.join(map(c_text, (c.name, *too_deep(c))))}}}" for c in mechanism.contacts)
     return [
         _array("Joint", "JOINTS", joints),
         _array("Contact", "CONTACTS", contacts),

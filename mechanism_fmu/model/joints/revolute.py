@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from ... import codes
 from ..body import Point
+from ..curves import Curve
 from ..functions import Number
 
 
@@ -23,6 +24,7 @@ class Revolute:
 
     kind: ClassVar[int] = codes.REVOLUTE
     rows: ClassVar[int] = 2
+    motion: ClassVar[Curve | None] = None
 
     name: str
     body_i: str

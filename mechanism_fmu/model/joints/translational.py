@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from ... import codes
 from ..body import Point
+from ..curves import Curve
 from ..functions import Number
 
 
@@ -24,6 +25,7 @@ class Translational:
 
     kind: ClassVar[int] = codes.TRANSLATIONAL
     rows: ClassVar[int] = 2
+    motion: ClassVar[Curve | None] = None
 
     name: str
     body_i: str

@@ -128,7 +128,16 @@ def test_a_start_inside_the_other_body_is_refused_with_the_depth():
 def test_rates_that_disagree_with_the_joints_are_refused():
     rates = ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     with pytest.raises(MechanismError, match="rates do not agree with the joints"):
-        Simulation(four_bar(closed_four_bar(1.0), rates=rates))
+        Simulation(four_bar(closed_four_bar(1.0), rates=rates, held=()))
+
+
+def test_rates_follow_that_of_a_held_coordinate():
+    rates = ((0.0, 0.0, 1.3), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    simulation = Simulation(four_bar(closed_four_bar(1.0), rates=rates))
+    ahead, behind = (closed_four_bar(1.0 + step) for step in (1e-5, -1e-5))
+    expected = 1.3 * (np.ravel(ahead) - np.ravel(behind)) / 2e-5
+    np.testing.assert_allclose(simulation.field("y_end")[9:18], expected, rtol=0, atol=1e-9)
+    assert simulation.field("y_end")[11] == 1.3
 
 
 def test_rates_that_disagree_with_a_closed_contact_are_refused():

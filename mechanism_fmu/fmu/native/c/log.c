@@ -157,11 +157,8 @@ static void residuals(Instance *x, char *text, size_t size) {
 static void penetration(Instance *x, char *text, size_t size) {
     const Contact *contact = model.contacts + COUNTERS(x)[CODE_PENDING_SUBJECT];
     double depth = -FIELD(x, residual)[SIZE(x, rows) - 1];
-    const char *format =
-        contact->is_point
-            ? " Contact '%s': the point of '%s' is %.6g m behind the line on '%s'; change the start angles or the lengths."
-            : " Contact '%s': '%s' is %.6g rad beyond its stop on '%s'; change the start angles or the lengths.";
-    snprintf(text, size, format, contact->name, contact->body_i, depth, contact->body_j);
+    snprintf(text, size, " Contact '%s': %s %.6g %s; change the start angles or the lengths.", contact->name, contact->before,
+             depth, contact->behind);
 }
 
 /* The contacts that a failed event is about: those of the step's events, and the closed ones. */
@@ -186,9 +183,9 @@ static void involved(Instance *x, char *text, size_t size) {
 const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size) {
     *text = 0;
     if (outcome == STATUS_NOT_ASSEMBLED) residuals(x, text, size);
-    if (outcome == STATUS_START_INSIDE) penetration(x, text, size);
+    if (outcome == STATUS_START_INSIDE || outcome == STATUS_OVERLAP) penetration(x, text, size);
     if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
-        outcome == STATUS_ROW_AWAY)
+        outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT)
         involved(x, text, size);
     return text;
 }

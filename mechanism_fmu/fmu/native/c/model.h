@@ -35,8 +35,7 @@ typedef struct {
 } Joint;
 
 typedef struct {
-    const char *name, *body_i, *body_j;
-    int is_point; /* on a line; else it is a stop or a lock between directions */
+    const char *name, *before, *behind; /* the depth by which it starts inside the other body */
 } Contact;
 
 typedef struct {

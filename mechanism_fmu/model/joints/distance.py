@@ -1,0 +1,45 @@
+"""Revolute-revolute composite joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ... import codes
+from ..body import Point
+from ..curves import Curve
+from ..functions import Number
+
+
+@dataclass(frozen=True)
+class Distance:
+    """A massless rod with a pin at either end (ME451, revolute-revolute composite).
+
+    1. Allows: both bodies turn freely and point P_j moves on a circle about P_i; two degrees of freedom remain.
+    2. Phi = d.d - C^2 with d = r_j^P - r_i^P, one row [m2]. C > 0: at C = 0 the row has no gradient (that is a pin).
+    3. Phi_q = 2 [-d, -d.R a, d, d.R b] with a = A_i s_i and b = A_j s_j.
+    4. nu = 0.
+    5. gamma = -2 d'.d' - 2 d.(a phi_i'^2 - b phi_j'^2).
+
+    Attributes:
+        name: unique within the mechanism.
+        body_i, body_j: names of the two bodies (or `GROUND`).
+        point_i, point_j: P in the frame of each body [m].
+        distance: C [m], > 0.
+    """
+
+    kind: ClassVar[int] = codes.DISTANCE
+    rows: ClassVar[int] = 1
+    motion: ClassVar[Curve | None] = None
+    friction: ClassVar[Number] = 0.0
+
+    name: str
+    body_i: str
+    point_i: Point
+    body_j: str
+    point_j: Point
+    distance: Number
+
+    def data(self) -> tuple[Number, ...]:
+        """The joint's row of the table `joint_data`: point_i, point_j, C."""
+        return (*self.point_i, *self.point_j, self.distance)

@@ -1,0 +1,29 @@
+"""What drivers between two points have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..body import GROUND, Point
+from ..curves import Curve
+from ..functions import Number
+
+
+@dataclass(frozen=True)
+class PointDriver:
+    """A driver of point P of body j against point P of body i, as of `XDriver`."""
+
+    rows: ClassVar[int] = 1
+    friction: ClassVar[Number] = 0.0
+
+    name: str
+    body_j: str
+    point_j: Point
+    motion: Curve
+    body_i: str = GROUND
+    point_i: Point = (0.0, 0.0)
+
+    def data(self) -> tuple[Number, ...]:
+        """The joint's row of the table `joint_data`: point_i, point_j."""
+        return (*self.point_i, *self.point_j)

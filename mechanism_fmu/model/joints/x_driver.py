@@ -1,0 +1,29 @@
+"""Driver of x."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ... import codes
+from .point_driver import PointDriver
+
+
+@dataclass(frozen=True)
+class XDriver(PointDriver):
+    """Point P_j moves in x as a function of time prescribes (ME451, absolute and relative x driver).
+
+    1. Allows: any motion in y, and any angles; prescribes one degree of freedom.
+    2. Phi = x_j^P - x_i^P - C(t), one row [m].
+    3. Phi_q = [-1, 0, (A_i s_i)_y, 1, 0, -(A_j s_j)_y].
+    4. nu = C'.
+    5. gamma = -(A_i s_i)_x phi_i'^2 + (A_j s_j)_x phi_j'^2 + C''.
+
+    Attributes:
+        name: unique within the mechanism.
+        body_j, point_j: body, and P in its frame [m], that are driven.
+        motion: C(t) [m], with two derivatives.
+        body_i, point_i: what they are driven against: the ground at its origin unless given.
+    """
+
+    kind: ClassVar[int] = codes.X_DRIVER

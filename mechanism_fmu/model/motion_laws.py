@@ -1,0 +1,72 @@
+"""Standard motion laws of cams: how a rise is spread over an angle (Norton, Cam Design and Manufacturing Handbook)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from .curves import Piece, Term
+from .functions import Number
+
+#: From where it begins, the value there, the rise and the width to the pieces of a move.
+Law = Callable[[Number, Number, Number, Number], tuple[Piece, ...]]
+
+
+def dwell(start: Number, value: Number, _rise: Number, _width: Number) -> tuple[Piece, ...]:
+    """No motion, whatever the rise."""
+    return (Piece(start, (Term((value,)),)),)
+
+
+def cycloidal(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
+    """Lift = rise (u - sin(2 pi u)/(2 pi)), u = xi/width: largest acceleration 6.283 rise/width^2."""
+    return (Piece(start, (Term((value, rise / width), -rise / (2 * math.pi), 2 * math.pi / width),)),)
+
+
+def polynomial_345(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
+    """Lift = rise (10 u^3 - 15 u^4 + 6 u^5), u = xi/width: largest acceleration 5.7735 rise/width^2."""
+    third = rise / (width * width * width)
+    fourth = third / width
+    return (Piece(start, (Term((value, 0.0, 0.0, 10 * third, -15 * fourth, 6 * fourth / width)),)),)
+
+
+def modified_sine(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
+    """Modified sine: sine arcs of a quarter at both ends and a slow one between; largest acceleration 5.528.
+
+    With k = rise/(4 + pi): k (pi u - sin(4 pi u)/4) up to u = 1/8, k (2 + pi u - 9/4 sin(4 pi u/3 + pi/3)) up to 7/8,
+    and k (4 + pi u - sin(4 pi u)/4) to the end.
+    """
+    k = rise / (4 + math.pi)
+    slope, fast, slow = k * math.pi / width, 4 * math.pi / width, 4 * math.pi / (3 * width)
+    first, second = math.pi / 8, math.pi * 7 / 8  # pi u where the middle and the last piece begin
+    return (
+        Piece(start, (Term((value, slope), -k / 4, fast),)),
+        Piece(start + width / 8, (Term((value + k * (2 + first), slope), -9 * k / 4, slow, math.pi / 2),)),
+        Piece(start + 7 * width / 8, (Term((value + k * (4 + second), slope), -k / 4, fast, 7 * math.pi / 2),)),
+    )
+
+
+@dataclass(frozen=True)
+class Move:
+    """One move of a cam's program.
+
+    Attributes:
+        lift: where it leads to, above the base [m or rad].
+        width: over which angle [rad], > 0.
+        law: how.
+    """
+
+    lift: Number
+    width: Number
+    law: Law = cycloidal
+
+
+def moves_to_pieces(base: Number, moves: Sequence[Move], turn: float, back: Law) -> tuple[Piece, ...]:
+    """The pieces of base + lift over one turn; what the moves leave of it leads back to the base by `back`."""
+    start: Number = 0.0
+    lift: Number = 0.0
+    pieces: list[Piece] = []
+    for move in moves:
+        pieces += move.law(start, base + lift, move.lift - lift, move.width)
+        start, lift = start + move.width, move.lift
+    return (*pieces, *back(start, base + lift, -lift, turn - start))

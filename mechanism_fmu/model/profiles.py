@@ -1,0 +1,77 @@
+"""Profiles of cams and slots: the radius rho [m] over the contact coordinate alpha [rad], counter-clockwise.
+
+A point of the profile is Q + rho(alpha) (cos alpha, sin alpha) in the frame of its body (ME451, cam pairs).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from .curves import Curve, Piece, Term, constant, cosine, sine
+from .functions import Number
+from .motion_laws import Law, Move, dwell, moves_to_pieces
+from .splines import spline_pieces
+
+_TURN = 2 * math.pi
+
+
+def circle(radius: Number) -> Curve:
+    """A circle about Q: a roller."""
+    return _closed((Piece(0.0, (constant(radius),)),))
+
+
+def harmonic_profile(mean: Number, cosines: Sequence[Number] = (), sines: Sequence[Number] = ()) -> Curve:
+    """Radius rho = mean + sum over k = 1, 2 ... of cosines[k-1] cos(k alpha) + sines[k-1] sin(k alpha) [m]."""
+    terms = [constant(mean)]
+    terms += [cosine(a, float(k)) for k, a in enumerate(cosines, start=1)]
+    terms += [sine(b, float(k)) for k, b in enumerate(sines, start=1)]
+    return _closed((Piece(0.0, tuple(terms)),))
+
+
+def piecewise_profile(*pieces: tuple[Number, Sequence[Term]]) -> Curve:
+    """A closed profile of analytic pieces: (alpha where it starts, its terms), the first from 0 on."""
+    return _closed(tuple(Piece(start, tuple(terms)) for start, terms in pieces))
+
+
+def spline_profile(radii: Sequence[Number], angles: Sequence[float] | None = None, degree: int = 3) -> Curve:
+    """A closed profile through points: the periodic spline of third degree (C2) or fifth (C4).
+
+    Args:
+        radii: [m].
+        angles: increasing, within one turn [rad]; equidistant from 0 on when left out.
+        degree: 3 or 5.
+
+    Raises:
+        MechanismError: fewer than 3 points, or angles that do not increase.
+    """
+    count = len(radii)
+    places = [_TURN * k / count for k in range(count)] if angles is None else list(angles)
+    pieces = spline_pieces([*places, places[0] + _TURN], radii, degree, periodic=True)
+    return Curve(pieces, places[0], _TURN, periodic=True)
+
+
+def motion_profile(base_radius: Number, moves: Sequence[Move], back: Law = dwell) -> Curve:
+    """A cam that lifts a point follower by standard motion laws: base_radius + lift(alpha).
+
+    Args:
+        base_radius: [m].
+        moves: one after the other, from alpha = 0 and lift 0 on.
+        back: the law by which what is left of the turn leads back to the base radius.
+    """
+    return _closed(moves_to_pieces(base_radius, moves, _TURN, back))
+
+
+def slot(points: Sequence[tuple[float, Number]], degree: int = 3) -> Curve:
+    """An open profile through points (alpha [rad], rho [m]), the spline with rho' = 0 at both ends.
+
+    Raises:
+        MechanismError: fewer than 3 points, or angles that do not increase.
+    """
+    angles, radii = zip(*points, strict=True)
+    pieces = spline_pieces(angles, radii, degree, periodic=False)
+    return Curve(pieces, float(angles[0]), float(angles[-1] - angles[0]))
+
+
+def _closed(pieces: tuple[Piece, ...]) -> Curve:
+    return Curve(pieces, 0.0, _TURN, periodic=True)

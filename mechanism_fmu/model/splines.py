@@ -1,0 +1,99 @@
+"""Splines through points, of third or fifth degree: C2 or C4, periodic or clamped."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .curves import Piece, Term
+from .errors import MechanismError
+from .functions import Number, is_plain
+
+Matrix = np.ndarray[Any, np.dtype[np.float64]]
+
+
+def spline_pieces(knots: Sequence[float], values: Sequence[Number], degree: int, periodic: bool) -> tuple[Piece, ...]:
+    """The pieces of the spline through (knots, values).
+
+    The coefficients are linear in the values, which may be symbolic; the knots are plain numbers.
+
+    Args:
+        knots: increasing; of a periodic spline the last one is where the first value comes again.
+        values: at the knots, without the repeated one of a periodic spline.
+        degree: 3 (two continuous derivatives) or 5 (four).
+        periodic: else clamped: the derivatives (of degree 5, and the second ones) are zero at both ends.
+
+    Raises:
+        MechanismError: too few points, or knots that do not increase.
+    """
+    widths = np.diff(np.asarray(knots, dtype=float))
+    if len(widths) < 2 + periodic or not np.all(np.isfinite(widths)) or not np.all(widths > 0.0):
+        raise MechanismError(
+            f"A spline needs at least {3} points at increasing places, but it has {[float(k) for k in knots]}."
+        )
+    coefficients = _coefficients(widths, degree, periodic)
+    pieces = []
+    for k, start in enumerate(knots[:-1]):
+        terms = [_combine(row, values) for row in coefficients[k]]
+        pieces.append(Piece(float(start), (Term(tuple(terms)),)))
+    return tuple(pieces)
+
+
+def _combine(weights: Matrix, values: Sequence[Number]) -> Number:
+    if all(map(is_plain, values)):
+        return math.fsum(w * float(v) for w, v in zip(weights, values, strict=True))
+    total: Number = 0.0
+    for weight, value in zip(weights, values, strict=True):
+        if weight != 0.0:
+            total = total + float(weight) * value
+    return total
+
+
+def _coefficients(widths: Matrix, degree: int, periodic: bool) -> Matrix:
+    """The polynomial coefficients of all pieces as linear functions of the values, shape (pieces, degree + 1, values).
+
+    Unknown are the lower derivatives at the knots; the higher ones must be continuous.
+    """
+    pieces = len(widths)
+    orders = (degree + 1) // 2  # given at each end of a piece: the value and the derivatives below this order
+    knots = pieces if periodic else pieces + 1
+    # every quantity is a row over (values, then the unknown derivatives of each order) at all knots
+    unit = np.eye(orders * knots)
+    ends = [unit[order * knots : (order + 1) * knots] for order in range(orders)]
+    rows = np.empty((pieces, degree + 1, orders * knots))
+    for k, h in enumerate(widths):
+        after = (k + 1) % knots
+        given = [ends[order][at] * h**order for at in (k, after) for order in range(orders)]
+        scales = np.array([h**-power for power in range(degree + 1)])
+        rows[k] = scales[:, None] * (_hermite(degree) @ np.array(given))
+    joins = range(pieces) if periodic else range(1, pieces)
+    conditions = [
+        _derivative(rows[k - 1], order, widths[k - 1]) - _derivative(rows[k], order, 0.0)
+        for k in joins
+        for order in range(orders, degree)
+    ]
+    if not periodic:
+        conditions += [ends[order][at] for order in range(1, orders) for at in (0, knots - 1)]
+    system = np.array(conditions)
+    unknown = -np.linalg.solve(system[:, knots:], system[:, :knots])
+    solution = np.vstack([np.eye(knots), unknown])
+    result: Matrix = rows @ solution
+    return result
+
+
+def _hermite(degree: int) -> Matrix:
+    """From the value and derivatives at 0, then at 1, to the coefficients of the polynomial on 0..1."""
+    orders = (degree + 1) // 2
+    powers = np.eye(degree + 1)
+    return np.linalg.inv(np.array([_derivative(powers, order, at) for at in (0.0, 1.0) for order in range(orders)]))
+
+
+def _derivative(rows: Matrix, order: int, at: float) -> Matrix:
+    """A derivative at a place of the polynomial whose coefficients are `rows`, constant first."""
+    total = np.zeros(rows.shape[1])
+    for power in range(order, len(rows)):
+        total += math.perm(power, order) * at ** (power - order) * rows[power]
+    return total
