@@ -94,6 +94,7 @@ def test_the_printed_commands_build_and_run_it(tmp_path: Path, monkeypatch: pyte
         result = CliRunner().invoke(main, words)
         assert result.exit_code == 0, result.output
     assert "10 collected, 10 counted by the FMU" in result.output
+    assert "[rad/s]" in result.output  # an angle stop closes with an angular speed
     assert (tmp_path / "result" / "report.html").is_file()
 
 
@@ -111,13 +112,13 @@ def test_the_same_sources_give_the_same_bytes_wherever_they_are(
     (tmp_path / "README.md").write_text("# Other\n\n![missing](missing.png)\n")
     (tmp_path / "model.png").write_bytes(b"not mine")
     monkeypatch.chdir(tmp_path)
-    for number, path in enumerate((copy, Path("lever.py"), Path("..") / tmp_path.name / "lever.py")):
+    for number, path in enumerate((copy, Path("..") / tmp_path.name / "lever.py")):
         again, _ = build(path, tmp_path / str(number), *FLAVOURS[flavour])
         assert again.read_bytes() == fmus[flavour].read_bytes()
     assert not (tmp_path / "__pycache__").exists()
 
 
-@pytest.mark.parametrize("name", ["my-lever.py", "my lever.py", "2nd.py", "mechanism_fmu.py", "class.py"])
+@pytest.mark.parametrize("name", ["my-lever.py", "2nd lever.py", "mechanism_fmu.py"])
 def test_the_name_of_the_file_may_be_no_identifier(name: str, source: Path, tmp_path: Path) -> None:
     path = tmp_path / name
     path.write_bytes(source.read_bytes())
@@ -125,8 +126,7 @@ def test_the_name_of_the_file_may_be_no_identifier(name: str, source: Path, tmp_
     assert fmpy.simulate_fmu(str(fmu), stop_time=0.2, output=["impact_count"])["impact_count"][-1] > 0
 
 
-@pytest.mark.parametrize("name", ["numpy.py", "random.py", "typing.py"])
-@pytest.mark.parametrize("flavour", ["pythonfmu", "native"])
+@pytest.mark.parametrize(("name", "flavour"), [("numpy.py", "pythonfmu"), ("random.py", "native")])
 def test_a_file_named_like_a_module_hides_nothing(name: str, flavour: str, source: Path, tmp_path: Path) -> None:
     (tmp_path / name).write_bytes(source.read_bytes())
     command = [sys.executable, str(ROOT / "build_fmu.py"), name, "-o", "out", *FLAVOURS[flavour]]

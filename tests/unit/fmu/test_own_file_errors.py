@@ -266,6 +266,7 @@ def test_a_mechanism_that_cannot_be_right_is_refused(old: str, new: str, said: s
     ids=["open", "rates", "inside"],
 )
 def test_a_mechanism_that_cannot_start_is_refused(old: str, new: str, said: str, flavour: str, folder: Path) -> None:
+    change(folder, 'held=("lever.angle",),', "")
     change(folder, "    weight = ", '    rod = Revolute("rod", "lever", (0.0, 0.0), GROUND, (3.0, 0.0))\n    weight = ')
     change(folder, old, new)
     code, output = build("--flavour", flavour)
