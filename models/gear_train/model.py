@@ -22,13 +22,14 @@ from mechanism_fmu.model import (
     Torque,
 )
 
+from .checks import objections
 from .geometry import pairing
 from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
 from .shapes import SHAPES
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:
-    """The gear train for parameter values."""
+    """The gear train for parameter values that raise no objection."""
     rubbing = values.joint_friction_radius
     distance = pairing(values).centre_distance
     return Mechanism(
@@ -75,6 +76,7 @@ MODEL = Model(
     description="Pair of external gears: a pinion turns a wheel, slower and the other way round",
     parameters=PARAMETERS,
     mechanism=mechanism,
+    objections=objections,
     stop_time=1.0,
     step_size=5e-3,
     drawing=SHAPES,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Calculated, Output
-from models.port_builders import (
+from mechanism_fmu.model.port_builders import (
     JOINT_FRICTION,
     SETTINGS,
     angle_output,

@@ -61,6 +61,19 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "impossible": {"rocker_length": 0.4},
         "impacts": False,
     },
+    "gear_train": {
+        "rough": {
+            "pinion_angle_start": 1.0,
+            "pinion_speed_start": 12.0,
+            "drive_stiffness": 2.0,
+            "wheel_damping": 1e-2,
+            "joint_friction_radius": 1e-3,
+        },
+        "inputs": {"drive_torque": (-1.0, 2.0), "load_torque": (-1.0, 1.0), "drive_speed": (3.0, 7.0)},
+        "until": 2.0,
+        "impossible": {"pinion_radius": 900.0},
+        "impacts": False,
+    },
 }
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from mechanism_fmu.model import IMPACT_BUFFER_LENGTH, Input, Output, Parameter
+from ..codes import IMPACT_BUFFER_LENGTH
+from .ports import Input, Output, Parameter
 
 #: What a model tells of an impact: from the prefix of the names, the prefix of the sources, and which impact it is.
 ImpactFields = Callable[[str, str, str], tuple[Output, ...]]
