@@ -95,13 +95,23 @@ class Timing:
 
 
 def timing(values: SimpleNamespace) -> Timing:
-    """When the follower moves: at both dwells the contact lies on the line from the cam's hinge to the roller."""
+    """When the follower moves, in the first turn of the cam that has a whole swing.
+
+    At the ends of dwells the contact lies on the line from the cam's hinge to the roller: theta is its direction less
+    alpha of the profile there.
+    """
     near = values.base_radius + values.roller_radius
     low, high = follower_angle(values, near), follower_angle(values, near + values.lift)
     below, above = roller_direction(values, low), roller_direction(values, high)
-    risen = above + values.rise_angle
-    fallen = below + values.rise_angle + values.dwell_angle + values.return_angle
-    return Timing(low, high, below, risen, risen + values.dwell_angle, fallen)
+    turn, top = 2 * math.pi, values.dwell_angle + values.return_angle
+    return Timing(
+        low,
+        high,
+        rise_start=below + turn - top - values.rise_angle,
+        rise_end=above + turn - top,
+        return_start=above + turn - values.return_angle,
+        return_end=below + turn,
+    )
 
 
 def start_angle(values: SimpleNamespace) -> Number:
