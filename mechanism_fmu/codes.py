@@ -48,7 +48,7 @@ CAM_FOLLOWER = 3
 CAM_FLAT_FOLLOWER = 4
 POINT_FOLLOWER = 5
 
-# contact_data columns: of POINT_LINE the point and (as contact_line) the line; of profiles see `engine.profiles`; of
+# contact_data columns: of POINT_LINE the point and (as contact_line) the line; of profiles see their specs; of
 # ANGLE_STOP and ANGLE_LOCK:
 POINT_X = 0
 STOP_ANGLE = 0

@@ -220,10 +220,17 @@ static const double RECOMPUTE_BELOW = 1e-4;       /* below, subtraction has canc
 
 static double dot(const double *a, const double *b, int length)
 {
-    double total = 0.0;
-    for (int k = 0; k < length; k++)
-        total += a[k] * b[k];
-    return total;
+    double first = 0.0, second = 0.0, third = 0.0, fourth = 0.0;
+    int k = 0;
+    for (; k + 4 <= length; k += 4) {
+        first += a[k] * b[k];
+        second += a[k + 1] * b[k + 1];
+        third += a[k + 2] * b[k + 2];
+        fourth += a[k + 3] * b[k + 3];
+    }
+    for (; k < length; k++)
+        first += a[k] * b[k];
+    return (first + second) + (third + fourth);
 }
 
 static void add_multiple(double *restrict target, double factor, const double *restrict source, int length)

@@ -162,11 +162,20 @@ def _solve_deficient(block: Array, count: int, rank: int) -> None:
 
 @jit
 def _dot(a: Array, b: Array, length: int) -> float:
-    """Scalar product of the first `length` entries."""
-    total = 0.0
-    for k in range(length):
-        total += a[k] * b[k]
-    return total
+    """Scalar product of the first `length` entries, in four sums: one would wait for each addition."""
+    first = 0.0
+    second = 0.0
+    third = 0.0
+    fourth = 0.0
+    whole = length - length % 4
+    for k in range(0, whole, 4):
+        first += a[k] * b[k]
+        second += a[k + 1] * b[k + 1]
+        third += a[k + 2] * b[k + 2]
+        fourth += a[k + 3] * b[k + 3]
+    for k in range(whole, length):
+        first += a[k] * b[k]
+    return (first + second) + (third + fourth)
 
 
 @jit

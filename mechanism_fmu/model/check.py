@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from .. import codes
 from .body import GROUND
 from .check_contacts import check_contacts
 from .check_numbers import number_findings
+from .compile import curve_owners
 from .errors import MechanismError
 from .findings import messages
 from .ports import Calculated, Input, Output
@@ -28,6 +30,7 @@ def check(mechanism: Mechanism) -> None:
         *_names(mechanism),
         *_references(mechanism),
         *check_contacts(mechanism),
+        *_curves(mechanism),
         *_ports(mechanism),
     ]
     if problems:
@@ -66,6 +69,18 @@ def _references(mechanism: Mechanism) -> Iterator[str]:
                 yield f"{label} is attached to unknown body {name!r}; there are {', '.join(known)} and {GROUND!r}."
         if bodies[0] == bodies[1]:
             yield f"{label} joins {bodies[0]!r} to itself; attach it to two different bodies."
+
+
+def _curves(mechanism: Mechanism) -> Iterator[str]:
+    for owner, curve in curve_owners(mechanism):
+        if not curve.pieces:
+            yield f"The curve of {owner!r} has no pieces; give at least one."
+        longest = max((len(term.polynomial) for piece in curve.pieces for term in piece.terms), default=0)
+        if longest > codes.AMPLITUDE:
+            yield (
+                f"The curve of {owner!r} has a polynomial of {longest} coefficients; {codes.AMPLITUDE} is the most: "
+                f"give several pieces."
+            )
 
 
 def _ports(mechanism: Mechanism) -> Iterator[str]:

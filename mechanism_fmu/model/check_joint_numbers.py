@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .body import Point
-from .conditions import finite_positive, length, plain
+from .conditions import finite, finite_positive, length, plain, positive
 from .contacts import Contact
 from .curves import Curve
 from .findings import Finding, literal, refuse_unless
@@ -50,10 +50,15 @@ def pair_findings(contact: Contact) -> Iterator[Finding]:
         yield _axis(f"Contact {literal(repr(contact.name))}: direction_j", contact.direction_j)
 
 
-def curve_numbers(curve: Curve) -> list[Number]:
-    """All numbers of a curve."""
+def curve_findings(owner: str, curve: Curve) -> Iterator[Finding]:
+    """Every problem that the numbers of a curve of the part `owner` can have."""
+    label = literal(repr(owner))
     terms = [number for piece in curve.pieces for term in piece.terms for number in term.data()]
-    return [curve.start, curve.span, *(piece.start for piece in curve.pieces), *terms]
+    numbers = [curve.start, curve.span, *(piece.start for piece in curve.pieces), *terms]
+    yield refuse_unless(finite(*numbers), f"The curve of {label} holds a number that is not finite; give finite ones.")
+    if curve.periodic:
+        text = f"The curve of {label} repeats itself after span = {{:g}}, which must be positive."
+        yield refuse_unless(positive(curve.span), text, curve.span)
 
 
 def _axis(what: str, axis: Point) -> Finding:

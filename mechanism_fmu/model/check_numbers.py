@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from .body import Body
 from .check_contact_numbers import contact_findings, pattern_findings
-from .check_joint_numbers import curve_numbers, joint_findings, pair_findings
+from .check_joint_numbers import curve_findings, joint_findings, pair_findings
 from .compile import curve_owners
 from .conditions import (
     finite,
@@ -50,8 +50,7 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
     for contact in mechanism.contacts:
         yield from pair_findings(contact)
     for owner, curve in curve_owners(mechanism):
-        text = f"{literal(repr(owner))}: its curve holds a number that is not finite; give finite ones."
-        yield refuse_unless(finite(*curve_numbers(curve)), text)
+        yield from curve_findings(owner, curve)
     yield from _settings(mechanism.settings)
 
 

@@ -14,10 +14,15 @@ GIVEN = {
     "contacts": 5,
     "patterns": 2,
     "functions": 3,
+    "curves": 4,
+    "pieces": 6,
+    "terms": 9,
+    "alphas": 3,
     "held": 1,
     "inputs": 6,
     "outputs": 7,
     "joint_rows": 8,
+    "contact_rows": 7,
 }
 HEADER = len(SIZES) + len(FIELDS)
 
@@ -37,7 +42,10 @@ def test_sizes_that_follow_from_others():
     assert list(sizes) == list(SIZES)
     assert sizes.items() >= GIVEN.items()
     assert (sizes["coordinates"], sizes["columns"], sizes["frames"]) == (6, 9, 3)
-    assert (sizes["rows"], sizes["unknowns"], sizes["buffer"]) == (14, 14, codes.IMPACT_BUFFER_LENGTH)
+    assert sizes["wide"] == 9 + 3  # a column for each contact coordinate
+    assert sizes["rows"] == 8 + 7 + 1  # of joints, of contacts, a spare one
+    assert sizes["unknowns"] == 2 * 6 + 2 + 3  # positions, rates, work and loss, contact coordinates
+    assert sizes["buffer"] == codes.IMPACT_BUFFER_LENGTH
     assert sizes["guards"] == 2 * 5 + 2 * 2 + 3  # gap and click of a contact, both ends of a pattern, functions
     assert sizes["record"] == 6 + 5 + 12  # six columns, an impulse a contact, all rates before and after
 

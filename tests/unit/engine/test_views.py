@@ -9,12 +9,28 @@ from mechanism_fmu.engine.subset import entry
 
 SIZES_GIVEN = dict(
     zip(
-        ("bodies", "joints", "forces", "contacts", "patterns", "functions", "held", "inputs", "outputs"),
-        range(2, 11),
+        (
+            "bodies",
+            "joints",
+            "forces",
+            "contacts",
+            "patterns",
+            "functions",
+            "curves",
+            "pieces",
+            "terms",
+            "alphas",
+            "held",
+            "inputs",
+            "outputs",
+            "joint_rows",
+            "contact_rows",
+        ),
+        range(2, 17),
         strict=True,
     )
 )
-BLOCK = allocate(SIZES_GIVEN | {"joint_rows": 11})
+BLOCK = allocate(SIZES_GIVEN)
 NAMES = (
     "bodies",
     "joints",
@@ -22,6 +38,7 @@ NAMES = (
     "contacts",
     "patterns",
     "functions",
+    "curves",
     "strikes",
     "watch",
     "ports",

@@ -74,7 +74,10 @@ REFUSALS = {
     "negative stiffness": ({"forces": (DRIVE, replace(SPRING, stiffness=-3.0))}, ["'spring'", "-3 N.m/rad"]),
     "infinite stiffness": ({"forces": (DRIVE, replace(SPRING, stiffness=math.inf))}, ["'spring'", "not finite"]),
     "joint point not finite": ({"joints": (replace(HINGE, point_i=(math.nan, 0.0)), GUIDE)}, ["'hinge'", "finite"]),
-    "axis of length zero": ({"joints": (HINGE, replace(GUIDE, axis_j=(0.0, 0.0)))}, ["'guide'", "axis_j = (0, 0)", "not zero"]),
+    "axis of length zero": (
+        {"joints": (HINGE, replace(GUIDE, axis_j=(0.0, 0.0)))},
+        ["'guide'", "axis_j = (0, 0)", "not zero"],
+    ),
     "input to unknown force": (
         {"inputs": (replace(TORQUE, target="motor.torque"),)},
         ["'torque'", "'motor.torque'", "drive.torque or spring.preload"],

@@ -104,7 +104,7 @@ def test_joints_follow_each_other_in_the_rows():
     assert list(TABLES.joint_body_j) == [2, 0]  # the ground has the number behind the last body
     assert list(TABLES.joint_row) == [0, 2]
     assert TABLES.joint_rows == 4
-    np.testing.assert_array_equal(TABLES.joint_data, [[1, 2, 3, 4, 0, 0, 0, 0], [1, 2, 5, 6, 3, 4, 7, 8]])
+    np.testing.assert_array_equal(TABLES.joint_data, [[1, 2, 3, 4, 0, 0, 0, 0, 0], [1, 2, 5, 6, 3, 4, 7, 8, 0]])
 
 
 def test_forces():
@@ -229,11 +229,13 @@ def test_structure_is_integer_and_numbers_are_floats():
 
 def test_a_single_free_body_has_tables_of_the_right_width():
     tables = Mechanism(bodies=(Body("stone", 1.0, 1.0, (0.0, 1.0, math.pi)),)).compile()
-    assert tables.joint_data.shape == (0, 8)
+    assert tables.joint_data.shape == (0, 9)
     assert tables.force_data.shape == (0, 4)
     assert tables.contact_data.shape == (0, 6)
     assert tables.contact_value.shape == (0, codes.CONTACT_VALUES)
     assert tables.pattern_data.shape == (0, 6)
     assert tables.function_limit.shape == (0,)
-    assert tables.joint_rows == 0
+    assert tables.curve_range.shape == (0, 2)
+    assert tables.term_data.shape == (0, codes.TERM_COLUMNS)
+    assert tables.joint_rows == tables.contact_rows == tables.alphas == 0
     assert tables.body_start[0, 2] == pytest.approx(math.pi)
