@@ -57,14 +57,15 @@ def test_the_profile_is_the_cycloidal_one(name):
 @pytest.mark.parametrize("speed", [W, -3.0])
 @pytest.mark.parametrize("name", CAMS)
 def test_the_follower_is_where_it_should_be_over_one_turn(name, speed):
-    """Angle, speed, acceleration and force at the cam's angle, wherever it starts."""
+    """Angle, speed, acceleration and force at the cam's angle, wherever it starts; rates agree to 1e-9 m/s there."""
     cam = CAMS[name]
     for theta in np.linspace(-math.pi, math.pi, 60, endpoint=False).tolist():
-        simulation = simulation_of(cam, cam_angle_start=theta, cam_speed_start=speed, **STEADY)
+        start = {"cam_angle_start": theta, "cam_speed_start": speed, "baumgarte_alpha": 0.0}
+        simulation = simulation_of(cam, **start, **STEADY)
         found, rates, exact = simulation.read(), simulation.read_rates(), follower(cam, theta)
         assert found["cam_angle"] == theta
         assert found["follower_angle"] == pytest.approx(exact.angle, abs=1e-11)
-        assert found["follower_speed"] == pytest.approx(exact.rate * speed, abs=1e-10)
+        assert found["follower_speed"] == pytest.approx(exact.rate * speed, abs=1e-9 / exact.lever)
         assert rates["follower_speed"] == pytest.approx(exact.curvature * speed**2, abs=1e-8)
         assert found["contact_force"] == pytest.approx(contact_force(cam, theta, speed), abs=1e-9)
         pressure = found["roller_contact_angle"] - 1.5 * math.pi
@@ -145,9 +146,8 @@ def test_the_free_roller_leaves_the_cam_just_when_the_guided_one_begins_to_pull(
 def test_the_roller_lands_with_the_impact_it_should_have(speed, restitution):
     cam = Cam()
     exact = landing(cam, 2.0, speed)
-    simulation = simulation_of(
-        cam, unilateral=True, restitution=restitution, cam_angle_start=2.0, cam_speed_start=speed, **STEADY
-    )
+    start = {"cam_angle_start": 2.0, "cam_speed_start": speed, **STEADY, "cam_inertia": 1e5}
+    simulation = simulation_of(cam, unilateral=True, restitution=restitution, **start)
     simulation.advance(exact.time - 1e-4)
     before = simulation.read()
     assert before["impact_count"] == 0
@@ -164,8 +164,9 @@ def test_the_roller_lands_with_the_impact_it_should_have(speed, restitution):
     assert found["impact_follower_speed"] == pytest.approx(after, rel=1e-7)
     assert found["impact_cam_speed"] == pytest.approx(speed, rel=1e-9)
     lost = (1 - restitution**2) / 2 * exact.closing_speed**2 * cam.inertia / exact.lever**2
-    assert found["energy_lost"] == pytest.approx(lost, rel=1e-6, abs=1e-12)
-    assert found["contact_active"] == (restitution == 0.0)
+    assert found["energy_lost"] == pytest.approx(lost, abs=1e-7)
+    pushes = contact_force(cam, 2.0 + speed * exact.time, speed) > 0.0
+    assert found["contact_active"] == (pushes and restitution == 0.0)
 
 
 def test_a_slow_free_roller_stays_on_the_cam():

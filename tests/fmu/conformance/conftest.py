@@ -74,6 +74,20 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "impossible": {"pinion_radius": 900.0},
         "impacts": False,
     },
+    # So fast that the roller leaves the cam in every turn, and bounces on it.
+    "cam_drive": {
+        "rough": {
+            "unilateral": True,
+            "restitution": 0.3,
+            "cam_speed_start": 45.0,
+            "drive_damping": 0.0,
+            "drive_stiffness": 0.1,
+            "joint_friction_radius": 1e-4,
+        },
+        "inputs": {"drive_torque": (-0.02, 0.02), "load_torque": (-0.005, 0.005), "drive_speed": (3.0, 7.0)},
+        "until": 2.0,
+        "impossible": {"lift": 0.2},
+    },
 }
 
 

@@ -69,7 +69,7 @@ def test_the_content_hash_tells_names_and_contents_apart() -> None:
 APP = typer.Typer()
 APP.command()(command.build)
 
-MODELS = "there are: four_bar, geneva, ratchet, slider_crank"
+MODELS = "there are: cam_drive, four_bar, gear_train, geneva, ratchet, slider_crank"
 
 
 def test_an_unknown_model_is_answered_with_the_list() -> None:
