@@ -71,14 +71,14 @@ def _reach(values: SimpleNamespace) -> tuple[Finding, Finding]:
         Finding(
             at_most(near, apart + _FLAT * (d + arm)),
             "hinge_distance = {:.6g} m and follower_length = {:.6g} m differ by {:.6g} m, which is too much: on the "
-            "base circle the roller's centre is base_radius + roller_radius = {:.6g} m from the cam's hinge. Let them "
-            "differ by less than that.",
+            "base circle the roller's centre is base_radius + roller_radius = {:.6g} m from the cam's hinge. Give "
+            "lengths that differ by less than that.",
             (d, arm, apart, near),
         ),
         Finding(
             at_most((d + arm) * (1 - _FLAT), far),
             "hinge_distance + follower_length = {:.6g} m is too short: on the upper dwell the roller's centre is "
-            "base_radius + lift + roller_radius = {:.6g} m from the cam's hinge. Let them be more together.",
+            "base_radius + lift + roller_radius = {:.6g} m from the cam's hinge. Give lengths that are more together.",
             (d + arm, far),
         ),
     )

@@ -15,7 +15,7 @@ from models.ratchet.svg import INK, Point, View, polar, sheet
 
 from .geometry import pairing
 from .model import MODEL
-from .shapes import ARMS, SHAPES
+from .shapes import ARM, ARMS, ENDS
 
 PINION, WHEEL = "#e9c46a", "#c9d2dc"
 
@@ -28,13 +28,13 @@ def drawing(values: SimpleNamespace) -> str:
     right = pairing(values).centre_distance
     view = View((150, 210), 180 / values.wheel_radius)
     parts = [view.path([(-1.5 * values.pinion_radius, 0.0), (right + 1.2 * values.wheel_radius, 0.0)], _AXIS)]
-    for centre, radius, angle, colour, name in _gears(values):
+    for centre, radius, angle, colour in _gears(values):
         parts += [
             view.circle(centre, radius * view.scale, f'fill="#fff" {_EDGE}'),
-            view.path(_arms(name, values, centre, angle), f'fill="{colour}" {_EDGE}', closed=True),
+            view.path(_arms(centre, radius, angle), f'fill="{colour}" {_EDGE}', closed=True),
             view.hinge(centre),
         ]
-    (at_1, r_1, phi_1, _, _), (at_2, r_2, phi_2, _, _) = _gears(values)
+    (at_1, r_1, phi_1, _), (at_2, r_2, phi_2, _) = _gears(values)
     parts += [
         view.length(at_1, polar(at_1, r_1, math.radians(115)), 0, "R^1"),
         view.length(at_2, polar(at_2, r_2, math.radians(75)), 0, "R^2"),
@@ -53,34 +53,30 @@ def icon(values: SimpleNamespace, path: Path) -> None:
     figure = Figure(figsize=(1, 1), dpi=100)
     FigureCanvasAgg(figure)
     axes = figure.add_axes((0.02, 0.02, 0.96, 0.96))
-    for centre, radius, angle, colour, name in _gears(values):
+    for centre, radius, angle, colour in _gears(values):
         axes.add_patch(Circle(centre, radius, facecolor="white", edgecolor=INK, linewidth=1.2))
-        axes.fill(
-            *zip(*_arms(name, values, centre, angle), strict=True), facecolor=colour, edgecolor=INK, linewidth=0.8
-        )
+        axes.fill(*zip(*_arms(centre, radius, angle), strict=True), facecolor=colour, edgecolor=INK, linewidth=0.8)
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.axis("off")
     figure.savefig(path, transparent=True, metadata={"Software": None})
 
 
-def _gears(values: SimpleNamespace) -> list[tuple[Point, float, float, str, str]]:
-    """Of each gear: centre [m], pitch radius [m], angle [rad], colour, name."""
+def _gears(values: SimpleNamespace) -> list[tuple[Point, float, float, str]]:
+    """Of each gear: centre [m], pitch radius [m], angle [rad], colour."""
     pair, angle = pairing(values), values.pinion_angle_start
     return [
-        ((0.0, 0.0), values.pinion_radius, angle, PINION, "pinion"),
-        ((pair.centre_distance, 0.0), values.wheel_radius, pair.ratio * angle, WHEEL, "wheel"),
+        ((0.0, 0.0), values.pinion_radius, angle, PINION),
+        ((pair.centre_distance, 0.0), values.wheel_radius, pair.ratio * angle, WHEEL),
     ]
 
 
-def _arms(gear: str, values: SimpleNamespace, centre: Point, angle: float) -> list[Point]:
+def _arms(centre: Point, radius: float, angle: float) -> list[Point]:
     """The arms' outline [m]."""
-    known = {c.name: float(c.value) for c in MODEL.mechanism(values).calculated}
-    (shape,) = (s for s in SHAPES if getattr(s, "name", "") == f"{gear}'s arms")
     return [
-        polar(centre, known[radius], angle + 2 * math.pi * k / ARMS + turn)
+        polar(centre, ENDS[end] * radius, angle + 2 * math.pi * k / ARMS + turn)
         for k in range(ARMS)
-        for radius, turn in shape.outline  # type: ignore[union-attr]
+        for end, turn in ARM
     ]
 
 

@@ -7,25 +7,26 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import Calculated, Disc, Hinge, Wheel
 
-#: Arms of a gear as drawn, and where their polygon turns in and out, in pitch radii.
-ARMS, INNER, OUTER = 5, 0.25, 0.92
+#: Arms of a gear as drawn, and where they begin and end, in pitch radii.
+ARMS = 5
+ENDS = {"inner": 0.25, "outer": 0.92}
+
+_HALF, _GAP = 0.35 * math.pi / ARMS, math.pi / ARMS
+#: One arm, about the x axis, from the middle of the gap before it to that behind it: which end, and the angle [rad].
+ARM = (
+    ("inner", -_GAP),
+    ("inner", -_HALF),
+    ("outer", -_HALF),
+    ("outer", _HALF),
+    ("inner", _HALF),
+    ("inner", _GAP),
+)
 
 _PINION_HINGE, _WHEEL_HINGE = (0.0, 0.0), ("centre_distance", 0.0)
-_HALF_ARM = 0.35 * math.pi / ARMS
 
 
 def _arms(gear: str) -> tuple[tuple[str, float], ...]:
-    """One arm, from the gap before it to the gap behind it; the first of the arms points along the x axis."""
-    inner, outer = f"outline_{gear}_inner_radius", f"outline_{gear}_outer_radius"
-    half = math.pi / ARMS
-    return (
-        (inner, -half),
-        (inner, -_HALF_ARM),
-        (outer, -_HALF_ARM),
-        (outer, _HALF_ARM),
-        (inner, _HALF_ARM),
-        (inner, half),
-    )
+    return tuple((f"outline_{gear}_{end}_radius", angle) for end, angle in ARM)
 
 
 SHAPES = (
@@ -44,5 +45,5 @@ def form(values: SimpleNamespace) -> tuple[Calculated, ...]:
     return tuple(
         Calculated(f"outline_{gear}_{end}_radius", share * radius, f"Drawing: {end} end of the {gear}'s arms", "m")
         for gear, radius in radii.items()
-        for end, share in (("inner", INNER), ("outer", OUTER))
+        for end, share in ENDS.items()
     )
