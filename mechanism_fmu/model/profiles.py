@@ -67,7 +67,7 @@ def motion_profile(base_radius: Number, moves: Sequence[Move], back: Law = cyclo
 
 
 def slot(points: Sequence[tuple[float, Number]], degree: int = 3) -> Curve:
-    """An open profile through points (alpha [rad], rho [m]): the spline with rho' = 0 (and rho'' of degree 5) at its ends.
+    """An open profile through points (alpha [rad], rho [m]): a spline, rho' (of degree 5, and rho'') 0 at its ends.
 
     Raises:
         MechanismError: fewer than 3 points, or angles that do not increase.
