@@ -20,6 +20,18 @@ def geneva_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def slider_crank_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built SliderCrank.fmu."""
+    return build_fmu(models.load("slider_crank"), tmp_path_factory.mktemp("fmu"))
+
+
+@pytest.fixture(scope="session")
+def four_bar_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built FourBar.fmu."""
+    return build_fmu(models.load("four_bar"), tmp_path_factory.mktemp("fmu"))
+
+
+@pytest.fixture(scope="session")
 def native_ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Path of a freshly built native Ratchet.fmu."""
     return build_native_fmu(models.load("ratchet"), tmp_path_factory.mktemp("native"))
@@ -29,3 +41,15 @@ def native_ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def native_geneva_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Path of a freshly built native Geneva.fmu."""
     return build_native_fmu(models.load("geneva"), tmp_path_factory.mktemp("native"))
+
+
+@pytest.fixture(scope="session")
+def native_slider_crank_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built native SliderCrank.fmu."""
+    return build_native_fmu(models.load("slider_crank"), tmp_path_factory.mktemp("native"))
+
+
+@pytest.fixture(scope="session")
+def native_four_bar_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built native FourBar.fmu."""
+    return build_native_fmu(models.load("four_bar"), tmp_path_factory.mktemp("native"))

@@ -26,19 +26,8 @@ _STEPS = 200
 
 
 def value(curve: Curve, x: float, order: int) -> float:
-    """A derivative of a curve within its range."""
-    piece = [piece for piece in curve.pieces if piece.start <= x][-1]
-    return _of_piece(piece, x - piece.start, order)
-
-
-def _of_piece(piece: Piece, xi: float, order: int) -> float:
-    total = 0.0
-    for term in piece.terms:
-        powers = range(order, len(term.polynomial))
-        total += sum(math.perm(k, order) * term.polynomial[k] * xi ** (k - order) for k in powers)
-        wave = math.sin(term.frequency * xi + term.phase + order * math.pi / 2)
-        total += term.amplitude * term.frequency**order * wave
-    return total
+    """A derivative of a curve."""
+    return float(curve_values(curve, np.array([x]))[order, 0])
 
 
 def motion_laws() -> str:
@@ -81,7 +70,8 @@ def _chart(left: float, title: str, order: int, most: float, ticks: Sequence[flo
 
 def _graph(pieces: tuple[Piece, ...], order: int, place: Callable[[float, float], Point], colour: str) -> str:
     curve = Curve(pieces)
-    points = [place(k / _STEPS, value(curve, k / _STEPS, order)) for k in range(_STEPS + 1)]
+    places = np.linspace(0.0, 1.0, _STEPS + 1)
+    points = map(place, places.tolist(), curve_values(curve, places)[order].tolist())
     corners = " L".join(f"{x:.2f} {y:.2f}" for x, y in points)
     return f'<path d="M{corners}" fill="none" stroke="{colour}" stroke-width="2"/>'
 
@@ -96,7 +86,7 @@ def slides_cam() -> str:
     concave = f'fill="none" stroke="{ACCENT}" stroke-width="5" stroke-opacity="0.8"'
 
     def rho(alpha: float) -> float:
-        return value(SLIDES, alpha % (2 * math.pi), 0)
+        return value(SLIDES, alpha, 0)
 
     return sheet(
         600,
@@ -128,5 +118,7 @@ def slides_cam() -> str:
 
 def _nearest(point: Point) -> Point:
     """The point of the slides' cam nearest to another."""
-    candidates = (polar((0.0, 0.0), value(SLIDES, k * 1e-4, 0), k * 1e-4) for k in range(62832))
-    return min(candidates, key=lambda c: math.hypot(c[0] - point[0], c[1] - point[1]))
+    angles = np.linspace(0.0, 2 * math.pi, 62833)
+    x, y = curve_values(SLIDES, angles)[0] * np.array([np.cos(angles), np.sin(angles)])
+    k = np.hypot(x - point[0], y - point[1]).argmin()
+    return float(x[k]), float(y[k])

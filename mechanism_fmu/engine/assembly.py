@@ -69,6 +69,14 @@ def begin(block: Array, time: float) -> int:
     return outcome
 
 
+@entry
+def assemble_at(block: Array, time: float) -> int:
+    """Close the position rows from the start guess at `time` [s], whatever the rates; return a status (see `begin`)."""
+    set_time(block, time)
+    _start_guess(block, 0)
+    return assemble(block)
+
+
 @jit
 def _neighbour(k: int) -> int:
     """0, -1, 1, -2, 2 ... for k = 0, 1, 2 ...: copies near the guess first, and at last the guess once more."""

@@ -18,7 +18,7 @@ from .guards import gap
 from .kinematics import place_bodies
 from .records import keep_impact
 from .room import Array
-from .rows import contact_row, spare_row
+from .rows import contact_row, driver_power, spare_row
 from .subset import jit, keep_small
 from .views import bodies, contacts, course, linear_system, rows, sizes, strikes
 
@@ -65,6 +65,7 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
         taking_part.impulse[c] = 0.0
         if table.mode[c] == codes.CLOSED:
             taking_part.impulse[c] = linear_system(block).multiplier[table.row[c]]
+    course(block).y_end[2 * n] += driver_power(block)  # of impulses: drivers do work at once
     rub(block)
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:

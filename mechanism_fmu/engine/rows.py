@@ -167,7 +167,10 @@ def follow_open_contacts(block: Array) -> None:
 
 @jit
 def driver_power(block: Array) -> float:
-    """Power that drivers give, by the multipliers of the last solve: multiplier nu, summed over their rows [W]."""
+    """Power that drivers give, by the multipliers of the last solve: multiplier nu, summed over their rows [W].
+
+    After an impact the multipliers are impulses, and it is their work [J].
+    """
     table = joints(block)
     power = 0.0
     for k in range(table.kind.shape[0]):

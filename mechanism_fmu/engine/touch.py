@@ -13,9 +13,10 @@ from typing import NamedTuple
 
 from .. import codes
 from .curves import curve
+from .joints.profile import profile_point
 from .room import Array
 from .subset import jit, keep_small
-from .views import contacts, pose
+from .views import Pose, contacts, pose
 
 
 class Touch(NamedTuple):
@@ -47,60 +48,37 @@ def look(block: Array, contact: int) -> Touch:
     at = pose(block)
     data = table.data[contact]
     kind = table.kind[contact]
-    ci = at.cosine[table.body_i[contact]]
-    si = at.sine[table.body_i[contact]]
-    cj = at.cosine[table.body_j[contact]]
-    sj = at.sine[table.body_j[contact]]
+    i = table.body_i[contact]
+    j = table.body_j[contact]
     first = table.alpha[contact]
-    ax, ay, gx, gy, hx, hy = data[0], data[1], 0.0, 0.0, 0.0, 0.0
-    if kind != codes.POINT_FOLLOWER:
-        x, y, gx, gy, hx, hy = _profile(block, table.curve_i[contact], at.alpha[first])
-        ax += x
-        ay += y
-    bx, by, tx, ty, stretch, turn = data[2], data[3], -data[4], -data[5], 0.0, 0.0
-    if kind != codes.CAM_FLAT_FOLLOWER:
+    gx, gy, hx, hy, stretch, turn = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    if kind == codes.POINT_FOLLOWER:
+        ax, ay = turned(at, i, data[0], data[1])
+    else:
+        profile = curve(block, table.curve_i[contact], at.alpha[first])
+        ax, ay, gx, gy, hx, hy, _, _ = profile_point(at, i, data[0], data[1], at.alpha[first], profile)
+    if kind == codes.CAM_FLAT_FOLLOWER:
+        bx, by = turned(at, j, data[2], data[3])
+        tx, ty = turned(at, j, -data[4], -data[5])
+    else:
         last = first
         if kind == codes.CAM_FOLLOWER:
             last = first + 1
-        x, y, tx, ty, kx, ky = _profile(block, table.curve_j[contact], at.alpha[last])
-        bx += x
-        by += y
+        alpha = at.alpha[last]
+        profile = curve(block, table.curve_j[contact], alpha)
+        bx, by, tx, ty, kx, ky, _, _ = profile_point(at, j, data[2], data[3], alpha, profile)
         stretch = math.sqrt(tx * tx + ty * ty)
         tx /= stretch
         ty /= stretch
         turn = (tx * ky - ty * kx) / stretch
-    return Touch(
-        ci * ax - si * ay,
-        si * ax + ci * ay,
-        cj * bx - sj * by,
-        sj * bx + cj * by,
-        ci * gx - si * gy,
-        si * gx + ci * gy,
-        ci * hx - si * hy,
-        si * hx + ci * hy,
-        cj * tx - sj * ty,
-        sj * tx + cj * ty,
-        stretch,
-        turn,
-    )
+    return Touch(ax, ay, bx, by, gx, gy, hx, hy, tx, ty, stretch, turn)
 
 
 @jit
-def _profile(block: Array, number: int, alpha: float) -> tuple[float, float, float, float, float, float]:
-    """Point rho e(alpha) of a profile and its first two derivatives, in the body's frame [m]."""
-    keep_small()
-    rho, rate, bend, _ = curve(block, number, alpha)
-    c = math.cos(alpha)
-    s = math.sin(alpha)
-    inward = bend - rho
-    return (
-        rho * c,
-        rho * s,
-        rate * c - rho * s,
-        rate * s + rho * c,
-        inward * c - 2.0 * rate * s,
-        inward * s + 2.0 * rate * c,
-    )
+def turned(at: Pose, body: int, x: float, y: float) -> tuple[float, float]:
+    """A vector (x, y) of a body, in the global frame."""
+    c, s = at.cosine[body], at.sine[body]
+    return c * x - s * y, s * x + c * y
 
 
 @jit

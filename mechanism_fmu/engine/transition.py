@@ -42,6 +42,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     inverse_mass = bodies(block).inverse_mass
     old_mode = mode_number(block)
     energy = kinetic_energy(inverse_mass, rate, n)
+    work = now.y_end[2 * n]
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
@@ -68,6 +69,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     outcome = _settle(block, fired, only_choose, hits > 0)
     if outcome != status.OK:
         return outcome
+    energy += now.y_end[2 * n] - work
     now.ledger[codes.LEDGER_LOST] += energy - kinetic_energy(inverse_mass, rate, n)
     if not only_choose or (guard == codes.GUARD_INPUT and mode_number(block) != old_mode):
         keep_event(block, guard, subject, old_mode, impulse)

@@ -31,6 +31,30 @@ def native_geneva(native_geneva_fmu: Path, tmp_path_factory: pytest.TempPathFact
     return Fmu.unzip(native_geneva_fmu, tmp_path_factory.mktemp("native_geneva"))
 
 
+@pytest.fixture(scope="session")
+def slider_crank(slider_crank_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The slider-crank's FMU, unzipped."""
+    return Fmu.unzip(slider_crank_fmu, tmp_path_factory.mktemp("slider_crank"))
+
+
+@pytest.fixture(scope="session")
+def four_bar(four_bar_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The four-bar linkage's FMU, unzipped."""
+    return Fmu.unzip(four_bar_fmu, tmp_path_factory.mktemp("four_bar"))
+
+
+@pytest.fixture(scope="session")
+def native_slider_crank(native_slider_crank_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The native slider-crank's FMU, unzipped."""
+    return Fmu.unzip(native_slider_crank_fmu, tmp_path_factory.mktemp("native_slider_crank"))
+
+
+@pytest.fixture(scope="session")
+def native_four_bar(native_four_bar_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The native four-bar linkage's FMU, unzipped."""
+    return Fmu.unzip(native_four_bar_fmu, tmp_path_factory.mktemp("native_four_bar"))
+
+
 @pytest.fixture
 def instance(ratchet: Fmu) -> Iterator[Callable[..., Instance]]:
     """A function that makes instances of the ratchet; they are freed after the test."""

@@ -82,10 +82,11 @@ def test_wrong_arguments_are_wrong_use(arguments: list[str]) -> None:
 def test_build_knows_its_models(tmp_path: Path) -> None:
     code, text = invoke("build", "gearbox", "-o", tmp_path)
     assert code == 2
-    assert "There is no model 'gearbox'; there are: geneva, ratchet" in text
+    assert "There is no model 'gearbox'; there are: four_bar, geneva, ratchet, slider_crank" in text
     code, text = invoke("build", "--list")
     assert code == 0
-    assert text.startswith("geneva External Geneva drive")
+    assert text.startswith("four_bar Four-bar linkage")
+    assert " geneva External Geneva drive" in text
     assert " ratchet Ratchet of Pennestrì" in text
 
 

@@ -32,6 +32,35 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "until": 2.0,
         "impossible": {"pin_diameter": 0.05},
     },
+    # Without contacts there are no impacts: weight, friction and a soft shaft or a spring make the run uneven.
+    "slider_crank": {
+        "rough": {
+            "offset": 0.03,
+            "rod_length": 0.15,
+            "crank_speed_start": 12.0,
+            "gravity": 9.81,
+            "drive_stiffness": 0.3,
+            "slider_friction": 0.1,
+        },
+        "inputs": {"drive_torque": (-0.05, 0.05), "load_force": (-1.0, 1.0), "drive_speed": (3.0, 7.0)},
+        "until": 2.0,
+        "impossible": {"offset": 0.3},
+        "impacts": False,
+    },
+    "four_bar": {
+        "rough": {
+            "crossed": True,
+            "crank_angle_start": 1.0,
+            "crank_speed_start": 12.0,
+            "gravity": 9.81,
+            "spring_stiffness": 0.05,
+            "crank_damping": 1e-3,
+        },
+        "inputs": {"drive_torque": (-0.05, 0.05), "load_torque": (-0.05, 0.05), "drive_speed": (3.0, 7.0)},
+        "until": 2.0,
+        "impossible": {"rocker_length": 0.4},
+        "impacts": False,
+    },
 }
 
 

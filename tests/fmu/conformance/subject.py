@@ -14,10 +14,11 @@ class Subject:
 
     Attributes:
         fmu: unzipped.
-        rough: parameters of a run with several impacts.
+        rough: parameters of a run that is not the default one, with several impacts if the mechanism has any.
         inputs: range of each input in which the motion stays smooth enough for short tests.
-        until: a time [s] by which the rough run has had impacts.
+        until: a time [s] by which the rough run has had its impacts.
         impossible: parameter values that are each within their limits, and that no mechanism can have together.
+        impacts: whether the mechanism has contacts that can strike; one without has no events either.
         native: whether no Python runs in it.
     """
 
@@ -26,7 +27,20 @@ class Subject:
     inputs: Mapping[str, tuple[float, float]]
     until: float
     impossible: Mapping[str, Value]
+    impacts: bool = True
     native: bool = False
+
+    @property
+    def told(self) -> set[str]:
+        """Log categories of what happens in the rough run."""
+        return {"logEvents"} if self.impacts else set()
+
+    def assert_struck(self, one: Instance) -> None:
+        """After the rough run there have been impacts, or the FMU knows of none."""
+        if self.impacts:
+            assert one["impact_count"] > 0
+        else:
+            assert not [name for name in self.fmu.variables if name.startswith(("impact", "event"))]
 
     def reference(self, one: Instance, until: float | None = None) -> dict[str, Value]:
         """All outputs at the end of the rough run."""

@@ -18,7 +18,9 @@ def test_a_state_holds_start_time_and_tolerance(subject, instance):
     other.restore_bytes(saved, time)
     other.run(-1.0, 0.05)
     assert other.outputs() == one.outputs()
-    assert one["impact_time"] < 0
+    subject.assert_struck(one)
+    if subject.impacts:
+        assert one["impact_time"] < 0
 
 
 def test_a_state_saved_in_initialization_mode_goes_back_into_it(subject, instance):
@@ -87,7 +89,7 @@ def test_a_state_mends_an_instance_that_has_refused(subject, instance):
     one.slave.freeFMUstate(state)
 
 
-def test_an_impact_that_is_replayed_is_told_again(subject, instance):
+def test_what_is_replayed_is_told_again(subject, instance):
     one = instance().begin(subject.rough)
     state = one.save()
     told = []
@@ -97,7 +99,7 @@ def test_an_impact_that_is_replayed_is_told_again(subject, instance):
         one.run(subject.until, 0.05)
         told.append(one.log[since:])
     assert told[0] == told[1]
-    assert any(message.category == "logEvents" for message in told[0])
+    assert {message.category for message in told[0]} >= subject.told
     one.slave.freeFMUstate(state)
 
 

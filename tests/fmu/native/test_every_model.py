@@ -1,14 +1,12 @@
 """Every model in every form: FMI 3.0 goes the way of FMI 2.0, and fmpy finds no fault in it."""
 
 import pytest
-from fmpy import simulate_fmu
+from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
 import models
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.fmu.conformance.conftest import SUBJECTS
-
-OUTPUTS = ["wheel_angle", "wheel_speed", "impact_count", "energy_lost"]
 
 
 @pytest.mark.parametrize("name", sorted(models.available()))
@@ -17,17 +15,21 @@ def test_fmi3_goes_the_way_of_fmi2(name, request, tmp_path):
     third = build_native_fmu(models.load(name), tmp_path, fmi=3)
     assert validate_fmu(str(second)) == validate_fmu(str(third)) == []
 
+    subject = SUBJECTS[name]
+    # FMI 3.0 has arrays instead of the buffers, and a clock instead of the Boolean.
+    variables = read_model_description(str(second)).modelVariables
+    outputs = [v.name for v in variables if v.causality == "output" and "[" not in v.name and v.name != "impact"]
+
     def run(fmu, **options):
-        subject = SUBJECTS[name]
         start = dict(subject["rough"])
         return simulate_fmu(
-            str(fmu), stop_time=subject["until"], output_interval=0.125, start_values=start, output=OUTPUTS, **options
+            str(fmu), stop_time=subject["until"], output_interval=0.125, start_values=start, output=outputs, **options
         )
 
     expected, found = run(second), run(third)
-    for output in OUTPUTS:
+    for output in outputs:
         assert list(found[output]) == list(expected[output]), output
-    assert found["impact_count"][-1] > 0
     at_impacts = run(third, use_event_mode=True, early_return_allowed=True)
-    assert at_impacts["impact_count"][-1] == expected["impact_count"][-1]
+    if subject.get("impacts", True):
+        assert at_impacts["impact_count"][-1] == expected["impact_count"][-1] > 0
     assert at_impacts["energy_lost"][-1] == pytest.approx(expected["energy_lost"][-1], rel=1e-9)

@@ -41,7 +41,9 @@ def ratchet(tmp_path_factory: pytest.TempPathFactory) -> ModelDescription:
 
 
 @pytest.mark.parametrize(
-    "model", [MODEL, BARE, RATCHET, models.load("geneva").MODEL], ids=("pendulum", "bare", "ratchet", "geneva")
+    "model",
+    [MODEL, BARE, *(models.load(name).MODEL for name in models.available())],
+    ids=("pendulum", "bare", *models.available()),
 )
 def test_fmpy_finds_no_problem(model: Model, tmp_path: Path) -> None:
     assert validate_fmu(str(written(model, tmp_path))) == []

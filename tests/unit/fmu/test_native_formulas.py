@@ -9,6 +9,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
+import models
 from mechanism_fmu.engine.layout import FIELDS, field_of
 from mechanism_fmu.engine.pack import pack
 from mechanism_fmu.fmu.native.formulas import c_number, formulas, printf_text
@@ -97,7 +98,10 @@ def _library(source, path):
     return ctypes.CDLL(str(path.with_suffix(".so")))
 
 
-@pytest.fixture(scope="module", params=[RATCHET, GENEVA, SMALL], ids=lambda model: model.name)
+MODELS = [*(models.load(name).MODEL for name in models.available()), SMALL]
+
+
+@pytest.fixture(scope="module", params=MODELS, ids=lambda model: model.name)
 def compiled(request, tmp_path_factory):
     if COMPILER is None or sys.platform == "win32":
         pytest.skip("needs a C compiler")

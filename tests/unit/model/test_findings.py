@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import models
 from mechanism_fmu.model import Finding, MechanismError
 from mechanism_fmu.model.findings import at_most, either, first, messages, pieces, where
-from models.geneva.model import MODEL as GENEVA
 from models.ratchet.model import MODEL as RATCHET
 from tests.parameter_sets import within_limits
 
@@ -59,10 +59,11 @@ def test_conditions_are_those_of_plain_numbers(a, b):
     assert (either(a, b) > 0) == (a > 0 or b > 0)
 
 
-@pytest.mark.parametrize("model", [RATCHET, GENEVA], ids=["Ratchet", "Geneva"])
+@pytest.mark.parametrize("name", models.available())
 @settings(deadline=None)
 @given(st.data())
-def test_findings_can_be_asked_for_any_values_within_the_limits(model, data):
+def test_findings_can_be_asked_for_any_values_within_the_limits(name, data):
+    model = models.load(name).MODEL
     values = data.draw(within_limits(model))
     for message in (*model.refused(values), *model.warned(values)):
         assert message.endswith(".")

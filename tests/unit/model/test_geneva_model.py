@@ -1,15 +1,11 @@
 """The Geneva drive's parameters-to-tables function: what it refuses, its outline, symbolic numbers."""
 
 import math
-from dataclasses import fields
-from types import SimpleNamespace
 
-import numpy as np
 import pytest
-from test_symbolic_tables import Dual, dual
+from derivatives import assert_derivatives_agree
 
 from mechanism_fmu.model import MechanismError
-from mechanism_fmu.model.compile import compile_tables
 from models.geneva.model import MODEL
 from models.geneva.shapes import SHAPES
 
@@ -20,29 +16,10 @@ POINTS = {
 }
 
 
-def tables(values):
-    compiled = compile_tables(MODEL.mechanism(SimpleNamespace(**values)))
-    return {f.name: np.asarray(getattr(compiled, f.name)) for f in fields(compiled)}
-
-
 @pytest.mark.parametrize("point", POINTS)
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_derivatives_agree_with_differences(name, point):
-    values = vars(MODEL.values(**POINTS[point]))
-    size = 1e-6 * max(abs(values[name]), 1e-3)
-    exact = tables(values | {name: Dual(values[name], 1.0)})
-    plus, minus = (tables(values | {name: values[name] + d}) for d in (size, -size))
-    moved = False
-    for table, numbers in exact.items():
-        if np.issubdtype(numbers.dtype, np.integer):
-            np.testing.assert_array_equal(plus[table], numbers)
-            continue
-        derivative = np.array([dual(x).b for x in numbers.flat])
-        difference = ((plus[table] - minus[table]) / (2 * size)).ravel()
-        scale = max(1.0, np.abs(difference).max(initial=0.0))
-        np.testing.assert_allclose(derivative, difference, rtol=0, atol=2e-6 * scale, err_msg=table)
-        moved = moved or bool(derivative.any())
-    assert moved, f"no table depends on {name}"
+    assert_derivatives_agree(MODEL, vars(MODEL.values(**POINTS[point])), name)
 
 
 @pytest.mark.parametrize("slots", range(3, 25))

@@ -7,16 +7,16 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
+import models
 from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model, Parameter
 from mechanism_fmu.model.compile import compile_tables
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan, where_positive
 from mechanism_fmu.model.symbol import Operation, Recorder
 from mechanism_fmu.model.trace import trace
-from models.geneva.model import MODEL as GENEVA
 from models.ratchet.model import MODEL as RATCHET
 from tests.parameter_sets import near_defaults, within_limits
 
-TRACES = [pytest.param(trace(model), id=model.name) for model in (RATCHET, GENEVA)]
+TRACES = [pytest.param(trace(models.load(name).MODEL), id=name) for name in models.available()]
 
 
 def assert_same_bits(found, expected):

@@ -1,0 +1,159 @@
+"""What a profile is like before it meets a follower: curvature, hollows, jumps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ..model.curves import Curve, Piece
+from .profile_values import curvature, piece_values
+from .rank import FloatArray
+
+_SAMPLES = 400
+#: A jump of a derivative at a join counts when it is larger than this part of the radius.
+_JUMP = 1e-6
+
+
+@dataclass(frozen=True)
+class Jump:
+    """At alpha [rad], the derivative of rho of this order (0: rho itself) is `before` and `after` [m]."""
+
+    alpha: float
+    order: int
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
+class ProfileReport:
+    """A cam's profile.
+
+    Attributes:
+        least_rho, largest_rho: distances from the centre [m].
+        tip_radius: smallest radius of curvature where the profile is convex [m], at `tip_alpha` [rad].
+        hollow_radius: smallest radius of curvature where it is concave [m], at `hollow_alpha`; infinite when convex.
+        hollows: where it is concave, from and to [rad].
+        jumps: of rho, rho' and rho'' at joins: an edge, a jump in the follower's speed, or in its acceleration.
+    """
+
+    least_rho: float
+    largest_rho: float
+    tip_radius: float
+    tip_alpha: float
+    hollow_radius: float
+    hollow_alpha: float
+    hollows: tuple[tuple[float, float], ...]
+    jumps: tuple[Jump, ...]
+
+    @property
+    def convex(self) -> bool:
+        """Whether a flat face touches every point of it."""
+        return not self.hollows
+
+    def problems(self, roller_radius: float | None = None) -> tuple[str, ...]:
+        """What an engineer should know, one sentence each.
+
+        Args:
+            roller_radius: of the follower's roller [m]; None for a flat face.
+        """
+        return tuple(self._problems(roller_radius))
+
+    def _problems(self, roller_radius: float | None) -> list[str]:
+        found = []
+        where = ", ".join(f"{math.degrees(a):.2f} to {math.degrees(b):.2f} deg" for a, b in self.hollows)
+        if roller_radius is None and not self.convex:
+            found.append(f"The profile is not convex (hollow at {where}): a flat face bridges the hollow.")
+        if roller_radius is not None and roller_radius >= self.hollow_radius:
+            found.append(
+                f"The roller of radius {roller_radius:g} m does not fit into the hollow at "
+                f"{math.degrees(self.hollow_alpha):.2f} deg, whose radius is {self.hollow_radius:.6g} m: it touches at "
+                "two points. Give a smaller roller, or a smoother profile."
+            )
+        if self.least_rho <= 0.0:
+            found.append(f"rho falls to {self.least_rho:g} m: a profile must stay away from its centre.")
+        what = ("an edge", "a jump in the follower's speed", "a jump in the follower's acceleration")
+        found += [
+            f"At {math.degrees(jump.alpha):.2f} deg the {('radius', 'slope', 'bend')[jump.order]} of the profile jumps "
+            f"from {jump.before:.6g} to {jump.after:.6g} m: {what[jump.order]}."
+            for jump in self.jumps
+        ]
+        return found
+
+    def undercut(self, roller_radius: float) -> bool:
+        """Whether a cam cut with such a roller, this profile being the path of its centre, is undercut."""
+        return roller_radius >= self.tip_radius
+
+
+def profile_report(profile: Curve) -> ProfileReport:
+    """Curvature, hollows and jumps of a profile with plain numbers."""
+    ends = [float(piece.start) for piece in profile.pieces[1:]] + [float(profile.start) + float(profile.span)]
+    begins = [float(profile.start), *ends[:-1]]
+    places, bends, rhos = [], [], []
+    hollows: list[tuple[float, float]] = []
+    at_ends = []
+    for piece, begin, end in zip(profile.pieces, begins, ends, strict=True):
+        if end <= begin:
+            continue
+        grid = np.linspace(begin, end, _SAMPLES + 1)
+        values = piece_values(piece, grid)
+        at_ends.append((begin, values[:, 0], end, values[:, -1]))
+        places.append(grid)
+        bends.append(curvature(values))
+        rhos.append(values[0])
+
+        hollows += _below_zero(grid, bends[-1], partial(_bend, piece))
+    place, bend_, rho = np.concatenate(places), np.concatenate(bends), np.concatenate(rhos)
+    tip, hollow = int(np.argmax(bend_)), int(np.argmin(bend_))
+    return ProfileReport(
+        least_rho=float(rho.min()),
+        largest_rho=float(rho.max()),
+        tip_radius=1 / float(bend_[tip]) if bend_[tip] > 0 else math.inf,
+        tip_alpha=float(place[tip]),
+        hollow_radius=-1 / float(bend_[hollow]) if bend_[hollow] < 0 else math.inf,
+        hollow_alpha=float(place[hollow]),
+        hollows=tuple(_joined(hollows)),
+        jumps=tuple(_jumps(at_ends, profile)),
+    )
+
+
+def _bend(piece: Piece, alpha: float) -> float:
+    return float(curvature(piece_values(piece, np.array([alpha])))[0])
+
+
+def _below_zero(grid: FloatArray, values: FloatArray, function: Callable[[float], float]) -> list[tuple[float, float]]:
+    """The ranges within a piece where the curvature is negative."""
+    edges = [
+        float(brentq(function, grid[k], grid[k + 1])) for k in range(len(grid) - 1) if values[k] * values[k + 1] < 0
+    ]
+    marks = [float(grid[0]), *edges, float(grid[-1])]
+    return [(a, b) for a, b in pairwise(marks) if b > a and function((a + b) / 2) < 0]
+
+
+def _joined(ranges: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Ranges that touch each other as one."""
+    joined: list[tuple[float, float]] = []
+    for begin, end in ranges:
+        if joined and begin - joined[-1][1] < 1e-12:
+            joined[-1] = (joined[-1][0], end)
+        else:
+            joined.append((begin, end))
+    return joined
+
+
+def _jumps(at_ends: list[tuple[float, FloatArray, float, FloatArray]], profile: Curve) -> list[Jump]:
+    joins = list(pairwise(at_ends))
+    if profile.periodic:
+        joins.append((at_ends[-1], at_ends[0]))
+    found = []
+    for (_, _, _, before), (begin, after, _, _) in joins:
+        for order in range(3):
+            if abs(after[order] - before[order]) > _JUMP * abs(before[0]):
+                found.append(Jump(begin, order, float(before[order]), float(after[order])))
+                break  # what follows from it is not told again
+    return found

@@ -1,0 +1,106 @@
+"""The four-bar linkage: crank, coupler and rocker between two fixed hinges, open or crossed.
+
+Frame: the crank's hinge at the origin, the rocker's hinge at (d, 0). The x axis of a link runs along it: of crank and
+rocker from the fixed hinge on, of the coupler from the crank pin on. Equations and sources: README.md beside this file.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+from mechanism_fmu.model import (
+    GROUND,
+    Body,
+    CompliantShaft,
+    Damper,
+    Force,
+    Mechanism,
+    Model,
+    Revolute,
+    Settings,
+    Torque,
+    TorsionSpring,
+)
+from mechanism_fmu.model.functions import Number, cos, sin
+
+from .checks import objections, warnings
+from .geometry import start
+from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
+from .shapes import SHAPES
+
+
+def mechanism(values: SimpleNamespace) -> Mechanism:
+    """The four-bar linkage for parameter values that raise no objection."""
+    a, b, c, d = values.crank_length, values.coupler_length, values.rocker_length, values.ground_length
+    on_crank, on_coupler, on_rocker = values.crank_centre, values.coupler_centre, values.rocker_centre
+    rubbing = values.joint_friction_radius
+    return Mechanism(
+        bodies=_bodies(values),
+        joints=(
+            Revolute("crank_hinge", "crank", (-on_crank, 0.0), GROUND, (0.0, 0.0), rubbing),
+            Revolute("crank_pin", "coupler", (-on_coupler, 0.0), "crank", (a - on_crank, 0.0), rubbing),
+            Revolute("rocker_pin", "rocker", (c - on_rocker, 0.0), "coupler", (b - on_coupler, 0.0), rubbing),
+            Revolute("rocker_hinge", "rocker", (-on_rocker, 0.0), GROUND, (d, 0.0), rubbing),
+        ),
+        forces=(
+            Torque("drive", "crank"),
+            Torque("load", "rocker"),
+            CompliantShaft("shaft", "crank", stiffness=values.drive_stiffness, damping=values.drive_damping),
+            Damper("crank_damper", "crank", damping=values.crank_damping),
+            TorsionSpring("spring", "rocker", stiffness=values.spring_stiffness, free_angle=values.spring_free_angle),
+            Force("crank_weight", "crank", (0.0, -values.crank_mass * values.gravity)),
+            Force("coupler_weight", "coupler", (0.0, -values.coupler_mass * values.gravity)),
+            Force("rocker_weight", "rocker", (0.0, -values.rocker_mass * values.gravity)),
+        ),
+        inputs=INPUTS,
+        outputs=OUTPUTS,
+        calculated=calculated(values),
+        held=("crank.angle",),
+        settings=Settings(values.relative_tolerance, values.baumgarte_alpha, values.baumgarte_beta),
+    )
+
+
+def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
+    a, theta, speed, at = values.crank_length, values.crank_angle_start, values.crank_speed_start, start(values)
+    origin = _Moving(0.0, 0.0)
+    pin = origin.along(a, theta, speed)
+    links = (
+        ("crank", origin, theta, speed),
+        ("coupler", pin, at.coupler_angle, at.coupler_speed),
+        ("rocker", _Moving(values.ground_length, 0.0), at.rocker_angle, at.rocker_speed),
+    )
+    bodies = []
+    for name, begin, angle, turns in links:
+        mass, inertia, distance = (getattr(values, f"{name}_{what}") for what in ("mass", "inertia", "centre"))
+        centre = begin.along(distance, angle, turns)
+        bodies.append(Body(name, mass, inertia, (centre.x, centre.y, angle), (centre.x_rate, centre.y_rate, turns)))
+    return tuple(bodies)
+
+
+@dataclass(frozen=True)
+class _Moving:
+    """A point [m] and its velocity [m/s]."""
+
+    x: Number
+    y: Number
+    x_rate: Number = 0.0
+    y_rate: Number = 0.0
+
+    def along(self, distance: Number, angle: Number, turns: Number) -> _Moving:
+        """The point at a distance [m] along a link that begins here, with its angle [rad] and rate [rad/s]."""
+        x, y = distance * cos(angle), distance * sin(angle)
+        return _Moving(self.x + x, self.y + y, self.x_rate - y * turns, self.y_rate + x * turns)
+
+
+MODEL = Model(
+    name="FourBar",
+    description="Four-bar linkage: a crank moves a rocker through a coupler, open or crossed",
+    parameters=PARAMETERS,
+    mechanism=mechanism,
+    objections=objections,
+    warnings=warnings,
+    stop_time=2.0,
+    step_size=5e-3,
+    drawing=SHAPES,
+)

@@ -1,0 +1,1 @@
+"""The slider-crank: crank, connecting rod and slider, with an offset if wanted."""
