@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
+import numpy as np
+
+from mechanism_fmu.kinematics.profile_values import curve_values
 from mechanism_fmu.model import (
     Curve,
     Piece,

@@ -5,6 +5,7 @@ import inspect
 import io
 import re
 
+import numpy as np
 import pytest
 from pages import JOINTS, PAGES, examples
 
@@ -76,6 +77,12 @@ def test_what_a_page_points_to_is_there(page):
     assert not missing
 
 
-def test_the_drawings_are_those_of_their_scripts():
-    for name, draw in DRAWINGS.items():
-        assert (JOINTS / f"{name}.svg").read_text(encoding="utf-8") == draw(), f"python -m docs.joints.drawings: {name}"
+@pytest.mark.parametrize("name", DRAWINGS)
+def test_a_drawing_is_that_of_its_script(name):
+    """But for the last digit of its numbers [px], which another processor may round otherwise."""
+    number = re.compile(r"-?\d+\.\d+")
+    kept, drawn = (JOINTS / f"{name}.svg").read_text(encoding="utf-8"), DRAWINGS[name]()
+    assert number.sub("#", kept) == number.sub("#", drawn), "python -m docs.joints.drawings"
+    np.testing.assert_allclose(
+        [float(x) for x in number.findall(kept)], [float(x) for x in number.findall(drawn)], rtol=0, atol=0.021
+    )
