@@ -4,20 +4,22 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from mechanism_fmu.model import Calculated, Output
+from mechanism_fmu.model import Calculated
 from mechanism_fmu.model.port_builders import (
-    JOINT_FRICTION,
-    SETTINGS,
-    angle_output,
+    angle_parameter,
+    body_angle_output,
+    body_speed_output,
     damping_parameter,
     energy_outputs,
-    positive_length,
+    force_output,
+    joint_friction_parameter,
+    length_parameter,
     rotor_parameters,
+    settings_parameters,
     shaft_inputs,
     shaft_parameters,
     shaft_torque_output,
-    speed_output,
-    start_parameters,
+    speed_parameter,
     torque_input,
 )
 
@@ -25,44 +27,44 @@ from .geometry import pairing
 from .shapes import form
 
 INPUTS = (
-    torque_input("drive_torque", "pinion", 1.5),
-    torque_input("load_torque", "wheel", -0.7),
+    torque_input("drive", "pinion", 1.5),
+    torque_input("load", "wheel", -0.7),
     *shaft_inputs(speed=0.0),
 )
 
 OUTPUTS = (
-    angle_output("pinion", "phi_1"),
-    angle_output("wheel", "phi_2"),
-    speed_output("pinion"),
-    speed_output("wheel"),
-    Output(
+    body_angle_output("pinion", "phi_1"),
+    body_angle_output("wheel", "phi_2"),
+    body_speed_output("pinion"),
+    body_speed_output("wheel"),
+    force_output(
         "mesh_force",
         "gears.force",
         "Tangential force between the gears (F); its torque on each gear is F times that gear's radius",
-        "N",
+        INPUTS,
         nominal=10.0,
-        feedthrough=tuple(port.name for port in INPUTS),
     ),
     shaft_torque_output("pinion"),
     *energy_outputs(
-        "Kinetic energy of both gears",
-        "Energy of springs within the gear train: none, 0",
-        "Work done by drive shaft, drive_torque and load_torque since the start",
-        "Energy lost in friction and dampers since the start",
+        kinetic="Kinetic energy of both gears",
+        spring="Energy of springs within the gear train: none, 0",
+        work="Work done by drive shaft, drive_torque and load_torque since the start",
+        lost="Energy lost in friction and dampers since the start",
     ),
 )
 
 PARAMETERS = (
-    positive_length("pinion_radius", 0.05, "Radius of the pinion's pitch circle (R1)"),
-    positive_length("wheel_radius", 0.12, "Radius of the wheel's pitch circle (R2)"),
+    length_parameter("pinion_radius", 0.05, "Radius of the pinion's pitch circle (R1)"),
+    length_parameter("wheel_radius", 0.12, "Radius of the wheel's pitch circle (R2)"),
     *rotor_parameters("pinion", 16.0, 0.02),
     *rotor_parameters("wheel", 15.3, 0.11),
-    *start_parameters("pinion", 0.0, "the wheel's is ratio times this", "the wheel's is ratio times this"),
+    angle_parameter("pinion_angle_start", 0.0, "Angle of the pinion at the start; the wheel's is ratio times this"),
+    speed_parameter("pinion_speed_start", 0.0, "Speed of the pinion at the start; the wheel's is ratio times this"),
     damping_parameter("pinion"),
     damping_parameter("wheel"),
     *shaft_parameters(damping=0.0),
-    JOINT_FRICTION,
-    *SETTINGS,
+    joint_friction_parameter(),
+    *settings_parameters(),
 )
 
 

@@ -27,7 +27,9 @@ from mechanism_fmu.model import (
 from mechanism_fmu.model.functions import cos, sin
 
 from .checks import objections, warnings
-from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
+from .inputs import INPUTS
+from .outputs import OUTPUTS
+from .parameters import PARAMETERS, calculated
 from .shapes import SHAPES
 from .start import crank_pin, pawl_angle, starts_on_slope, tooth
 

@@ -119,10 +119,10 @@ def test_two_builds_in_one_process_keep_apart(ratchet, tmp_path):
         shutil.copytree(root / folder, changed / folder, ignore=shutil.ignore_patterns("__pycache__"))
     for file in ("build_fmu.py", "pyproject.toml", "LICENSE"):
         shutil.copy(root / file, changed)
-    ports = changed / "models" / "ratchet" / "ports.py"
-    text = ports.read_text(encoding="utf-8")
+    parameters = changed / "models" / "ratchet" / "parameters.py"
+    text = parameters.read_text(encoding="utf-8")
     assert text.count("0.110") == 1
-    ports.write_text(text.replace("0.110", "0.115"), encoding="utf-8")
+    parameters.write_text(text.replace("0.110", "0.115"), encoding="utf-8")
     build = [sys.executable, "build_fmu.py", "ratchet", "-o", str(tmp_path / "other")]
     subprocess.run(build, cwd=changed, check=True, capture_output=True, timeout=300)
 

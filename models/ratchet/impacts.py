@@ -1,0 +1,74 @@
+"""What the ratchet tells of an impact and of an event, as fields of `mechanism_fmu.model.port_builders`."""
+
+from __future__ import annotations
+
+from mechanism_fmu.model import Output
+from mechanism_fmu.model.port_builders import speed_output, whole_output
+
+_NUMBERS = "(0 slope, 1 face, 2 holding pawl)"
+_CONTACTS = f"Struck contact {_NUMBERS}"
+_GUARDS = "0 gap closed, 1 force gone, 2 next tooth, 3 previous tooth, 4 click, 6 inputs changed"
+_MODE = "sum of 1 slope, 2 face, 4 holding pawl"
+
+
+def _speeds(moment: str, field: str) -> tuple[Output, ...]:
+    """Speeds of the bodies just before or after the last impact."""
+    suffix = field.removeprefix("speed")
+    return tuple(
+        speed_output(
+            f"{body}_speed{suffix}", f"{field}:{body}", f"{body.capitalize()} speed just {moment} the {{impact}}", 0.1
+        )
+        for body in ("wheel", "crank", "pawl")
+    )
+
+
+#: Of the last impact.
+LAST_IMPACT = (
+    Output(
+        "velocity",
+        "velocity",
+        "v_I of the stress recovery for the {impact}: impact_wheel_speed times tooth_length",
+        "m/s",
+        nominal=1e-3,
+    ),
+    Output("closing_speed", "closing_speed", "Normal closing speed just before the {impact}", "m/s", nominal=0.1),
+    Output("impulse", "impulse", "Impulse on the struck contact at the {impact}", "N.s", nominal=0.01),
+    Output("slope_impulse", "impulse:slope", "Impulse on the tooth slope at the {impact}", "N.s", nominal=0.01),
+    *_speeds("after", "speed"),
+    *_speeds("before", "speed_before"),
+    whole_output("tooth", "tooth", "Index of the tooth struck at the {impact}; -1 before the first"),
+    whole_output("contact", "contact", f"{_CONTACTS} at the {{impact}}; -1 before the first"),
+)
+
+#: Of each impact of the last communication step.
+IMPACT = (
+    Output("time", "time", "Time of {impact}", "s"),
+    Output("velocity", "velocity", "Stress-recovery velocity v_I of {impact}", "m/s", nominal=1e-3),
+    Output("closing_speed", "closing_speed", "Normal closing speed of {impact}", "m/s", nominal=0.1),
+    Output(
+        "impulse",
+        "impulse",
+        "Impulse on the struck contact of {impact} (holding pawl: N.m.s)",
+        "N.s",
+        nominal=0.01,
+    ),
+    speed_output("wheel_speed", "speed:wheel", "Wheel speed just after {impact}", nominal=0.1),
+    whole_output("tooth", "tooth", "Index of the tooth struck of {impact}"),
+    whole_output("contact", "contact", f"{_CONTACTS} of {{impact}}"),
+)
+
+#: Of each event of the last communication step.
+EVENT = (
+    Output("time", "time", "Time of {event}; -1 when there was none", "s"),
+    whole_output("guard", "guard", f"What fired ({_GUARDS}; -1 none) of {{event}}"),
+    whole_output("subject", "subject", f"Number of the contact {_NUMBERS}, or 0 the teeth, of {{event}}"),
+    whole_output("old_mode", "old_mode", f"Closed contacts ({_MODE}) before {{event}}"),
+    whole_output("new_mode", "new_mode", f"Closed contacts ({_MODE}) after {{event}}"),
+    Output(
+        "impulse",
+        "impulse",
+        "Impulse of the contacts that struck of {event} (of the holding pawl in N.m.s)",
+        "N.s",
+        nominal=0.01,
+    ),
+)

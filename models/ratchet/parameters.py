@@ -1,0 +1,92 @@
+"""Parameters of the ratchet, and what follows from them."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+from mechanism_fmu.model import Calculated, Parameter
+from mechanism_fmu.model.functions import atan2, sqrt
+from mechanism_fmu.model.port_builders import (
+    angle_parameter,
+    body_parameters,
+    damping_parameter,
+    flag_parameter,
+    fraction_parameter,
+    joint_friction_parameter,
+    length_parameter,
+    settings_parameters,
+    stiffness_parameter,
+    torque_parameter,
+)
+
+from .inputs import SHAFT
+from .start import tooth
+
+PARAMETERS = (
+    Parameter("tooth_count", 10, "Number of teeth of the wheel (nt)", "1", 3, 1000, "Integer"),
+    angle_parameter(
+        "tooth_slope_angle",
+        math.radians(90),
+        "Angle between the slope of a tooth and the radius at its root (beta_0)",
+        math.radians(30),
+        math.radians(150),
+    ),
+    length_parameter("hinge_distance", 0.130, "Distance between the fixed hinges of wheel and crank (d)"),
+    length_parameter("crank_length", 0.110, "Length of the crank (a)"),
+    length_parameter("pawl_length", 0.100, "Length of the pawl, the paper's follower (b)"),
+    length_parameter("wheel_inner_radius", 0.100, "Radius of the tooth roots (r)"),
+    Parameter("slope_ratio", 1.115, "Slope length over distance between two roots (c_prop)", "1", 1e-3, 1e3),
+    *body_parameters("crank", 0.1000, 0.0900e-3),
+    *body_parameters("pawl", 0.0976, 0.0853e-3),
+    *body_parameters("wheel", 5.6264, 32.7948e-3),
+    stiffness_parameter("spring_stiffness", 15e-3, "Stiffness of the wheel's torsion spring"),
+    angle_parameter("spring_free_angle", math.radians(75), "Wheel angle at which the torsion spring is relaxed"),
+    fraction_parameter("restitution", 0.0, "Coefficient of restitution between pawl and tooth, face and slope (e)"),
+    angle_parameter("crank_angle_start", math.radians(77), "Crank angle at the start (phi)"),
+    angle_parameter("wheel_angle_start", math.radians(75), "Wheel angle at the start (psi)"),
+    *settings_parameters(),
+    flag_parameter(
+        "guided",
+        True,
+        "Whether the slope of one tooth guides the pawl's tip, as in the paper; false: a free pawl on all teeth",
+    ),
+    flag_parameter("holding_pawl", True, "Whether a holding pawl keeps the wheel from turning back (free pawl)"),
+    fraction_parameter("holding_pawl_restitution", 0.0, "Coefficient of restitution between holding pawl and wheel"),
+    angle_parameter(
+        "pawl_angle_start",
+        0.0,
+        "Pawl angle at the start (gamma) of a free pawl; 0: solved, so that the tip rests on the teeth",
+    ),
+    torque_parameter("pawl_spring_torque", 0.0, "Torque of the pawl's spring, counter-clockwise on the pawl"),
+    damping_parameter("wheel"),
+    Parameter("drive_stiffness", 0.0, f"Stiffness of the {SHAFT}", "N.m/rad", 0.0, 1e9),
+    Parameter("drive_damping", 0.0, f"Damping of the {SHAFT}", "N.m.s/rad", 0.0, 1e9),
+    Parameter("friction", 0.0, "Coefficient of friction between pawl and teeth", "1", 0.0, 10.0),
+    joint_friction_parameter("every hinge"),
+)
+
+
+def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
+    """The tooth geometry that stress recovery and drawings need."""
+    geometry = tooth(values)
+    x, y = geometry.apex
+    lengths: tuple[tuple[str, Any, str], ...] = (
+        ("tooth_length", geometry.beam_length, "Length of a tooth as a beam (l)"),
+        ("tooth_slope_length", geometry.slope_length, "Length of a tooth's slope (L)"),
+        ("tooth_face_length", geometry.face_length, "Length of a tooth's face (F)"),
+        ("tooth_apex_radius", sqrt(x * x + y * y), "Distance of a tooth's apex from the wheel's hinge"),
+    )
+    return (
+        Calculated("tooth_pitch", geometry.pitch, "Angle between two teeth (theta)", "rad", "deg"),
+        Calculated("tooth_apex_angle", geometry.apex_angle, "Angle at a tooth's apex (alpha)", "rad", "deg"),
+        Calculated(
+            "tooth_apex_offset",
+            atan2(y, x),
+            "Angle from a tooth's root to its apex, seen from the wheel's hinge; clockwise negative",
+            "rad",
+            "deg",
+        ),
+        *(Calculated(name, length, description, "m") for name, length, description in lengths),
+    )
