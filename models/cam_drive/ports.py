@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from types import SimpleNamespace
 
-from mechanism_fmu.model import Calculated, Output, Parameter
-from mechanism_fmu.model.port_builders import (
+from mechanism_fmu.model import (
+    Calculated,
+    Output,
+    Parameter,
     active_output,
     angle_output,
     angle_parameter,

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from types import SimpleNamespace
 
-from mechanism_fmu.model import Calculated, Parameter
-from mechanism_fmu.model.port_builders import (
+from mechanism_fmu.model import (
+    Calculated,
+    Parameter,
     angle_parameter,
     body_angle_output,
     body_speed_output,

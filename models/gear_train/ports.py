@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from mechanism_fmu.model import Calculated
-from mechanism_fmu.model.port_builders import (
+from mechanism_fmu.model import (
+    Calculated,
     angle_parameter,
     body_angle_output,
     body_speed_output,

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from mechanism_fmu.model import Output
-from mechanism_fmu.model.port_builders import speed_output, whole_output
+from mechanism_fmu.model import Output, speed_output, whole_output
 
 _NUMBERS = "(0 slope, 1 face, 2 holding pawl)"
 _CONTACTS = f"Struck contact {_NUMBERS}"

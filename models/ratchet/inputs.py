@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from mechanism_fmu.model import Input
-from mechanism_fmu.model.port_builders import shaft_inputs, torque_input
+from mechanism_fmu.model import Input, shaft_inputs, torque_input
 
 #: What the descriptions call the shaft.
 SHAFT = "compliant drive shaft"

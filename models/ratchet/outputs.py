@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mechanism_fmu.model import Output
-from mechanism_fmu.model.port_builders import (
+from mechanism_fmu.model import (
+    Output,
     active_output,
     angle_output,
     body_angle_output,

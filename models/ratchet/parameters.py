@@ -6,9 +6,9 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
-from mechanism_fmu.model import Calculated, Parameter
-from mechanism_fmu.model.functions import atan2, sqrt
-from mechanism_fmu.model.port_builders import (
+from mechanism_fmu.model import (
+    Calculated,
+    Parameter,
     angle_parameter,
     body_parameters,
     damping_parameter,
@@ -20,6 +20,7 @@ from mechanism_fmu.model.port_builders import (
     stiffness_parameter,
     torque_parameter,
 )
+from mechanism_fmu.model.functions import atan2, sqrt
 
 from .inputs import SHAFT
 from .start import tooth

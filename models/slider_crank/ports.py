@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from types import SimpleNamespace
 
-from mechanism_fmu.model import Calculated, Input, Output, Parameter
-from mechanism_fmu.model.port_builders import (
+from mechanism_fmu.model import (
+    Calculated,
+    Input,
+    Output,
+    Parameter,
     angle_parameter,
     body_angle_output,
     body_speed_output,

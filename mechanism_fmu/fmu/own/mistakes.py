@@ -16,6 +16,9 @@ from ...model import MechanismError
 from ..contents import OWN
 from ..self_check import StartError
 
+#: Functions that make ports from the name of a part.
+_BUILDER = re.compile(r"_(input|output|parameter)s?$")
+
 
 @contextmanager
 def explained(path: Path) -> Iterator[None]:
@@ -84,11 +87,18 @@ def _part(text: str, path: Path) -> str:
         return ""
     tree = ast.parse(path.read_text(encoding="utf-8-sig"))
     name = named["part"] or named["variable"]
-    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and name in _names_given(node)]
+    every = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    # A builder of ports is given "motor", and makes "motor_torque".
+    built = [call for call in every if _BUILDER.search(ast.unparse(call.func)) and _begins(name, call)]
+    calls = [call for call in every if name in _names_given(call)] or built
     of_kind = [call for call in calls if ast.unparse(call.func) == named["kind"]]
     # Of two parts with one name, the second is the one too many.
     lines = [call.lineno for call in of_kind or calls]
     return f"{path}, line {max(lines)}" if lines else ""
+
+
+def _begins(name: str, call: ast.Call) -> bool:
+    return any(isinstance(given, str) and name.startswith(f"{given}_") for given in _names_given(call))
 
 
 def _names_given(call: ast.Call) -> Iterator[object]:
