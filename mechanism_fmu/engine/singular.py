@@ -8,7 +8,6 @@ its stages is looked at: where it has a dip, the least value is sought, and that
 from __future__ import annotations
 
 from .. import codes
-from .acceleration import scale_rows
 from .interpolation import interpolate
 from .kinematics import place_bodies
 from .minimum_norm import orthogonalise
@@ -16,7 +15,7 @@ from .ports import set_time
 from .room import Array
 from .rows import active_rows
 from .subset import jit, keep_small
-from .views import course, linear_system, sizes, stages
+from .views import course, linear_system, rows, sizes, stages
 
 #: Rows with less independence than this (a squared sine) are singular: the configuration is passed, not just neared.
 _SINGULAR_BELOW = 1e-10
@@ -105,11 +104,15 @@ def _least(block: Array, dense: Array, start: float, size: float) -> float:
 
 @jit
 def _independence_at(block: Array, dense: Array, start: float, size: float, fraction: float) -> float:
+    """As `independence`, of the bare rows: very different masses make rows look alike that are not."""
     keep_small()
     interpolate(dense, fraction, stages(block).y_at)
     set_time(block, start + fraction * size)
     place_bodies(block, stages(block).y_at)
     count = active_rows(block)
-    scale_rows(block, count)
-    orthogonalise(block, count, sizes(block).coordinates)
+    n = sizes(block).coordinates
+    for r in range(count):
+        for k in range(n):
+            linear_system(block).scaled[r, k] = rows(block).jacobian[r, k]
+    orthogonalise(block, count, n)
     return independence(block)
