@@ -54,7 +54,10 @@ def test_assembly_finds_the_roller_on_the_cam_near_its_guess(degrees):
         ({"lift": 0.11}, r"hinge_distance \+ follower_length = 0.14 m is too short: .* = 0.15 m"),
         ({"base_radius": 0.12}, r"= 0.14 m is too short"),
         ({**HOLLOW, "roller_radius": 0.1, "hinge_distance": 0.2, "follower_length": 0.18}, "too large for the hollows"),
-        ({"hinge_distance": 0.046, "follower_length": 0.085}, r"The pressure angle reaches .* deg, and the cam would jam"),
+        (
+            {"hinge_distance": 0.046, "follower_length": 0.085},
+            r"The pressure angle reaches .* deg, and the cam would jam",
+        ),
     ],
     ids=str,
 )
