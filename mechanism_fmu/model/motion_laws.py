@@ -56,7 +56,7 @@ class Move:
 
     Attributes:
         lift: where it leads to, above the base [m or rad].
-        width: over which angle [rad], > 0.
+        width: over which angle [rad], > 0; a dwell may have 0, and is none.
         law: how.
     """
 
@@ -76,7 +76,7 @@ def moves_to_pieces(base: Number, moves: Sequence[Move], turn: float, back: Law)
     lift: Number = 0.0
     pieces: list[Piece] = []
     for number, move in enumerate(moves, start=1):
-        if is_plain(move.width) and not move.width > 0.0:
+        if is_plain(move.width) and not (move.width > 0.0 or (move.law is dwell and move.width == 0.0)):
             raise MechanismError(f"Move {number} of the cam has width = {move.width:g} rad; it must be positive.")
         pieces += move.law(start, base + lift, move.lift - lift, move.width)
         start, lift = start + move.width, move.lift
