@@ -25,8 +25,8 @@ def close(equations: Equations, q: FloatArray, time: float) -> tuple[FloatArray,
 def newton(rows_at: Callable[[FloatArray], tuple[FloatArray, FloatArray]], q: FloatArray) -> tuple[FloatArray, float]:
     """Where the rows vanish near q, by steps of least length, and the largest magnitude that is left of them.
 
-    `rows_at` gives them and their derivatives. After they are closed one more step is taken: it takes away what rounding
-    allows.
+    `rows_at` gives them and their derivatives. After they are closed one more step is taken: it takes away what
+    rounding allows.
     """
     best, least = q, np.inf
     for _ in range(_STEPS):
