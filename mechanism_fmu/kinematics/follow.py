@@ -18,7 +18,7 @@ _LEAST_MOVE = 0.01
 #: In one step, no angle changes by more than this [rad]: after a whole turn Phi_q is the same again.
 _MOST_TURN = 0.5
 #: Steps are halved at most down to this part of the way.
-_SHORTEST = 1e-10
+_SHORTEST = 1e-14
 
 
 def follow(equations: Equations, here: State, time: float) -> State:

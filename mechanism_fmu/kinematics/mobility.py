@@ -65,8 +65,8 @@ class Mobility:
         lines += [f"redundant: {dependency}" for dependency in self.redundant]
         if self.singular:
             lines.append(
-                f"singular configuration: the rank is {self.nearby_rank} around it, so that from here the motion can go "
-                "on along more than one branch, or a driver cannot go on; start a little away from it"
+                f"singular configuration: the rank is {self.nearby_rank} around it, so that from here the motion can "
+                "go on along more than one branch, or a driver cannot go on; start a little away from it"
             )
         return "\n".join(lines)
 

@@ -110,8 +110,9 @@ def profile_report(profile: Curve) -> ProfileReport:
         at_ends.append((begin, values[:, 0], end, values[:, -1]))
         rhos.append(values[0])
         bend = partial(_bend, piece)
-        bends += [_extreme(bend, grid, 1.0), _extreme(bend, grid, -1.0)]
-        hollows += _below_zero(grid, bend)
+        found = curvature(values)
+        bends += [_extreme(bend, grid, found, 1.0), _extreme(bend, grid, found, -1.0)]
+        hollows += _below_zero(bend, grid, found)
     rho = np.concatenate(rhos)
     tip, hollow = max(bends), min(bends)
     return ProfileReport(
@@ -126,13 +127,14 @@ def profile_report(profile: Curve) -> ProfileReport:
     )
 
 
-def _extreme(function: Callable[[float], float], grid: FloatArray, sign: float) -> tuple[float, float]:
+def _extreme(
+    function: Callable[[float], float], grid: FloatArray, values: FloatArray, sign: float
+) -> tuple[float, float]:
     """The largest value (sign 1) or the least one (sign -1) on a grid and between its points, and its place."""
-    values = sign * np.array([function(x) for x in grid])
-    k = int(np.argmax(values))
+    k = int(np.argmax(sign * values))
     near = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
     found = minimize_scalar(lambda x: -sign * function(x), bounds=near, method="bounded", options={"xatol": 1e-9})
-    place = float(found.x) if -found.fun > values[k] else float(grid[k])
+    place = float(found.x) if -found.fun > sign * values[k] else float(grid[k])
     return function(place), place
 
 
@@ -140,9 +142,9 @@ def _bend(piece: Piece, alpha: float) -> float:
     return float(curvature(piece_values(piece, np.array([alpha])))[0])
 
 
-def _below_zero(grid: FloatArray, function: Callable[[float], float]) -> list[tuple[float, float]]:
-    """The ranges within a piece where a function is negative."""
-    negative = [function(x) < 0.0 for x in grid]
+def _below_zero(function: Callable[[float], float], grid: FloatArray, values: FloatArray) -> list[tuple[float, float]]:
+    """The ranges within a piece where a function, with its values on a grid, is negative."""
+    negative = (values < 0.0).tolist()
     edges = [
         float(brentq(function, a, b))
         for (a, b), (p, q) in zip(pairwise(grid), pairwise(negative), strict=True)
