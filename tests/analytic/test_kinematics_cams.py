@@ -141,8 +141,11 @@ def test_a_point_follower_is_lifted_as_the_motion_program_says():
     u = alpha / width
     rising, dwelling = u < 1, (u >= 1) & (alpha < 3.0)
     up = lift * np.array(
-        [10 * u**3 - 15 * u**4 + 6 * u**5, (30 * u**2 - 60 * u**3 + 30 * u**4) / width]
-        + [(60 * u - 180 * u**2 + 120 * u**3) / width**2]
+        [
+            10 * u**3 - 15 * u**4 + 6 * u**5,
+            (30 * u**2 - 60 * u**3 + 30 * u**4) / width,
+            (60 * u - 180 * u**2 + 120 * u**3) / width**2,
+        ]
     )
     sign = np.array([[1], [-1], [1]])
     found = course(report) - base * np.array([[1], [0], [0]])
