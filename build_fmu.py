@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 import zipfile
+from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -25,7 +26,11 @@ class Flavour(StrEnum):
 
 def build(
     model: Annotated[
-        str | None, typer.Argument(help="Name of a model, e.g. 'ratchet'; see --list.", show_default=False)
+        str | None,
+        typer.Argument(
+            help="Name of a ready-made model, e.g. 'ratchet' (see --list), or file of your own mechanism.",
+            show_default=False,
+        ),
     ] = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Folder for the FMU; it is made if need be.", file_okay=False)
@@ -39,6 +44,8 @@ def build(
     """Build the FMU of a model: one file that any FMI co-simulation tool can load.
 
     `python build_fmu.py ratchet -o build/` writes build/Ratchet.fmu, which runs where there is a Python with numpy.
+    `python build_fmu.py my_mechanism.py` builds a mechanism of your own: a file that sets MODEL (to begin with one,
+    run `mechanism-fmu new my_mechanism`; see docs/your-own-mechanism.md).
     With `--flavour native` it runs everywhere: binaries for Linux, Windows and macOS, no Python; add `--fmi 3` for FMI
     3.0 with event mode and early return at impacts. Where it is built, the native flavour needs the package ziglang
     (`python -m pip install ziglang==0.17.0`). The first build compiles the engine, which takes a minute or two;
@@ -49,6 +56,9 @@ def build(
     import models
     from mechanism_fmu.fmu.native.link import INSTALL, has_linker
     from mechanism_fmu.fmu.native.package import build_native_fmu
+    from mechanism_fmu.fmu.own.find import WrongUseError, looks_like_a_file
+    from mechanism_fmu.fmu.own.mistakes import explained_in_fmu
+    from mechanism_fmu.fmu.own.prepare import prepare
     from mechanism_fmu.fmu.package import build_fmu
     from mechanism_fmu.model import MechanismError
 
@@ -57,28 +67,38 @@ def build(
             typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
         return
     messages = Console(stderr=True, highlight=False, soft_wrap=True)
-    if model not in models.available():
+    if model is None or not (model in models.available() or looks_like_a_file(model)):
         asked = f"There is no model {model!r}" if model else "Say which model to build"
-        messages.print(f"{asked}; there are: {', '.join(models.available())}.", style="red", markup=False)
+        names = ", ".join(models.available())
+        example = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
+        text = f"{asked}; there are: {names}. For a mechanism of your own, give its file, e.g. {example}."
+        messages.print(text, style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR)
     if fmi == 3 and flavour is not Flavour.NATIVE:
         messages.print("FMI 3.0 comes in the native flavour only; add --flavour native.", style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR)
     began = time.perf_counter()
     try:
-        with messages.status(f"Building the FMU of {model} ...") as status:
+        with messages.status(f"Building the FMU of {model} ...") as status, ExitStack() as explanations:
 
             def report(text: str, done: float) -> None:
                 status.update(f"The engine is compiled once for all platforms, {100 * done:.0f} %: {text} ...")
 
-            module = models.load(model)
+            def warn(text: str) -> None:
+                messages.print(f"Warning: {text}", style="yellow", markup=False)
+
+            if model in models.available():
+                module = models.load(model)
+            else:
+                module, file = prepare(model, flavour is Flavour.NATIVE, warn)
+                explanations.enter_context(explained_in_fmu(file))
             if flavour is Flavour.NATIVE:
                 path = build_native_fmu(module, output, fmi, report)
             else:
                 path = build_fmu(module, output, report)
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
-        raise typer.Exit(1) from None
+        raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
     if flavour is Flavour.PYTHONFMU and not has_linker():
         messages.print(
             "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "

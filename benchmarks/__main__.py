@@ -14,7 +14,7 @@ from rich.console import Console
 from mechanism_fmu.fmu.start import CACHE_VARIABLE
 from mechanism_fmu.model import MechanismError
 
-from . import acceleration, cycle, fmu_step, fmus, impacts, startup, step
+from . import acceleration, cams, cycle, fmu_step, fmus, impacts, startup, step
 from .c_limit import compare as c_limit
 from .c_limit.library import NoCompilerError
 from .native_surface import compare as native_surface
@@ -56,28 +56,30 @@ def run(
 
 def _compare(folder: Path, progress: Console) -> list[Comparison]:
     cache = folder / "cache"
-    progress.print("1/8  one acceleration (compiles the engine first)")
+    progress.print("1/9  one acceleration (compiles the engine first)")
     comparisons = acceleration.compare(_ROUNDS)
-    progress.print("2/8  one step")
+    progress.print("2/9  one acceleration of ten bodies with four cams")
+    comparisons += cams.compare(_ROUNDS)
+    progress.print("3/9  one step")
     comparisons += step.compare(_ROUNDS)
-    progress.print("3/8  one impact")
+    progress.print("4/9  one impact")
     comparisons += impacts.compare(_ROUNDS)
-    progress.print("4/8  one simulated second of the free ratchet")
+    progress.print("5/9  one simulated second of the free ratchet")
     comparisons += cycle.compare(_ROUNDS)
-    progress.print("5/8  the same algorithm by hand in C")
+    progress.print("6/9  the same algorithm by hand in C")
     try:
         comparisons += c_limit.compare(folder, _ROUNDS)
     except NoCompilerError as error:
         progress.print(f"     left out: {error}")
-    progress.print("6/8  the native FMU, from C (builds it; a first build compiles the engine ahead of time)")
+    progress.print("7/9  the native FMU, from C (builds it; a first build compiles the engine ahead of time)")
     try:
         comparisons += native_surface.compare(folder, _ROUNDS)
     except (NoCompilerError, MechanismError) as error:
         progress.print(f"     left out: {error}")
-    progress.print("7/8  start of the FMU by pythonfmu (and one that compiles the engine)")
+    progress.print("8/9  start of the FMU by pythonfmu (and one that compiles the engine)")
     ratchet, plain = fmus.build_ratchet(folder), fmus.build_plain(folder)
     starts = startup.compare(ratchet, folder, cache)
-    progress.print("8/8  one step of the FMU by pythonfmu")
+    progress.print("9/9  one step of the FMU by pythonfmu")
     os.environ[CACHE_VARIABLE] = str(cache)
     return [*comparisons, *fmu_step.compare(plain, ratchet, folder, _ROUNDS), *starts]
 

@@ -61,6 +61,23 @@ def demo(
 
 
 @main.command()
+def new(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Of the file and of its FMU.", show_default=False)],
+) -> None:
+    """Write NAME.py, a mechanism of your own to begin with: a lever that falls on a stop.
+
+    It builds and runs as it is, and its comments say what to change. See docs/your-own-mechanism.md.
+
+    Exit code: 0 all well, 2 a name that cannot be, or a file that is there already.
+    """
+    from .commands import new_mechanism
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(new_mechanism(name))
+
+
+@main.command()
 def run(
     fmu: FmuPath,
     settings: Annotated[

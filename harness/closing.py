@@ -15,12 +15,12 @@ from .terminal import FAILED, INTERRUPTED, console, show_checks, show_error, sho
 
 #: Columns of the impacts that fit a terminal, with their headings; the file has all.
 _IMPACT_COLUMNS = {
-    "time": "t [s]",
-    "velocity": "v_I [m/s]",
-    "closing_speed": "closing\nspeed [m/s]",
-    "impulse": "impulse [N.s]",
-    "wheel_speed": "omega [rad/s]",
-    "stress_max": "sigma_max [Pa]",
+    "time": "t",
+    "velocity": "v_I",
+    "closing_speed": "closing\nspeed",
+    "impulse": "impulse",
+    "wheel_speed": "omega",
+    "stress_max": "sigma_max",
 }
 _MOST_IMPACTS = 20
 
@@ -64,6 +64,7 @@ def _show_impacts(run: Run) -> None:
     title = f"Impacts: {len(run.impacts)}" + (
         f", the first {_MOST_IMPACTS}" if len(run.impacts) > _MOST_IMPACTS else ""
     )
-    show_table(title, [_IMPACT_COLUMNS[name] for name in columns], rows, numeric=range(len(columns)))
+    headings = [f"{_IMPACT_COLUMNS[name]} [{run.units['impacts'][name]}]" for name in columns]
+    show_table(title, headings, rows, numeric=range(len(columns)))
     if run.tooth is None:
         console.print("[dim]No stress: the FMU does not describe a tooth (tooth_length, tooth_apex_angle).[/]")

@@ -46,6 +46,25 @@ def run_cycle(folder: Path) -> int:
     return _written(run, folder, cycle.cycle_checks(run.results))
 
 
+def new_mechanism(name: str) -> int:
+    """Write a mechanism to begin with, and say how to go on."""
+    from mechanism_fmu.fmu.own.find import WrongUseError
+    from mechanism_fmu.fmu.own.new import write_new
+
+    try:
+        path = write_new(name, Path())
+    except (WrongUseError, OSError) as error:
+        raise UsageError(str(error)) from error
+    console.print(
+        f"Written: {path}. Build its FMU, and run it:\n\n"
+        f"mechanism-fmu build {path}\nmechanism-fmu run build/{path.stem}.fmu\n\n"
+        "Then change the file; docs/your-own-mechanism.md explains its parts.",
+        soft_wrap=True,
+        markup=False,
+    )
+    return 0
+
+
 def run_fmu(
     path: Path,
     settings: Sequence[str],

@@ -59,7 +59,7 @@ class Description:
         variables: by name, in the FMU's order.
         units: its unit definitions.
         stop_time, step: of its default experiment [s]; None when it gives none.
-        saves_state, serializes_state: its capability flags.
+        saves_state, serializes_state, takes_slopes: its capability flags; the last is canInterpolateInputs.
         log_categories: by name, with what each is for.
     """
 
@@ -74,6 +74,7 @@ class Description:
     step: float | None = None
     saves_state: bool = False
     serializes_state: bool = False
+    takes_slopes: bool = False
     log_categories: Mapping[str, str] = field(default_factory=dict)
 
     def variable(self, name: str) -> Variable:
@@ -130,6 +131,7 @@ def _described(raw: Any) -> Description:
         step=_number(experiment and experiment.stepSize),
         saves_state=raw.coSimulation.canGetAndSetFMUstate,
         serializes_state=raw.coSimulation.canSerializeFMUstate,
+        takes_slopes=raw.coSimulation.canInterpolateInputs,
         log_categories={category.name: category.description or "" for category in raw.logCategories},
     )
 

@@ -100,6 +100,12 @@ class FmuSlave:
         for kind, references, places in self._batches(tuple(values)):
             self._call(f"fmi2Set{kind}", getattr(self._fmu, f"set{kind}"), references, [given[i] for i in places])
 
+    def set_slopes(self, slopes: Mapping[str, float]) -> None:
+        """Let inputs change linearly in the next step, by so much in a second; for FMUs that take slopes."""
+        references = [self.description.variable(name).reference for name in slopes]
+        values, first = list(slopes.values()), [1] * len(slopes)
+        self._call("fmi2SetRealInputDerivatives", self._fmu.setRealInputDerivatives, references, first, values)
+
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`: one FMI call for each type."""
         values: list[Value] = [0.0] * len(names)

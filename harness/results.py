@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TextIO
+
+import pandas as pd
 
 from mechanism_fmu import __version__
 
@@ -116,3 +118,16 @@ def summary(run: Run) -> dict[str, Any]:
 def final_values(run: Run) -> dict[str, Value]:
     """The recorded variables at the last communication point; none when the run did not start."""
     return {} if run.results.empty else {str(name): column.iloc[-1].item() for name, column in run.results.items()}
+
+
+def write_with_units(table: pd.DataFrame, units: Mapping[str, str], path: Path) -> Path:
+    """Write a table whose headings are `name [unit]`, or the name alone where there is no unit.
+
+    So `inputs.read_inputs` reads it, and so does pandas.
+
+    Raises:
+        UsageError: the disk refuses.
+    """
+    names = [str(name) for name in table]
+    headings = [f"{name} [{units[name]}]" if units.get(name) else name for name in names]
+    return write_text(path, lambda file: table.to_csv(file, index=False, header=headings, lineterminator="\n"))

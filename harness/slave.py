@@ -24,6 +24,9 @@ class Slave(Protocol):
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name."""
 
+    def set_slopes(self, slopes: Mapping[str, float]) -> None:
+        """Let inputs change linearly in the next step, by so much in a second; for units that take slopes."""
+
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`."""
 

@@ -160,7 +160,8 @@ NEXT_STEP = 4
 LAST_EVENT = 5  # when the run of events began that PILE counts
 RAMP_START = 6  # when the slopes of inputs began to act
 RAMP_END = 7  # up to where they are known: no step goes beyond
-CLOCK_LENGTH = 8
+INDEPENDENCE = 8  # of the active rows at STEP_END (see `engine.singular`; not a time)
+CLOCK_LENGTH = 9
 
 # columns of the state's counters
 COUNT_IMPACTS = 0
@@ -174,7 +175,9 @@ COUNT_EVENTS = 7
 EVENTS_IN_STEP = 8
 PILE = 9  # events that followed each other without progress
 RAMPING = 10  # 1 while an input has a slope
-COUNTERS_LENGTH = 11
+RANK = 11  # of the active rows since the last event
+FALLING = 12  # 1 when INDEPENDENCE was falling at STEP_END
+COUNTERS_LENGTH = 13
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

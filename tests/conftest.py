@@ -32,6 +32,18 @@ def four_bar_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def gear_train_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built GearTrain.fmu."""
+    return build_fmu(models.load("gear_train"), tmp_path_factory.mktemp("fmu"))
+
+
+@pytest.fixture(scope="session")
+def cam_drive_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built CamDrive.fmu."""
+    return build_fmu(models.load("cam_drive"), tmp_path_factory.mktemp("fmu"))
+
+
+@pytest.fixture(scope="session")
 def native_ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Path of a freshly built native Ratchet.fmu."""
     return build_native_fmu(models.load("ratchet"), tmp_path_factory.mktemp("native"))
@@ -53,3 +65,15 @@ def native_slider_crank_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def native_four_bar_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Path of a freshly built native FourBar.fmu."""
     return build_native_fmu(models.load("four_bar"), tmp_path_factory.mktemp("native"))
+
+
+@pytest.fixture(scope="session")
+def native_gear_train_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built native GearTrain.fmu."""
+    return build_native_fmu(models.load("gear_train"), tmp_path_factory.mktemp("native"))
+
+
+@pytest.fixture(scope="session")
+def native_cam_drive_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of a freshly built native CamDrive.fmu."""
+    return build_native_fmu(models.load("cam_drive"), tmp_path_factory.mktemp("native"))

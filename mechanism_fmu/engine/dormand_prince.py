@@ -10,6 +10,7 @@ from .complementarity import push_ratio
 from .ports import set_time
 from .room import Array
 from .rows import row_count
+from .singular import independence
 from .subset import jit, keep_small
 from .views import contacts, course, options, sizes, stages
 
@@ -43,6 +44,7 @@ def try_step(block: Array, start: float, size_: float) -> float:
     h = size_
     s.tried[0] = start
     s.tried[1] = h
+    s.stage[0] = 0
     least = contacts(block).least_push
     for c in range(least.shape[0]):
         least[c] = 0.0
@@ -77,6 +79,9 @@ def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
     set_time(block, time)
     derivative(block, y, dy)
     _note_pushes(block)
+    s = stages(block)
+    s.stage[0] += 1
+    s.independence[s.stage[0]] = independence(block)
 
 
 @jit
@@ -120,16 +125,6 @@ def _write_dense(block: Array, h: float) -> None:
         dense[3, i] = change - h * k[6, i] - bend
         dense[4, i] = h * (
             _D1 * k[0, i] + _D3 * k[2, i] + _D4 * k[3, i] + _D5 * k[4, i] + _D6 * k[5, i] + _D7 * k[6, i]
-        )
-
-
-@jit
-def interpolate(dense: Array, fraction: float, y: Array) -> None:
-    """Y at `fraction` (0..1) of the step whose coefficients are `dense`, shape (5, unknowns)."""
-    rest = 1.0 - fraction
-    for i in range(y.shape[0]):
-        y[i] = dense[0, i] + fraction * (
-            dense[1, i] + rest * (dense[2, i] + fraction * (dense[3, i] + rest * dense[4, i]))
         )
 
 

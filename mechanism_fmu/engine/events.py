@@ -14,8 +14,9 @@ from .. import codes
 from ..tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE
 from .acceleration import derivative
 from .complementarity import push_ratio
-from .dormand_prince import interpolate, try_step
+from .dormand_prince import try_step
 from .guards import gap, guard_of, guard_value, is_watched
+from .interpolation import interpolate
 from .kinematics import place_bodies
 from .ports import set_time
 from .room import Array

@@ -44,6 +44,26 @@ SIZES = (
 )
 
 
+#: Those that `allocate` is given; the others follow.
+GIVEN_SIZES = (
+    "bodies",
+    "joints",
+    "forces",
+    "contacts",
+    "patterns",
+    "functions",
+    "curves",
+    "pieces",
+    "terms",
+    "alphas",
+    "held",
+    "inputs",
+    "outputs",
+    "joint_rows",
+    "contact_rows",
+)
+
+
 class Field(NamedTuple):
     """A field: its room ("tables", "state" or "work"), name, shape (names of sizes, or numbers) and type."""
 
@@ -168,6 +188,10 @@ FIELDS = (
     Field("work", "order", ("rows",), True),
     Field("work", "row_norm", ("rows", 2)),
     Field("work", "coefficient", ("rows",)),
+    Field("work", "rank", (1,), True),
+    Field("work", "independence", (1,)),
+    Field("work", "stage", (1,), True),
+    Field("work", "stage_independence", (7,)),
     Field("work", "dual", ("rows",)),
     Field("work", "force", ("columns",)),
     Field("work", "applied", ("columns",)),
@@ -206,8 +230,7 @@ def allocate(sizes: dict[str, int]) -> Array:
     """A zeroed block with its header filled in.
 
     Args:
-        sizes: bodies, joints, forces, contacts, patterns, functions, curves, pieces, terms, alphas, held, inputs,
-            outputs, joint_rows and contact_rows; the others follow.
+        sizes: those of `GIVEN_SIZES`, by name.
 
     Returns:
         The block, float64 of shape (words,).

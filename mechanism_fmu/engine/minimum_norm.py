@@ -22,14 +22,14 @@ _RECOMPUTE_BELOW = 1e-4
 
 
 @jit
-def minimum_norm(block: Array, count: int, width: int) -> int:
-    """Solve D z = b in the minimum-norm least-squares sense; return the rank of D.
+def minimum_norm(block: Array, count: int, width: int) -> None:
+    """Solve D z = b in the minimum-norm least-squares sense.
 
     Reads D = `scaled`[:count, :width] and b = `right_side`[:count] of the linear system; writes z = D^+ b to
-    `solution`[:width] and the minimum-norm solution of D^T multiplier = z to `multiplier`[:count].
+    `solution`[:width], the minimum-norm solution of D^T multiplier = z to `multiplier`[:count], and the rank of D.
     """
     system = linear_system(block)
-    rank = _orthogonalise(block, count, width)
+    rank = orthogonalise(block, count, width)
     if rank == count:
         _solve_full_rank(block, count)
     else:
@@ -38,14 +38,15 @@ def minimum_norm(block: Array, count: int, width: int) -> int:
         system.solution[k] = 0.0
     for r in range(rank):
         _add_multiple(system.solution, system.coefficient[r], system.basis[system.order[r]], width)
-    return rank
 
 
 @jit
-def _orthogonalise(block: Array, count: int, width: int) -> int:
+def orthogonalise(block: Array, count: int, width: int) -> int:
     """D = L Q; row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i. Return the rank."""
     system = linear_system(block)
     basis = system.basis
+    system.rank[0] = count
+    system.independence[0] = 1.0
     for i in range(count):
         system.order[i] = i
         for k in range(width):
@@ -54,7 +55,9 @@ def _orthogonalise(block: Array, count: int, width: int) -> int:
         system.row_norm[i, 0] = square
         system.row_norm[i, 1] = square
     for r in range(count):
-        if not _choose_pivot(system, r, count):
+        fraction = _choose_pivot(system, r, count)
+        if not fraction > RANK_TOLERANCE * RANK_TOLERANCE:
+            system.rank[0] = r
             return r
         p = system.order[r]
         square = _dot(basis[p], basis[p], width)
@@ -65,7 +68,9 @@ def _orthogonalise(block: Array, count: int, width: int) -> int:
                 _add_multiple(basis[p], -share, basis[system.order[j]], width)
             square = _dot(basis[p], basis[p], width)
         if not square > RANK_TOLERANCE * RANK_TOLERANCE * system.row_norm[p, 0]:
+            system.rank[0] = r
             return r
+        system.independence[0] = fraction
         length = math.sqrt(square)
         system.triangle[p, r] = length
         for k in range(width):
@@ -83,8 +88,8 @@ def _orthogonalise(block: Array, count: int, width: int) -> int:
 
 
 @jit
-def _choose_pivot(system: LinearSystem, r: int, count: int) -> bool:
-    """Move the row with the largest remaining fraction of its length to place r; False when none has any left."""
+def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
+    """Move the row with the largest remaining fraction of its squared length to place r; return that fraction."""
     best = r
     best_fraction = -1.0
     for s in range(r, count):
@@ -98,7 +103,7 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> bool:
     chosen = system.order[best]
     system.order[best] = system.order[r]
     system.order[r] = chosen
-    return best_fraction > RANK_TOLERANCE * RANK_TOLERANCE
+    return best_fraction
 
 
 @jit

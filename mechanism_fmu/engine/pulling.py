@@ -6,7 +6,7 @@ import math
 
 from .. import codes
 from .acceleration import derivative
-from .dormand_prince import interpolate
+from .interpolation import interpolate
 from .ports import set_time
 from .room import Array
 from .subset import jit, keep_small

@@ -15,19 +15,21 @@ from ..tolerances import GAP_NOISE
 from . import status
 from .acceleration import derivative
 from .contact_points import least_fit
-from .dormand_prince import initial_step_size, interpolate, try_step
+from .dormand_prince import initial_step_size, try_step
 from .drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from .events import first_event, refine
 from .guards import gap
+from .interpolation import interpolate
 from .kinematics import place_bodies
 from .ports import feed, inputs_changed, set_time, show_reached, take_inputs
 from .pulling import watch_at, watch_step
 from .records import clear_records
 from .room import Array
+from .singular import is_singular, keep_independence, note_rank
 from .subset import entry, jit, keep_small
 from .transition import transit
 from .vectors import copy
-from .views import contacts, course, ports, sizes, stages
+from .views import contacts, course, linear_system, ports, sizes, stages
 
 #: Smallest step as a fraction of max(1 s, |t|).
 _SMALLEST_STEP = 1e-15
@@ -156,6 +158,7 @@ def restart(block: Array) -> None:
     now.counters[codes.PENDING_SUBJECT] = codes.NONE
     set_time(block, now.clock[codes.STEP_END])
     derivative(block, now.y_end, now.dy_end)
+    note_rank(block)
     watch_at(block, now.clock[codes.STEP_END])
 
 
@@ -231,6 +234,9 @@ def take_step(block: Array) -> int:
         if not step > smallest:
             return _why_no_step(block)
         error = _try(block, start, step)
+    if is_singular(block):
+        return status.SINGULAR
+    keep_independence(block)
     now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
     ramping = now.counters[codes.RAMPING] != 0
     if ramping and grow_most > 1.0 and step < wanted:  # cut short by the slopes' end alone
@@ -292,6 +298,8 @@ def _why_no_step(block: Array) -> int:
     for k in range(1, s.derivatives.shape[0]):
         if math.isnan(s.derivatives[k, lost]) and not math.isnan(s.derivatives[k, 0]):
             return status.JAMMED
+    if linear_system(block).rank[0] > course(block).counters[codes.RANK]:
+        return status.SINGULAR
     if sizes(block).alphas > 0:
         place_bodies(block, s.y_start)
         if not least_fit(block) > _FITS_BARELY:

@@ -346,7 +346,11 @@ rows = room(Rows, "residual", "residual_rate", "gamma", "nu", "jacobian")
 
 
 class LinearSystem(NamedTuple):
-    """The minimum-norm problem D z = b, with D^T multiplier = z, and the scratch of its solution."""
+    """The minimum-norm problem D z = b, with D^T multiplier = z, and the scratch of its solution.
+
+    `rank` is that of D, and `independence` says how far its least independent row is from depending on the others: the
+    share of its squared length that is left after projection.
+    """
 
     scaled: Array
     right_side: Array
@@ -360,6 +364,8 @@ class LinearSystem(NamedTuple):
     row_norm: Array
     coefficient: Array
     dual: Array
+    rank: Array
+    independence: Array
 
 
 linear_system = room(
@@ -376,6 +382,8 @@ linear_system = room(
     "row_norm",
     "coefficient",
     "dual",
+    "rank",
+    "independence",
 )
 
 
@@ -397,7 +405,11 @@ loads = room(Loads, "force", "applied", "last_multiplier", "free_acceleration", 
 
 
 class Stages(NamedTuple):
-    """Scratch of one Runge-Kutta step; `tried`: start and size of the one last tried [s]."""
+    """Scratch of one Runge-Kutta step.
+
+    `tried`: start and size of the one last tried [s]; `independence` of the rows at each of its stages, of which
+    `stage` is the one computed last.
+    """
 
     derivatives: Array
     tried: Array
@@ -407,9 +419,23 @@ class Stages(NamedTuple):
     y_at: Array
     dy_at: Array
     new_dense: Array
+    stage: Array
+    independence: Array
 
 
-stages = room(Stages, "stages", "tried", "y_start", "y_stage", "y_new", "y_at", "dy_at", "new_dense")
+stages = room(
+    Stages,
+    "stages",
+    "tried",
+    "y_start",
+    "y_stage",
+    "y_new",
+    "y_at",
+    "dy_at",
+    "new_dense",
+    "stage",
+    "stage_independence",
+)
 
 
 class Options(NamedTuple):

@@ -20,11 +20,13 @@ class Home:
         name: absolute name by which others import it, e.g. "mechanism_fmu" or "models.ratchet".
         folder: the source folder.
         place: dotted path within the package that travels; "" is its root.
+        is_package: whether the folder's own `__init__.py` travels, if there is one.
     """
 
     name: str
     folder: Path
     place: str
+    is_package: bool = True
 
 
 @dataclass
@@ -34,10 +36,12 @@ class Closure:
     Attributes:
         files: source text of each file, by its path in the package that travels ("model/body.py").
         external: top-level packages that must be installed.
+        importers: of each of them, a file and line that import it.
     """
 
     files: dict[str, str] = field(default_factory=dict)
     external: set[str] = field(default_factory=set)
+    importers: dict[str, str] = field(default_factory=dict)
 
 
 def closure(homes: tuple[Home, ...], modules: tuple[str, ...]) -> Closure:
@@ -66,14 +70,16 @@ def closure(homes: tuple[Home, ...], modules: tuple[str, ...]) -> Closure:
         path = _locate(homes, module)
         if path is None:
             continue
-        source = path.read_text(encoding="utf-8")
+        source = path.read_text(encoding="utf-8-sig")  # some editors of Windows put a mark in front
         package = module if path.name == "__init__.py" else module.rpartition(".")[0]
         relative = "/".join(filter(None, (*package.split("."), path.name)))
         found.files[relative] = _with_relative_imports(source, path, package, homes)
         for imported in _imports(ast.parse(source, str(path))):
             inside = _inside(imported, package, homes)
             if inside is None:
-                found.external.add(imported.module.partition(".")[0])
+                name = imported.module.partition(".")[0]
+                found.external.add(name)
+                found.importers.setdefault(name, f"{path}, line {imported.line}")
             else:
                 waiting += [inside, *(f"{inside}.{name}".lstrip(".") for name in imported.names)]
     found.external -= sys.stdlib_module_names
@@ -124,6 +130,8 @@ def _locate(homes: tuple[Home, ...], module: str) -> Path | None:
     for home in sorted(homes, key=lambda home: len(home.place), reverse=True):
         if home.place in ("", module) or module.startswith(f"{home.place}."):
             inner = module[len(home.place) :].strip(".").replace(".", "/")
+            if not inner and not home.is_package:
+                continue
             for path in (home.folder / inner / "__init__.py", home.folder / f"{inner}.py"):
                 if path.is_file():
                     return path

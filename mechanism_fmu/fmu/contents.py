@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 import keyword
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
@@ -13,9 +15,29 @@ from .documentation import documentation
 from .drawing import drawing
 from .logic import logic
 
+#: Beginning of the name of the package that a user's own file is loaded into (see `own.load`).
+OWN = "own_mechanism_"
 
-def model_of(module: ModuleType) -> tuple[Model, Path]:
-    """The model that a module holds, and the folder of the module.
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a model comes from.
+
+    Attributes:
+        model: the model.
+        folder: of the module that holds it; its neighbours may be imported.
+        own: the module is a file of the user's own, and whatever else lies in the folder is none of its business.
+        notes: the docstring of such a file, as Markdown.
+    """
+
+    model: Model
+    folder: Path
+    own: bool
+    notes: str
+
+
+def model_of(module: ModuleType) -> Origin:
+    """The model that a module holds, and where it comes from.
 
     Raises:
         MechanismError: the module has no model, or one whose name no FMU can have.
@@ -27,7 +49,8 @@ def model_of(module: ModuleType) -> tuple[Model, Path]:
         raise MechanismError(
             f"The model name {model.name!r} cannot name an FMU; use letters, digits and '_', and no Python keyword."
         )
-    return model, Path(module.__file__).parent
+    own = module.__name__.startswith(OWN)
+    return Origin(model, Path(module.__file__).parent, own, inspect.getdoc(module) or "" if own else "")
 
 
 def file_in(destination: Path, name: str) -> Path:
@@ -45,18 +68,19 @@ def file_in(destination: Path, name: str) -> Path:
     return destination / name
 
 
-def common_entries(model: Model, folder: Path, facts: Sequence[str], licences: Sequence[str]) -> dict[str, bytes]:
+def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str]) -> dict[str, bytes]:
     """Documentation, drawing, logic and icon of a model, by their paths within the FMU.
 
     Args:
-        model: the model.
-        folder: of the model, with its README.md and model.png, if there are any.
+        origin: the model, and its folder with README.md and model.png, if there are any.
         facts: what the documentation says of running this flavour, as HTML.
         licences: distributions whose code travels in the FMU.
     """
-    icon = next(path for path in (folder / "model.png", Path(__file__).with_name("model.png")) if path.is_file())
+    model, folder = origin.model, None if origin.own else origin.folder
+    icons = [*([folder / "model.png"] if folder else []), Path(__file__).with_name("model.png")]
+    icon = next(path for path in icons if path.is_file())
     return {
-        **documentation(model, folder, facts, licences),
+        **documentation(model, folder, facts, licences, origin.notes),
         **drawing(model),
         **logic(model),
         "model.png": icon.read_bytes(),

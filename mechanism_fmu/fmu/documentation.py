@@ -28,23 +28,27 @@ img { max-width: 100%; }
 """
 
 
-def documentation(model: Model, folder: Path, facts: Sequence[str], licences: Sequence[str]) -> dict[str, bytes]:
+def documentation(
+    model: Model, folder: Path | None, facts: Sequence[str], licences: Sequence[str], notes: str = ""
+) -> dict[str, bytes]:
     """Files of the FMU's folder `documentation`, by their path within the FMU.
 
     Args:
         model: what the FMU simulates.
-        folder: of the model; its README.md, if there, becomes part of the page, with its pictures.
+        folder: of the model; its README.md, if there, becomes part of the page, with its pictures. None: there is none.
         facts: what there is to know when this flavour of FMU is run, as HTML.
         licences: distributions whose code travels in the FMU.
+        notes: what is to be read in place of a README.md, as Markdown.
     """
     texts = {f"documentation/licenses/{name}.txt": licence_text(name).encode() for name in licences}
-    return {"documentation/index.html": page(model, folder, facts).encode(), **texts}
+    return {"documentation/index.html": page(model, folder, facts, notes).encode(), **texts}
 
 
-def page(model: Model, folder: Path, facts: Sequence[str]) -> str:
+def page(model: Model, folder: Path | None, facts: Sequence[str], notes: str = "") -> str:
     """The page of a model as HTML; see `documentation`."""
     variables = variables_of(model)
-    readme = folder / "README.md"
+    readme = None if folder is None else folder / "README.md"
+    text = readme.read_text(encoding="utf-8") if readme is not None and readme.is_file() else notes
     tables = "".join(
         _table(title, [v for v in variables if v.causality == causality])
         for title, causality in (
@@ -58,7 +62,7 @@ def page(model: Model, folder: Path, facts: Sequence[str]) -> str:
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(model.name)}</title>'
         f"<style>{_STYLE}</style></head><body>\n"
         f"<h1>{escape(model.name)}</h1>\n<p>{escape(model.description)}</p>\n"
-        f"{_markdown(readme.read_text(encoding='utf-8'), folder) if readme.is_file() else ''}"
+        f"{_markdown(text, folder)}"
         f"<h2>Variables</h2>\n{tables}"
         f"{_modes(model, folder)}"
         f"<h2>Running this FMU</h2>\n<ul>\n{''.join(f'<li>{fact}</li>{chr(10)}' for fact in facts)}</ul>\n"
@@ -66,7 +70,7 @@ def page(model: Model, folder: Path, facts: Sequence[str]) -> str:
     )
 
 
-def _modes(model: Model, folder: Path) -> str:
+def _modes(model: Model, folder: Path | None) -> str:
     """The modes and transitions for the default values; "" of a mechanism without any."""
     logic = default_logic(model)
     if not logic.regions:
@@ -120,7 +124,7 @@ def _limits(variable: Variable) -> str:
     return f"{low} … {high}" if low or high else ""
 
 
-def _markdown(text: str, folder: Path) -> str:
+def _markdown(text: str, folder: Path | None) -> str:
     """Markdown as HTML that needs no other file."""
     converter = MarkdownIt("commonmark", {"html": False}).enable("table")
     tokens = converter.parse(text)
@@ -130,11 +134,17 @@ def _markdown(text: str, folder: Path) -> str:
     return html
 
 
-def _make_self_contained(token: Token, folder: Path) -> None:
-    """Inline pictures, drop links to files that stay behind, and leave the first heading level to the page."""
+def _make_self_contained(token: Token, folder: Path | None) -> None:
+    """Inline pictures, drop links to files that stay behind, and leave the first heading level to the page.
+
+    Without a folder, pictures are their texts.
+    """
     if token.type in ("heading_open", "heading_close"):
         token.tag = f"h{min(int(token.tag[1]) + 1, 6)}"
+    elif token.type == "image" and folder is None:
+        token.type = "text"
     elif token.type == "image":
+        assert folder is not None
         path = folder / str(token.attrs["src"])
         kind = mimetypes.guess_type(path.name)[0]
         token.attrs["src"] = f"data:{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"

@@ -14,13 +14,14 @@ from pythonfmu.builder import FmuBuilder
 
 from ..model import MechanismError
 from .archive import content_hash, read_entries, with_guid, write_archive
-from .closure import Home, closure
+from .closure import Closure, Home, closure
 from .contents import common_entries, file_in, model_of
 from .native.libraries import engine_libraries
 from .native.link import has_linker
 from .native.objects import Report, silently
 from .native.targets import WRAPPED
 from .project import dependencies
+from .self_check import StartError
 
 _LIBRARY = Path(__file__).parents[1]
 
@@ -77,10 +78,12 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
         MechanismError: the module has no model, or a model that cannot travel.
         OSError: the destination cannot be written.
     """
-    model, folder = model_of(module)
+    origin = model_of(module)
+    model, folder = origin.model, origin.folder
     path = file_in(destination, f"{model.name}.fmu")
     place = f"models.{model.name.lower()}"
-    homes = (Home("mechanism_fmu", _LIBRARY, ""), Home(module.__name__.rpartition(".")[0], folder, place))
+    home = Home(module.__name__.rpartition(".")[0], folder, place, is_package=not origin.own)
+    homes = (Home("mechanism_fmu", _LIBRARY, ""), home)
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
     sources = closure(homes, ("fmu.slave", main))
     code = {name: text.encode() for name, text in sources.files.items()}
@@ -97,11 +100,11 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
         {
             f"{model.name}_{digest}.py": slave.encode(),
             f"{starter}.py": start.encode(),
-            "requirements.txt": _requirements(sources.external, bool(compiled)).encode(),
+            "requirements.txt": _requirements(sources, bool(compiled)).encode(),
             **{f"{package}/{name}": contents for name, contents in code.items()},
         },
     )
-    entries |= common_entries(model, folder, _WRAPPER, ("mechanism_fmu", "pythonfmu"))
+    entries |= common_entries(origin, _WRAPPER, ("mechanism_fmu", "pythonfmu"))
     write_archive(with_guid(entries), path)
     return path
 
@@ -119,9 +122,10 @@ def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str,
         try:
             return read_entries(FmuBuilder.build_FMU(script, dest=Path(temporary, "built"), project_files=others))
         except ValueError as error:
-            # pythonfmu makes an instance; the copy of the library in it has an error class of its own.
-            if type(error).__name__ == MechanismError.__name__:
-                raise MechanismError(str(error)) from error
+            # pythonfmu makes an instance; the copy of the library in it has error classes of its own.
+            for known in (MechanismError, StartError):
+                if type(error).__name__ == known.__name__:
+                    raise known(str(error)) from error
             raise
 
 
@@ -139,23 +143,23 @@ def _imports_left_alone(slave: str) -> Iterator[None]:
                 del sys.modules[name]
 
 
-def _requirements(packages: set[str], compiled: bool) -> str:
+def _requirements(sources: Closure, compiled: bool) -> str:
     """Text of requirements.txt: what the target must install, with the pins of the project.
 
     Args:
-        packages: that are imported.
+        sources: that travel.
         compiled: the engine travels compiled, so that the compiler is needed on other platforms only.
 
     Raises:
         MechanismError: a package that is no dependency of the project.
     """
     pins = {re.split(r"[^\w.-]", pin, maxsplit=1)[0]: pin for pin in dependencies()}
-    needed = packages - _BROUGHT_ALONG
-    unknown = needed - pins.keys()
-    if unknown:
+    needed = sources.external - _BROUGHT_ALONG
+    for name in sorted(needed - pins.keys()):
         raise MechanismError(
-            f"The model imports {', '.join(sorted(unknown))}, which mechanism_fmu does not depend on; "
-            "an FMU can ask for nothing else. Remove the import."
+            f"{sources.importers[name]}: the model imports {name}, which mechanism_fmu does not depend on; an FMU by "
+            "pythonfmu can ask for nothing else. Remove the import, or build with --flavour native, for which only "
+            "the numbers count."
         )
     note = f"# on other platforms than {', '.join(WRAPPED)} also:\n# {pins[_COMPILER]}\n" if compiled else ""
     return "".join(f"{pins[name]}\n" for name in sorted(needed - ({_COMPILER} if compiled else set()))) + note

@@ -25,6 +25,7 @@ from . import saved_state
 from .news import News
 from .protocol import TIGHTEST, Experiment, FmiError, Phase, experiment, require, step_target
 from .saved_state import SavedState, SavedStateError
+from .self_check import require_numbers, start_explained
 from .variables import Variable, variables_of
 from .wrapper import Told, fmi_call, survive_release
 
@@ -108,9 +109,15 @@ class MechanismSlave(Fmi2Slave):
         self._phase = Phase.TERMINATED
 
     def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
-        """modelDescription.xml; the build writes the final GUID into it."""
+        """modelDescription.xml; the build asks for it, and writes the final GUID into it.
+
+        Raises:
+            StartError: with its default values, the mechanism cannot start; better said here than in another tool.
+        """
         from .model_description import model_description
 
+        with start_explained():
+            require_numbers(self._prepared().read())
         return model_description(self.model, str(self.guid))
 
     # --- values ------------------------------------------------------------------------------------------------------
@@ -319,7 +326,8 @@ def _compile_engine(model: Model) -> None:
     collects = gc.isenabled()
     gc.disable()  # the compiler makes millions of small objects and keeps them: looking for garbage costs a tenth
     try:
-        simulation = Simulation(model.build(model.values()))
+        with start_explained():
+            simulation = Simulation(model.build(model.values()))
         simulation.advance(1e-3)
         simulation.read()
     finally:

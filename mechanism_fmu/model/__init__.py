@@ -4,7 +4,7 @@ from ..codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH
 from .body import GROUND, Body
 from .compile import MechanismTables
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
-from .curves import Curve, Piece, Term
+from .curves import Curve, Piece, Term, constant, cosine, sine
 from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
 from .errors import MechanismError
 from .findings import Finding
@@ -29,8 +29,11 @@ from .joints import (
 from .logic import LogicalFunction
 from .mechanism import Mechanism, Settings
 from .model import Model
+from .motion_laws import Law, Move, cycloidal, dwell, modified_sine, polynomial_345
+from .motions import harmonic_motion, polynomial_motion, table_motion
 from .patterns import CircularPattern
 from .ports import Calculated, Input, Output, Parameter
+from .profiles import circle, harmonic_profile, motion_profile, piecewise_profile, slot, spline_profile
 
 __all__ = [
     "EVENT_BUFFER_LENGTH",
@@ -58,11 +61,13 @@ __all__ = [
     "Hinge",
     "Input",
     "InternalGears",
+    "Law",
     "LogicalFunction",
     "Mechanism",
     "MechanismError",
     "MechanismTables",
     "Model",
+    "Move",
     "Output",
     "Parameter",
     "Piece",
@@ -82,4 +87,20 @@ __all__ = [
     "Wheel",
     "XDriver",
     "YDriver",
+    "circle",
+    "constant",
+    "cosine",
+    "cycloidal",
+    "dwell",
+    "harmonic_motion",
+    "harmonic_profile",
+    "modified_sine",
+    "motion_profile",
+    "piecewise_profile",
+    "polynomial_345",
+    "polynomial_motion",
+    "sine",
+    "slot",
+    "spline_profile",
+    "table_motion",
 ]

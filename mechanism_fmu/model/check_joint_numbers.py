@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .body import Point
-from .conditions import finite, finite_positive, length, plain, positive
+from .conditions import finite_positive, length, plain
 from .contacts import Contact
-from .curves import Curve
 from .findings import Finding, literal, refuse_unless
 from .functions import Number
 from .joints import (
@@ -48,17 +47,6 @@ def pair_findings(contact: Contact) -> Iterator[Finding]:
     """What the numbers of a contact of profiles can have wrong, besides what those of any contact can."""
     if isinstance(contact, CamFlatFollower):
         yield _axis(f"Contact {literal(repr(contact.name))}: direction_j", contact.direction_j)
-
-
-def curve_findings(owner: str, curve: Curve) -> Iterator[Finding]:
-    """Every problem that the numbers of a curve of the part `owner` can have."""
-    label = literal(repr(owner))
-    terms = [number for piece in curve.pieces for term in piece.terms for number in term.data()]
-    numbers = [curve.start, curve.span, *(piece.start for piece in curve.pieces), *terms]
-    yield refuse_unless(finite(*numbers), f"The curve of {label} holds a number that is not finite; give finite ones.")
-    if curve.periodic:
-        text = f"The curve of {label} repeats itself after span = {{:g}}, which must be positive."
-        yield refuse_unless(positive(curve.span), text, curve.span)
 
 
 def _axis(what: str, axis: Point) -> Finding:

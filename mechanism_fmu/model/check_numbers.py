@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from .body import Body
 from .check_contact_numbers import contact_findings, pattern_findings
-from .check_joint_numbers import curve_findings, joint_findings, pair_findings
+from .check_curves import curve_findings
+from .check_joint_numbers import joint_findings, pair_findings
 from .compile import curve_owners
 from .conditions import (
     finite,

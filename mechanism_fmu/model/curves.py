@@ -48,7 +48,8 @@ class Curve:
     """A function of one variable.
 
     Attributes:
-        pieces: in the order of their starts. Before the first one it holds too.
+        pieces: in the order of their starts, each beginning where the one before it ends. The first one holds before
+            its start, too; of two with the same start, the first one holds there only.
         start: where the range of a profile begins; of a periodic curve, of the period.
         span: the length of that range.
         periodic: whether it repeats itself.

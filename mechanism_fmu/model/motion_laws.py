@@ -7,7 +7,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from .curves import Piece, Term
-from .functions import Number
+from .errors import MechanismError
+from .functions import Number, is_plain, where_positive
+
+#: Moves may fill the turn to the last bit but this share of it.
+_ROUNDING = 1e-9
 
 #: From where it begins, the value there, the rise and the width to the pieces of a move.
 Law = Callable[[Number, Number, Number, Number], tuple[Piece, ...]]
@@ -62,11 +66,21 @@ class Move:
 
 
 def moves_to_pieces(base: Number, moves: Sequence[Move], turn: float, back: Law) -> tuple[Piece, ...]:
-    """The pieces of base + lift over one turn; what the moves leave of it leads back to the base by `back`."""
+    """The pieces of base + lift over one turn; what the moves leave of it leads back to the base by `back`.
+
+    Raises:
+        MechanismError: a width is not positive, or the moves need more than the turn. Of symbolic widths, the curve's
+            findings say so.
+    """
     start: Number = 0.0
     lift: Number = 0.0
     pieces: list[Piece] = []
-    for move in moves:
+    for number, move in enumerate(moves, start=1):
+        if is_plain(move.width) and not move.width > 0.0:
+            raise MechanismError(f"Move {number} of the cam has width = {move.width:g} rad; it must be positive.")
         pieces += move.law(start, base + lift, move.lift - lift, move.width)
         start, lift = start + move.width, move.lift
-    return (*pieces, *back(start, base + lift, -lift, turn - start))
+    left = turn - start
+    if is_plain(left) and left < -_ROUNDING * turn:
+        raise MechanismError(f"The cam's moves take {start:g} rad of a turn of {turn:g} rad; make them narrower.")
+    return (*pieces, *back(start, base + lift, -lift, where_positive(left, left, 1.0)))

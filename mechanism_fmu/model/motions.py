@@ -22,11 +22,13 @@ def harmonic_motion(mean: Number, amplitude: Number, frequency: Number, phase: N
 def table_motion(points: Sequence[tuple[float, Number]]) -> Curve:
     """A cubic spline through points (t [s], value); before the first and after the last one the value rests.
 
+    The speed is zero there, too.
+
     Raises:
         MechanismError: fewer than 3 points, or times that do not increase.
     """
-    times, values = zip(*points, strict=True)
-    rest = Piece(float(times[-1]), (constant(values[-1]),))
+    times, values = [float(time) for time, _ in points], [value for _, value in points]
     pieces = spline_pieces(times, values, 3, periodic=False)
-    before = Piece(float(times[0]) - 1.0, (constant(values[0]),))
+    before = Piece(times[0], (constant(values[0]),))  # the first piece of a curve holds before its start
+    rest = Piece(times[-1], (constant(values[-1]),))
     return Curve((before, *pieces, rest))

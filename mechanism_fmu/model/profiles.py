@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from .curves import Curve, Piece, Term, constant, cosine, sine
 from .functions import Number
-from .motion_laws import Law, Move, dwell, moves_to_pieces
+from .motion_laws import Law, Move, cycloidal, moves_to_pieces
 from .splines import spline_pieces
 
 _TURN = 2 * math.pi
@@ -43,34 +43,38 @@ def spline_profile(radii: Sequence[Number], angles: Sequence[float] | None = Non
         degree: 3 or 5.
 
     Raises:
-        MechanismError: fewer than 3 points, or angles that do not increase.
+        MechanismError: fewer than 3 points, another count of angles or degree, or angles that do not increase.
     """
     count = len(radii)
-    places = [_TURN * k / count for k in range(count)] if angles is None else list(angles)
-    pieces = spline_pieces([*places, places[0] + _TURN], radii, degree, periodic=True)
-    return Curve(pieces, places[0], _TURN, periodic=True)
+    places = [_TURN * k / count for k in range(count)] if angles is None else [float(angle) for angle in angles]
+    knots = [*places, places[0] + _TURN] if places else [0.0]
+    return Curve(spline_pieces(knots, radii, degree, periodic=True), knots[0], _TURN, periodic=True)
 
 
-def motion_profile(base_radius: Number, moves: Sequence[Move], back: Law = dwell) -> Curve:
+def motion_profile(base_radius: Number, moves: Sequence[Move], back: Law = cycloidal) -> Curve:
     """A cam that lifts a point follower by standard motion laws: base_radius + lift(alpha).
 
     Args:
         base_radius: [m].
         moves: one after the other, from alpha = 0 and lift 0 on.
-        back: the law by which what is left of the turn leads back to the base radius.
+        back: the law by which what is left of the turn leads back to the base radius; after moves that end there, it
+            rests.
+
+    Raises:
+        MechanismError: a move's width is not positive, or the moves need more than a turn.
     """
     return _closed(moves_to_pieces(base_radius, moves, _TURN, back))
 
 
 def slot(points: Sequence[tuple[float, Number]], degree: int = 3) -> Curve:
-    """An open profile through points (alpha [rad], rho [m]), the spline with rho' = 0 at both ends.
+    """An open profile through points (alpha [rad], rho [m]): a spline, rho' (of degree 5, and rho'') 0 at its ends.
 
     Raises:
         MechanismError: fewer than 3 points, or angles that do not increase.
     """
-    angles, radii = zip(*points, strict=True)
+    angles, radii = [float(angle) for angle, _ in points], [radius for _, radius in points]
     pieces = spline_pieces(angles, radii, degree, periodic=False)
-    return Curve(pieces, float(angles[0]), float(angles[-1] - angles[0]))
+    return Curve(pieces, angles[0], angles[-1] - angles[0])
 
 
 def _closed(pieces: tuple[Piece, ...]) -> Curve:

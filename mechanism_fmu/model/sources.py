@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from .. import codes
-from .efforts import effort
+from .efforts import EFFORTS, effort
 from .errors import MechanismError
 from .functions import Number
 
@@ -73,8 +75,10 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
     if part == "energy" and quantity in _ENERGIES:
         found = (_ENERGIES[quantity], 0, 0)
     if found is None:
+        near = get_close_matches(source, list(_common_sources(mechanism)), 1)
+        meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
         raise MechanismError(
-            f"output source {source!r} is unknown; use <body>.x|y|angle|x_rate|y_rate|speed, "
+            f"output source {source!r} is unknown{meant}<body>.x|y|angle|x_rate|y_rate|speed, "
             f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, <pattern>.index, <shaft>.torque, "
             f"<joint>.force|force_x|force_y|normal_force|torque as the joint has them, event.count|in_step, "
             f"events[k].{'|'.join(_EVENT_FIELDS)}, energy.{'|'.join(_ENERGIES)}, "
@@ -83,6 +87,24 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
             f"{', '.join(c.name for c in mechanism.contacts) or '(none)'}."
         )
     return found
+
+
+def _common_sources(mechanism: Mechanism) -> Iterator[str]:
+    """The sources among which a misspelt one is looked for."""
+    for body in mechanism.bodies:
+        yield from (f"{body.name}.{quantity}" for quantity in (*_COORDINATES, *_RATES))
+        yield from (f"impact.{field}:{body.name}" for field in ("speed", "speed_before"))
+    for contact in mechanism.contacts:
+        yield from (f"{contact.name}.{quantity}" for quantity in _OF_CONTACT)
+        yield f"impact.impulse:{contact.name}"
+    yield from (f"{pattern.name}.index" for pattern in mechanism.patterns)
+    yield from (f"{force.name}.torque" for force in mechanism.forces if force.kind == codes.SHAFT)
+    for joint in mechanism.joints:
+        yield from (f"{joint.name}.{quantity}" for quantity in EFFORTS.get(joint.kind, ()))
+    yield from (f"energy.{kind}" for kind in _ENERGIES)
+    yield from (f"impact.{field}" for field in (*_COUNTERS, *_FIELDS))
+    yield from (f"impacts[1].{field}" for field in _FIELDS)
+    yield from ("event.count", "event.in_step", *(f"events[1].{field}" for field in _EVENT_FIELDS))
 
 
 def _of_body(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from .conditions import plain
 from .curves import Piece, Term
 from .errors import MechanismError
-from .functions import Number, is_plain
+from .functions import Number
 
 Matrix = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -27,13 +28,18 @@ def spline_pieces(knots: Sequence[float], values: Sequence[Number], degree: int,
         periodic: else clamped: the derivatives (of degree 5, and the second ones) are zero at both ends.
 
     Raises:
-        MechanismError: too few points, or knots that do not increase.
+        MechanismError: another degree, too few points, a place without a value, or knots that do not increase.
     """
+    if degree not in (3, 5):
+        raise MechanismError(f"A spline of degree {degree} is not made here; take 3 (C2) or 5 (C4).")
+    points = len(knots) - periodic
+    if len(values) != points:
+        raise MechanismError(f"A spline has {points} places for {len(values)} values; give as many of each.")
     widths = np.diff(np.asarray(knots, dtype=float))
-    if len(widths) < 2 + periodic or not np.all(np.isfinite(widths)) or not np.all(widths > 0.0):
-        raise MechanismError(
-            f"A spline needs at least {3} points at increasing places, but it has {[float(k) for k in knots]}."
-        )
+    if points < 3 or not np.all(np.isfinite(widths)) or not np.all(widths > 0.0):
+        where = ", ".join(f"{float(knot):g}" for knot in knots)
+        again = "; the last one is where it repeats itself" if periodic else ""
+        raise MechanismError(f"A spline needs at least 3 points at increasing places, but they are at {where}{again}.")
     coefficients = _coefficients(widths, degree, periodic)
     pieces = []
     for k, start in enumerate(knots[:-1]):
@@ -43,12 +49,11 @@ def spline_pieces(knots: Sequence[float], values: Sequence[Number], degree: int,
 
 
 def _combine(weights: Matrix, values: Sequence[Number]) -> Number:
-    if all(map(is_plain, values)):
-        return math.fsum(w * float(v) for w, v in zip(weights, values, strict=True))
+    """The weighted sum, of plain numbers by the same operations as of symbols."""
     total: Number = 0.0
     for weight, value in zip(weights, values, strict=True):
         if weight != 0.0:
-            total = total + float(weight) * value
+            total = total + float(weight) * plain(value)
     return total
 
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from mechanism_fmu.engine.acceleration import derivative
-from mechanism_fmu.engine.dormand_prince import interpolate, try_step
+from mechanism_fmu.engine.dormand_prince import try_step
+from mechanism_fmu.engine.interpolation import interpolate
 from mechanism_fmu.engine.pack import pack
 from mechanism_fmu.engine.subset import entry
 from mechanism_fmu.engine.vectors import copy

@@ -55,6 +55,30 @@ def native_four_bar(native_four_bar_fmu: Path, tmp_path_factory: pytest.TempPath
     return Fmu.unzip(native_four_bar_fmu, tmp_path_factory.mktemp("native_four_bar"))
 
 
+@pytest.fixture(scope="session")
+def gear_train(gear_train_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The gear train's FMU, unzipped."""
+    return Fmu.unzip(gear_train_fmu, tmp_path_factory.mktemp("gear_train"))
+
+
+@pytest.fixture(scope="session")
+def cam_drive(cam_drive_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The cam drive's FMU, unzipped."""
+    return Fmu.unzip(cam_drive_fmu, tmp_path_factory.mktemp("cam_drive"))
+
+
+@pytest.fixture(scope="session")
+def native_gear_train(native_gear_train_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The native gear train's FMU, unzipped."""
+    return Fmu.unzip(native_gear_train_fmu, tmp_path_factory.mktemp("native_gear_train"))
+
+
+@pytest.fixture(scope="session")
+def native_cam_drive(native_cam_drive_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmu:
+    """The native cam drive's FMU, unzipped."""
+    return Fmu.unzip(native_cam_drive_fmu, tmp_path_factory.mktemp("native_cam_drive"))
+
+
 @pytest.fixture
 def instance(ratchet: Fmu) -> Iterator[Callable[..., Instance]]:
     """A function that makes instances of the ratchet; they are freed after the test."""

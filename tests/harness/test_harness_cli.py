@@ -82,10 +82,11 @@ def test_wrong_arguments_are_wrong_use(arguments: list[str]) -> None:
 def test_build_knows_its_models(tmp_path: Path) -> None:
     code, text = invoke("build", "gearbox", "-o", tmp_path)
     assert code == 2
-    assert "There is no model 'gearbox'; there are: four_bar, geneva, ratchet, slider_crank" in text
+    known = "cam_drive, four_bar, gear_train, geneva, ratchet, slider_crank"
+    assert f"There is no model 'gearbox'; there are: {known}" in text
     code, text = invoke("build", "--list")
     assert code == 0
-    assert text.startswith("four_bar Four-bar linkage")
+    assert text.startswith("cam_drive Cam with a roller follower")
     assert " geneva External Geneva drive" in text
     assert " ratchet Ratchet of Pennestrì" in text
 

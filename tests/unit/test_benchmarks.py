@@ -9,7 +9,7 @@ import pytest
 from rich.console import Console
 
 import models
-from benchmarks import acceleration, fmu_step, fmus, reference, step
+from benchmarks import acceleration, cams, fmu_step, fmus, reference, step
 from benchmarks.c_limit import compare as c_limit
 from benchmarks.c_limit.library import Limit, NoCompilerError, build, export
 from benchmarks.table import as_json, table, this_machine
@@ -54,6 +54,10 @@ def test_engine_and_plain_program_agree_and_are_timed() -> None:
         "constant input, after impact",
     ]
     assert all(len(times) == 1 and times[0] > 0 for c in found for times in (c.slow, c.fast))
+
+
+def test_ten_bodies_with_cams_accelerate_as_the_textbook_says() -> None:
+    assert [c.case for c in cams.compare(1)] == ["ten bodies, four cams"]
 
 
 @pytest.mark.parametrize("compare", [acceleration.compare, step.compare])

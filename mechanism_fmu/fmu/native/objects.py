@@ -80,10 +80,13 @@ def _emit(folder: Path, report: Report) -> None:
     # Settings of numba that the user has for other work would change what is compiled.
     inherited = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     environment = {**inherited, **_GENERIC, "PYTHONPATH": path}
-    command = [sys.executable, "-m", "mechanism_fmu.fmu.native.emit", str(folder)]
+    command = [sys.executable, "-m", "mechanism_fmu.fmu.native.emit", str(folder.absolute())]
     with (
         tempfile.TemporaryFile("w+") as complaints,
-        subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=complaints, text=True) as process,
+        # Not in the user's folder, where a file of theirs could stand in for a module: python -m looks there first.
+        subprocess.Popen(
+            command, env=environment, cwd=folder, stdout=subprocess.PIPE, stderr=complaints, text=True
+        ) as process,
     ):
         assert process.stdout is not None
         for line in process.stdout:

@@ -24,6 +24,7 @@ from .formulas import Formulas, formulas
 from .link import link, linked_with, need_linker, surface
 from .model_data import model_source
 from .objects import Engine, Report, compiled_engine, silently
+from .start_check import check_start
 from .targets import TARGETS, Target
 from .universal import universal
 
@@ -66,22 +67,25 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
         Path of the FMU.
 
     Raises:
-        MechanismError: there is no linker, the module has no model, or one that cannot be traced.
+        MechanismError: there is no linker, the module has no model, or one that cannot be traced or cannot start.
         OSError: the destination cannot be written.
     """
     need_linker()
-    model, folder = model_of(module)
+    origin = model_of(module)
+    model = origin.model
     path = file_in(destination, f"{model.name}.fmu")
     traced = formulas(trace(model), pack(model.build(model.values()).compile()))
-    entries = common_entries(model, folder, _FACTS, ("mechanism_fmu",))
+    entries = common_entries(origin, _FACTS, ("mechanism_fmu",))
     if fmi == 3:
         entries = {_PLACES3.get(name, name): contents for name, contents in entries.items()}
     engine = compiled_engine(report)
     guid = _fingerprint(model, traced, entries | {DESCRIPTION: _description(model, "", fmi)}, engine)
     entries[DESCRIPTION] = _description(model, f"{{{guid}}}", fmi)
     source = model_source(model, traced, f"{{{guid}}}", guid.bytes)
+    made = _binaries(model, source, engine)
+    check_start(model, f"{{{guid}}}", made)
     binaries: dict[str, list[bytes]] = {}
-    for target, binary in _binaries(model, source, engine).items():
+    for target, binary in made.items():
         folder_name = target.fmi2 if fmi == 2 else target.name
         binaries.setdefault(f"binaries/{folder_name}/{model.name}{target.suffix}", []).append(binary)
     for name, libraries in binaries.items():

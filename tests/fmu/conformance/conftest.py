@@ -61,6 +61,34 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "impossible": {"rocker_length": 0.4},
         "impacts": False,
     },
+    "gear_train": {
+        "rough": {
+            "pinion_angle_start": 1.0,
+            "pinion_speed_start": 12.0,
+            "drive_stiffness": 2.0,
+            "wheel_damping": 1e-2,
+            "joint_friction_radius": 1e-3,
+        },
+        "inputs": {"drive_torque": (-1.0, 2.0), "load_torque": (-1.0, 1.0), "drive_speed": (3.0, 7.0)},
+        "until": 2.0,
+        "impossible": {"pinion_radius": 900.0},
+        "impacts": False,
+    },
+    # So fast that the roller leaves the cam again and again, until a spring turns it back. It does not bounce, and
+    # is followed closely: many impacts one after the other magnify what is otherwise within the tolerance.
+    "cam_drive": {
+        "rough": {
+            "unilateral": True,
+            "cam_speed_start": 38.0,
+            "drive_damping": 0.0,
+            "drive_stiffness": 0.05,
+            "joint_friction_radius": 1e-4,
+            "relative_tolerance": 1e-11,
+        },
+        "inputs": {"drive_torque": (-0.02, 0.02), "load_torque": (-0.005, 0.005), "drive_speed": (3.0, 7.0)},
+        "until": 2.0,
+        "impossible": {"lift": 0.2},
+    },
 }
 
 

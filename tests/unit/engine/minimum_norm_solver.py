@@ -6,21 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from mechanism_fmu.engine.layout import allocate, field_of
+from mechanism_fmu.engine.layout import GIVEN_SIZES, allocate, field_of
 from mechanism_fmu.engine.minimum_norm import minimum_norm
 from mechanism_fmu.engine.subset import entry
+from mechanism_fmu.engine.views import linear_system
 
 Array = np.ndarray[Any, Any]
 
-BLOCK = allocate(
-    dict.fromkeys(("joints", "forces", "contacts", "patterns", "functions", "held", "inputs", "outputs"), 0)
-    | {"bodies": 4, "joint_rows": 12}
-)
+BLOCK = allocate(dict.fromkeys(GIVEN_SIZES, 0) | {"bodies": 4, "joint_rows": 12})
 
 
 @entry
 def _solve_in(block: Array, count: int, width: int) -> int:
-    return minimum_norm(block, count, width)
+    minimum_norm(block, count, width)
+    return linear_system(block).rank[0]
 
 
 def solve(D: Array, b: Array) -> tuple[Array, Array, int]:

@@ -130,31 +130,40 @@ def test_a_follower_that_falls_onto_a_resting_cam_bounces_and_rests(kind):
 
 
 def test_a_face_over_a_hollow_says_that_its_contact_point_is_lost():
-    """It starts on the nose of the slides' cam, and comes to where the curvature vanishes, 14.96 deg from the join."""
-    mechanism = driven("flat", profile=SLIDE_CAM, speed=1.0, centre=(0.0, 0.0), height=1.5)
-    turned = replace(mechanism.bodies[0], start=(0.0, 0.0, math.radians(30)))
-    motor = AngleDriver("motor", "cam", polynomial_motion(math.radians(30), 1.0))
-    mechanism = replace(mechanism, bodies=(turned, mechanism.bodies[1]), joints=(*mechanism.joints[:-1], motor))
-    try:
-        simulation = Simulation(mechanism)
-    except MechanismError as error:
-        assert "overlap" in str(error)  # noqa: PT017
-        return
+    """The curvature of the slides' cam vanishes where rho^2 + 2 rho'^2 = rho rho'', at alpha = 14.96 deg.
+
+    There its normal has the angle alpha - atan(rho' / rho); it is vertical when the cam has turned by the rest to 90 deg.
+    """
+
+    def rho(alpha):
+        return 1.25 - 0.25 * math.cos(3 * alpha), 0.75 * math.sin(3 * alpha), 2.25 * math.cos(3 * alpha)
+
+    def bend(alpha):
+        value, rate, second = rho(alpha)
+        return value**2 + 2 * rate**2 - value * second
+
+    alpha = brentq(bend, 0.0, 0.5, xtol=1e-15)
+    assert math.degrees(alpha) == pytest.approx(14.96, abs=0.01)
+    simulation = Simulation(driven("flat", profile=SLIDE_CAM, speed=1.0, centre=(0.0, 0.0), height=1.5))
     with pytest.raises(SimulationError, match=r"contact point of two profiles is no longer determined.*Contacts: pair"):
         simulation.advance(3.0)
+    value, rate, _ = rho(alpha)
+    assert simulation.time == pytest.approx(math.pi / 2 - alpha + math.atan2(rate, value), abs=1e-4)
 
 
 def test_a_roller_too_large_for_the_hollow_is_refused_at_the_start():
-    """Its radius is 0.8 m in the hollow; larger, the roller touches at two points."""
-    assert Simulation(cam_mechanism("roller", SLIDE_CAM, math.pi / 2, roller=0.7, height=2.0)).mode() == ("pair",)
-    with pytest.raises(MechanismError, match=r"profiles that overlap.*'pair'"):
+    """Its radius is 0.8 m in the hollow: smaller rollers touch at one point, and a large one in two."""
+    small = cam_mechanism("roller", SLIDE_CAM, math.pi / 2, roller=0.7, height=2.0)
+    assert Simulation(small).mode() == ("pair",)
+    with pytest.raises(MechanismError, match=r"starts with two profiles that overlap.*'cam' reaches 0\.033\d* m into"):
         Simulation(cam_mechanism("roller", SLIDE_CAM, math.pi / 2, roller=3.0, height=4.0))
 
 
-def test_a_hollow_with_a_sharp_bend_stops_a_roller_that_rolls_into_it():
-    dimple = piecewise_profile(
-        (0.0, (constant(1.0),)), (2.0, (constant(1.1), cosine(-0.1, 6.0))), (2.0 + math.pi / 3, (constant(1.0),))
-    )
-    mechanism = driven("roller", profile=dimple, speed=1.0, centre=(0.0, 0.0), roller=0.5)
-    with pytest.raises((SimulationError, MechanismError), match=r"profiles"):
-        Simulation(mechanism).advance(6.5)
+def test_a_hollow_that_is_too_narrow_for_the_roller_stops_it():
+    """A dimple whose radius is about a fifth: a roller of 0.5 m comes to where its contact point is lost."""
+    wave = (2.0, (constant(1.1), cosine(-0.1, 6.0)))
+    dimple = piecewise_profile((0.0, (constant(1.0),)), wave, (2.0 + math.pi / 3, (constant(1.0),)))
+    options = {"profile": dimple, "speed": 1.0, "centre": (0.0, 0.0)}
+    Simulation(driven("roller", roller=0.2, **options)).advance(6.5)
+    with pytest.raises(SimulationError, match=r"contact point of two profiles is no longer determined"):
+        Simulation(driven("roller", roller=0.5, **options)).advance(6.5)

@@ -69,22 +69,20 @@ def test_the_content_hash_tells_names_and_contents_apart() -> None:
 APP = typer.Typer()
 APP.command()(command.build)
 
-MODELS = "there are: four_bar, geneva, ratchet, slider_crank"
+OWN = "For a mechanism of your own, give its file, e.g. my_mechanism.py."
+MODELS = ", ".join(models.available())
 
 
 def test_an_unknown_model_is_answered_with_the_list() -> None:
     result = CliRunner().invoke(APP, ["rachet"])
     assert result.exit_code == 2
-    assert result.stderr == f"There is no model 'rachet'; {MODELS}.\n"
+    assert result.stderr == f"There is no model 'rachet'; there are: {MODELS}. {OWN}\n"
     assert result.stdout == ""
 
 
 def test_no_model_is_answered_with_the_list() -> None:
     result = CliRunner().invoke(APP, [])
-    assert (result.exit_code, result.stderr) == (
-        2,
-        f"Say which model to build; {MODELS}.\n",
-    )
+    assert (result.exit_code, result.stderr) == (2, f"Say which model to build; there are: {MODELS}. {OWN}\n")
 
 
 def test_the_list_describes_the_models() -> None:

@@ -40,7 +40,8 @@ from mechanism_fmu.model.findings import messages
 from mechanism_fmu.model.trace import trace
 
 RAMP = Curve((Piece(0.0, (Term((1.0, 2.0)),)),))
-SWING = Curve((Piece(0.0, (Term((), 0.5, 3.0, 0.25),)), Piece(1.0, (Term((4.0,)), Term((), 5.0, 6.0)))), 0.0, 2.0, True)
+HILL = Piece(1.0, (Term((4.0, -3.0)), Term((), 5.0, 2 * math.pi)))
+SWING = Curve((Piece(0.0, (Term((1.0, 3.0)),)), HILL), 0.0, 2.0, True)
 EGG = Curve((Piece(0.0, (Term((1.0,), 0.1, 2.0),)),), 0.0, 2 * math.pi, True)
 ROUND = Curve((Piece(0.0, (Term((0.25,)),)),), 0.0, 2 * math.pi, True)
 
@@ -139,9 +140,9 @@ def test_curves_follow_each_other_in_pieces_and_terms():
         TABLES.term_data[:4],
         [
             [1, 2, 0, 0, 0, 0, 0, 0, 0],
-            [0, 0, 0, 0, 0, 0, 0.5, 3, 0.25],
-            [4, 0, 0, 0, 0, 0, 0, 0, 0],
-            [0, 0, 0, 0, 0, 0, 5, 6, 0],
+            [1, 3, 0, 0, 0, 0, 0, 0, 0],
+            [4, -3, 0, 0, 0, 0, 0, 0, 0],
+            [0, 0, 0, 0, 0, 0, 5, 2 * math.pi, 0],
         ],
     )
     egg, roller = 5, 6
@@ -184,6 +185,22 @@ REFUSALS = {
         ["'turn'", "8 coefficients", "6 is the most", "several pieces"],
     ),
     "motion that repeats at once": (joint(TURN, motion=replace(SWING, span=0.0)), ["'turn'", "span = 0", "positive"]),
+    "motion that turns back in time": (
+        joint(TURN, motion=Curve((Piece(1.0, (Term((1.0,)),)), Piece(0.5, (Term((1.0,)),))))),
+        ["The curve of 'turn'", "from 0.5 on", "behind one from 1 on", "increasing order"],
+    ),
+    "motion that repeats too soon": (
+        joint(TURN, motion=replace(SWING, span=0.5)),
+        ["The curve of 'turn'", "a piece from 1 on", "repeats itself at 0.5", "shorten"],
+    ),
+    "motion that jumps": (
+        joint(TURN, motion=Curve((Piece(0.0, (Term((1.0, 2.0)),)), Piece(2.0, (Term((4.5,)),))))),
+        ["The curve of 'turn'", "jumps at 2 from 5 to 4.5", "where the one before it ends"],
+    ),
+    "profile that does not close": (
+        contact(ROLLER, profile_i=Curve((Piece(0.0, (Term((1.0, 0.25)),)),), 0.0, 2.0, True)),
+        ["The curve of 'roller'", "jumps at 2 from 1.5 to 1", "where the one before it ends"],
+    ),
     "driven against itself": (joint(DRIVE_X, body_i="a"), ["XDriver 'drive_x'", "'a' to itself"]),
     "profile not a number": (contact(ROLLER, profile_j=BROKEN), ["The curve of 'roller'", "not finite"]),
     "cam around nowhere": (contact(ROLLER, centre_i=(math.nan, 0.0)), ["CamFollower 'roller'", "not finite"]),
@@ -208,6 +225,7 @@ def test_nothing_is_wrong_with_the_good_one():
 def _mechanism(values):
     size, axis = values.size, (values.axis, 0.0)
     motion = Curve((Piece(0.0, (Term((size, axis[0])),)),))
+    pieces = (Piece(0.0, (Term((axis[0],), size, 0.0),)), Piece(size, (Term(axis),)))
     return replace(
         GOOD,
         joints=(
@@ -219,7 +237,7 @@ def _mechanism(values):
             replace(PUSH, axis_i=axis, motion=motion),
         ),
         contacts=(
-            replace(ROLLER, unilateral=values.unilateral, profile_j=replace(motion, span=size, periodic=True)),
+            replace(ROLLER, unilateral=values.unilateral, profile_j=Curve(pieces, 0.0, size, True)),
             replace(FLAT, unilateral=values.unilateral, direction_j=axis),
         ),
     )

@@ -1,0 +1,118 @@
+"""Singular configurations: where the rank of the active rows drops, the motion can go on along more than one branch.
+
+At such an instant the rows depend on each other although they do not just before and after, as in a parallelogram that
+lies flat. A step may well pass over it, and come out on any branch. So after each step the independence of the rows at
+its stages is looked at: where it has a dip, the least value is sought, and that decides.
+"""
+
+from __future__ import annotations
+
+from .. import codes
+from .interpolation import interpolate
+from .kinematics import place_bodies
+from .minimum_norm import orthogonalise
+from .ports import set_time
+from .room import Array
+from .rows import active_rows
+from .subset import jit, keep_small
+from .views import course, linear_system, rows, sizes, stages
+
+#: Rows with less independence than this (a squared sine) are singular: the configuration is passed, not just neared.
+_SINGULAR_BELOW = 1e-10
+#: Dips above this are no sign of a singular configuration.
+_LOOK_BELOW = 0.1
+_SEARCH_STEPS = 60
+_GOLDEN = 0.3819660112501051
+
+
+@jit
+def independence(block: Array) -> float:
+    """How independent the active rows are, by the last acceleration; 0 when their rank has dropped."""
+    keep_small()
+    system = linear_system(block)
+    if system.rank[0] < course(block).counters[codes.RANK]:
+        return 0.0
+    value: float = system.independence[0]
+    return value
+
+
+@jit
+def note_rank(block: Array) -> None:
+    """After an event, and the acceleration there: the rank that the rows have from now on."""
+    now = course(block)
+    now.counters[codes.RANK] = linear_system(block).rank[0]
+    now.counters[codes.FALLING] = 0
+    now.clock[codes.INDEPENDENCE] = linear_system(block).independence[0]
+
+
+@jit
+def is_singular(block: Array) -> bool:
+    """Whether the step last tried, from y_start on, leads over a singular configuration, or begins in one."""
+    keep_small()
+    now = course(block)
+    at = stages(block).independence
+    at[0] = now.clock[codes.INDEPENDENCE]
+    inside = min(min(at[1], at[2]), min(at[3], at[4]))
+    if linear_system(block).rank[0] > now.counters[codes.RANK]:
+        return True
+    before = now.counters[codes.FALLING] == 1 and at[1] > at[0]
+    dips = before or (inside < at[0] and inside < at[6])
+    if not dips or min(inside, at[0]) > _LOOK_BELOW:
+        return False
+    least = _least(block, stages(block).new_dense, stages(block).tried[0], stages(block).tried[1])
+    if before:
+        least = min(least, _least(block, now.dense, now.clock[codes.STEP_START], now.clock[codes.STEP_SIZE]))
+    return least < _SINGULAR_BELOW
+
+
+@jit
+def keep_independence(block: Array) -> None:
+    """When a step is accepted: how independent the rows are at its end, and whether that falls."""
+    now = course(block)
+    at = stages(block).independence
+    now.clock[codes.INDEPENDENCE] = at[6]
+    now.counters[codes.FALLING] = 0
+    if at[6] < at[4]:
+        now.counters[codes.FALLING] = 1
+
+
+@jit
+def _least(block: Array, dense: Array, start: float, size: float) -> float:
+    """The least independence within a step, by golden-section search on its dense output."""
+    keep_small()
+    low = 0.0
+    high = 1.0
+    left = low + _GOLDEN * (high - low)
+    right = high - _GOLDEN * (high - low)
+    at_left = _independence_at(block, dense, start, size, left)
+    at_right = _independence_at(block, dense, start, size, right)
+    for _ in range(_SEARCH_STEPS):
+        if at_left < at_right:
+            high = right
+            right = left
+            at_right = at_left
+            left = low + _GOLDEN * (high - low)
+            at_left = _independence_at(block, dense, start, size, left)
+        else:
+            low = left
+            left = right
+            at_left = at_right
+            right = high - _GOLDEN * (high - low)
+            at_right = _independence_at(block, dense, start, size, right)
+    return min(at_left, at_right)
+
+
+@jit
+def _independence_at(block: Array, dense: Array, start: float, size: float, fraction: float) -> float:
+    """As `independence`, of the bare rows: very different masses make rows look alike that are not."""
+    keep_small()
+    interpolate(dense, fraction, stages(block).y_at)
+    set_time(block, start + fraction * size)
+    place_bodies(block, stages(block).y_at)
+    count = active_rows(block)
+    n = sizes(block).coordinates
+    for r in range(count):
+        for k in range(n):
+            linear_system(block).scaled[r, k] = rows(block).jacobian[r, k]
+    orthogonalise(block, count, n)
+    return independence(block)

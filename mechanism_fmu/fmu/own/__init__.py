@@ -1,0 +1,1 @@
+"""A mechanism in a file of the user's own: found, loaded, examined, and explained where it cannot be built."""

@@ -1,0 +1,60 @@
+"""Which file is meant."""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+from pathlib import Path
+
+from ...model import MechanismError
+
+#: What the name of a file that travels in an FMU may be made of.
+_NAME = re.compile(r"[A-Za-z0-9_ -]+")
+
+
+class WrongUseError(MechanismError):
+    """What was given on the command line is no file of a mechanism; nothing has been read."""
+
+
+def looks_like_a_file(text: str) -> bool:
+    """Whether a text is a path rather than the name of a ready-made model."""
+    return text.endswith(".py") or "/" in text or "\\" in text or Path(text).exists()
+
+
+def find(text: str) -> Path:
+    """The file that a path names.
+
+    Raises:
+        WrongUseError: there is none, or one that can be no mechanism's.
+    """
+    path = Path(text)
+    if path.is_dir():
+        files = ", ".join(_python_files(path)) or "none"
+        raise WrongUseError(f"{path} is a folder; give the file in it that sets MODEL (Python files there: {files}).")
+    if not path.exists():
+        raise WrongUseError(f"There is no file {path}{_instead(path)}")
+    if path.suffix != ".py":
+        raise WrongUseError(f"{path} is not a Python file; give the file ending in .py that sets MODEL.")
+    if not _NAME.fullmatch(path.stem):
+        better = re.sub(r"\W+", "_", path.stem, flags=re.ASCII).strip("_") or "my_mechanism"
+        raise WrongUseError(
+            f"{path}: the file travels in the FMU, so its name must be of the letters a to z, digits, '_', '-' and "
+            f"spaces before .py; rename it, for example to {better}.py."
+        )
+    return path
+
+
+def _instead(path: Path) -> str:
+    """What there is instead of a file that does not exist."""
+    if not path.parent.is_dir():
+        return f", nor a folder {path.parent}; check the path."
+    there = _python_files(path.parent)
+    near = get_close_matches(path.name, [*there, *(Path(name).stem for name in there)], 1)
+    if near:
+        return f"; did you mean {path.with_name(near[0]).with_suffix('.py')}?"
+    known = f"Python files there: {', '.join(there)}" if there else "there are no Python files in that folder"
+    return f"; {known}. A new one is written by: mechanism-fmu new my_mechanism"
+
+
+def _python_files(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.glob("*.py"))[:10]
