@@ -132,7 +132,7 @@ def test_a_follower_that_falls_onto_a_resting_cam_bounces_and_rests(kind):
 def test_a_face_over_a_hollow_says_that_its_contact_point_is_lost():
     """The curvature of the slides' cam vanishes where rho^2 + 2 rho'^2 = rho rho'', at alpha = 14.96 deg.
 
-    There its normal has the angle alpha - atan(rho' / rho); it is vertical when the cam has turned by the rest to 90 deg.
+    There its normal has the angle alpha - atan(rho' / rho), and is vertical when the cam has turned by the rest to 90.
     """
 
     def rho(alpha):
