@@ -20,10 +20,19 @@ def shaft_inputs(speed: float, angle: float = 0.0) -> tuple[Input, Input]:
     )
 
 
-def torque_input(name: str, body: str, start: float = 0.0) -> Input:
-    """A torque on a body, by the `Torque` whose name is `name` without "_torque"."""
-    description = f"Torque on the {body}, counter-clockwise positive"
-    return Input(name, f"{name.removesuffix('_torque')}.torque", start, description, "N.m", -1e6, 1e6)
+def drive_torque_input(body: str, start: float = 0.0) -> Input:
+    """Torque on a body from outside, by the `Torque` "drive"."""
+    return _torque("drive", start, f"Torque on the {body}")
+
+
+def load_torque_input(body: str, start: float = 0.0) -> Input:
+    """Torque of what a body drives, by the `Torque` "load"."""
+    return _torque("load", start, f"External torque on the {body}")
+
+
+def _torque(force: str, start: float, what: str) -> Input:
+    description = f"{what}, counter-clockwise positive"
+    return Input(f"{force}_torque", f"{force}.torque", start, description, "N.m", -1e6, 1e6)
 
 
 def angle_output(body: str, symbol: str) -> Output:
@@ -92,9 +101,23 @@ def impact_outputs(what: str, fields: ImpactFields) -> tuple[Output, ...]:
     )
 
 
-def positive_length(name: str, start: float, description: str) -> Parameter:
-    """A length that is not zero."""
-    return Parameter(name, start, description, "m", 1e-6, 1e3)
+def length_parameter(name: str, start: float, description: str, least: float = 1e-6) -> Parameter:
+    """A length, positive unless `least` [m] says otherwise."""
+    return Parameter(name, start, description, "m", least, 1e3)
+
+
+def link_parameters(
+    body: str, length: float, mass: float, inertia: float, centre: float, origin: str
+) -> tuple[Parameter, ...]:
+    """Length, mass, inertia and centre of mass of a link; `origin` says where the centre's distance counts from."""
+    about = f"Moment of inertia of the {body} about its centre of mass"
+    along = f"Distance of the {body}'s centre of mass from {origin}, along it"
+    return (
+        length_parameter(f"{body}_length", length, f"Length of the {body}"),
+        Parameter(f"{body}_mass", mass, f"Mass of the {body}", "kg", 1e-12, 1e6),
+        Parameter(f"{body}_inertia", inertia, about, "kg.m2", 1e-12, 1e6),
+        length_parameter(f"{body}_centre", centre, along, -1e3),
+    )
 
 
 def rotor_parameters(body: str, mass: float, inertia: float) -> tuple[Parameter, Parameter]:
@@ -105,27 +128,20 @@ def rotor_parameters(body: str, mass: float, inertia: float) -> tuple[Parameter,
     )
 
 
-def start_parameters(body: str, speed: float, zero: str, follows: str) -> tuple[Parameter, Parameter]:
-    """Angle and speed of a body at the start: what angle 0 means, and what follows from them."""
+def start_parameters(body: str, speed: float, angle_is: str, follows: str) -> tuple[Parameter, Parameter]:
+    """Angle (0 at first) and speed of a body at the start.
+
+    Args:
+        body: its name.
+        speed: at first [rad/s].
+        angle_is: which angle is meant, as " (theta); 0: outermost".
+        follows: what the speed brings with it.
+    """
+    what = f"{body.capitalize()} angle at the start{angle_is}"
+    fast = f"{body.capitalize()} speed at the start; {follows}"
     return (
-        Parameter(
-            f"{body}_angle_start",
-            0.0,
-            f"Angle of the {body} at the start; {zero}",
-            "rad",
-            -1e3,
-            1e3,
-            display_unit="deg",
-        ),
-        Parameter(
-            f"{body}_speed_start",
-            speed,
-            f"Speed of the {body} at the start; {follows}",
-            "rad/s",
-            -1e6,
-            1e6,
-            display_unit="rpm",
-        ),
+        Parameter(f"{body}_angle_start", 0.0, what, "rad", -1e3, 1e3, display_unit="deg"),
+        Parameter(f"{body}_speed_start", speed, fast, "rad/s", -1e6, 1e6, display_unit="rpm"),
     )
 
 

@@ -11,17 +11,18 @@ from mechanism_fmu.model.port_builders import (
     SETTINGS,
     angle_output,
     damping_parameter,
+    drive_torque_input,
     energy_outputs,
     flag_output,
     impact_outputs,
-    positive_length,
+    length_parameter,
+    load_torque_input,
     rotor_parameters,
     shaft_inputs,
     shaft_parameters,
     shaft_torque_output,
     speed_output,
     start_parameters,
-    torque_input,
     whole_output,
 )
 
@@ -30,8 +31,8 @@ from .shapes import form
 
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),
-    torque_input("drive_torque", "cam"),
-    torque_input("load_torque", "follower"),
+    drive_torque_input("cam"),
+    load_torque_input("follower"),
 )
 _ALL_INPUTS = tuple(port.name for port in INPUTS)
 
@@ -109,17 +110,17 @@ def _angle(name: str, degrees: float, description: str, least: float) -> Paramet
 
 
 PARAMETERS = (
-    positive_length("base_radius", 0.03, "Radius of the cam's base circle"),
+    length_parameter("base_radius", 0.03, "Radius of the cam's base circle"),
     Parameter("lift", 0.0216, "Radius of the upper dwell less that of the base circle", "m", 0.0, 1e3),
     _angle("rise_angle", 150, "Angle of the cam over which it lifts the roller, cycloidal, turning forwards", 0.01),
     _angle("dwell_angle", 30, "Angle of the cam over which the roller rests on the upper dwell", 0.0),
     _angle("return_angle", 150, "Angle of the cam over which the roller comes down, cycloidal", 0.01),
-    positive_length("roller_radius", 0.01, "Radius of the roller"),
-    positive_length("hinge_distance", 0.08, "Distance between the hinges of follower and cam"),
-    positive_length("follower_length", 0.06, "Distance of the roller's centre from the follower's hinge"),
+    length_parameter("roller_radius", 0.01, "Radius of the roller"),
+    length_parameter("hinge_distance", 0.08, "Distance between the hinges of follower and cam"),
+    length_parameter("follower_length", 0.06, "Distance of the roller's centre from the follower's hinge"),
     *rotor_parameters("cam", 0.8, 1e-3),
     *rotor_parameters("follower", 0.1, 1.5e-4),
-    *start_parameters("cam", 2 * math.pi, "the follower's angle follows", "the follower's follows"),
+    *start_parameters("cam", 2 * math.pi, " (theta); the follower's follows", "the follower's follows"),
     Parameter("spring_stiffness", 0.1, "Stiffness of the return spring", "N.m/rad", 0.0, 1e6),
     Parameter("spring_preload", 0.02, "Torque of the return spring on the base circle", "N.m", -1e6, 1e6),
     damping_parameter("follower"),

@@ -10,23 +10,24 @@ from mechanism_fmu.model.port_builders import (
     SETTINGS,
     angle_output,
     damping_parameter,
+    drive_torque_input,
     energy_outputs,
-    positive_length,
+    length_parameter,
+    load_torque_input,
     rotor_parameters,
     shaft_inputs,
     shaft_parameters,
     shaft_torque_output,
     speed_output,
     start_parameters,
-    torque_input,
 )
 
 from .geometry import pairing
 from .shapes import form
 
 INPUTS = (
-    torque_input("drive_torque", "pinion", 1.5),
-    torque_input("load_torque", "wheel", -0.7),
+    drive_torque_input("pinion", 1.5),
+    load_torque_input("wheel", -0.7),
     *shaft_inputs(speed=0.0),
 )
 
@@ -53,11 +54,11 @@ OUTPUTS = (
 )
 
 PARAMETERS = (
-    positive_length("pinion_radius", 0.05, "Radius of the pinion's pitch circle (R1)"),
-    positive_length("wheel_radius", 0.12, "Radius of the wheel's pitch circle (R2)"),
+    length_parameter("pinion_radius", 0.05, "Radius of the pinion's pitch circle (R1)"),
+    length_parameter("wheel_radius", 0.12, "Radius of the wheel's pitch circle (R2)"),
     *rotor_parameters("pinion", 16.0, 0.02),
     *rotor_parameters("wheel", 15.3, 0.11),
-    *start_parameters("pinion", 0.0, "the wheel's is ratio times this", "the wheel's is ratio times this"),
+    *start_parameters("pinion", 0.0, " (phi_1); the wheel's is ratio times this", "the wheel's is ratio times this"),
     damping_parameter("pinion"),
     damping_parameter("wheel"),
     *shaft_parameters(damping=0.0),
