@@ -40,7 +40,7 @@ def follow(equations: Equations, here: State, time: float) -> State:
         elif step > shortest:
             step *= 0.5
         else:
-            raise _lost(equations, here, q, target, left)
+            raise _lost(equations, here, q, target)
     return here
 
 
@@ -54,14 +54,11 @@ def _is_same_motion(equations: Equations, here: State, q: FloatArray, time: floa
     return float(np.linalg.norm(equations.as_lengths(q - here.q))) <= _LEAST_MOVE * least * equations.size
 
 
-def _lost(equations: Equations, here: State, q: FloatArray, time: float, left: float) -> KinematicsError:
-    if left <= CLOSED_WITHIN:
-        return KinematicsError(
-            f"At t = {time:.9g} s the position jumps: a motion C(t), or a profile, has a jump. Give one without."
-        )
+def _lost(equations: Equations, here: State, q: FloatArray, time: float) -> KinematicsError:
     residual = np.abs(equations.at(q, time).residual)
-    worst = ", ".join(equations.rows[k] for k in np.argsort(-residual)[:4] if residual[k] > CLOSED_WITHIN)
+    worst = [equations.rows[k] for k in np.argsort(-residual)[:4] if residual[k] > CLOSED_WITHIN]
+    what = f"{', '.join(worst)} stay open by {residual.max():.3g} (m, or rad)" if worst else "the next one is far away"
     return KinematicsError(
-        f"Behind t = {here.time:.9g} s no position closes all rows: {worst} stay open by {left:.3g} (m, or rad). "
-        "Drivers contradict each other, or ask for a position out of reach."
+        f"Behind t = {here.time:.9g} s no position is found that goes on from there: {what}. A profile has an edge, "
+        "or drivers ask for a position out of reach."
     )

@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from mechanism_fmu.kinematics import KinematicsError, SingularConfigurationError, analyse
-from mechanism_fmu.model import GROUND, AngleDriver, Body, Curve, Mechanism, Piece, Revolute, Term, XDriver
+from mechanism_fmu.model import GROUND, AngleDriver, Body, Mechanism, Revolute, Term, XDriver
 from mechanism_fmu.model.motions import harmonic_motion, polynomial_motion
+from mechanism_fmu.model.profiles import piecewise_profile
 from models.four_bar.model import MODEL
 from tests.parallel_cranks import parallel_cranks, turning
+from tests.slide_cam import cam_mechanism
 
 FLAT = math.pi - 0.4  # when cranks that start at 0.4 rad with 1 rad/s lie flat
 
@@ -139,14 +141,14 @@ def test_an_uneven_motion_that_rests_at_times():
     np.testing.assert_allclose(acceleration, -12 * np.sin(2 * t), atol=1e-12)
 
 
-def test_a_jump_of_the_motion_is_refused():
-    jump = Curve((Piece(0.0, (Term((0.0,)),)), Piece(1.0, (Term((2.0,)),))))
-    disc = Mechanism(
-        bodies=(Body("disc", 1.0, 1.0),),
-        joints=(Revolute("pin", "disc", (0.0, 0.0), GROUND, (0.0, 0.0)), AngleDriver("drive", "disc", jump)),
-    )
-    with pytest.raises(KinematicsError, match=r"At t = 1 s the position jumps"):
-        analyse(disc, [0.0, 0.5, 1.5])
+def test_an_edge_of_a_profile_stops_the_analysis():
+    """While a roller goes round an edge there is no common tangent: here from t = 0.129 to 0.154 s."""
+    roof = (0.0, (Term((1.0, 0.1)),)), (math.pi, (Term((1.0 + 0.1 * math.pi, -0.1)),))
+    mechanism = cam_mechanism("roller", piecewise_profile(*roof), angle=math.pi / 2 - 3.0)
+    drive = turning("drive", "cam", math.pi / 2 - 3.0, -1.0)
+    plain = replace(mechanism, forces=(), outputs=(), joints=(*mechanism.joints, drive))
+    with pytest.raises(KinematicsError, match=r"Behind t = 0\.129\d+ s no position is found.*pair\[.*an edge"):
+        analyse(plain, [0.0, 0.14])
 
 
 @pytest.mark.parametrize("times", [[], [0.0, 0.0], [1.0, 0.0], [0.0, math.nan], [[0.0]]])
