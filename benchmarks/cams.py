@@ -54,7 +54,7 @@ def compare(rounds: int) -> list[Comparison]:
 
     engine(1)
     q, qd = np.r_[y[:n], y[2 * n + 2 :]], np.r_[y[n : 2 * n], dy[2 * n + 2 :]]
-    equations = Equations(mechanism)
+    equations = Equations(mechanism, 0.0)
     mass = np.diag([*(m for body in mechanism.bodies for m in (body.mass, body.mass, body.inertia)), *[0.0] * 8])
     force = np.zeros(len(q))
     force[2] = _TORQUE

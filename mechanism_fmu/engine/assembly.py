@@ -38,6 +38,8 @@ from .views import (
 CLOSED_WITHIN = 1e-12
 #: Start rates agree with the joints within this [m/s, rad/s].
 RATES_WITHIN = 1e-9
+#: Rates of coordinates that are not held give way down to this.
+_RATES_CLOSED = 1e-14
 _NEWTON_STEPS = 50
 _HALVINGS = 30
 #: Copies of a pattern that are passed in search of the one where the point is, and copies that are tried: that one and
@@ -211,7 +213,7 @@ def _close_rates(block: Array) -> bool:
     y = course(block).y_end
     count = active_rows(block)
     worst = _largest(rows(block).residual_rate, count)
-    if options(block).held.shape[0] == 0 or worst <= RATES_WITHIN:
+    if options(block).held.shape[0] == 0 or worst <= _RATES_CLOSED:
         return worst <= RATES_WITHIN
     for _ in range(2):  # once more, for what rounding has left
         _newton_direction(block, count, rows(block).residual_rate)

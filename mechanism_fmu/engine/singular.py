@@ -22,6 +22,8 @@ _SINGULAR_BELOW = 1e-10
 #: Dips above this are no sign of a singular configuration.
 _LOOK_BELOW = 0.1
 _SEARCH_STEPS = 60
+#: A dip that seems to lie between two steps is sought from so much of a step before the second one on.
+_BACK = 0.5
 _GOLDEN = 0.3819660112501051
 
 
@@ -38,10 +40,9 @@ def independence(block: Array) -> float:
 
 @jit
 def note_rank(block: Array) -> None:
-    """After an event, and the acceleration there: the rank that the rows have from now on."""
+    """After an event or a change of inputs, and the acceleration there: the rank that the rows have from now on."""
     now = course(block)
     now.counters[codes.RANK] = linear_system(block).rank[0]
-    now.counters[codes.FALLING] = 0
     now.clock[codes.INDEPENDENCE] = linear_system(block).independence[0]
 
 
@@ -59,15 +60,15 @@ def is_singular(block: Array) -> bool:
     dips = before or (inside < at[0] and inside < at[6])
     if not dips or min(inside, at[0]) > _LOOK_BELOW:
         return False
-    least = _least(block, stages(block).new_dense, stages(block).tried[0], stages(block).tried[1])
+    begin = 0.0
     if before:
-        least = min(least, _least(block, now.dense, now.clock[codes.STEP_START], now.clock[codes.STEP_SIZE]))
-    return least < _SINGULAR_BELOW
+        begin = -_BACK
+    return _least(block, begin) < _SINGULAR_BELOW
 
 
 @jit
 def keep_independence(block: Array) -> None:
-    """When a step is accepted: how independent the rows are at its end, and whether that falls."""
+    """Of the step last tried, which is accepted: how independent the rows are at its end, and whether that falls."""
     now = course(block)
     at = stages(block).independence
     now.clock[codes.INDEPENDENCE] = at[6]
@@ -77,38 +78,38 @@ def keep_independence(block: Array) -> None:
 
 
 @jit
-def _least(block: Array, dense: Array, start: float, size: float) -> float:
-    """The least independence within a step, by golden-section search on its dense output."""
+def _least(block: Array, low: float) -> float:
+    """The least independence from `low` on within the step last tried, by golden section on its dense output."""
     keep_small()
-    low = 0.0
     high = 1.0
     left = low + _GOLDEN * (high - low)
     right = high - _GOLDEN * (high - low)
-    at_left = _independence_at(block, dense, start, size, left)
-    at_right = _independence_at(block, dense, start, size, right)
+    at_left = _independence_at(block, left)
+    at_right = _independence_at(block, right)
     for _ in range(_SEARCH_STEPS):
         if at_left < at_right:
             high = right
             right = left
             at_right = at_left
             left = low + _GOLDEN * (high - low)
-            at_left = _independence_at(block, dense, start, size, left)
+            at_left = _independence_at(block, left)
         else:
             low = left
             left = right
             at_left = at_right
             right = high - _GOLDEN * (high - low)
-            at_right = _independence_at(block, dense, start, size, right)
+            at_right = _independence_at(block, right)
     return min(at_left, at_right)
 
 
 @jit
-def _independence_at(block: Array, dense: Array, start: float, size: float, fraction: float) -> float:
+def _independence_at(block: Array, fraction: float) -> float:
     """As `independence`, of the bare rows: very different masses make rows look alike that are not."""
     keep_small()
-    interpolate(dense, fraction, stages(block).y_at)
-    set_time(block, start + fraction * size)
-    place_bodies(block, stages(block).y_at)
+    s = stages(block)
+    interpolate(s.new_dense, fraction, s.y_at)
+    set_time(block, s.tried[0] + fraction * s.tried[1])
+    place_bodies(block, s.y_at)
     count = active_rows(block)
     n = sizes(block).coordinates
     for r in range(count):

@@ -139,6 +139,7 @@ def _move(block: Array, target: float, rule: int) -> int:
                 now.counters[codes.PENDING_GUARD] = codes.GUARD_FAILED
                 now.counters[codes.PENDING_SUBJECT] = outcome
                 return outcome
+            now.counters[codes.FALLING] = 0  # what was before belongs to other rows
             restart(block)
             now.clock[codes.NEXT_STEP] = initial_step_size(block)
         struck = now.counters[codes.COUNT_IMPACTS] > impacts
@@ -199,6 +200,7 @@ def _step_back(block: Array) -> None:
     copy(now.dense[0], s.y_start)
     derivative(block, s.y_start, s.derivatives[0])
     try_step(block, start, now.clock[codes.TIME] - start)
+    keep_independence(block)
     copy(s.y_new, now.y_end)
 
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..engine import status
-from ..engine.assembly import assemble_at
+from ..engine.assembly import CLOSED_WITHIN, assemble_at
 from ..engine.layout import field_of
 from ..engine.pack import pack
 from ..engine.textbook import textbook_rows
@@ -30,22 +30,33 @@ class Rows(NamedTuple):
 class Equations:
     """The rows of all joints and closed contacts, by the engine (`mechanism_fmu.engine.textbook`).
 
-    Coordinates are (x, y, phi) of each body in turn, then the contact coordinates; both are named in `coordinates`, and
-    the rows in `rows`, "<part>" or "<part>[k]" where a part has several.
+    Args:
+        mechanism: its start guess is where assembly begins.
+        time: of the assembly [s].
+
+    Attributes:
+        coordinates: names: "<body>.x", ".y" and ".angle" of each body in turn, then "<contact>.alpha_i" and ".alpha_j".
+        angular: which coordinates are angles, shape (coordinates,).
+        rows: names: "<part>", or "<part>[k]" where a part has several.
+        owners: the part of each row.
+        driving: which rows are those of drivers, shape (rows,).
+        start: coordinates that close the rows at `time`, shape (coordinates,).
+        size: the longest lever arm [m], 1 when there is none: the size of the mechanism as its rows see it.
 
     Raises:
         MechanismError: a part of the mechanism cannot be right.
+        KinematicsError: the rows cannot be closed from the start guess; the message says what is left open.
     """
 
-    def __init__(self, mechanism: Mechanism) -> None:
+    def __init__(self, mechanism: Mechanism, time: float) -> None:
         tables = mechanism.compile()
         self._block = pack(tables)
         self._bodies = 3 * len(mechanism.bodies)
-        self.coordinates = tuple(f"{b.name}.{c}" for b in mechanism.bodies for c in ("x", "y", "angle"))
+        names = [f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle")]
         for contact in mechanism.contacts:
-            names = ("alpha_i", "alpha_j")
-            profiles = zip(names, contact.profiles, strict=True)
-            self.coordinates += tuple(f"{contact.name}.{name}" for name, profile in profiles if profile is not None)
+            pairs = zip(("alpha_i", "alpha_j"), contact.profiles, strict=True)
+            names += [f"{contact.name}.{name}" for name, profile in pairs if profile is not None]
+        self.coordinates = tuple(names)
         first = np.cumsum([0, *(joint.rows for joint in mechanism.joints)]).tolist()
         parts: list[tuple[Joint | Contact, int]] = list(zip(mechanism.joints, first, strict=False))
         parts += [
@@ -53,28 +64,58 @@ class Equations:
             for contact, row in zip(mechanism.contacts, tables.contact_row_first, strict=True)
             if contact.enabled > 0.5 and contact.closed > 0.5 and contact.closed_while is None
         ]
-        self._selected = [row + k for part, row in parts for k in range(part.rows)]
-        self.rows = tuple(
-            f"{part.name}[{k + 1}]" if part.rows > 1 else part.name for part, _ in parts for k in range(part.rows)
-        )
+        each = [(part, row, k) for part, row in parts for k in range(part.rows)]
+        self._selected = [row + k for _, row, k in each]
+        self.rows = tuple(f"{part.name}[{k + 1}]" if part.rows > 1 else part.name for part, _, k in each)
+        self.owners = tuple(part.name for part, _, _ in each)
+        self.driving = np.array([getattr(part, "motion", None) is not None for part, _, _ in each], dtype=bool)
+        self.start = self._assembled(time)
+        self.size = self._longest_lever(time)
+        self.angular = np.array([not name.endswith((".x", ".y")) for name in names], dtype=bool)
+        self._columns = np.where(self.angular, 1.0 / self.size, 1.0)
 
-    def assemble(self, time: float) -> FloatArray:
-        """Coordinates that close the rows at `time` [s], from the bodies' start guess, shape (coordinates,).
-
-        Raises:
-            KinematicsError: they cannot be closed from there; the message says what is left open.
-        """
+    def _assembled(self, time: float) -> FloatArray:
         outcome = assemble_at(self._block, float(time))
         y = field_of(self._block, "y_end")
         q = np.concatenate([y[: self._bodies], y[2 * self._bodies + 2 :]])
         if outcome != status.OK:
             left = np.abs(self.at(q, time).residual)
-            worst = ", ".join(f"{self.rows[k]} by {left[k]:.4g}" for k in np.argsort(-left)[:4] if left[k] > 0)
+            worst = ", ".join(
+                f"{self.rows[k]} by {left[k]:.4g}" for k in np.argsort(-left)[:4] if left[k] > CLOSED_WITHIN
+            )
             raise KinematicsError(
                 f"The mechanism cannot be assembled at t = {time:g} s from its start guess. Left open: {worst} "
-                "(m, or rad). Give other lengths, or a better start guess for the bodies."
+                "(m, or rad). Give other lengths, or a better start guess for the bodies; of drivers, see that they "
+                "do not contradict each other."
             )
         return q
+
+    def _longest_lever(self, time: float) -> float:
+        jacobian = np.abs(self.at(self.start, time).jacobian[:, : self._bodies])
+        along = np.maximum(jacobian[:, 0::3], jacobian[:, 1::3]).max(axis=1, initial=0.0)
+        turning = jacobian[:, 2::3].max(axis=1, initial=0.0)
+        levers = turning[along > 0.0] / along[along > 0.0]
+        return float(levers.max(initial=0.0)) or 1.0
+
+    def balanced(self, jacobian: FloatArray) -> FloatArray:
+        """Phi_q with angles measured as lengths on the longest lever arm, and every row of length 1.
+
+        So neither the size of the mechanism nor the units of its rows have a say in how near to each other they are.
+        """
+        rows = jacobian * self._columns
+        lengths = np.linalg.norm(rows, axis=1)
+        balanced: FloatArray = rows / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+        return balanced
+
+    def as_lengths(self, step: FloatArray) -> FloatArray:
+        """A change of the coordinates with angles measured as `balanced` does [m]."""
+        lengths: FloatArray = step / self._columns
+        return lengths
+
+    def from_lengths(self, step: FloatArray) -> FloatArray:
+        """The reverse of `as_lengths`."""
+        change: FloatArray = step * self._columns
+        return change
 
     def at(self, q: FloatArray, time: float, qd: FloatArray | None = None) -> Rows:
         """The rows at coordinates q, rates qd (zero when left out), both of shape (coordinates,), and `time` [s]."""

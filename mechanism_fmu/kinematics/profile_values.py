@@ -38,3 +38,10 @@ def curvature(values: FloatArray) -> FloatArray:
     rho, rate, bend = values
     result: FloatArray = (rho * rho + 2 * rate * rate - rho * bend) / (rho * rho + rate * rate) ** 1.5
     return result
+
+
+def radius_of(curve: Curve) -> float | None:
+    """The radius of a profile that is a circle about its centre [m], None of any other."""
+    values = curve_values(curve, np.linspace(0.0, 2 * np.pi, 8))
+    round_ = len(curve.pieces) == 1 and not values[1:].any()
+    return float(values[0, 0]) if round_ else None

@@ -9,7 +9,7 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 from ..model.curves import Curve, Piece
 from .profile_values import curvature, piece_values
@@ -56,22 +56,26 @@ class ProfileReport:
         """Whether a flat face touches every point of it."""
         return not self.hollows
 
-    def problems(self, roller_radius: float | None = None) -> tuple[str, ...]:
+    def problems(self, roller_radius: float | None = None, flat: bool = False) -> tuple[str, ...]:
         """What an engineer should know, one sentence each.
 
         Args:
-            roller_radius: of the follower's roller [m]; None for a flat face.
+            roller_radius: of the follower's roller [m]; 0 of a point; None when it has none.
+            flat: whether the follower has a flat face.
         """
-        return tuple(self._problems(roller_radius))
+        return tuple(self._problems(roller_radius, flat))
 
-    def _problems(self, roller_radius: float | None) -> list[str]:
+    def _problems(self, roller_radius: float | None, flat: bool) -> list[str]:
         found = []
         where = ", ".join(f"{math.degrees(a):.2f} to {math.degrees(b):.2f} deg" for a, b in self.hollows)
-        if roller_radius is None and not self.convex:
-            found.append(f"The profile is not convex (hollow at {where}): a flat face bridges the hollow.")
+        if flat and not self.convex:
+            found.append(
+                f"The profile is not convex (hollow at {where}): a flat face bridges the hollow. Give a larger base "
+                "circle, a gentler rise, or a roller."
+            )
         if roller_radius is not None and roller_radius >= self.hollow_radius:
             found.append(
-                f"The roller of radius {roller_radius:g} m does not fit into the hollow at "
+                f"A roller of radius {roller_radius:g} m does not fit into the hollow at "
                 f"{math.degrees(self.hollow_alpha):.2f} deg, whose radius is {self.hollow_radius:.6g} m: it touches at "
                 "two points. Give a smaller roller, or a smoother profile."
             )
@@ -94,7 +98,8 @@ def profile_report(profile: Curve) -> ProfileReport:
     """Curvature, hollows and jumps of a profile with plain numbers."""
     ends = [float(piece.start) for piece in profile.pieces[1:]] + [float(profile.start) + float(profile.span)]
     begins = [float(profile.start), *ends[:-1]]
-    places, bends, rhos = [], [], []
+    rhos: list[FloatArray] = []
+    bends: list[tuple[float, float]] = []
     hollows: list[tuple[float, float]] = []
     at_ends = []
     for piece, begin, end in zip(profile.pieces, begins, ends, strict=True):
@@ -103,33 +108,47 @@ def profile_report(profile: Curve) -> ProfileReport:
         grid = np.linspace(begin, end, _SAMPLES + 1)
         values = piece_values(piece, grid)
         at_ends.append((begin, values[:, 0], end, values[:, -1]))
-        places.append(grid)
-        bends.append(curvature(values))
         rhos.append(values[0])
-
-        hollows += _below_zero(grid, bends[-1], partial(_bend, piece))
-    place, bend_, rho = np.concatenate(places), np.concatenate(bends), np.concatenate(rhos)
-    tip, hollow = int(np.argmax(bend_)), int(np.argmin(bend_))
+        bend = partial(_bend, piece)
+        found = curvature(values)
+        bends += [_extreme(bend, grid, found, 1.0), _extreme(bend, grid, found, -1.0)]
+        hollows += _below_zero(bend, grid, found)
+    rho = np.concatenate(rhos)
+    tip, hollow = max(bends), min(bends)
     return ProfileReport(
         least_rho=float(rho.min()),
         largest_rho=float(rho.max()),
-        tip_radius=1 / float(bend_[tip]) if bend_[tip] > 0 else math.inf,
-        tip_alpha=float(place[tip]),
-        hollow_radius=-1 / float(bend_[hollow]) if bend_[hollow] < 0 else math.inf,
-        hollow_alpha=float(place[hollow]),
+        tip_radius=1 / tip[0] if tip[0] > 0 else math.inf,
+        tip_alpha=tip[1],
+        hollow_radius=-1 / hollow[0] if hollow[0] < 0 else math.inf,
+        hollow_alpha=hollow[1],
         hollows=tuple(_joined(hollows)),
         jumps=tuple(_jumps(at_ends, profile)),
     )
+
+
+def _extreme(
+    function: Callable[[float], float], grid: FloatArray, values: FloatArray, sign: float
+) -> tuple[float, float]:
+    """The largest value (sign 1) or the least one (sign -1) on a grid and between its points, and its place."""
+    k = int(np.argmax(sign * values))
+    near = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
+    found = minimize_scalar(lambda x: -sign * function(x), bounds=near, method="bounded", options={"xatol": 1e-9})
+    place = float(found.x) if -found.fun > sign * values[k] else float(grid[k])
+    return function(place), place
 
 
 def _bend(piece: Piece, alpha: float) -> float:
     return float(curvature(piece_values(piece, np.array([alpha])))[0])
 
 
-def _below_zero(grid: FloatArray, values: FloatArray, function: Callable[[float], float]) -> list[tuple[float, float]]:
-    """The ranges within a piece where the curvature is negative."""
+def _below_zero(function: Callable[[float], float], grid: FloatArray, values: FloatArray) -> list[tuple[float, float]]:
+    """The ranges within a piece where a function, with its values on a grid, is negative."""
+    negative = (values < 0.0).tolist()
     edges = [
-        float(brentq(function, grid[k], grid[k + 1])) for k in range(len(grid) - 1) if values[k] * values[k + 1] < 0
+        float(brentq(function, a, b))
+        for (a, b), (p, q) in zip(pairwise(grid), pairwise(negative), strict=True)
+        if p != q
     ]
     marks = [float(grid[0]), *edges, float(grid[-1])]
     return [(a, b) for a, b in pairwise(marks) if b > a and function((a + b) / 2) < 0]

@@ -2,39 +2,42 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 
+from ..engine.assembly import CLOSED_WITHIN
 from .equations import Equations, FloatArray
 
-
-class Newton(NamedTuple):
-    """Limits of the iteration: most steps, and how far rows may be open [m, rad, m2]."""
-
-    steps: int = 40
-    closed_within: float = 1e-12
-
-
-NEWTON = Newton()
+_STEPS = 40
 
 
 def close(equations: Equations, q: FloatArray, time: float) -> tuple[FloatArray, float]:
-    """Coordinates near q that close all rows at `time` [s], by steps of least length, and what is left open.
+    """Coordinates near q that close all rows at `time` [s], and what is left open."""
 
-    After it is closed, one more step is taken: it takes away what rounding allows.
-    """
-    q = q.copy()
-    best, least = q, np.inf
-    for _ in range(NEWTON.steps):
+    def rows_at(q: FloatArray) -> tuple[FloatArray, FloatArray]:
         rows = equations.at(q, time)
-        left = float(np.abs(rows.residual).max(initial=0.0))
+        return rows.residual, rows.jacobian
+
+    return newton(rows_at, q)
+
+
+def newton(rows_at: Callable[[FloatArray], tuple[FloatArray, FloatArray]], q: FloatArray) -> tuple[FloatArray, float]:
+    """Where the rows vanish near q, by steps of least length, and the largest magnitude that is left of them.
+
+    `rows_at` gives them and their derivatives. After they are closed one more step is taken: it takes away what
+    rounding allows.
+    """
+    best, least = q, np.inf
+    for _ in range(_STEPS):
+        residual, jacobian = rows_at(q)
+        left = float(np.abs(residual).max(initial=0.0))
         if not left < np.inf:
             break
-        settled = least <= NEWTON.closed_within
+        settled = least <= CLOSED_WITHIN
         if left < least:
             best, least = q, left
         if settled or left == 0.0:
             break
-        q = q - np.linalg.lstsq(rows.jacobian, rows.residual, rcond=1e-10)[0]
+        q = q - np.linalg.lstsq(jacobian, residual, rcond=1e-8)[0]
     return best, least

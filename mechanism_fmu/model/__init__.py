@@ -33,7 +33,7 @@ from .motion_laws import Law, Move, cycloidal, dwell, modified_sine, polynomial_
 from .motions import harmonic_motion, polynomial_motion, table_motion
 from .patterns import CircularPattern
 from .port_builders.impacts import event_buffer_outputs, impact_buffer_outputs, impact_outputs, last_impact_outputs
-from .port_builders.inputs import shaft_inputs, torque_input
+from .port_builders.inputs import load_torque_input, shaft_inputs, torque_input
 from .port_builders.outputs import (
     active_output,
     angle_output,
@@ -149,6 +149,7 @@ __all__ = [
     "last_impact_outputs",
     "length_parameter",
     "link_parameters",
+    "load_torque_input",
     "mass_parameter",
     "modified_sine",
     "motion_profile",

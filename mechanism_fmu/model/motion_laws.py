@@ -24,14 +24,16 @@ def dwell(start: Number, value: Number, _rise: Number, _width: Number) -> tuple[
 
 def cycloidal(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
     """Lift = rise (u - sin(2 pi u)/(2 pi)), u = xi/width: largest acceleration 6.283 rise/width^2."""
-    return (Piece(start, (Term((value, rise / width), -rise / (2 * math.pi), 2 * math.pi / width),)),)
+    divisor = _divisor(width)
+    return (Piece(start, (Term((value, rise / divisor), -rise / (2 * math.pi), 2 * math.pi / divisor),)),)
 
 
 def polynomial_345(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
     """Lift = rise (10 u^3 - 15 u^4 + 6 u^5), u = xi/width: largest acceleration 5.7735 rise/width^2."""
-    third = rise / (width * width * width)
-    fourth = third / width
-    return (Piece(start, (Term((value, 0.0, 0.0, 10 * third, -15 * fourth, 6 * fourth / width)),)),)
+    divisor = _divisor(width)
+    third = rise / (divisor * divisor * divisor)
+    fourth = third / divisor
+    return (Piece(start, (Term((value, 0.0, 0.0, 10 * third, -15 * fourth, 6 * fourth / divisor)),)),)
 
 
 def modified_sine(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
@@ -41,7 +43,8 @@ def modified_sine(start: Number, value: Number, rise: Number, width: Number) -> 
     and k (4 + pi u - sin(4 pi u)/4) to the end.
     """
     k = rise / (4 + math.pi)
-    slope, fast, slow = k * math.pi / width, 4 * math.pi / width, 4 * math.pi / (3 * width)
+    divisor = _divisor(width)
+    slope, fast, slow = k * math.pi / divisor, 4 * math.pi / divisor, 4 * math.pi / (3 * divisor)
     first, second = math.pi / 8, math.pi * 7 / 8  # pi u where the middle and the last piece begin
     return (
         Piece(start, (Term((value, slope), -k / 4, fast),)),
@@ -50,13 +53,18 @@ def modified_sine(start: Number, value: Number, rise: Number, width: Number) -> 
     )
 
 
+def _divisor(width: Number) -> Number:
+    """A width to divide by; of a move without width, 1: if it rises, it is a jump that the check of curves sees."""
+    return where_positive(width, width, 1.0)
+
+
 @dataclass(frozen=True)
 class Move:
     """One move of a cam's program.
 
     Attributes:
         lift: where it leads to, above the base [m or rad].
-        width: over which angle [rad], > 0.
+        width: over which angle [rad], >= 0; 0 only where the lift stays.
         law: how.
     """
 
@@ -69,18 +77,18 @@ def moves_to_pieces(base: Number, moves: Sequence[Move], turn: float, back: Law)
     """The pieces of base + lift over one turn; what the moves leave of it leads back to the base by `back`.
 
     Raises:
-        MechanismError: a width is not positive, or the moves need more than the turn. Of symbolic widths, the curve's
+        MechanismError: a width is negative, or the moves need more than the turn. Of symbolic widths, the curve's
             findings say so.
     """
     start: Number = 0.0
     lift: Number = 0.0
     pieces: list[Piece] = []
     for number, move in enumerate(moves, start=1):
-        if is_plain(move.width) and not move.width > 0.0:
-            raise MechanismError(f"Move {number} of the cam has width = {move.width:g} rad; it must be positive.")
+        if is_plain(move.width) and not move.width >= 0.0:
+            raise MechanismError(f"Move {number} of the cam has width = {move.width:g} rad; it must not be negative.")
         pieces += move.law(start, base + lift, move.lift - lift, move.width)
         start, lift = start + move.width, move.lift
     left = turn - start
     if is_plain(left) and left < -_ROUNDING * turn:
         raise MechanismError(f"The cam's moves take {start:g} rad of a turn of {turn:g} rad; make them narrower.")
-    return (*pieces, *back(start, base + lift, -lift, where_positive(left, left, 1.0)))
+    return (*pieces, *back(start, base + lift, -lift, where_positive(left, left, 0.0)))

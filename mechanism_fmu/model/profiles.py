@@ -61,7 +61,7 @@ def motion_profile(base_radius: Number, moves: Sequence[Move], back: Law = cyclo
             rests.
 
     Raises:
-        MechanismError: a move's width is not positive, or the moves need more than a turn.
+        MechanismError: a move's width is negative, or the moves need more than a turn.
     """
     return _closed(moves_to_pieces(base_radius, moves, _TURN, back))
 

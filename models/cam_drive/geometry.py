@@ -25,6 +25,7 @@ def profile(values: SimpleNamespace) -> Curve:
             Move(values.lift, values.dwell_angle, dwell),
             Move(0.0, values.rise_angle),
         ),
+        back=dwell,
     )
 
 

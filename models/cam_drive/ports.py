@@ -22,6 +22,7 @@ from mechanism_fmu.model import (
     impact_outputs,
     joint_friction_parameter,
     length_parameter,
+    load_torque_input,
     rotor_parameters,
     settings_parameters,
     shaft_inputs,
@@ -41,7 +42,7 @@ from .shapes import form
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),
     torque_input("drive", "cam"),
-    torque_input("load", "follower"),
+    load_torque_input("follower"),
 )
 
 #: What is known of an impact: of the roller on the cam, for there is no other.
@@ -104,8 +105,8 @@ PARAMETERS = (
     length_parameter("follower_length", 0.06, "Distance of the roller's centre from the follower's hinge"),
     *rotor_parameters("cam", 0.8, 1e-3),
     *rotor_parameters("follower", 0.1, 1.5e-4),
-    angle_parameter("cam_angle_start", 0.0, "Angle of the cam at the start; the follower's angle follows"),
-    speed_parameter("cam_speed_start", 2 * math.pi, "Speed of the cam at the start; the follower's follows"),
+    angle_parameter("cam_angle_start", 0.0, "Cam angle at the start (theta); the follower's follows"),
+    speed_parameter("cam_speed_start", 2 * math.pi, "Cam speed at the start; the follower's follows"),
     stiffness_parameter("spring_stiffness", 0.1, "Stiffness of the return spring"),
     torque_parameter("spring_preload", 0.02, "Torque of the return spring on the base circle"),
     damping_parameter("follower"),

@@ -17,6 +17,7 @@ from mechanism_fmu.model import (
     joint_friction_parameter,
     length_parameter,
     link_parameters,
+    load_torque_input,
     settings_parameters,
     shaft_inputs,
     shaft_parameters,
@@ -31,7 +32,7 @@ from .geometry import form
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),
     torque_input("drive", "crank"),
-    torque_input("load", "rocker", what="External torque"),
+    load_torque_input("rocker"),
 )
 
 OUTPUTS = (

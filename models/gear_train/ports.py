@@ -14,6 +14,7 @@ from mechanism_fmu.model import (
     force_output,
     joint_friction_parameter,
     length_parameter,
+    load_torque_input,
     rotor_parameters,
     settings_parameters,
     shaft_inputs,
@@ -28,7 +29,7 @@ from .shapes import form
 
 INPUTS = (
     torque_input("drive", "pinion", 1.5),
-    torque_input("load", "wheel", -0.7),
+    load_torque_input("wheel", -0.7),
     *shaft_inputs(speed=0.0),
 )
 
@@ -58,8 +59,8 @@ PARAMETERS = (
     length_parameter("wheel_radius", 0.12, "Radius of the wheel's pitch circle (R2)"),
     *rotor_parameters("pinion", 16.0, 0.02),
     *rotor_parameters("wheel", 15.3, 0.11),
-    angle_parameter("pinion_angle_start", 0.0, "Angle of the pinion at the start; the wheel's is ratio times this"),
-    speed_parameter("pinion_speed_start", 0.0, "Speed of the pinion at the start; the wheel's is ratio times this"),
+    angle_parameter("pinion_angle_start", 0.0, "Pinion angle at the start (phi_1); the wheel's is ratio times this"),
+    speed_parameter("pinion_speed_start", 0.0, "Pinion speed at the start; the wheel's is ratio times this"),
     damping_parameter("pinion"),
     damping_parameter("wheel"),
     *shaft_parameters(damping=0.0),

@@ -21,6 +21,7 @@ from mechanism_fmu.model import (
     impact_outputs,
     joint_friction_parameter,
     length_parameter,
+    load_torque_input,
     rotor_parameters,
     settings_parameters,
     shaft_inputs,
@@ -39,7 +40,7 @@ from .shapes import form
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),
     torque_input("drive", "driver"),
-    torque_input("load", "wheel", what="External torque"),
+    load_torque_input("wheel"),
 )
 
 #: What is known of an impact: of the driver on its backstop, for there is no other.
@@ -103,7 +104,7 @@ PARAMETERS = (
     damping_parameter("wheel"),
     *shaft_parameters(damping=1.0),
     fraction_parameter("slot_friction", 0.0, "Coefficient of friction between pin and slot"),
-    joint_friction_parameter("both hinges"),
+    joint_friction_parameter(),
     flag_parameter("backstop", False, "Whether a ratchet on the driver's shaft keeps it from turning back"),
     Parameter("backstop_teeth", 12, "Teeth of the backstop's ratchet", "1", 1, 1000, "Integer"),
     fraction_parameter("backstop_restitution", 0.0, "Coefficient of restitution of the backstop"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from mechanism_fmu.model import Input, shaft_inputs, torque_input
+from mechanism_fmu.model import Input, load_torque_input, shaft_inputs, torque_input
 
 #: What the descriptions call the shaft.
 SHAFT = "compliant drive shaft"
@@ -22,7 +22,7 @@ INPUTS = (
         -1e6,
         1e6,
     ),
-    torque_input("load", "wheel", what="External torque"),
+    load_torque_input("wheel"),
     _angle,
     _speed,
 )

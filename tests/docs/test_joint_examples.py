@@ -11,6 +11,7 @@ from pages import JOINTS, PAGES, examples
 
 from docs.joints.drawings import DRAWINGS
 from mechanism_fmu.model import joints
+from mechanism_fmu.model.efforts import EFFORTS
 
 EXAMPLES = [
     pytest.param(page, program, printed, id=f"{page.stem}-{number}")
@@ -56,6 +57,18 @@ def test_a_page_names_the_arguments_of_its_joint(name):
         parts = [part.partition("=") for part in re.split(r",\s(?=[a-z])", text)]
         assert [(argument, bool(default)) for argument, _, default in parts] == expected
     assert shown or name in LIKE_ANOTHER
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_a_joint_says_its_five_steps_itself(name):
+    steps = re.findall(r"^    (\d\. \w+)", getattr(joints, name).__doc__, re.MULTILINE)
+    assert steps == ["1. Allows", "2. Phi", "3. Phi_q", "4. nu", "5. gamma"]
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_a_page_names_the_forces_that_can_be_asked_for(name):
+    for quantity in EFFORTS.get(getattr(joints, name).kind, {}):
+        assert any(re.search(rf"`(<name>\.)?{quantity}`", page.read_text("utf-8")) for page in pages_of(name))
 
 
 @pytest.mark.parametrize(

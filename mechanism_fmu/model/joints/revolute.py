@@ -13,7 +13,13 @@ from ..functions import Number
 
 @dataclass(frozen=True)
 class Revolute:
-    """A pin: point P of `body_i` and point P of `body_j` coincide; the bodies turn freely (ME451, revolute).
+    """A pin: point P of `body_i` and point P of `body_j` coincide (ME451, revolute).
+
+    1. Allows: both bodies turn freely about P; one degree of freedom remains of three.
+    2. Phi = r_i^P - r_j^P, two rows [m].
+    3. Phi_q = [1, R a, -1, -R b] with a = A_i s_i and b = A_j s_j.
+    4. nu = 0.
+    5. gamma = a phi_i'^2 - b phi_j'^2.
 
     Attributes:
         name: unique within the mechanism.

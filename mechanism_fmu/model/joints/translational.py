@@ -15,6 +15,15 @@ from ..functions import Number
 class Translational:
     """A slider: the bodies keep their relative angle and slide along a common axis (ME451, translational).
 
+    1. Allows: sliding along the axis; one degree of freedom remains of three.
+    2. Phi = ((R v_i).d, (R v_i).v_j), two rows [m2, m2], with d = r_j^P - r_i^P and v the axes, turned with the bodies.
+    3. Phi_q = [-n, -v_i.d - n.R a, n, n.R b] and [0, -v_i.v_j, 0, v_i.v_j] with n = R v_i, a = A_i s_i, b = A_j s_j.
+    4. nu = 0.
+    5. gamma = n.d phi_i'^2 + 2 v_i.d' phi_i' - n.(a phi_i'^2 - b phi_j'^2) and n.v_j (phi_i' - phi_j')^2.
+
+    Traps: the rows do not know which way along the axis is forward, so that a slider may come to stand turned by 180
+    degrees: the start guess decides.
+
     Attributes:
         name: unique within the mechanism.
         body_i, body_j: names of the two bodies (or `GROUND`).

@@ -20,14 +20,27 @@ def shaft_inputs(speed: float, angle: float = 0.0, shaft: str = "drive shaft") -
     )
 
 
-def torque_input(force: str, body: str, start: float = 0.0, what: str = "Torque") -> Input:
+def torque_input(force: str, body: str, start: float = 0.0) -> Input:
     """The torque [N.m] of a `Torque` on a body: <force>_torque.
 
     Args:
-        force: name of the `Torque`, e.g. "drive" or "load".
+        force: name of the `Torque`, e.g. "drive".
         body: on which it acts, for the description.
         start: before the first value arrives [N.m].
-        what: first words of the description, e.g. "External torque".
     """
-    description = f"{what} on the {body}, counter-clockwise positive"
+    return _torque(force, f"Torque on the {body}", start)
+
+
+def load_torque_input(body: str, start: float = 0.0) -> Input:
+    """The torque [N.m] of what a body drives, by the `Torque` "load": load_torque.
+
+    Args:
+        body: on which it acts, for the description.
+        start: before the first value arrives [N.m].
+    """
+    return _torque("load", f"External torque on the {body}", start)
+
+
+def _torque(force: str, what: str, start: float) -> Input:
+    description = f"{what}, counter-clockwise positive"
     return Input(f"{force}_torque", f"{force}.torque", start, description, "N.m", -1e6, 1e6)

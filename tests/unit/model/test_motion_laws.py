@@ -109,10 +109,28 @@ def test_a_program_that_does_not_come_back_is_seen_to_jump():
     assert jumps(motion_profile(0.1, [Move(0.02, 1.0)], dwell), 0) == pytest.approx([0.0, -0.02], abs=1e-15)
 
 
+@pytest.mark.parametrize("law", LAWS_AND_DWELL)
+def test_a_move_of_no_width_that_leads_nowhere_is_none(law):
+    nothing = Move(0.02, 0.0, law)
+    curve = motion_profile(0.1, [Move(0.02, 1.0), nothing, Move(0.0, 1.0)])
+    plain = motion_profile(0.1, [Move(0.02, 1.0), Move(0.0, 1.0)])
+    assert jumps(curve, 0) == pytest.approx([0.0] * len(curve.pieces), abs=1e-15)
+    starts = [piece.start for piece in curve.pieces]
+    assert starts == sorted(starts)
+    for x in np.linspace(0.0, 6.0, 25):
+        assert [value(curve, x, order) for order in range(4)] == [value(plain, x, order) for order in range(4)]
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_rise_over_no_width_is_seen_to_jump(law):
+    curve = motion_profile(0.1, [Move(0.02, 0.0, law), Move(0.0, 1.0)])
+    assert sum(map(abs, jumps(curve, 0))) > 0.01
+
+
 @pytest.mark.parametrize(
     ("moves", "fragments"),
     [
-        ([Move(0.1, 1.0), Move(0.0, 0.0)], ["Move 2", "width = 0 rad", "positive"]),
+        ([Move(0.1, 1.0), Move(0.0, -0.5)], ["Move 2", "width = -0.5 rad", "not be negative"]),
         ([Move(0.1, math.nan)], ["Move 1", "width = nan rad"]),
         ([Move(0.1, 4.0), Move(0.0, 3.0)], ["take 7 rad", "6.28319 rad", "narrower"]),
     ],
