@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from models.ratchet.svg import Point, polar, sheet
+from models.svg import Point, polar, sheet
 
 from .driver_drawing import drivers
 from .profile_drawings import motion_laws, slides_cam

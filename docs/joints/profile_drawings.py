@@ -18,7 +18,7 @@ from mechanism_fmu.model import (
     piecewise_profile,
     polynomial_345,
 )
-from models.ratchet.svg import INK, Point, polar, sheet
+from models.svg import INK, Point, polar, sheet
 
 from .sketch import ACCENT, AXIS, BODY_I, BODY_J, EDGE, NOTE, THIN, Sketch
 

@@ -11,7 +11,7 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
-from models.ratchet.svg import INK, Point, View, polar, sheet
+from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import start
 from .model import MODEL

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Wheel
-from models.ratchet.svg import INK, Point, View, polar, sheet
+from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import geneva
 from .model import MODEL

@@ -12,10 +12,10 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from mechanism_fmu.model.sawtooth import wheel_outline
+from models.svg import INK, Point, View, polar, sheet
 
 from .model import MODEL
 from .start import crank_pin, pawl_angle, tooth
-from .svg import INK, Point, View, polar, sheet
 
 WHEEL, CRANK, PAWL, SPRING, BEAM = "#e4e9ef", "#2b7a78", "#d9731a", "#6b46c1", "#f3c9a5"
 
