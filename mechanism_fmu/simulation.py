@@ -21,7 +21,14 @@ Array = np.ndarray[Any, np.dtype[Any]]
 
 
 #: Failures that are about contacts.
-_ABOUT_CONTACTS = (status.CHATTERING, status.NO_CHOICE, status.JAMMED, status.ROW_AWAY, status.NO_CONTACT_POINT)
+_ABOUT_CONTACTS = (
+    status.CHATTERING,
+    status.NO_CHOICE,
+    status.JAMMED,
+    status.ROW_AWAY,
+    status.NO_CONTACT_POINT,
+    status.BRIDGED,
+)
 
 
 class SimulationError(RuntimeError):

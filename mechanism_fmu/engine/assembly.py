@@ -7,7 +7,7 @@ import math
 from .. import codes
 from ..tolerances import STICK_SPEED, TOUCHES_WITHIN
 from . import status
-from .contact_points import find_contact_points, overlap, settle_contact_points
+from .contact_points import find_contact_points, may_bridge, overlap, settle_contact_points
 from .copies import place_contact, place_pattern
 from .guards import function_value, gap, guard_value
 from .kinematics import place_bodies
@@ -172,6 +172,7 @@ def start(block: Array, time: float) -> int:
     place_bodies(block, now.y_end)
     for c in range(table.mode.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
+            table.bridges[c] = 1 if may_bridge(block, c) else 0
             depth = overlap(block, c)
             if depth > 0.0 and table.mode[c] == codes.CLOSED:
                 now.counters[codes.PENDING_SUBJECT] = c

@@ -16,10 +16,14 @@ _SETTLED = 1e-14
 #: Before a step, they may be off by this: the gap is off by no more than its square.
 _MOST_DRIFT = 1e-12
 _NEWTON_STEPS = 40
+#: The search for the nearest points ends with steps of this length; Newton's method goes on [rad].
+_NEAR = 1e-6
 _LONGEST_STEP = 0.3
 #: Points of a profile that are looked at in search of the nearest one; of two profiles, this many of each.
 _SAMPLES = 720
 _PAIRED_SAMPLES = 72
+#: An open pair that fits less well than this is about to lose its nearest point.
+_FITS_BARELY = 0.1
 #: Profiles overlap when one reaches into the other by more than this [m].
 _OVERLAP = 1e-9
 
@@ -46,13 +50,30 @@ def find_contact_points(block: Array, y: Array) -> None:
     keep_small()
     table = contacts(block)
     for c in range(table.kind.shape[0]):
-        if table.alpha[c] == codes.NONE:
-            continue
-        if table.kind[c] == codes.CAM_FOLLOWER:
-            _find_pair(block, c)
-        else:
+        if table.alpha[c] != codes.NONE:
             _find(block, c)
     settle_contact_points(block, y)
+
+
+@jit
+def find_again(block: Array, y: Array) -> bool:
+    """Look anew for the nearest points of open pairs that are about to lose theirs; whether any has changed.
+
+    Over a hollow, the point that has been followed ceases to be nearest to anything; another one has long been nearer.
+    """
+    keep_small()
+    table = contacts(block)
+    changed = False
+    for c in range(table.kind.shape[0]):
+        if table.alpha[c] != codes.NONE and table.mode[c] == codes.OPEN:
+            _, _, gap, _, _, _ = _newton_step(block, c)
+            if _fit(block, c) < _FITS_BARELY:
+                _find(block, c)
+                _settle(block, c)
+                changed = changed or abs(_newton_step(block, c)[2] - gap) > _OVERLAP
+    if changed:
+        settle_contact_points(block, y)
+    return changed
 
 
 @jit
@@ -63,8 +84,42 @@ def least_fit(block: Array) -> float:
     least = math.inf
     for c in range(table.kind.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
-            least = min(least, _newton_step(block, c)[5])
+            least = min(least, _fit(block, c))
     return least
+
+
+@jit
+def _fit(block: Array, contact: int) -> float:
+    """How well a pair fits at its contact point; 0 when that has not been found: Newton's method did not settle."""
+    move_i, move_j, _, _, _, fit = _newton_step(block, contact)
+    if abs(move_i) + abs(move_j) > _NEAR:
+        return 0.0
+    return fit
+
+
+@jit
+def may_bridge(block: Array, contact: int) -> bool:
+    """Whether profile i has a hollow into which the other one does not fit: they may then touch at two points."""
+    keep_small()
+    table = contacts(block)
+    if table.kind[contact] == codes.POINT_FOLLOWER:
+        return False
+    least = _least_curvature(block, table.curve_i[contact])
+    if table.kind[contact] == codes.CAM_FOLLOWER:
+        least += _least_curvature(block, table.curve_j[contact])
+    return least <= 0.0
+
+
+@jit
+def bridged(block: Array) -> bool:
+    """Whether a pair of profiles, with a hollow, has run into each other at a second point."""
+    keep_small()
+    table = contacts(block)
+    deepest = 0.0
+    for c in range(table.kind.shape[0]):
+        if table.bridges[c] == 1:
+            deepest = max(deepest, overlap(block, c))
+    return deepest > 0.0
 
 
 @jit
@@ -135,6 +190,18 @@ def _newton_step(block: Array, contact: int) -> tuple[float, float, float, float
 
 
 @jit
+def _least_curvature(block: Array, number: int) -> float:
+    """The least curvature of a profile [1/m], below zero in a hollow."""
+    keep_small()
+    least = math.inf
+    for k in range(_SAMPLES):
+        rho, rate, bend, _ = curve(block, number, _sample(block, number, k, _SAMPLES))
+        square = rho * rho + rate * rate
+        least = min(least, (square + rate * rate - rho * bend) / (square * math.sqrt(square)))
+    return least
+
+
+@jit
 def _sample(block: Array, number: int, k: int, count: int) -> float:
     """The k-th of `count` equidistant values of a profile's coordinate."""
     table = curves(block)
@@ -144,51 +211,80 @@ def _sample(block: Array, number: int, k: int, count: int) -> float:
 
 @jit
 def _find(block: Array, contact: int) -> None:
-    """The point of a profile nearest to a point, or farthest towards a flat face."""
+    """Bring a pair's contact coordinates near to the best place of all, by sampling and then by ever smaller steps."""
     keep_small()
     table = contacts(block)
     at = pose(block)
     alpha = table.alpha[contact]
-    flat = table.kind[contact] == codes.CAM_FLAT_FOLLOWER
-    number = table.curve_j[contact]
-    if flat:
-        number = table.curve_i[contact]
-    best = at.alpha[alpha]
+    first = table.curve_i[contact]
+    second = table.curve_j[contact]
+    samples = _SAMPLES
+    others = 0
+    if table.kind[contact] == codes.POINT_FOLLOWER:
+        first = second
+    elif table.kind[contact] == codes.CAM_FOLLOWER:
+        samples = _PAIRED_SAMPLES
+        others = _PAIRED_SAMPLES
     least = math.inf
-    for k in range(_SAMPLES + 1):
-        at.alpha[alpha] = _sample(block, number, k, _SAMPLES)
-        _, _, gap, square, _, _ = _newton_step(block, contact)
-        if flat:
-            square = gap
-        if square < least:
-            least = square
-            best = at.alpha[alpha]
-    at.alpha[alpha] = best
+    best_i = 0.0
+    best_j = 0.0
+    for k in range(samples + 1):
+        at.alpha[alpha] = _sample(block, first, k, samples)
+        for m in range(others + 1):
+            if others > 0:
+                at.alpha[alpha + 1] = _sample(block, second, m, others)
+            found = _distance(block, contact)
+            if found < least:
+                least = found
+                best_i = at.alpha[alpha]
+                if others > 0:
+                    best_j = at.alpha[alpha + 1]
+    at.alpha[alpha] = best_i
+    if others > 0:
+        at.alpha[alpha + 1] = best_j
+    _descend(block, contact, least, curves(block).range[first, 1] / samples)
 
 
 @jit
-def _find_pair(block: Array, contact: int) -> None:
-    """The points of two profiles that are nearest to each other and whose outward normals are opposite."""
+def _descend(block: Array, contact: int, least: float, step: float) -> None:
+    """From where the distance is `least`, go on to less in steps of `step` [rad] at first, until Newton's are safe."""
     keep_small()
-    table = contacts(block)
     at = pose(block)
-    alpha = table.alpha[contact]
-    best_i = 0.0
-    best_j = 0.0
-    least = math.inf
-    for k in range(_PAIRED_SAMPLES + 1):
-        at.alpha[alpha] = _sample(block, table.curve_i[contact], k, _PAIRED_SAMPLES)
-        rho, _, _, _ = curve(block, table.curve_i[contact], at.alpha[alpha])
-        for m in range(_PAIRED_SAMPLES + 1):
-            at.alpha[alpha + 1] = _sample(block, table.curve_j[contact], m, _PAIRED_SAMPLES)
-            _, _, _, square, cosine, _ = _newton_step(block, contact)
-            square += (1.0 + cosine) * rho * rho
-            if square < least:
-                least = square
-                best_i = at.alpha[alpha]
-                best_j = at.alpha[alpha + 1]
-    at.alpha[alpha] = best_i
-    at.alpha[alpha + 1] = best_j
+    first = contacts(block).alpha[contact]
+    last = first
+    if contacts(block).kind[contact] == codes.CAM_FOLLOWER:
+        last = first + 1
+    while step > _NEAR:
+        moved = False
+        for k in range(first, last + 1):
+            for way in range(-1, 2, 2):
+                kept = at.alpha[k]
+                at.alpha[k] = kept + way * step
+                found = _distance(block, contact)
+                if found < least:
+                    least = found
+                    moved = True
+                else:
+                    at.alpha[k] = kept
+        if not moved:
+            step *= 0.5
+
+
+@jit
+def _distance(block: Array, contact: int) -> float:
+    """What is least at the best place: the gap to a face, or the squared distance of two points [m2].
+
+    Of two profiles, normals that are not opposite make it larger.
+    """
+    keep_small()
+    kind = contacts(block).kind[contact]
+    _, _, gap, square, cosine, _ = _newton_step(block, contact)
+    if kind == codes.CAM_FLAT_FOLLOWER:
+        return gap
+    if kind == codes.CAM_FOLLOWER:
+        rho, _, _, _ = curve(block, contacts(block).curve_i[contact], pose(block).alpha[contacts(block).alpha[contact]])
+        square += (1.0 + cosine) * rho * rho
+    return square
 
 
 @jit

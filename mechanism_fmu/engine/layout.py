@@ -140,6 +140,7 @@ FIELDS = (
     Field("state", "contact_touching", ("contacts",), True),
     Field("state", "contact_clicks", ("contacts",), True),
     Field("state", "contact_line", ("contacts", 4)),
+    Field("state", "contact_bridges", ("contacts",), True),
     Field("state", "pattern_index", ("patterns",), True),
     Field("state", "pattern_line", ("patterns", 8)),
     Field("state", "function_true", ("functions",), True),

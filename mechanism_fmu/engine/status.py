@@ -14,6 +14,7 @@ ROW_AWAY = 10
 OVERLAP = 11
 NO_CONTACT_POINT = 12
 SINGULAR = 13
+BRIDGED = 14
 
 ADVICE = {
     NOT_ASSEMBLED: "The joints cannot be closed from the given start positions.",
@@ -35,6 +36,8 @@ ADVICE = {
     "another, because one has a hollow that the other does not fit into.",
     NO_CONTACT_POINT: "The contact point of two profiles is no longer determined: one of them has a hollow there that "
     "the other does not fit into, or a tip. Check the profile's curvature, or give a smaller roller.",
+    BRIDGED: "Two profiles that touch at one point have met at a second one: a follower bridges a hollow of its cam. "
+    "Give a smaller roller, or a profile without a hollow; a flat face needs a convex one.",
     SINGULAR: "A singular configuration lies ahead: the rank of the constraint rows drops there, and the motion may go "
     "on along more than one branch, as where a parallelogram lies flat. Keep the mechanism away from it, or add a part "
     "that leads it through, such as a third crank.",

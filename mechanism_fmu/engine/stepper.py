@@ -14,7 +14,7 @@ from .. import codes
 from ..tolerances import GAP_NOISE
 from . import status
 from .acceleration import derivative
-from .contact_points import least_fit
+from .contact_points import bridged, find_again, least_fit
 from .dormand_prince import initial_step_size, try_step
 from .drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from .events import first_event, refine
@@ -277,8 +277,12 @@ def take_step(block: Array) -> int:
     set_time(block, now.clock[codes.STEP_END])
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
+    if sizes(block).alphas > 0 and find_again(block, now.y_end):
+        derivative(block, now.y_end, now.dy_end)
     if sizes(block).alphas > 0 and not least_fit(block) > 0.0:
         return status.NO_CONTACT_POINT
+    if sizes(block).alphas > 0 and bridged(block):
+        return status.BRIDGED
     return status.OK
 
 

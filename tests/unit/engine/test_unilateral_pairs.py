@@ -129,26 +129,44 @@ def test_a_follower_that_falls_onto_a_resting_cam_bounces_and_rests(kind):
     assert found["force"] == pytest.approx(WEIGHT / cosine_, rel=1e-6)
 
 
-def test_a_face_over_a_hollow_says_that_its_contact_point_is_lost():
-    """The curvature of the slides' cam vanishes where rho^2 + 2 rho'^2 = rho rho'', at alpha = 14.96 deg.
+def test_a_face_that_bridges_a_hollow_is_told():
+    """On the nose of the slides' cam, a tangent is rho^2 / sqrt(rho^2 + rho'^2) from the centre: 1 m, as on its circle.
 
-    There its normal has the angle alpha - atan(rho' / rho), and is vertical when the cam has turned by the rest to 90.
+    The normal there has the angle alpha - atan(rho' / rho), and is vertical when the cam has turned by the rest to 90.
     """
 
     def rho(alpha):
-        return 1.25 - 0.25 * math.cos(3 * alpha), 0.75 * math.sin(3 * alpha), 2.25 * math.cos(3 * alpha)
+        return 1.25 - 0.25 * math.cos(3 * alpha), 0.75 * math.sin(3 * alpha)
 
-    def bend(alpha):
-        value, rate, second = rho(alpha)
-        return value**2 + 2 * rate**2 - value * second
+    def beyond(alpha):
+        value, rate = rho(alpha)
+        return value**2 / math.hypot(value, rate) - 1.0
 
-    alpha = brentq(bend, 0.0, 0.5, xtol=1e-15)
-    assert math.degrees(alpha) == pytest.approx(14.96, abs=0.01)
+    alpha = brentq(beyond, math.radians(14.96), 1.0, xtol=1e-15)
+    value, rate = rho(alpha)
     simulation = Simulation(driven("flat", profile=SLIDE_CAM, speed=1.0, centre=(0.0, 0.0), height=1.5))
-    with pytest.raises(SimulationError, match=r"contact point of two profiles is no longer determined.*Contacts: pair"):
+    with pytest.raises(SimulationError, match=r"have met at a second one.*Contacts: pair"):
         simulation.advance(3.0)
-    value, rate, _ = rho(alpha)
-    assert simulation.time == pytest.approx(math.pi / 2 - alpha + math.atan2(rate, value), abs=1e-4)
+    assert simulation.time == pytest.approx(math.pi / 2 - alpha + math.atan2(rate, value), abs=0.02)
+
+
+def test_an_open_pair_over_a_hollow_goes_over_to_the_nearest_side():
+    """A point hovers over a turning cam: the nearest place changes sides, at the latest where the old one ends."""
+    hovering = driven(
+        "point", profile=SLIDE_CAM, speed=1.0, centre=(0.0, 0.0), unilateral=True, closed=False, height=3.0
+    )
+    simulation = Simulation(replace(hovering, forces=()))
+    alphas = np.linspace(0.0, 2 * math.pi, 20001)
+    radius = np.where(alphas < 2 * math.pi / 3, 1.25 - 0.25 * np.cos(3 * alphas), 1.0)
+    near = 0
+    for k in range(1, 64):
+        simulation.advance(0.1 * k)
+        place = alphas + 0.1 * k
+        nearest = np.hypot(radius * np.cos(place), radius * np.sin(place) - 3.0).min()
+        gap = simulation.read()["gap"]
+        assert nearest - 1e-6 < gap < nearest + 0.1
+        near += gap < nearest + 1e-6
+    assert near >= 60
 
 
 def test_a_roller_too_large_for_the_hollow_is_refused_at_the_start():
@@ -160,10 +178,10 @@ def test_a_roller_too_large_for_the_hollow_is_refused_at_the_start():
 
 
 def test_a_hollow_that_is_too_narrow_for_the_roller_stops_it():
-    """A dimple whose radius is about a fifth: a roller of 0.5 m comes to where its contact point is lost."""
+    """A dimple whose radius is about a fifth: a roller of 0.5 m touches both its sides."""
     wave = (2.0, (constant(1.1), cosine(-0.1, 6.0)))
     dimple = piecewise_profile((0.0, (constant(1.0),)), wave, (2.0 + math.pi / 3, (constant(1.0),)))
     options = {"profile": dimple, "speed": 1.0, "centre": (0.0, 0.0)}
     Simulation(driven("roller", roller=0.2, **options)).advance(6.5)
-    with pytest.raises(SimulationError, match=r"contact point of two profiles is no longer determined"):
+    with pytest.raises(SimulationError, match=r"have met at a second one"):
         Simulation(driven("roller", roller=0.5, **options)).advance(6.5)

@@ -185,7 +185,7 @@ const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size
     if (outcome == STATUS_NOT_ASSEMBLED) residuals(x, text, size);
     if (outcome == STATUS_START_INSIDE || outcome == STATUS_OVERLAP) penetration(x, text, size);
     if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
-        outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT)
+        outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED)
         involved(x, text, size);
     return text;
 }
