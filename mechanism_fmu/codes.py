@@ -63,6 +63,11 @@ ENABLED = 4
 STARTS_CLOSED = 5
 CONTACT_VALUES = 6
 
+# contact_hollow (state): whether a profile of the pair has a hollow, and whether the other one may bridge it
+CONVEX = 0
+HOLLOW = 1
+BRIDGES = 2
+
 # contact_mode (state)
 OPEN = 0
 CLOSED = 1

@@ -214,20 +214,36 @@ class Simulation:
             status.NOT_ASSEMBLED: self._residuals,
             status.START_INSIDE: self._penetration,
             status.OVERLAP: self._penetration,
+            status.START_RATES: self._contradictions,
+            status.AT_CENTRE: self._profile,
         }
         raise MechanismError(status.ADVICE[outcome] + (details[outcome]() if outcome in details else ""))
 
     def _residuals(self) -> str:
         """What is left of each joint and closed contact at the closest position found."""
-        residual = field_of(self._block, "residual")
+        return f" Left open: {self._off('residual')} (m, or rad between directions)."
+
+    def _contradictions(self) -> str:
+        """By how much each joint and closed contact contradicts the start rates."""
+        return (
+            f" They are off: {self._off('residual_rate')} (m/s, or rad/s). Give start_rate to every body that moves, "
+            "or name a coordinate in held: the others then follow it."
+        )
+
+    def _off(self, field: str) -> str:
+        left = field_of(self._block, field)
         parts, row = [], 0
         for joint in self._mechanism.joints:
-            parts.append(f"{joint.name} by {np.abs(residual[row : row + joint.rows]).max():.6g}")
+            parts.append(f"{joint.name} by {np.abs(left[row : row + joint.rows]).max():.6g}")
             row += joint.rows
         for name in self.mode():
-            parts.append(f"{name} by {abs(residual[row]):.6g}")
+            parts.append(f"{name} by {abs(left[row]):.6g}")
             row += 1
-        return f" Left open: {', '.join(parts)} (m, or rad between directions)."
+        return ", ".join(parts)
+
+    def _profile(self) -> str:
+        """Whose profile is wrong."""
+        return f" Contact {self._mechanism.contacts[self.counters.item(codes.PENDING_SUBJECT)].name!r}."
 
     def _penetration(self) -> str:
         """Which contact point starts inside, and by how much."""

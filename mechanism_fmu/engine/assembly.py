@@ -7,12 +7,14 @@ import math
 from .. import codes
 from ..tolerances import STICK_SPEED, TOUCHES_WITHIN
 from . import status
-from .contact_points import find_contact_points, may_bridge, overlap, settle_contact_points
 from .copies import place_contact, place_pattern
 from .guards import function_value, gap, guard_value
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
+from .nearest import find_contact_points, settle_contact_points
+from .overlap import overlap
 from .ports import set_time, take_inputs
+from .profile_shape import examine_profiles
 from .records import clear_impact, clear_records
 from .room import Array
 from .rows import active_rows
@@ -57,6 +59,9 @@ def begin(block: Array, time: float) -> int:
     """
     outcome = status.NOT_ASSEMBLED
     set_time(block, time)
+    seen = examine_profiles(block)
+    if seen != status.OK:
+        return seen
     for k in range(_MOST_ASSEMBLIES + 1):
         _start_guess(block, _neighbour(k))
         outcome = assemble(block)
@@ -172,7 +177,6 @@ def start(block: Array, time: float) -> int:
     place_bodies(block, now.y_end)
     for c in range(table.mode.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
-            table.bridges[c] = 1 if may_bridge(block, c) else 0
             depth = overlap(block, c)
             if depth > 0.0 and table.mode[c] == codes.CLOSED:
                 now.counters[codes.PENDING_SUBJECT] = c

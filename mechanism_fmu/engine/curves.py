@@ -60,3 +60,11 @@ def curve(block: Array, number: int, x: float) -> tuple[float, float, float, flo
             f2 -= w * w * sine
             f3 -= w * w * w * cosine
     return f0, f1, f2, f3
+
+
+@jit
+def sample(block: Array, number: int, k: int, count: int) -> float:
+    """The k-th of `count` equidistant places in the range of a profile."""
+    table = curves(block)
+    value: float = table.range[number, 0] + table.range[number, 1] * k / count
+    return value

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from .acceleration import scale_rows
-from .contact_points import settle_contact_points
 from .kinematics import place_bodies
 from .minimum_norm import minimum_norm
+from .nearest import settle_contact_points
 from .room import Array
 from .rows import active_rows
 from .subset import jit, keep_small

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from .. import codes
 from ..tolerances import MARGIN
+from .nearest import find_nearest, is_searched
 from .point_line import point_line
 from .room import Array
 from .rows import contact_row, spare_row, tangent_row
@@ -20,6 +21,8 @@ from .views import contacts, functions, patterns, pose, rows, sizes, strikes
 def gap(block: Array, contact: int) -> tuple[float, float]:
     """Gap s [m or rad] and gap rate s' of a contact at the bodies' pose (see `place_bodies`)."""
     keep_small()
+    if contacts(block).alpha[contact] != codes.NONE and is_searched(block, contact):
+        find_nearest(block, contact)
     contact_row(block, contact, spare_row(block))
     return _spare(block)
 

@@ -16,6 +16,7 @@ from .joints.translational import translational
 from .joints.translational_driver import translational_driver
 from .joints.x_driver import x_driver
 from .joints.y_driver import y_driver
+from .nearest import is_searched
 from .point_line import point_line
 from .profile_row import profile_row
 from .room import Array
@@ -157,12 +158,21 @@ def active_rows(block: Array) -> int:
 
 @jit
 def follow_open_contacts(block: Array) -> None:
-    """Write the rates of the contact coordinates of open contacts; those of closed ones come with their rows."""
+    """Write the rates of the contact coordinates of open contacts; those of closed ones come with their rows.
+
+    Those that are sought afresh each time, or do not count, rest.
+    """
     keep_small()
     table = contacts(block)
     for c in range(table.mode.shape[0]):
-        if table.alpha[c] != codes.NONE and table.mode[c] != codes.CLOSED:
+        if table.alpha[c] == codes.NONE or table.mode[c] == codes.CLOSED:
+            continue
+        if table.value[c, codes.ENABLED] > 0.5 and not is_searched(block, c):
             contact_row(block, c, spare_row(block))
+        else:
+            pose(block).alpha_rate[table.alpha[c]] = 0.0
+            if table.kind[c] == codes.CAM_FOLLOWER:
+                pose(block).alpha_rate[table.alpha[c] + 1] = 0.0
 
 
 @jit

@@ -15,6 +15,7 @@ OVERLAP = 11
 NO_CONTACT_POINT = 12
 SINGULAR = 13
 BRIDGED = 14
+AT_CENTRE = 15
 
 ADVICE = {
     NOT_ASSEMBLED: "The joints cannot be closed from the given start positions.",
@@ -38,8 +39,10 @@ ADVICE = {
     "the other does not fit into, or a tip. Check the profile's curvature, or give a smaller roller.",
     BRIDGED: "Two profiles that touch at one point have met at a second one: a follower bridges a hollow of its cam. "
     "Give a smaller roller, or a profile without a hollow; a flat face needs a convex one.",
+    AT_CENTRE: "A profile reaches its own centre, where its radius is zero or negative. Give a larger mean or base "
+    "radius; for a knife edge take a PointFollower.",
     SINGULAR: "A singular configuration lies ahead: the rank of the constraint rows drops there, and the motion may go "
     "on along more than one branch, as where a parallelogram lies flat. Keep the mechanism away from it, or add a part "
-    "that leads it through, such as a third crank.",
+    "that leads it through, such as a third crank out of line.",
     NO_PLACE: "No copy of a pattern was found on which the point can start.",
 }

@@ -14,13 +14,15 @@ from .. import codes
 from ..tolerances import GAP_NOISE
 from . import status
 from .acceleration import derivative
-from .contact_points import bridged, find_again, least_fit
 from .dormand_prince import initial_step_size, try_step
 from .drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from .events import first_event, refine
 from .guards import gap
 from .interpolation import interpolate
 from .kinematics import place_bodies
+from .motion_steps import within_motions
+from .nearest import least_fit
+from .overlap import bridged
 from .ports import feed, inputs_changed, set_time, show_reached, take_inputs
 from .pulling import watch_at, watch_step
 from .records import clear_records
@@ -227,6 +229,7 @@ def take_step(block: Array) -> int:
     copy(now.dy_end, s.derivatives[0])
     wanted = now.clock[codes.NEXT_STEP]
     step = representable(start, _within_ramp(block, start, wanted))
+    step = representable(start, within_motions(block, start, step))
     smallest = _SMALLEST_STEP * max(1.0, abs(start))
     error = _try(block, start, step)
     grow_most = _GROW_MOST
@@ -277,8 +280,6 @@ def take_step(block: Array) -> int:
     set_time(block, now.clock[codes.STEP_END])
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
-    if sizes(block).alphas > 0 and find_again(block, now.y_end):
-        derivative(block, now.y_end, now.dy_end)
     if sizes(block).alphas > 0 and not least_fit(block) > 0.0:
         return status.NO_CONTACT_POINT
     if sizes(block).alphas > 0 and bridged(block):
@@ -323,8 +324,12 @@ def _try(block: Array, start: float, step: float) -> float:
         return error
     turn = 0.0
     for k in range(2, sizes(block).coordinates, 3):
-        turn = max(turn, abs(s.y_new[k] - s.y_start[k]))
-    too_far = math.pow(turn / MOST_TURN, 5.0)  # `_scale` takes the fifth root
+        turn = max(turn, abs(s.y_new[k] - s.y_start[k]) / MOST_TURN)
+    alpha_step = contacts(block).alpha_step
+    first = 2 * sizes(block).coordinates + 2
+    for k in range(alpha_step.shape[0]):
+        turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) / alpha_step[k])
+    too_far = math.pow(turn, 5.0)  # `_scale` takes the fifth root
     if too_far > error:
         return too_far
     return error

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .. import codes
 from .body import GROUND
 from .check_contacts import check_contacts
 from .check_numbers import number_findings
 from .compile import curve_owners
+from .curves import Curve
 from .errors import MechanismError
 from .findings import messages
 from .ports import Calculated, Input, Output
@@ -25,6 +26,9 @@ def check(mechanism: Mechanism) -> None:
     Raises:
         MechanismError: with every problem found, one sentence each.
     """
+    misplaced = [*_misplaced(mechanism)]
+    if misplaced:
+        raise MechanismError(" ".join(misplaced))  # what else is asked of parts, these do not know
     problems = [
         *messages(number_findings(mechanism)),
         *_names(mechanism),
@@ -35,6 +39,27 @@ def check(mechanism: Mechanism) -> None:
     ]
     if problems:
         raise MechanismError(" ".join(problems))
+
+
+def _misplaced(mechanism: Mechanism) -> Iterator[str]:
+    """Parts that stand among others, and drivers and pairs whose motion or profile is no curve."""
+    joints: tuple[Any, ...] = mechanism.joints
+    contacts: tuple[Any, ...] = mechanism.contacts
+    for part, place, needed in [(j, "joints", "motion") for j in joints] + [
+        (c, "contacts", "profiles") for c in contacts
+    ]:
+        label = f"{type(part).__name__} {getattr(part, 'name', '')!r}"
+        if not hasattr(part, needed):
+            other = (
+                "contacts" if hasattr(part, "profiles") else "joints" if hasattr(part, "motion") else "another place"
+            )
+            yield f"{label} stands in {place}, but belongs in {other}."
+            continue
+        curves = (part.motion,) if place == "joints" else part.profiles
+        for curve in curves:
+            if curve is not None and not isinstance(curve, Curve):
+                example = "polynomial_motion(start, speed)" if place == "joints" else "circle(radius)"
+                yield f"{label}: its {needed.rstrip('s')} is {curve!r}, but must be a curve, e.g. {example}."
 
 
 def _names(mechanism: Mechanism) -> Iterator[str]:

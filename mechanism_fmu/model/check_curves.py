@@ -8,10 +8,12 @@ from itertools import pairwise
 from .conditions import finite, not_negative, plain, positive, size
 from .curves import Curve, Piece
 from .findings import Finding, literal, refuse_unless
-from .functions import Number, sin, where_positive
+from .functions import Number, cos, sin, where_positive
 
 #: Rounding is allowed this much, of 1 and the value at a join, or of the period.
 _ROUNDING = 1e-9
+#: And this much, of 1 and the slope at a join.
+_SLOPE_ROUNDING = 1e-7
 
 
 def curve_findings(owner: str, curve: Curve) -> Iterator[Finding]:
@@ -23,7 +25,7 @@ def curve_findings(owner: str, curve: Curve) -> Iterator[Finding]:
     for piece, after in pairwise(curve.pieces):
         text = f"{label} has a piece from {{:g}} on behind one from {{:g}} on; give them in increasing order."
         yield refuse_unless(not_negative(plain(after.start) - plain(piece.start)), text, after.start, piece.start)
-        yield _join(label, piece, after, after.start, after.start)
+        yield from _joins(label, piece, after, after.start, after.start)
     if curve.periodic:
         text = f"{label} repeats itself after span = {{:g}}, which must be positive."
         yield refuse_unless(positive(curve.span), text, curve.span)
@@ -36,25 +38,39 @@ def _closing(label: str, curve: Curve) -> Iterator[Finding]:
     end = plain(curve.start) + plain(curve.span)
     text = f"{label} has a piece from {{:g}} on, but repeats itself at {{:g}} already; shorten the ones before."
     yield refuse_unless(not_negative(end - plain(last.start) + _ROUNDING * plain(curve.span)), text, last.start, end)
-    yield _join(label, last, curve.pieces[0], end, curve.start)
+    yield from _joins(label, last, curve.pieces[0], end, curve.start)
 
 
-def _join(label: str, piece: Piece, after: Piece, end: Number, begin: Number) -> Finding:
-    """Whether a piece ends, at `end`, where the one after it begins, at `begin`."""
-    left, right = _value(piece, end), _value(after, begin)
+def _joins(label: str, piece: Piece, after: Piece, end: Number, begin: Number) -> Iterator[Finding]:
+    """Whether a piece ends, at `end`, where and as steep as the one after it begins, at `begin`."""
+    left, left_slope = _value_and_slope(piece, end)
+    right, right_slope = _value_and_slope(after, begin)
     text = f"{label} jumps at {{:.9g}} from {{:.9g}} to {{:.9g}}; let each piece begin where the one before it ends."
-    room = _ROUNDING * (1.0 + size(left)) - size(right - left)
-    return refuse_unless(not_negative(room), text, end, left, right)
+    yield refuse_unless(_agree(left, right, _ROUNDING), text, end, left, right)
+    text = (
+        f"{label} has an edge at {{:.9g}}: its slope jumps from {{:.9g}} to {{:.9g}}, which no finite force can "
+        "follow; let each piece begin as steep as the one before it ends."
+    )
+    yield refuse_unless(_agree(left_slope, right_slope, _SLOPE_ROUNDING), text, end, left_slope, right_slope)
 
 
-def _value(piece: Piece, at: Number) -> Number:
+def _agree(left: Number, right: Number, rounding: float) -> Number:
+    return not_negative(rounding * (1.0 + size(left)) - size(right - left))
+
+
+def _value_and_slope(piece: Piece, at: Number) -> tuple[Number, Number]:
     xi = plain(at) - plain(piece.start)
-    total: Number = 0.0
+    value: Number = 0.0
+    slope: Number = 0.0
     for term in piece.terms:
         polynomial: Number = 0.0
+        derivative: Number = 0.0
         for coefficient in reversed(term.polynomial):
+            derivative = derivative * xi + polynomial
             polynomial = polynomial * xi + plain(coefficient)
-        angle = plain(term.frequency) * xi + plain(term.phase)
+        frequency = plain(term.frequency)
+        angle = frequency * xi + plain(term.phase)
         angle = where_positive(finite(angle), angle, 0.0)  # which has no sine
-        total = total + polynomial + plain(term.amplitude) * sin(angle)
-    return total
+        value = value + polynomial + plain(term.amplitude) * sin(angle)
+        slope = slope + derivative + plain(term.amplitude) * frequency * cos(angle)
+    return value, slope

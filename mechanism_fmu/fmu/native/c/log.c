@@ -129,12 +129,12 @@ void tell_news(Instance *x) {
     forget_news(x);
 }
 
-/* What is left of each joint and closed contact at the closest position found. */
-static void residuals(Instance *x, char *text, size_t size) {
-    const double *residual = FIELD(x, residual);
+/* What is left of each joint and closed contact: of its position, or of its rate. */
+static void residuals(Instance *x, const double *residual, const char *before, const char *behind, char *text,
+                      size_t size) {
     char part[300];
     size_t joints = SIZE(x, joints), row = 0;
-    append(text, size, " Left open: ");
+    append(text, size, before);
     for (size_t k = 0; k < joints; k++) {
         double worst = 0;
         for (int r = 0; r < model.joints[k].rows; r++, row++) {
@@ -151,7 +151,7 @@ static void residuals(Instance *x, char *text, size_t size) {
         append(text, size, part);
         row++;
     }
-    append(text, size, " (m, or rad between directions).");
+    append(text, size, behind);
 }
 
 static void penetration(Instance *x, char *text, size_t size) {
@@ -182,7 +182,15 @@ static void involved(Instance *x, char *text, size_t size) {
 
 const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size) {
     *text = 0;
-    if (outcome == STATUS_NOT_ASSEMBLED) residuals(x, text, size);
+    if (outcome == STATUS_NOT_ASSEMBLED)
+        residuals(x, FIELD(x, residual), " Left open: ", " (m, or rad between directions).", text, size);
+    if (outcome == STATUS_START_RATES)
+        residuals(x, FIELD(x, residual_rate), " They are off: ",
+                  " (m/s, or rad/s). Give start_rate to every body that moves, or name a coordinate in held: the others "
+                  "then follow it.",
+                  text, size);
+    if (outcome == STATUS_AT_CENTRE)
+        snprintf(text, size, " Contact '%s'.", model.contacts[COUNTERS(x)[CODE_PENDING_SUBJECT]].name);
     if (outcome == STATUS_START_INSIDE || outcome == STATUS_OVERLAP) penetration(x, text, size);
     if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
         outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED)

@@ -1,11 +1,15 @@
-"""Contact coordinates: kept where two profiles are nearest to each other, and found there at the start."""
+"""Contact coordinates: kept where two profiles are nearest to each other, and found there where that is not known.
+
+A closed pair is followed, and so is an open one of convex profiles, whose nearest points are the only ones. With a
+hollow there may be several places; an open pair is then looked at everywhere, each time that its gap is asked for.
+"""
 
 from __future__ import annotations
 
 import math
 
 from .. import codes
-from .curves import curve
+from .curves import curve, sample
 from .room import Array
 from .subset import jit, keep_small
 from .touch import change, look
@@ -16,16 +20,12 @@ _SETTLED = 1e-14
 #: Before a step, they may be off by this: the gap is off by no more than its square.
 _MOST_DRIFT = 1e-12
 _NEWTON_STEPS = 40
+_LONGEST_STEP = 0.3
 #: The search for the nearest points ends with steps of this length; Newton's method goes on [rad].
 _NEAR = 1e-6
-_LONGEST_STEP = 0.3
 #: Points of a profile that are looked at in search of the nearest one; of two profiles, this many of each.
 _SAMPLES = 720
 _PAIRED_SAMPLES = 72
-#: An open pair that fits less well than this is about to lose its nearest point.
-_FITS_BARELY = 0.1
-#: Profiles overlap when one reaches into the other by more than this [m].
-_OVERLAP = 1e-9
 
 
 @jit
@@ -37,53 +37,67 @@ def settle_contact_points(block: Array, y: Array) -> None:
         return
     table = contacts(block)
     for c in range(table.kind.shape[0]):
-        if table.alpha[c] != codes.NONE:
-            _settle(block, c)
+        if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
+            if is_searched(block, c):
+                find_nearest(block, c)
+            else:
+                _settle(block, c)
+    _keep(block, y)
+
+
+@jit
+def find_contact_points(block: Array, y: Array) -> None:
+    """As `settle_contact_points`, but with a search on the whole of both curves of every pair."""
+    keep_small()
+    table = contacts(block)
+    for c in range(table.kind.shape[0]):
+        if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
+            find_nearest(block, c)
+    _keep(block, y)
+
+
+@jit
+def _keep(block: Array, y: Array) -> None:
+    count = sizes(block).alphas
     first = y.shape[0] - count
     for k in range(count):
         y[first + k] = pose(block).alpha[k]
 
 
 @jit
-def find_contact_points(block: Array, y: Array) -> None:
-    """Look for the nearest points of all pairs of profiles on the whole of both curves."""
-    keep_small()
+def is_searched(block: Array, contact: int) -> bool:
+    """Whether a pair's nearest points are sought afresh at each pose: it is open, and one of its profiles is hollow."""
     table = contacts(block)
-    for c in range(table.kind.shape[0]):
-        if table.alpha[c] != codes.NONE:
-            _find(block, c)
-    settle_contact_points(block, y)
+    searched: bool = table.mode[contact] == codes.OPEN and table.hollow[contact] != codes.CONVEX
+    return searched
 
 
 @jit
-def find_again(block: Array, y: Array) -> bool:
-    """Look anew for the nearest points of open pairs that are about to lose theirs; whether any has changed.
-
-    Over a hollow, the point that has been followed ceases to be nearest to anything; another one has long been nearer.
-    """
+def find_nearest(block: Array, contact: int) -> None:
+    """Bring a pair's contact coordinates to the nearest points of all."""
     keep_small()
-    table = contacts(block)
-    changed = False
-    for c in range(table.kind.shape[0]):
-        if table.alpha[c] != codes.NONE and table.mode[c] == codes.OPEN:
-            _, _, gap, _, _, _ = _newton_step(block, c)
-            if _fit(block, c) < _FITS_BARELY:
-                _find(block, c)
-                _settle(block, c)
-                changed = changed or abs(_newton_step(block, c)[2] - gap) > _OVERLAP
-    if changed:
-        settle_contact_points(block, y)
-    return changed
+    at = pose(block)
+    alpha = contacts(block).alpha[contact]
+    last = alpha
+    if contacts(block).kind[contact] == codes.CAM_FOLLOWER:
+        last = alpha + 1
+    _find(block, contact)
+    found_i = at.alpha[alpha]
+    found_j = at.alpha[last]
+    _settle(block, contact)
+    if not abs(at.alpha[alpha] - found_i) + abs(at.alpha[last] - found_j) < _LONGEST_STEP:
+        at.alpha[alpha] = found_i  # where curves hardly bend, Newton's method may lead away
+        at.alpha[last] = found_j
 
 
 @jit
 def least_fit(block: Array) -> float:
-    """How well the least fitting pair of profiles fits: the sum of the turnings of both curves; positive if well."""
+    """How well the closed pair fits that fits least: the sum of the turnings of both curves; positive if well."""
     keep_small()
     table = contacts(block)
     least = math.inf
     for c in range(table.kind.shape[0]):
-        if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
+        if table.alpha[c] != codes.NONE and table.mode[c] == codes.CLOSED:
             least = min(least, _fit(block, c))
     return least
 
@@ -95,51 +109,6 @@ def _fit(block: Array, contact: int) -> float:
     if abs(move_i) + abs(move_j) > _NEAR:
         return 0.0
     return fit
-
-
-@jit
-def may_bridge(block: Array, contact: int) -> bool:
-    """Whether profile i has a hollow into which the other one does not fit: they may then touch at two points."""
-    keep_small()
-    table = contacts(block)
-    if table.kind[contact] == codes.POINT_FOLLOWER:
-        return False
-    least = _least_curvature(block, table.curve_i[contact])
-    if table.kind[contact] == codes.CAM_FOLLOWER:
-        least += _least_curvature(block, table.curve_j[contact])
-    return least <= 0.0
-
-
-@jit
-def bridged(block: Array) -> bool:
-    """Whether a pair of profiles, with a hollow, has run into each other at a second point."""
-    keep_small()
-    table = contacts(block)
-    deepest = 0.0
-    for c in range(table.kind.shape[0]):
-        if table.bridges[c] == 1:
-            deepest = max(deepest, overlap(block, c))
-    return deepest > 0.0
-
-
-@jit
-def overlap(block: Array, contact: int) -> float:
-    """How far profile i reaches into the other one anywhere, beyond what is allowed for rounding [m]; 0 if nowhere."""
-    keep_small()
-    table = contacts(block)
-    at = pose(block)
-    if table.kind[contact] == codes.POINT_FOLLOWER:
-        return 0.0
-    alpha = table.alpha[contact]
-    kept = at.alpha[alpha]
-    deepest = 0.0
-    for k in range(_SAMPLES):
-        at.alpha[alpha] = _sample(block, table.curve_i[contact], k, _SAMPLES)
-        deepest = max(deepest, _depth(block, contact))
-    at.alpha[alpha] = kept
-    if deepest > _OVERLAP:
-        return deepest
-    return 0.0
 
 
 @jit
@@ -190,26 +159,6 @@ def _newton_step(block: Array, contact: int) -> tuple[float, float, float, float
 
 
 @jit
-def _least_curvature(block: Array, number: int) -> float:
-    """The least curvature of a profile [1/m], below zero in a hollow."""
-    keep_small()
-    least = math.inf
-    for k in range(_SAMPLES):
-        rho, rate, bend, _ = curve(block, number, _sample(block, number, k, _SAMPLES))
-        square = rho * rho + rate * rate
-        least = min(least, (square + rate * rate - rho * bend) / (square * math.sqrt(square)))
-    return least
-
-
-@jit
-def _sample(block: Array, number: int, k: int, count: int) -> float:
-    """The k-th of `count` equidistant values of a profile's coordinate."""
-    table = curves(block)
-    value: float = table.range[number, 0] + table.range[number, 1] * k / count
-    return value
-
-
-@jit
 def _find(block: Array, contact: int) -> None:
     """Bring a pair's contact coordinates near to the best place of all, by sampling and then by ever smaller steps."""
     keep_small()
@@ -229,10 +178,10 @@ def _find(block: Array, contact: int) -> None:
     best_i = 0.0
     best_j = 0.0
     for k in range(samples + 1):
-        at.alpha[alpha] = _sample(block, first, k, samples)
+        at.alpha[alpha] = sample(block, first, k, samples)
         for m in range(others + 1):
             if others > 0:
-                at.alpha[alpha + 1] = _sample(block, second, m, others)
+                at.alpha[alpha + 1] = sample(block, second, m, others)
             found = _distance(block, contact)
             if found < least:
                 least = found
@@ -285,25 +234,3 @@ def _distance(block: Array, contact: int) -> float:
         rho, _, _, _ = curve(block, contacts(block).curve_i[contact], pose(block).alpha[contacts(block).alpha[contact]])
         square += (1.0 + cosine) * rho * rho
     return square
-
-
-@jit
-def _depth(block: Array, contact: int) -> float:
-    """How deep the present point of curve i is inside the other body [m]; in a profile, towards its centre."""
-    keep_small()
-    table = contacts(block)
-    at = pose(block)
-    touch = look(block, contact)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
-    dx = at.x[i] + touch.ax - at.x[j]
-    dy = at.y[i] + touch.ay - at.y[j]
-    depth: float = touch.tx * (dy - touch.by) - touch.ty * (dx - touch.bx)
-    if table.kind[contact] == codes.CAM_FOLLOWER:
-        c = at.cosine[j]
-        s = at.sine[j]
-        x = c * dx + s * dy - table.data[contact, 2]
-        y = c * dy - s * dx - table.data[contact, 3]
-        rho, _, _, _ = curve(block, table.curve_j[contact], math.atan2(y, x))
-        depth = rho - math.sqrt(x * x + y * y)
-    return depth
