@@ -18,6 +18,7 @@ from mechanism_fmu.model import (
     PointFollower,
     circle,
     constant,
+    cosine,
     dwell,
     harmonic_motion,
     harmonic_profile,
@@ -26,7 +27,6 @@ from mechanism_fmu.model import (
     piecewise_profile,
     polynomial_345,
     polynomial_motion,
-    sine,
     slot,
     spline_profile,
     table_motion,
@@ -47,10 +47,11 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     radius, lift, width = values.radius, values.lift, values.width
     top = Move(lift, width, dwell)
     moves = motion_profile(radius, [Move(lift, width), top, Move(lift / 3, width, modified_sine)], polynomial_345)
+    wave = (0.0, [constant(radius + lift), cosine(-lift, 2 * math.pi / width)])
     profiles = (
         circle(radius),
         harmonic_profile(radius, [lift, 0.1], [0.0, lift]),
-        piecewise_profile((0.0, [constant(radius), sine(lift, 2 * math.pi / width)]), (width, [constant(radius)])),
+        piecewise_profile(wave, (width, [constant(radius)])),
         spline_profile([radius, 1.0, lift + 1, 1.2], None, 3),
         spline_profile([radius, 1.0, lift + 1, 1.2, radius], None, 5),
         moves,

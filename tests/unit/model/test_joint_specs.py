@@ -40,7 +40,7 @@ from mechanism_fmu.model.findings import messages
 from mechanism_fmu.model.trace import trace
 
 RAMP = Curve((Piece(0.0, (Term((1.0, 2.0)),)),))
-HILL = Piece(1.0, (Term((4.0, -3.0)), Term((), 5.0, 2 * math.pi)))
+HILL = Piece(1.0, (Term((9.0, 3.0, -18.0, 12.0)), Term((), -5.0, 2 * math.pi, math.pi / 2)))
 SWING = Curve((Piece(0.0, (Term((1.0, 3.0)),)), HILL), 0.0, 2.0, True)
 EGG = Curve((Piece(0.0, (Term((1.0,), 0.1, 2.0),)),), 0.0, 2 * math.pi, True)
 ROUND = Curve((Piece(0.0, (Term((0.25,)),)),), 0.0, 2 * math.pi, True)
@@ -141,8 +141,8 @@ def test_curves_follow_each_other_in_pieces_and_terms():
         [
             [1, 2, 0, 0, 0, 0, 0, 0, 0],
             [1, 3, 0, 0, 0, 0, 0, 0, 0],
-            [4, -3, 0, 0, 0, 0, 0, 0, 0],
-            [0, 0, 0, 0, 0, 0, 5, 2 * math.pi, 0],
+            [9, 3, -18, 12, 0, 0, 0, 0, 0],
+            [0, 0, 0, 0, 0, 0, -5, 2 * math.pi, math.pi / 2],
         ],
     )
     egg, roller = 5, 6
