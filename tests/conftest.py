@@ -1,10 +1,15 @@
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 import models
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
+
+# How long an example takes says nothing while other tests run beside it.
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 
 @pytest.fixture(scope="session")
