@@ -141,7 +141,7 @@ FIELDS = (
     Field("state", "contact_clicks", ("contacts",), True),
     Field("state", "contact_line", ("contacts", 4)),
     Field("state", "contact_hollow", ("contacts",), True),
-    Field("state", "alpha_step", ("alphas",)),
+    Field("state", "alpha_haste", ("alphas",)),
     Field("state", "pattern_index", ("patterns",), True),
     Field("state", "pattern_line", ("patterns", 8)),
     Field("state", "function_true", ("functions",), True),

@@ -27,7 +27,7 @@ def examine_profiles(block: Array) -> int:
     keep_small()
     table = contacts(block)
     for k in range(table.alpha_step.shape[0]):
-        table.alpha_step[k] = math.inf
+        table.alpha_haste[k] = 0.0
     for c in range(table.kind.shape[0]):
         table.hollow[c] = codes.CONVEX
         if table.alpha[c] == codes.NONE or table.value[c, codes.ENABLED] < 0.5:
@@ -37,14 +37,14 @@ def examine_profiles(block: Array) -> int:
         alpha = table.alpha[c]
         if table.curve_i[c] != codes.NONE:
             rho, least_i = _least(block, table.curve_i[c])
-            table.alpha_step[alpha] = _shortest(block, table.curve_i[c])
+            table.alpha_haste[alpha] = 1.0 / _shortest(block, table.curve_i[c])
             alpha += 1
         else:
             rho = math.inf
         if table.curve_j[c] != codes.NONE:
             rho_j, least_j = _least(block, table.curve_j[c])
             rho = min(rho, rho_j)
-            table.alpha_step[alpha] = _shortest(block, table.curve_j[c])
+            table.alpha_haste[alpha] = 1.0 / _shortest(block, table.curve_j[c])
         if not rho > 0.0:
             course(block).counters[codes.PENDING_SUBJECT] = c
             return status.AT_CENTRE

@@ -325,10 +325,10 @@ def _try(block: Array, start: float, step: float) -> float:
     turn = 0.0
     for k in range(2, sizes(block).coordinates, 3):
         turn = max(turn, abs(s.y_new[k] - s.y_start[k]) / MOST_TURN)
-    alpha_step = contacts(block).alpha_step
+    haste = contacts(block).alpha_haste
     first = 2 * sizes(block).coordinates + 2
-    for k in range(alpha_step.shape[0]):
-        turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) / alpha_step[k])
+    for k in range(haste.shape[0]):
+        turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) * haste[k])
     too_far = math.pow(turn, 5.0)  # `_scale` takes the fifth root
     if too_far > error:
         return too_far

@@ -149,7 +149,8 @@ def test_the_report_works_offline(ratchet_fmu: Path, tmp_path: Path) -> None:
         assert f"<h2>{heading}</h2>" in html
 
 
-def test_modes_are_printed_and_drawn(ratchet_fmu: Path, tmp_path: Path) -> None:
+def test_modes_are_printed_and_drawn(ratchet_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "200")  # whatever terminal the tests have
     code, text = invoke("modes", ratchet_fmu, "-o", tmp_path / "guided.svg")
     assert code == 0
     assert "face.touches and face.approaches" in text
