@@ -26,7 +26,7 @@ def examine_profiles(block: Array) -> int:
     """
     keep_small()
     table = contacts(block)
-    for k in range(table.alpha_step.shape[0]):
+    for k in range(table.alpha_haste.shape[0]):
         table.alpha_haste[k] = 0.0
     for c in range(table.kind.shape[0]):
         table.hollow[c] = codes.CONVEX

@@ -113,7 +113,8 @@ class Contacts(NamedTuple):
     gap was zero when the step began, the clicks of a stop with memory, the line of the present copy (of stops and
     locks: the present angle), whether profiles have hollows (`codes.CONVEX` ...), one over how far their contact
     coordinates may go in a step [1/rad], and the first time at which a guided contact pulled [s] (infinity: never).
-    `row` is the constraint row of a closed contact; `least_push` the least contact force of the step last tried, over its tolerance.
+    `row` is the constraint row of a closed contact; `least_push` the least contact force of the step last tried, over
+    its tolerance.
     Contacts of profiles have contact coordinates, the first of which is `alpha`, and curves; `row_first` counts the
     rows that contacts have when contact coordinates are coordinates.
     """
