@@ -41,7 +41,7 @@ def base_case(fmu: Fmu) -> Run:
 
 
 def invoke(*arguments: str | Path) -> tuple[int, str]:
-    result = CliRunner().invoke(main, [str(a) for a in arguments], env={"COLUMNS": "200"})
+    result = CliRunner().invoke(main, [str(a) for a in arguments])
     assert result.exception is None or isinstance(result.exception, SystemExit)
     return result.exit_code, " ".join(result.output.split())
 
@@ -149,8 +149,7 @@ def test_the_report_works_offline(ratchet_fmu: Path, tmp_path: Path) -> None:
         assert f"<h2>{heading}</h2>" in html
 
 
-def test_modes_are_printed_and_drawn(ratchet_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "200")  # whatever terminal the tests have
+def test_modes_are_printed_and_drawn(ratchet_fmu: Path, tmp_path: Path) -> None:
     code, text = invoke("modes", ratchet_fmu, "-o", tmp_path / "guided.svg")
     assert code == 0
     assert "face.touches and face.approaches" in text
