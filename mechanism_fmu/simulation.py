@@ -13,7 +13,7 @@ from .engine import status
 from .engine.layout import field_of, state_of
 from .engine.pack import pack
 from .engine.run import engine_for
-from .model import Mechanism, MechanismError
+from .model import Mechanism, MechanismError, compile_mechanism
 from .model.contacts import too_deep
 from .model.event_names import event_name
 
@@ -76,7 +76,7 @@ class Simulation:
 
     def __init__(self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float] | None = None) -> None:
         self._mechanism = mechanism
-        self._block = pack(mechanism.compile())
+        self._block = pack(compile_mechanism(mechanism))
         self._engine = engine_for(self._block)
         self._input_names = [port.name for port in mechanism.inputs]
         self._output_names = [o.name for o in mechanism.outputs] + [c.name for c in mechanism.calculated]

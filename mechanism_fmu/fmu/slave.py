@@ -18,7 +18,7 @@ from .. import __version__
 from ..engine.layout import FIELDS, sizes_of
 from ..engine.pack import pack
 from ..engine.run import compiled_library
-from ..model import MechanismError, Model
+from ..model import MechanismError, Model, compile_mechanism
 from ..model.model import check_value
 from ..simulation import Simulation, SimulationError
 from . import saved_state
@@ -307,7 +307,7 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
         import numba  # noqa: F401  (to be missed here, where the start says what to install, and not in a run)
     variables = variables_of(model)
     # In an FMU the package's name holds the hash of all sources: a state is for the very same ones.
-    sizes = sizes_of(pack(model.build(model.values()).compile()))
+    sizes = sizes_of(pack(compile_mechanism(model.build(model.values()))))
     parts = [__name__, __version__, model.name, *(v.name for v in variables), *map(repr, FIELDS), repr(sizes)]
     members = {
         "model": model,

@@ -11,7 +11,7 @@ from ..engine.assembly import CLOSED_WITHIN, assemble_at
 from ..engine.layout import field_of
 from ..engine.pack import pack
 from ..engine.textbook import textbook_rows
-from ..model import Contact, Mechanism
+from ..model import Contact, Mechanism, compile_mechanism
 from ..model.joints import Joint
 from .errors import KinematicsError
 
@@ -49,7 +49,7 @@ class Equations:
     """
 
     def __init__(self, mechanism: Mechanism, time: float) -> None:
-        tables = mechanism.compile()
+        tables = compile_mechanism(mechanism)
         self._block = pack(tables)
         self._bodies = 3 * len(mechanism.bodies)
         names = [f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle")]

@@ -2,7 +2,7 @@
 
 from ..codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH
 from .body import GROUND, Body
-from .compile import MechanismTables
+from .compile import MechanismTables, compile_mechanism
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
 from .curves import Curve, Piece, Term, constant, cosine, sine
 from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
@@ -129,6 +129,7 @@ __all__ = [
     "body_parameters",
     "body_speed_output",
     "circle",
+    "compile_mechanism",
     "constant",
     "cosine",
     "cycloidal",

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import codes
 from .body import GROUND
+from .check import check
 from .curves import Curve
 from .functions import Number, is_plain, sqrt
 from .logic import resolve_function, switch
+from .mechanism import Mechanism, curve_owners
 from .sources import output_factor, resolve_output
-
-if TYPE_CHECKING:
-    from .mechanism import Mechanism
 
 #: Width of `joint_data`, `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
 JOINT_COLUMNS = 9
@@ -94,8 +93,18 @@ class MechanismTables:
     settings: Table
 
 
+def compile_mechanism(mechanism: Mechanism) -> MechanismTables:
+    """Check a mechanism whose values are plain numbers, and write it as tables.
+
+    Raises:
+        MechanismError: a part cannot be right; the message names it and the way out.
+    """
+    check(mechanism)
+    return compile_tables(mechanism)
+
+
 def compile_tables(mechanism: Mechanism) -> MechanismTables:
-    """Write a mechanism as tables (no checks: see `check`). Numbers may be symbolic."""
+    """Write a mechanism as tables, unchecked: what cannot be right is refused by `check`. Numbers may be symbolic."""
     bodies = {body.name: i for i, body in enumerate(mechanism.bodies)} | {GROUND: len(mechanism.bodies)}
     forces = {force.name: i for i, force in enumerate(mechanism.forces)}
     contacts = mechanism.contacts
@@ -185,13 +194,6 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             ]
         ),
     )
-
-
-def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:
-    """The motions of drivers, then the profiles of contacts, as the tables number them, each with its part's name."""
-    motions = [(joint.name, joint.motion) for joint in mechanism.joints]
-    profiles = [(contact.name, profile) for contact in mechanism.contacts for profile in contact.profiles]
-    return [(name, curve) for name, curve in (*motions, *profiles) if curve is not None]
 
 
 def _number_of(curve: Curve | None, curves: list[Curve]) -> int:

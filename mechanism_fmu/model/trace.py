@@ -15,7 +15,7 @@ import numpy as np
 
 from . import functions
 from .check_numbers import number_findings
-from .compile import MechanismTables, Table, compile_tables
+from .compile import MechanismTables, Table, compile_mechanism, compile_tables
 from .errors import MechanismError
 from .findings import Finding, messages
 from .functions import Number
@@ -130,7 +130,7 @@ def trace(model: Model) -> Trace:
     """
     recorder = Recorder()
     values = SimpleNamespace(**{p.name: recorder.parameter(i, _limits(p)) for i, p in enumerate(model.parameters)})
-    plain = model.build(model.values()).compile()
+    plain = compile_mechanism(model.build(model.values()))
     try:
         mechanism = model.mechanism(values)
         tables = compile_tables(mechanism)

@@ -14,7 +14,7 @@ from types import ModuleType
 import fmpy
 
 from ...engine.pack import pack
-from ...model import Model
+from ...model import Model, compile_mechanism
 from ...model.trace import trace
 from ..archive import DESCRIPTION, content_hash, write_archive
 from ..contents import common_entries, file_in, model_of
@@ -74,7 +74,7 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
     origin = model_of(module)
     model = origin.model
     path = file_in(destination, f"{model.name}.fmu")
-    traced = formulas(trace(model), pack(model.build(model.values()).compile()))
+    traced = formulas(trace(model), pack(compile_mechanism(model.build(model.values()))))
     entries = common_entries(origin, _FACTS, ("mechanism_fmu",))
     if fmi == 3:
         entries = {_PLACES3.get(name, name): contents for name, contents in entries.items()}

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from mechanism_fmu.model import Finding, MechanismError, Parameter
 from mechanism_fmu.model import conditions as c
 from mechanism_fmu.model.check_numbers import number_findings
+from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.findings import literal, messages
 from mechanism_fmu.model.symbol import Limits, Recorder
 from mechanism_fmu.model.trace import trace
@@ -32,7 +33,7 @@ perturbed = st.builds(
 
 def said_by_check(values):
     try:
-        MODEL.mechanism(values).compile()
+        compile_mechanism(MODEL.mechanism(values))
     except MechanismError as error:
         return str(error)
     return ""

@@ -35,7 +35,7 @@ from mechanism_fmu.model import (
     YDriver,
 )
 from mechanism_fmu.model.check_numbers import number_findings
-from mechanism_fmu.model.compile import compile_tables
+from mechanism_fmu.model.compile import compile_mechanism, compile_tables
 from mechanism_fmu.model.findings import messages
 from mechanism_fmu.model.trace import trace
 
@@ -63,7 +63,7 @@ GOOD = Mechanism(
     joints=(ROD, GUIDE, PAIR, RING, RACK, DRIVE_X, DRIVE_Y, TURN, REEL, PUSH),
     contacts=(ROLLER, FLAT, PIN),
 )
-TABLES = GOOD.compile()
+TABLES = compile_mechanism(GOOD)
 
 
 def test_joints():
@@ -213,7 +213,7 @@ REFUSALS = {
 @pytest.mark.parametrize(("change", "fragments"), REFUSALS.values(), ids=REFUSALS)
 def test_refusal_names_the_part_and_the_limit(change, fragments):
     with pytest.raises(MechanismError) as refusal:
-        replace(GOOD, **change).compile()
+        compile_mechanism(replace(GOOD, **change))
     for fragment in fragments:
         assert fragment in str(refusal.value)
 
