@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from .curves import Curve, Piece, Term, constant, sine
 from .functions import Number
-from .splines import spline_pieces
+from .splines import plain_places, spline_pieces
 
 
 def polynomial_motion(*coefficients: Number) -> Curve:
@@ -25,9 +25,9 @@ def table_motion(points: Sequence[tuple[float, Number]]) -> Curve:
     The speed is zero there, too.
 
     Raises:
-        MechanismError: fewer than 3 points, or times that do not increase.
+        MechanismError: fewer than 3 points, or times that do not increase or that depend on a parameter.
     """
-    times, values = [float(time) for time, _ in points], [value for _, value in points]
+    times, values = plain_places([time for time, _ in points], "time"), [value for _, value in points]
     pieces = spline_pieces(times, values, 3, periodic=False)
     before = Piece(times[0], (constant(values[0]),))  # the first piece of a curve holds before its start
     rest = Piece(times[-1], (constant(values[-1]),))
