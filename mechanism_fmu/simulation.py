@@ -17,6 +17,8 @@ from .model import Mechanism, MechanismError, compile_mechanism
 from .model.contacts import too_deep
 from .model.event_names import event_name
 
+__all__ = ["Event", "Impact", "Simulation", "SimulationError"]
+
 Array = np.ndarray[Any, np.dtype[Any]]
 
 
