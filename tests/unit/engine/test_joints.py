@@ -55,7 +55,7 @@ def evaluate_tangent(block):
 
 def a_curve():
     """A curve with a place of its own in the tables."""
-    return Curve((Piece(0.0, (Term(),)),))
+    return Curve((Piece(0.0, (Term((1.0,)),)),))
 
 
 #: A part of each kind between bodies i and j; its numbers are still to be written into the tables.
