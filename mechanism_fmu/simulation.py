@@ -139,11 +139,19 @@ class Simulation:
         return self.outputs
 
     def set_input(self, name: str, value: float) -> None:
-        """Set an input from now on (SI units)."""
+        """Set an input from now on (SI units).
+
+        Raises:
+            ValueError: there is no such input.
+        """
         self.inputs[self._input_names.index(name)] = value
 
     def set_slope(self, name: str, slope: float) -> None:
-        """Let an input change by `slope` (its SI unit per second) during the next communication step, and hold then."""
+        """Let an input change by `slope` (its SI unit per second) during the next communication step, and hold then.
+
+        Raises:
+            ValueError: there is no such input.
+        """
         self.field("input_slopes")[self._input_names.index(name)] = slope
 
     def read_rates(self) -> dict[str, float]:

@@ -63,7 +63,7 @@ class MechanismSlave(Fmi2Slave):
 
     @fmi_call
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
-        """fmi2SetupExperiment: the tighter of the host's tolerance and `relative_tolerance` will be used."""
+        """fmi2SetupExperiment, times in s: of the host's tolerance and `relative_tolerance` the tighter will be used."""
         require(self._phase, (Phase.INSTANTIATED,), "fmi2SetupExperiment")
         self._experiment = experiment(start_time, stop_time, tolerance)
         self._forget_simulation()
@@ -89,7 +89,7 @@ class MechanismSlave(Fmi2Slave):
 
     @fmi_call
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """fmi2DoStep."""
+        """fmi2DoStep from `current_time` [s] over `step_size` [s]."""
         require(self._phase, (Phase.STEPPING,), "fmi2DoStep")
         simulation = self._prepared()
         stop_time = math.inf if self._experiment is None else self._experiment.stop_time

@@ -98,7 +98,7 @@ class Equations:
         return float(levers.max(initial=0.0)) or 1.0
 
     def balanced(self, jacobian: FloatArray) -> FloatArray:
-        """Phi_q with angles measured as lengths on the longest lever arm, and every row of length 1.
+        """Phi_q, of shape (rows, coordinates), with angles as lengths on the longest lever arm, and rows of length 1.
 
         So neither the size of the mechanism nor the units of its rows have a say in how near to each other they are.
         """
@@ -108,12 +108,12 @@ class Equations:
         return balanced
 
     def as_lengths(self, step: FloatArray) -> FloatArray:
-        """A change of the coordinates with angles measured as `balanced` does [m]."""
+        """A change of the coordinates, shape (coordinates,), with angles measured as `balanced` does [m]."""
         lengths: FloatArray = step / self._columns
         return lengths
 
     def from_lengths(self, step: FloatArray) -> FloatArray:
-        """The reverse of `as_lengths`."""
+        """A change of the coordinates [m, rad] from what `as_lengths` made of it, shape (coordinates,)."""
         change: FloatArray = step * self._columns
         return change
 

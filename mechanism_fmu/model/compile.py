@@ -17,10 +17,10 @@ from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
 from .sources import output_factor, resolve_output
 
-#: Width of `joint_data`, `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
+#: Widths of `joint_data`, of `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
 JOINT_COLUMNS = 9
 FORCE_COLUMNS = 4
-LINE_COLUMNS = 6
+CONTACT_COLUMNS = 6
 
 #: A one- or two-dimensional table of numbers; of dtype object when the numbers are symbolic.
 Table = np.ndarray[Any, np.dtype[Any]]
@@ -147,7 +147,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         contact_pattern=_integers([codes.NONE if c.pattern is None else patterns[c.pattern] for c in contacts]),
         contact_function=_integers([codes.NONE if f is None else functions[f] for f, _ in switches]),
         contact_closes_when=_integers([int(value) for _, value in switches]),
-        contact_data=_rows([c.data() for c in contacts], LINE_COLUMNS),
+        contact_data=_rows([c.data() for c in contacts], CONTACT_COLUMNS),
         contact_row_first=_integers(list(first_contact_rows[:-1])),
         contact_rows=int(first_contact_rows[-1]),
         contact_alpha=_integers(
@@ -162,7 +162,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         ),
         pattern_body_i=_integers([bodies[p.body_i] for p in mechanism.patterns]),
         pattern_body_j=_integers([bodies[p.body_j] for p in mechanism.patterns]),
-        pattern_data=_rows([p.data() for p in mechanism.patterns], LINE_COLUMNS),
+        pattern_data=_rows([p.data() for p in mechanism.patterns], CONTACT_COLUMNS),
         pattern_pitch=_numbers([p.pitch for p in mechanism.patterns]),
         pattern_enabled=_numbers([p.enabled for p in mechanism.patterns]),
         function_kind=_integers([kind for kind, _ in watched]),

@@ -10,12 +10,12 @@ from .splines import plain_places, spline_pieces
 
 
 def polynomial_motion(*coefficients: Number) -> Curve:
-    """C = coefficients[0] + coefficients[1] t + ..., at most up to t^5; two of them are a constant speed."""
+    """C = coefficients[0] + coefficients[1] t + ... [m or rad], at most up to t^5; two of them are a constant speed."""
     return Curve((Piece(0.0, (Term(tuple(coefficients)),)),))
 
 
 def harmonic_motion(mean: Number, amplitude: Number, frequency: Number, phase: Number = 0.0) -> Curve:
-    """C = mean + amplitude sin(frequency t + phase), frequency in rad/s and phase in rad."""
+    """C = mean + amplitude sin(frequency t + phase) [m or rad], frequency in rad/s and phase in rad."""
     return Curve((Piece(0.0, (constant(mean), sine(amplitude, frequency, phase))),))
 
 

@@ -17,7 +17,7 @@ _TURN = 2 * math.pi
 
 
 def circle(radius: Number) -> Curve:
-    """A circle about Q: a roller."""
+    """A circle of a radius [m] about Q: a roller."""
     return _closed((Piece(0.0, (constant(radius),)),))
 
 
@@ -30,7 +30,7 @@ def harmonic_profile(mean: Number, cosines: Sequence[Number] = (), sines: Sequen
 
 
 def piecewise_profile(*pieces: tuple[Number, Sequence[Term]]) -> Curve:
-    """A closed profile of analytic pieces: (alpha where it starts, its terms), the first from 0 on."""
+    """A closed profile of analytic pieces: (alpha where it starts [rad], its terms [m]), the first from 0 on."""
     return _closed(tuple(Piece(start, tuple(terms)) for start, terms in pieces))
 
 
