@@ -63,7 +63,7 @@ class MechanismSlave(Fmi2Slave):
 
     @fmi_call
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
-        """fmi2SetupExperiment, times in s: of the host's tolerance and `relative_tolerance` the tighter will be used."""
+        """fmi2SetupExperiment, times in s; of its tolerance and `relative_tolerance`, the tighter will be used."""
         require(self._phase, (Phase.INSTANTIATED,), "fmi2SetupExperiment")
         self._experiment = experiment(start_time, stop_time, tolerance)
         self._forget_simulation()
