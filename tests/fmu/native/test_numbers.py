@@ -1,4 +1,4 @@
-"""A native FMU refuses the numbers that `Mechanism.compile` refuses, in the same words."""
+"""A native FMU refuses the numbers that `compile_mechanism` refuses, in the same words."""
 
 import pytest
 from fmpy.fmi1 import FMICallException
