@@ -97,7 +97,19 @@ def test_build_knows_its_models(tmp_path: Path) -> None:
 
 def test_help_does_not_wait_for_the_libraries() -> None:
     """Of all commands: it comes at once when nothing is imported for it but what parses and prints."""
-    heavy = {"fmpy", "llvmlite", "mechanism_fmu", "models", "numba", "numpy", "pandas", "plotly", "pythonfmu", "scipy"}
+    heavy = {
+        "fmpy",
+        "llvmlite",
+        "mechanism_fmu",
+        "models",
+        "numba",
+        "numpy",
+        "pandas",
+        "plotly",
+        "pydantic",
+        "pythonfmu",
+        "scipy",
+    }
     script = f"""
 import sys
 from typer.testing import CliRunner
