@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..engine import status
-from ..engine.assembly import CLOSED_WITHIN, assemble_at
-from ..engine.layout import field_of
-from ..engine.pack import pack
-from ..engine.textbook import textbook_rows
+from ..engine.block.layout import field_of
+from ..engine.block.pack import pack
+from ..engine.constraints.textbook import textbook_rows
+from ..engine.starting.assembly import CLOSED_WITHIN
+from ..engine.starting.begin import assemble_at
 from ..model import Contact, Mechanism, compile_mechanism
 from ..model.joints import Joint
 from .errors import KinematicsError
@@ -28,7 +29,7 @@ class Rows(NamedTuple):
 
 
 class Equations:
-    """The rows of all joints and closed contacts, by the engine (`mechanism_fmu.engine.textbook`).
+    """The rows of all joints and closed contacts, by the engine (`mechanism_fmu.engine.constraints.textbook`).
 
     Args:
         mechanism: its start guess is where assembly begins.
