@@ -14,4 +14,9 @@ Where to find what:
 - meaning: `tooth_stress`, `checks` (verdicts), `paper` (its claims), `study` and `wheels`, `validate`
 - for people: `assignments` (name=value unit), `numbers`, `results` (files), `report`, `cli`, `commands`, `closing`,
   `terminal`, `interrupt`
+
+The modules named in `__all__` are for users (docs/public-interface.md); import from them, e.g. `from harness.fmu import
+open_fmu`. They are not imported here, because `mechanism-fmu --help` must not wait for them.
 """
+
+__all__ = ["bonds", "clock", "coupling", "errors", "experiment", "fmu", "master", "recorder", "results", "slave"]

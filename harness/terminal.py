@@ -90,7 +90,6 @@ class RunDisplay:
     """An observer that says what is going on: a spinner until the first step, a bar when the steps take long."""
 
     def __init__(self, stop_time: float, loading: str, now: Callable[[], float] = clock.monotonic) -> None:
-        self._stop_time = stop_time
         self._now = now
         self._began = now()
         self._spinner = console.status(loading)

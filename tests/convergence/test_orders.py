@@ -17,6 +17,7 @@ from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.engine.stepping.dormand_prince import try_step
 from mechanism_fmu.engine.stepping.interpolation import interpolate
 from mechanism_fmu.model import GROUND, Body, Mechanism, Output, Revolute, Settings, TorsionSpring
+from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.simulation import Simulation
 
 MASS, INERTIA, RADIUS = 2.0, 0.3, 0.5
@@ -67,7 +68,7 @@ def errors_of_steps(start, step, count):
     """
     y = np.append(exact(start), [0.0, 0.0])  # no work, no loss
     inside = np.zeros((len(FRACTIONS), len(y)))
-    fixed_steps(pack(swing(alpha=0.0).compile()), y, step, count, FRACTIONS, inside)
+    fixed_steps(pack(compile_mechanism(swing(alpha=0.0))), y, step, count, FRACTIONS, inside)
     times = start + step * (count - 1 + FRACTIONS)
     between = [row[:6] - exact(time) for row, time in zip(inside, times, strict=True)]
     return np.abs(y[:6] - exact(start + step * count)).max(), np.abs(between).max()
