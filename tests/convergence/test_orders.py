@@ -40,12 +40,10 @@ FRACTIONS = np.linspace(0.1, 0.9, 9)
 
 
 HINGE = Revolute("hinge", "bob", (-RADIUS, 0.0), GROUND, (0.0, 0.0))
-ABOUT_HINGE = INERTIA + MASS * RADIUS**2
+SPRING = TorsionSpring("spring", "bob", stiffness=(INERTIA + MASS * RADIUS**2) * FREQUENCY**2)
+DRIVER = AngleDriver("driver", "bob", harmonic_motion(0.0, AMPLITUDE, FREQUENCY, math.pi / 2))
 #: What makes the bob swing.
-CAUSES = {
-    "spring": {"joints": (HINGE,), "forces": (TorsionSpring("spring", "bob", stiffness=ABOUT_HINGE * FREQUENCY**2),)},
-    "driver": {"joints": (HINGE, AngleDriver("driver", "bob", harmonic_motion(0.0, AMPLITUDE, FREQUENCY, math.pi / 2)))},
-}
+CAUSES = {"spring": {"joints": (HINGE,), "forces": (SPRING,)}, "driver": {"joints": (HINGE, DRIVER)}}
 
 
 def swing(tolerance=1e-9, alpha=10.0, cause="spring"):
