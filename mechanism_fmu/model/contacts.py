@@ -78,8 +78,8 @@ class AngleStop:
     The latched angle is `angle` at first. Each time the relative angle has gone one pitch beyond it, the stop clicks:
     the latched angle grows by one pitch, as when a holding pawl drops behind the next tooth. It never goes back.
 
-    Outputs: `force` [N m], the torque on body i: positive when it pushes; 0 when open. `gap` [rad]. `latched` [rad]: the
-    latched angle. `clicks`: their number.
+    Outputs: `force` [N m], the torque on body i: positive when it pushes; 0 when open. `gap` [rad].
+    `latched` [rad], the latched angle, and `clicks`, how often it has grown.
 
     Attributes:
         name: unique within the mechanism.
