@@ -1,7 +1,8 @@
 """Contacts: one-sided constraints that open and close.
 
 Here stands how near two bodies are to each other (the gap and what it takes to compute it), and the numbers that the
-impact law and friction need; the law itself is one for all contacts, eq (7) with inequalities (`engine.contacts.impact`).
+impact law and friction need; the law itself is one for all contacts: eq (7) with inequalities, in
+`mechanism_fmu.engine.contacts.impact`.
 
 Under Outputs: what an `Output` can have as its source "<name>.<output>". All have `closed`, whether the contact is
 closed, and `gap`, which is 0 then; the notation is that of `joints`.

@@ -1,4 +1,4 @@
-"""What joints are; how they are enforced is in `mechanism_fmu.engine.joints`.
+"""What joints are; how they are enforced is in `mechanism_fmu.engine.constraints.joints`.
 
 Each says the five steps of the ME451 slides itself: what it allows, its rows Phi, their Jacobian Phi_q, nu = -Phi_t and
 gamma = -(Phi_q q')_q q' - 2 Phi_qt q' - Phi_tt, so that Phi_q q' = nu and Phi_q q'' = gamma. All of them write
