@@ -9,7 +9,7 @@ from rich.markup import escape
 
 from .assignments import start_values
 from .checks import Check, all_passed
-from .closing import close_run
+from .ending import show_ending
 from .errors import FmuError, UsageError
 from .experiment import Experiment, Run, default_times, perform
 from .fmu import Fmu, open_fmu
@@ -187,4 +187,4 @@ def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
     from .report.run_report import write_report
 
     files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]
-    return close_run(run, files, more_checks)
+    return show_ending(run, files, more_checks)
