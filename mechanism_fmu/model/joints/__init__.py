@@ -1,4 +1,4 @@
-"""What joints are; how they are enforced is in `mechanism_fmu.engine.joints`."""
+"""What joints are; how they are enforced is in `mechanism_fmu.engine.constraints.joints`."""
 
 from .angle_driver import AngleDriver
 from .cam_flat_follower import CamFlatFollower
