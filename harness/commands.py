@@ -169,17 +169,14 @@ def _performed(fmu: Fmu, experiment: Experiment) -> Run:
     """Perform an experiment under the eyes of the user.
 
     Raises:
-        FmuError: the FMU failed before there was anything to record.
+        FmuError: as of `perform`.
     """
     loading = f"Loading {fmu.path.name}; a first start may take a while ..."
     with (
         RunDisplay(experiment.stop_time, loading) as display,
         interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop_requested,
     ):
-        run = perform(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop_requested)
-    if run.outcome.error is not None and run.results.empty:
-        raise run.outcome.error
-    return run
+        return perform(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop_requested)
 
 
 def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:

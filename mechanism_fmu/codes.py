@@ -50,7 +50,6 @@ POINT_FOLLOWER = 5
 
 # contact_data columns: of POINT_LINE the point and (as contact_line) the line; of profiles see their specs; of
 # ANGLE_STOP and ANGLE_LOCK:
-POINT_X = 0
 STOP_ANGLE = 0
 STOP_PITCH = 1
 

@@ -18,7 +18,8 @@ BRIDGED = 14
 AT_CENTRE = 15
 
 ADVICE = {
-    NOT_ASSEMBLED: "The joints cannot be closed from the given start positions.",
+    NOT_ASSEMBLED: "The joints cannot be closed from the given start positions. Give start positions nearer to closed "
+    "ones, or lengths that can close.",
     START_RATES: "The start rates do not agree with the joints.",
     START_INSIDE: "The mechanism starts with a contact point inside the other body.",
     STEP_TOO_SMALL: "The step size has shrunk to nothing: the motion is no longer smooth or finite. Check that inputs "
@@ -44,5 +45,6 @@ ADVICE = {
     SINGULAR: "A singular configuration lies ahead: the rank of the constraint rows drops there, and the motion may go "
     "on along more than one branch, as where a parallelogram lies flat. Keep the mechanism away from it, or add a part "
     "that leads it through, such as a third crank out of line.",
-    NO_PLACE: "No copy of a pattern was found on which the point can start.",
+    NO_PLACE: "No copy of a pattern was found on which the point can start. Give start positions nearer to the "
+    "pattern, or check its pitch and boundary.",
 }

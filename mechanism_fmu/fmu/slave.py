@@ -8,6 +8,7 @@ import math
 import weakref
 from collections.abc import Sequence
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any, ClassVar
 from xml.etree.ElementTree import Element
 
@@ -80,8 +81,8 @@ class MechanismSlave(Fmi2Slave):
     def exit_initialization_mode(self) -> None:
         """fmi2ExitInitializationMode: assemble the mechanism and begin its motion."""
         require(self._phase, (Phase.INITIALIZATION,), "fmi2ExitInitializationMode")
-        values = self.model.checked(self._parameter_values())
         self._prepared()
+        values = SimpleNamespace(**self._parameter_values())  # checked when it was prepared
         for warning in self.model.warned(values):
             self.log(warning, Fmi2Status.warning)
         self._phase = Phase.STEPPING
@@ -94,7 +95,6 @@ class MechanismSlave(Fmi2Slave):
         simulation = self._prepared()
         stop_time = math.inf if self._experiment is None else self._experiment.stop_time
         target = step_target(simulation.time, current_time, step_size, stop_time)
-        simulation.inputs[:] = self._inputs
         self._values = None
         try:
             simulation.advance(target)
@@ -249,10 +249,7 @@ class MechanismSlave(Fmi2Slave):
         if self._values is None:
             if all(self.variables[vr].causality in _SETTABLE for vr in vrs):
                 return [self._setting(vr) for vr in vrs]
-            simulation = self._prepared()
-            if self._phase is Phase.STEPPING:
-                simulation.inputs[:] = self._inputs
-            outputs = simulation.read_array().tolist()
+            outputs = self._prepared().read_array().tolist()
             split = self._first_parameter - len(self._inputs)
             self._values = [*self._inputs, *outputs[:split], *self._parameters, *outputs[split:]]
         values = self._values
@@ -274,6 +271,8 @@ class MechanismSlave(Fmi2Slave):
         for vr, value in zip(vrs, values, strict=True):
             if vr < len(self._inputs):
                 self._inputs[vr] = value
+                if self._phase is Phase.STEPPING:
+                    self._prepared().inputs[vr] = value
             else:
                 self._parameters[vr - self._first_parameter] = value
         self._values = None

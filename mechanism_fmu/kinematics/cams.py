@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..model import AngleDriver, CamFlatFollower, Curve, Mechanism, PointFollower
+from ..model.joints import HigherPair
 from ..model.motions import polynomial_motion
-from .contact_geometry import Pair, contact_geometry, follower_ways
+from .contact_geometry import contact_geometry, follower_ways
 from .equations import Equations, FloatArray
 from .errors import KinematicsError
 from .motion import KinematicMotion, analyse
@@ -106,14 +107,14 @@ def cam_report(mechanism: Mechanism, contact: str, cam: str, angles: int = 360) 
     )
 
 
-def _roller_radius(pair: Pair, profile: Curve | None) -> float | None:
+def _roller_radius(pair: HigherPair, profile: Curve | None) -> float | None:
     if isinstance(pair, PointFollower):
         return 0.0
     return None if profile is None else radius_of(profile)
 
 
-def _pair(mechanism: Mechanism, contact: str, cam: str) -> Pair:
-    pairs = {c.name: c for c in mechanism.contacts if isinstance(c, Pair)}
+def _pair(mechanism: Mechanism, contact: str, cam: str) -> HigherPair:
+    pairs = {c.name: c for c in mechanism.contacts if isinstance(c, HigherPair)}
     if contact not in pairs:
         raise KinematicsError(f"There is no pair of profiles {contact!r}; there are: {', '.join(pairs) or 'none'}.")
     pair = pairs[contact]

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..model import CamFlatFollower, CamFollower, PointFollower
+from ..model import CamFlatFollower, PointFollower
+from ..model.joints import HigherPair
 from .equations import Equations, FloatArray
 from .errors import KinematicsError
 from .motion import KinematicMotion
 from .profile_values import curvature, curve_values, radius_of
 from .rank import free_directions
 
-Pair = CamFollower | CamFlatFollower | PointFollower
 
-
-def contact_geometry(motion: KinematicMotion, pair: Pair) -> tuple[FloatArray, FloatArray]:
+def contact_geometry(motion: KinematicMotion, pair: HigherPair) -> tuple[FloatArray, FloatArray]:
     """The unit normals, shape (times, 2), and the sums of the curvatures, shape (times,) [1/m]."""
     total = np.full(len(motion.time), np.inf if isinstance(pair, PointFollower) else 0.0)
     normal = np.empty((len(motion.time), 2))
@@ -29,7 +28,7 @@ def contact_geometry(motion: KinematicMotion, pair: Pair) -> tuple[FloatArray, F
     return normal, total
 
 
-def follower_ways(equations: Equations, motion: KinematicMotion, pair: Pair, cam: str) -> FloatArray:
+def follower_ways(equations: Equations, motion: KinematicMotion, pair: HigherPair, cam: str) -> FloatArray:
     """Unit vectors along which the follower can go at the contact while the cam stands still, shape (times, 2).
 
     Zero where that point of the follower cannot move at all.
@@ -57,7 +56,7 @@ def follower_ways(equations: Equations, motion: KinematicMotion, pair: Pair, cam
     return ways
 
 
-def _points(motion: KinematicMotion, pair: Pair, follower: str) -> FloatArray:
+def _points(motion: KinematicMotion, pair: HigherPair, follower: str) -> FloatArray:
     """The contact points, or the centres of the follower's round roller, shape (times, 2) [m]."""
     if isinstance(pair, PointFollower):
         return _profile_points(motion, pair, "j")
@@ -68,7 +67,7 @@ def _points(motion: KinematicMotion, pair: Pair, follower: str) -> FloatArray:
     return _profile_points(motion, pair, which, 0.0 if radius_of(profile) is not None else 1.0)
 
 
-def _profile_points(motion: KinematicMotion, pair: Pair, which: str, part: float = 1.0) -> FloatArray:
+def _profile_points(motion: KinematicMotion, pair: HigherPair, which: str, part: float = 1.0) -> FloatArray:
     """Points of profile "i" or "j" at its contact coordinate, that part of the radius away from its centre."""
     body, profile, centre = (getattr(pair, f"{name}_{which}") for name in ("body", "profile", "centre"))
     alpha = motion.of(f"{pair.name}.alpha_{which}")[0]

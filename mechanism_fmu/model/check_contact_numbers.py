@@ -19,7 +19,7 @@ from .conditions import (
 )
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
 from .findings import Finding, literal, refuse_unless
-from .joints import CamFlatFollower, CamFollower, PointFollower
+from .joints import HigherPair
 from .patterns import CircularPattern
 
 #: A normal must have unit length to this accuracy.
@@ -37,7 +37,7 @@ def contact_findings(contact: Contact) -> Iterator[Finding]:
         text = f"{label}: {what} = {{:g}}{unit} must be finite and not negative."
         yield refuse_unless(finite_not_negative(value), text, value)
     holds = ("guided", contact.guided)
-    if isinstance(contact, (CamFollower, CamFlatFollower, PointFollower)):
+    if isinstance(contact, HigherPair):
         holds = ("unilateral", contact.unilateral)
     for what, switch in (("enabled", contact.enabled), holds, ("closed", contact.closed)):
         text = f"{label}: {what} = {{:g}} is neither true (1) nor false (0); give one of the two."

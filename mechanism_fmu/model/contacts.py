@@ -17,7 +17,7 @@ from .. import codes
 from .body import Point
 from .curves import Curve
 from .functions import Number
-from .joints import CamFlatFollower, CamFollower, PointFollower
+from .joints import HigherPair
 
 
 @dataclass(frozen=True)
@@ -171,4 +171,4 @@ def too_deep(contact: Contact) -> tuple[str, str]:
 
 
 #: Any contact.
-Contact = PointLineContact | AngleStop | AngleLock | CamFollower | CamFlatFollower | PointFollower
+Contact = PointLineContact | AngleStop | AngleLock | HigherPair

@@ -4,6 +4,7 @@ import contextlib
 import inspect
 import io
 import re
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from pages import JOINTS, PAGES, examples
 from docs.joints.drawings import DRAWINGS
 from mechanism_fmu.model import joints
 from mechanism_fmu.model.efforts import EFFORTS
+from mechanism_fmu.model.joints import Joint
 
 EXAMPLES = [
     pytest.param(page, program, printed, id=f"{page.stem}-{number}")
@@ -65,9 +67,10 @@ def test_a_joint_says_its_five_steps_itself(name):
     assert steps == ["1. Allows", "2. Phi", "3. Phi_q", "4. nu", "5. gamma"]
 
 
-@pytest.mark.parametrize("name", CLASSES)
-def test_a_page_names_the_forces_that_can_be_asked_for(name):
-    for quantity in EFFORTS.get(getattr(joints, name).kind, {}):
+@pytest.mark.parametrize("joint", get_args(Joint))
+def test_a_page_names_the_forces_that_can_be_asked_for(joint):
+    name = joint.__name__
+    for quantity in EFFORTS.get(joint.kind, {}):
         assert any(re.search(rf"`(<name>\.)?{quantity}`", page.read_text("utf-8")) for page in pages_of(name))
 
 

@@ -1,4 +1,7 @@
-"""Which of several touching contacts push: p >= 0, s' >= target, p (s' - target) = 0, beside the rows that are kept.
+"""Which of several touching contacts push: p >= 0, d >= target, p (d - target) = 0, beside the rows that are kept.
+
+In an impact p is an impulse, d the change of the gap rate s' and target v of eq (6); at rest p is a force, d the second
+derivative of the gap and target 0.
 
 Solved exactly, by principal pivoting: each contact is in (closed, a row like a joint's) or out (open), and as long as
 one of them violates its inequality, the first such contact changes sides (least-index rule, Murty 1974). When that does
@@ -22,7 +25,7 @@ from ..dynamics.minimum_norm import minimum_norm
 
 #: An acceleration [m/s2], or a share of its terms, that may be missing.
 _ACCELERATION = 1e-8
-#: An impulse may be missing this share of the largest one, a separation speed this much [m/s] or share of its terms.
+#: An impulse may be missing this share of the largest one, a change of gap rate this much [m/s] or share of its terms.
 _IMPULSE_SHARE = 1e-11
 _SPEED = 1e-11
 _SHARE = 1e-12
@@ -137,7 +140,7 @@ def _try_impulses(block: Array) -> int:
 
 @jit
 def _comes_off(block: Array, contact: int) -> bool:
-    """Whether a closed candidate exceeds its separation speed, or accelerates away from the other body."""
+    """Whether a closed candidate exceeds its change of gap rate, or accelerates away from the other body."""
     left, tolerance = _excess(block, contact, contacts(block).row[contact])
     comes_off: bool = left > tolerance
     return comes_off
@@ -145,7 +148,7 @@ def _comes_off(block: Array, contact: int) -> bool:
 
 @jit
 def _goes_in(block: Array, contact: int) -> bool:
-    """Whether an open candidate misses its separation speed, or accelerates into the other body."""
+    """Whether an open candidate misses its change of gap rate, or accelerates into the other body."""
     contact_row(block, contact, spare_row(block))
     left, tolerance = _excess(block, contact, spare_row(block))
     goes_in: bool = left < -tolerance
@@ -154,7 +157,7 @@ def _goes_in(block: Array, contact: int) -> bool:
 
 @jit
 def _excess(block: Array, contact: int, r: int) -> tuple[float, float]:
-    """A candidate's separation speed or acceleration, by row `r`, beyond what it must at least be; and its rounding."""
+    """A candidate's change of gap rate or acceleration, by row `r`, beyond the least that it must be; its rounding."""
     keep_small()
     n = sizes(block).coordinates
     impulses = strikes(block).problem[KIND] == IMPULSES

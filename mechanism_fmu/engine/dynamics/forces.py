@@ -37,7 +37,7 @@ def apply_forces(block: Array, y: Array) -> tuple[float, float]:
         rate = _relative(rates, on, against, n)
         if kind == codes.TORSION_SPRING:
             preload = table.data[k, codes.SPRING_PRELOAD]
-            stretch = _relative(y, on, against, n) - table.data[k, codes.SPRING_FREE_ANGLE]
+            stretch = _stretch(block, k, y)
             torque = -(table.data[k, codes.SPRING_STIFFNESS] * stretch + preload)
             given -= preload * rate
         elif kind == codes.DAMPER:
@@ -71,14 +71,11 @@ def shaft_torque(block: Array, y: Array, shaft: int) -> float:
 def spring_energy(block: Array, y: Array) -> float:
     """Energy stored in the linear part of all springs [J]."""
     keep_small()
-    n = sizes(block).coordinates
     table = forces(block)
     energy = 0.0
     for k in range(table.kind.shape[0]):
         if table.kind[k] == codes.TORSION_SPRING:
-            on = 3 * table.body[k] + 2
-            against = 3 * table.reaction[k] + 2
-            stretch = _relative(y, on, against, n) - table.data[k, codes.SPRING_FREE_ANGLE]
+            stretch = _stretch(block, k, y)
             energy += 0.5 * table.data[k, codes.SPRING_STIFFNESS] * stretch * stretch
     return energy
 
@@ -94,9 +91,18 @@ def spring_power(block: Array, y: Array) -> float:
         if table.kind[k] == codes.TORSION_SPRING:
             on = 3 * table.body[k] + 2
             against = 3 * table.reaction[k] + 2
-            stretch = _relative(y, on, against, n) - table.data[k, codes.SPRING_FREE_ANGLE]
-            power += table.data[k, codes.SPRING_STIFFNESS] * stretch * _relative(y[n:], on, against, n)
+            power += table.data[k, codes.SPRING_STIFFNESS] * _stretch(block, k, y) * _relative(y[n:], on, against, n)
     return power
+
+
+@jit
+def _stretch(block: Array, spring: int, y: Array) -> float:
+    """By how much a torsion spring is wound up beyond its free angle [rad]."""
+    table = forces(block)
+    on = 3 * table.body[spring] + 2
+    against = 3 * table.reaction[spring] + 2
+    free: float = table.data[spring, codes.SPRING_FREE_ANGLE]
+    return _relative(y, on, against, sizes(block).coordinates) - free
 
 
 @jit

@@ -37,7 +37,7 @@ def assemble(block: Array) -> int:
     place_bodies(block, now.y_end)
     find_contact_points(block, now.y_end)
     count = active_rows(block)
-    worst = largest(rows(block).residual, count)
+    worst = worst_of(rows(block).residual, count)
     for _ in range(_NEWTON_STEPS):
         if worst == 0.0:
             return status.OK
@@ -51,7 +51,7 @@ def assemble(block: Array) -> int:
             place_bodies(block, s.y_new)
             settle_contact_points(block, s.y_new)
             active_rows(block)
-            after = largest(rows(block).residual, count)
+            after = worst_of(rows(block).residual, count)
             if after < worst:
                 improved = True
                 break
@@ -83,7 +83,7 @@ def newton_direction(block: Array, count: int, left: Array) -> None:
 
 
 @jit
-def largest(values: Array, count: int) -> float:
+def worst_of(values: Array, count: int) -> float:
     """Largest magnitude of the first `count` values; infinite when one is not a number."""
     most = 0.0
     for k in range(count):

@@ -18,7 +18,7 @@ from ..contacts.guards import gap
 from ..contacts.records import clear_impact, clear_records
 from ..dynamics.inputs import take_inputs
 from ..profiles.overlap import overlap
-from .assembly import largest, newton_direction
+from .assembly import newton_direction, worst_of
 
 #: Start rates agree with the joints within this [m/s, rad/s].
 RATES_WITHIN = 1e-9
@@ -121,7 +121,7 @@ def _close_rates(block: Array) -> bool:
     n = sizes(block).coordinates
     y = course(block).y_end
     count = active_rows(block)
-    worst = largest(rows(block).residual_rate, count)
+    worst = worst_of(rows(block).residual_rate, count)
     if options(block).held.shape[0] == 0 or worst <= _RATES_CLOSED:
         return worst <= RATES_WITHIN
     for _ in range(2):  # once more, for what rounding has left
@@ -130,4 +130,4 @@ def _close_rates(block: Array) -> bool:
             y[n + k] += loads(block).weight[k] * linear_system(block).solution[k]
         place_bodies(block, y)
         active_rows(block)
-    return largest(rows(block).residual_rate, count) <= RATES_WITHIN
+    return worst_of(rows(block).residual_rate, count) <= RATES_WITHIN

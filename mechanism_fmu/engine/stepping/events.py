@@ -1,11 +1,18 @@
 """Where inside a step the first event happens.
 
-An event is the first fraction in (0, 1] of the step at which a guard, positive before, reaches zero. Guards of the
-position are looked at on the dense output, the forces of closed contacts at the step's stages. The root of a gap is
-then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the interpolant's.
+The rule. On a step from t0 to t1, a guard w fires at the first t in (t0, t1] at which w <= 0 and before which w > 0.
+Open at t0: what has fired at the end of one step does not fire again at the start of the next. Closed at t1: no zero
+falls between two steps. Only this way round counts. Of several guards the earliest fires. Exceptions at t0:
 
-A gap that is zero at the step's start counts only after it has opened (`armed`). One that neither opens nor closes
-there (a contact that has just been let go) is left alone within `GAP_NOISE`, which is above rounding.
+- a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at;
+- a gap that is not positive at t0, or whose contact touched there (`contacts.touching`): closing (w' < -RESTS_BELOW),
+  it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then only below
+  min(w(t0), 0) - GAP_NOISE; at rest, it counts below -GAP_NOISE until it has been above GAP_NOISE.
+
+Guards of the position are looked at on the dense output, the forces of closed contacts at the step's stages. The root
+of a gap is then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the
+interpolant's. A dip between two looks is found where w' changes from minus to plus; two dips between the same two looks
+are not.
 """
 
 from __future__ import annotations

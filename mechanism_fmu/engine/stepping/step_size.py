@@ -12,7 +12,7 @@ from ..block.parts import contacts, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..profiles.nearest import least_fit
-from .dormand_prince import try_step
+from .dormand_prince import ORDER, try_step
 from .step_limits import within_motions, within_ramp
 
 #: Smallest step as a fraction of max(1 s, |t|).
@@ -90,7 +90,7 @@ def _try(block: Array, start: float, step: float) -> float:
     first = 2 * sizes(block).coordinates + 2
     for k in range(haste.shape[0]):
         turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) * haste[k])
-    too_far = math.pow(turn, 5.0)  # `_scale` takes the fifth root
+    too_far = math.pow(turn, float(ORDER))  # `_scale` takes the root
     if too_far > error:
         return too_far
     return error
@@ -104,9 +104,9 @@ def representable(start: float, step: float) -> float:
 
 @jit
 def _scale(error: float, most: float) -> float:
-    """Factor for the next step size (order 5)."""
+    """Factor for the next step size."""
     if error == 0.0:
         return most
     if not error < math.inf:
         return _SHRINK_MOST
-    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -0.2)))
+    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -1.0 / ORDER)))

@@ -9,8 +9,8 @@ from ... import codes
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
-from .direction import direction
 from .profile_contact import ProfileContact
+from .unit_vector import unit_vector
 
 
 @dataclass(frozen=True)
@@ -63,4 +63,4 @@ class CamFlatFollower(ProfileContact):
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, point_j, u_j."""
-        return (*self.centre_i, *self.point_j, *direction(self.direction_j))
+        return (*self.centre_i, *self.point_j, *unit_vector(self.direction_j))

@@ -9,7 +9,7 @@ from ... import codes
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
-from .direction import direction
+from .unit_vector import unit_vector
 
 
 @dataclass(frozen=True)
@@ -48,5 +48,5 @@ class RevoluteTranslational:
 
     def data(self) -> tuple[Number, ...]:
         """The joint's row of the table `joint_data`: point_i, point_j, R u_i, c."""
-        x, y = direction(self.axis_i)
+        x, y = unit_vector(self.axis_i)
         return (*self.point_i, *self.point_j, -y, x, self.distance)

@@ -9,7 +9,7 @@ from ... import codes
 from ..body import GROUND, Point
 from ..curves import Curve
 from ..functions import Number
-from .direction import direction
+from .unit_vector import unit_vector
 
 
 @dataclass(frozen=True)
@@ -46,4 +46,4 @@ class TranslationalDriver:
 
     def data(self) -> tuple[Number, ...]:
         """The joint's row of the table `joint_data`: point_i, point_j, u_i."""
-        return (*self.point_i, *self.point_j, *direction(self.axis_i))
+        return (*self.point_i, *self.point_j, *unit_vector(self.axis_i))

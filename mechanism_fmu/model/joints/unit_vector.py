@@ -1,4 +1,4 @@
-"""Directions: vectors of any length > 0."""
+"""Directions are given as vectors of any length > 0."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ..conditions import length
 from ..functions import where_positive
 
 
-def direction(axis: Point) -> Point:
+def unit_vector(axis: Point) -> Point:
     """The unit vector along `axis`; a vector of no length, which `check_joint_numbers` refuses, stays as it is."""
     long = length(axis)
     size = where_positive(long, long, 1.0)
