@@ -140,8 +140,8 @@ class Strikes(NamedTuple):
     """Scratch of an impact.
 
     What each contact is in it (`impact.ABSENT` ...), by how much its gap rate must rise at least (v of eq (6)), its
-    closing speed and impulse; the contacts that a complementarity problem decides about, and which problem it is (columns
-    in `complementarity`); all rates before the impact; the line along which a point slides.
+    closing speed and impulse; the contacts that a complementarity problem decides about, and which problem it is
+    (columns in `complementarity`); all rates before the impact; the line along which a point slides.
     """
 
     role: Array
