@@ -19,6 +19,8 @@ class YDriver(PointDriver):
     4. nu = C'.
     5. gamma = -(A_i s_i)_y phi_i'^2 + (A_j s_j)_y phi_j'^2 + C''.
 
+    Outputs: `force` [N], of the driver on body j along y.
+
     Attributes:
         name: unique within the mechanism.
         body_j, point_j: body, and P in its frame [m], that are driven.

@@ -1,4 +1,7 @@
-"""The FMUs that every conformance test runs on, in both flavours: a new model is one more entry of `SUBJECTS`."""
+"""The FMUs that every conformance test runs on, in both flavours: a new model is one more entry of `SUBJECTS`.
+
+Its two flavours are built by fixtures of its name, in tests/conftest.py and tests/fmu/conftest.py.
+"""
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
