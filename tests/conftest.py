@@ -22,10 +22,6 @@ for _name in ("FORCE_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "T
     os.environ.pop(_name, None)
 
 
-#: Builds an FMU of a ready-made model, by the model's name; one process does it for all.
-Built = Callable[..., Path]
-
-
 def pytest_configure(config: pytest.Config) -> None:
     """Files keep the order of their folders: those of FMUs then come when the engine is compiled (see below)."""
     config.option.loadscopereorder = False
@@ -47,10 +43,10 @@ def pytest_runtestloop(session: pytest.Session) -> Iterator[object]:
 
 
 @pytest.fixture(scope="session")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
-    """A function that builds an FMU of a ready-made model once for all processes of this run."""
+def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """A function that builds an FMU of a ready-made model, by its name, once for all processes of this run."""
 
-    def build(model: str, by: Callable[..., Path] = build_fmu, **how: int) -> Path:
+    def build(model: str, by: Callable[..., Path], **how: int) -> Path:
         name = "_".join([by.__name__, model, *(f"{key}{value}" for key, value in how.items())])
         folder = once(tmp_path_factory, name, lambda folder: by(models.load(model), folder, **how))
         return next(folder.glob("*.fmu"))
@@ -58,73 +54,17 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
     return build
 
 
-@pytest.fixture(scope="session")
-def ratchet_fmu(built: Built) -> Path:
-    """Path of a freshly built Ratchet.fmu."""
-    return built("ratchet")
+def _path(model: str, by: Callable[..., Path]) -> object:
+    """A session fixture: the path of a model's freshly built FMU."""
+
+    @pytest.fixture(scope="session")
+    def path(built: Callable[..., Path]) -> Path:
+        return built(model, by)
+
+    return path
 
 
-@pytest.fixture(scope="session")
-def geneva_fmu(built: Built) -> Path:
-    """Path of a freshly built Geneva.fmu."""
-    return built("geneva")
-
-
-@pytest.fixture(scope="session")
-def slider_crank_fmu(built: Built) -> Path:
-    """Path of a freshly built SliderCrank.fmu."""
-    return built("slider_crank")
-
-
-@pytest.fixture(scope="session")
-def four_bar_fmu(built: Built) -> Path:
-    """Path of a freshly built FourBar.fmu."""
-    return built("four_bar")
-
-
-@pytest.fixture(scope="session")
-def gear_train_fmu(built: Built) -> Path:
-    """Path of a freshly built GearTrain.fmu."""
-    return built("gear_train")
-
-
-@pytest.fixture(scope="session")
-def cam_drive_fmu(built: Built) -> Path:
-    """Path of a freshly built CamDrive.fmu."""
-    return built("cam_drive")
-
-
-@pytest.fixture(scope="session")
-def native_ratchet_fmu(built: Built) -> Path:
-    """Path of a freshly built native Ratchet.fmu."""
-    return built("ratchet", build_native_fmu)
-
-
-@pytest.fixture(scope="session")
-def native_geneva_fmu(built: Built) -> Path:
-    """Path of a freshly built native Geneva.fmu."""
-    return built("geneva", build_native_fmu)
-
-
-@pytest.fixture(scope="session")
-def native_slider_crank_fmu(built: Built) -> Path:
-    """Path of a freshly built native SliderCrank.fmu."""
-    return built("slider_crank", build_native_fmu)
-
-
-@pytest.fixture(scope="session")
-def native_four_bar_fmu(built: Built) -> Path:
-    """Path of a freshly built native FourBar.fmu."""
-    return built("four_bar", build_native_fmu)
-
-
-@pytest.fixture(scope="session")
-def native_gear_train_fmu(built: Built) -> Path:
-    """Path of a freshly built native GearTrain.fmu."""
-    return built("gear_train", build_native_fmu)
-
-
-@pytest.fixture(scope="session")
-def native_cam_drive_fmu(built: Built) -> Path:
-    """Path of a freshly built native CamDrive.fmu."""
-    return built("cam_drive", build_native_fmu)
+# Of each model two fixtures: ratchet_fmu, native_ratchet_fmu, geneva_fmu, ...
+for _model in models.available():
+    globals()[f"{_model}_fmu"] = _path(_model, build_fmu)
+    globals()[f"native_{_model}_fmu"] = _path(_model, build_native_fmu)

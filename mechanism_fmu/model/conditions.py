@@ -88,8 +88,8 @@ def length(vector: tuple[Number, Number]) -> Number:
 
 
 def size(x: Number) -> Number:
-    """|x|."""
-    return where_positive(plain(x), plain(x), -plain(x))
+    """|x|; never a negative zero, which a message would show."""
+    return where_positive(-plain(x), -plain(x), plain(x))
 
 
 def _limits(x: Number) -> Number:

@@ -21,11 +21,7 @@ class XDriver(PointDriver):
 
     Outputs: `force` [N], of the driver on body j along x.
 
-    Attributes:
-        name: unique within the mechanism.
-        body_j, point_j: body, and P in its frame [m], that are driven.
-        motion: C(t) [m], with two derivatives.
-        body_i, point_i: what they are driven against: the ground at its origin unless given.
+    Attributes: as of `PointDriver`.
     """
 
     kind: ClassVar[int] = codes.X_DRIVER
