@@ -1,7 +1,8 @@
 import os
-from collections.abc import Callable
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 from hypothesis import settings
@@ -9,6 +10,7 @@ from hypothesis import settings
 import models
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
+from tests.once import once
 
 # How long an example takes says nothing while other tests run beside it.
 settings.register_profile("untimed", deadline=None)
@@ -20,17 +22,49 @@ for _name in ("FORCE_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "T
     os.environ.pop(_name, None)
 
 
-def _built(name: str, folder: str, build: Callable[[ModuleType, Path], Path]) -> object:
+def pytest_configure(config: pytest.Config) -> None:
+    """Files keep the order of their folders: those of FMUs then come when the engine is compiled (see below)."""
+    config.option.loadscopereorder = False
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtestloop(session: pytest.Session) -> Iterator[object]:
+    """Compile the engine of FMUs beside the first tests, when all tests run on several processors."""
+    config = session.config
+    everything = config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    if hasattr(config, "workerinput") or not config.getoption("numprocesses", None) or not everything:
+        return (yield)
+    program = "from mechanism_fmu.fmu.native.objects import compiled_engine; compiled_engine()"
+    with subprocess.Popen([sys.executable, "-c", program]) as process:
+        try:
+            return (yield)
+        finally:
+            process.terminate()
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """A function that builds an FMU of a ready-made model, by its name, once for all processes of this run."""
+
+    def build(model: str, by: Callable[..., Path], **how: int) -> Path:
+        name = "_".join([by.__name__, model, *(f"{key}{value}" for key, value in how.items())])
+        folder = once(tmp_path_factory, name, lambda folder: by(models.load(model), folder, **how))
+        return next(folder.glob("*.fmu"))
+
+    return build
+
+
+def _path(model: str, by: Callable[..., Path]) -> object:
     """A session fixture: the path of a model's freshly built FMU."""
 
     @pytest.fixture(scope="session")
-    def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
-        return build(models.load(name), tmp_path_factory.mktemp(folder))
+    def path(built: Callable[..., Path]) -> Path:
+        return built(model, by)
 
     return path
 
 
 # Of each model two fixtures: ratchet_fmu, native_ratchet_fmu, geneva_fmu, ...
 for _model in models.available():
-    globals()[f"{_model}_fmu"] = _built(_model, "fmu", build_fmu)
-    globals()[f"native_{_model}_fmu"] = _built(_model, "native", build_native_fmu)
+    globals()[f"{_model}_fmu"] = _path(_model, build_fmu)
+    globals()[f"native_{_model}_fmu"] = _path(_model, build_native_fmu)

@@ -186,6 +186,7 @@ def test_the_wheel_rests_exactly_between(sense):
     assert rests > 400
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sense", [1, -1])
 def test_no_drift_over_a_thousand_turns(sense):
     simulation = simulation_of(driver_speed_start=sense * W, drive_damping=10.0, driver_angle_start=sense * 0.3)

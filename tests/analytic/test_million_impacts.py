@@ -43,6 +43,7 @@ def memory():
     return size / (2**20 if sys.platform == "darwin" else 2**10)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="needs the resource module")
 def test_a_million_impacts_neither_drift_nor_grow():
     simulation = Simulation(rattling_pawl())

@@ -95,6 +95,7 @@ def test_the_hand_written_c_takes_the_same_steps(drive: str, engine: c_limit.Eng
     engine.restore(start)
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_engine_and_hand_written_c_are_timed(tmp_path: Path) -> None:
     found = c_limit.compare(tmp_path, 1)

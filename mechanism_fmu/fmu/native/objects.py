@@ -14,6 +14,7 @@ from pathlib import Path
 from ...model import MechanismError
 from ..archive import content_hash
 from ..start import cache_directory
+from .alone import alone
 from .headers import engine_header
 from .targets import TARGETS
 
@@ -56,6 +57,8 @@ class Engine:
 def compiled_engine(report: Report = silently) -> Engine:
     """The engine's object files and header; compiled now if need be, in one or two minutes.
 
+    Whoever asks while another process compiles it waits for what that makes.
+
     Args:
         report: is told what comes next, and which part of the whole is done (0..1).
 
@@ -64,14 +67,16 @@ def compiled_engine(report: Report = silently) -> Engine:
     """
     folder = cache_directory() / "mechanism_fmu" / f"native_{_digest()}"
     objects = {target.name: folder / f"{target.name}.o" for target in TARGETS}
-    header = folder / "engine.h"
-    if not (header.is_file() and all(path.is_file() for path in objects.values())):
+    wanted = [*objects.values(), folder / "engine.h"]  # the header comes last
+    if not all(path.is_file() for path in wanted):
         folder.mkdir(parents=True, exist_ok=True)
-        _emit(folder, report)
-        # Always in the same place, so that the compiler of the C files finds again what it has compiled.
-        temporary = folder / f".engine.h.{os.getpid()}"
-        temporary.write_text(engine_header(), encoding="ascii")
-        os.replace(temporary, header)
+        with alone(folder, lambda: report("waiting for another process that does it", 0.0)):
+            if not all(path.is_file() for path in wanted):
+                _emit(folder, report)
+                # Always in the same place, so that the compiler of the C files finds again what it has compiled.
+                temporary = folder / f".engine.h.{os.getpid()}"
+                temporary.write_text(engine_header(), encoding="ascii")
+                os.replace(temporary, wanted[-1])
     return Engine(objects, folder)
 
 

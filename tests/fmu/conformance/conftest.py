@@ -12,6 +12,7 @@ import pytest
 from tests.fmu.conformance.alone import refusals, run_alone
 from tests.fmu.conformance.host import Instance
 from tests.fmu.conformance.subject import Subject
+from tests.once import once
 
 #: By the name of the session fixture that gives the unzipped FMU; the native flavour's has "native_" before it.
 SUBJECTS: dict[str, dict[str, Any]] = {
@@ -94,11 +95,19 @@ SUBJECTS: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.fixture(scope="session", params=[flavour + name for name in SUBJECTS for flavour in ("", "native_")])
-def subject(request: pytest.FixtureRequest) -> Subject:
+#: Slow: what pythonfmu's wrapper does is the same for all models, and their numbers are those of the native flavour.
+PARAMETERS = [
+    pytest.param(flavour + name, marks=() if flavour or name == "ratchet" else pytest.mark.slow)
+    for name in SUBJECTS
+    for flavour in ("", "native_")
+]
+
+
+@pytest.fixture(scope="session", params=PARAMETERS)
+def subject(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Subject:
     """An FMU that has shown in another process that what it refuses does not end the host."""
     fmu = request.getfixturevalue(request.param)
-    run_alone(refusals, fmu.folder)
+    once(tmp_path_factory, f"refusals_{request.param}", lambda _: run_alone(refusals, fmu.folder))
     native = request.param.startswith("native_")
     return Subject(fmu, native=native, **SUBJECTS[request.param.removeprefix("native_")])
 

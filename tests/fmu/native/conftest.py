@@ -4,15 +4,14 @@ from pathlib import Path
 
 import pytest
 
-import models
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.fmu.native.host3 import Fmu3, Instance3
 
 
 @pytest.fixture(scope="session")
-def ratchet_fmi3(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def ratchet_fmi3(built: Callable[..., Path]) -> Path:
     """Path of a freshly built Ratchet.fmu of FMI 3.0."""
-    return build_native_fmu(models.load("ratchet"), tmp_path_factory.mktemp("fmi3"), fmi=3)
+    return built("ratchet", build_native_fmu, fmi=3)
 
 
 @pytest.fixture(scope="session")

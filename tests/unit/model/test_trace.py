@@ -33,6 +33,7 @@ def test_defaults_give_the_tables_of_the_model(traced):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("traced", TRACES)
 @settings(deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(st.data())
@@ -42,6 +43,7 @@ def test_recorded_operations_give_the_tables_of_the_model_to_the_last_bit(traced
     assert_same_bits(traced.evaluate(values), compile_tables(traced.model.mechanism(values)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("traced", TRACES)
 @settings(deadline=None)
 @given(st.data())
