@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from mechanism_fmu.engine.acceleration import derivative
-from mechanism_fmu.engine.layout import field_of
-from mechanism_fmu.engine.room import Array
-from mechanism_fmu.engine.subset import entry
+from mechanism_fmu.engine.block.layout import Array, field_of
+from mechanism_fmu.engine.compiler.subset import entry
+from mechanism_fmu.engine.dynamics.acceleration import derivative
 
 from . import reference
 from .instance import INSTANTS, Instance

@@ -7,12 +7,11 @@ import math
 import numpy as np
 
 from mechanism_fmu.engine import status
-from mechanism_fmu.engine.acceleration import derivative
-from mechanism_fmu.engine.assembly import begin
-from mechanism_fmu.engine.layout import field_of
-from mechanism_fmu.engine.pack import pack
-from mechanism_fmu.engine.room import Array
-from mechanism_fmu.engine.subset import entry
+from mechanism_fmu.engine.block.layout import Array, field_of
+from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.engine.compiler.subset import entry
+from mechanism_fmu.engine.dynamics.acceleration import derivative
+from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.kinematics.equations import Equations
 from mechanism_fmu.model import (
     GROUND,

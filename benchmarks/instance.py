@@ -9,11 +9,11 @@ import numpy as np
 import models
 from mechanism_fmu import codes
 from mechanism_fmu.engine import status
-from mechanism_fmu.engine.assembly import begin
-from mechanism_fmu.engine.layout import field_of, state_of
+from mechanism_fmu.engine.block.layout import field_of, state_of
+from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.engine.outputs import read_outputs
-from mechanism_fmu.engine.pack import pack
-from mechanism_fmu.engine.stepper import advance
+from mechanism_fmu.engine.starting.begin import begin
+from mechanism_fmu.engine.stepping.stepper import advance
 
 from .plain import OUTPUTS
 from .reference import FACE, State

@@ -165,8 +165,7 @@ NEXT_STEP = 4
 LAST_EVENT = 5  # when the run of events began that PILE counts
 RAMP_START = 6  # when the slopes of inputs began to act
 RAMP_END = 7  # up to where they are known: no step goes beyond
-INDEPENDENCE = 8  # of the active rows at STEP_END (see `engine.singular`; not a time)
-CLOCK_LENGTH = 9
+CLOCK_LENGTH = 8
 
 # columns of the state's counters
 COUNT_IMPACTS = 0
@@ -181,7 +180,7 @@ EVENTS_IN_STEP = 8
 PILE = 9  # events that followed each other without progress
 RAMPING = 10  # 1 while an input has a slope
 RANK = 11  # of the active rows since the last event
-FALLING = 12  # 1 when INDEPENDENCE was falling at STEP_END
+FALLING = 12  # 1 when `course.independence_end` was falling at STEP_END
 COUNTERS_LENGTH = 13
 
 # columns of the state's ledger [J]

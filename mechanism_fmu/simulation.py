@@ -10,8 +10,8 @@ import numpy as np
 
 from . import codes
 from .engine import status
-from .engine.layout import field_of, state_of
-from .engine.pack import pack
+from .engine.block.layout import field_of, state_of
+from .engine.block.pack import pack
 from .engine.run import engine_for
 from .model import Mechanism, MechanismError
 from .model.contacts import too_deep

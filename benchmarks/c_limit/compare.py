@@ -9,15 +9,14 @@ import numpy as np
 import models
 from mechanism_fmu import codes
 from mechanism_fmu.engine import status
-from mechanism_fmu.engine.acceleration import derivative
-from mechanism_fmu.engine.assembly import begin
-from mechanism_fmu.engine.layout import field_of, state_of
-from mechanism_fmu.engine.pack import pack
-from mechanism_fmu.engine.ports import feed
-from mechanism_fmu.engine.room import Array
-from mechanism_fmu.engine.stepper import advance, state_at_time
-from mechanism_fmu.engine.subset import entry
-from mechanism_fmu.engine.views import ports
+from mechanism_fmu.engine.block.layout import Array, field_of, state_of
+from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.engine.block.parts import ports
+from mechanism_fmu.engine.compiler.subset import entry
+from mechanism_fmu.engine.dynamics.acceleration import derivative
+from mechanism_fmu.engine.dynamics.inputs import feed
+from mechanism_fmu.engine.starting.begin import begin
+from mechanism_fmu.engine.stepping.stepper import advance, state_at_time
 
 from ..timing import Comparison, DisagreementError, batch, in_turns, require_agreement
 from .library import STEP, Limit, build

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.layout import field_of, sizes_of
+from mechanism_fmu.engine.block.layout import field_of, sizes_of
 
 Array = np.ndarray[Any, np.dtype[Any]]
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import fmpy
 
 import models
-from mechanism_fmu.engine.layout import field_of
-from mechanism_fmu.engine.pack import pack
+from mechanism_fmu.engine.block.layout import field_of
+from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.engine.run import library_path
 from mechanism_fmu.fmu.native.libraries import engine_libraries
 from mechanism_fmu.fmu.native.package import build_native_fmu

@@ -12,10 +12,10 @@ from typing import Any
 
 from numba import carray, cfunc, types
 
-from .assembly import begin
 from .output_rates import read_output_rates
 from .outputs import read_outputs
-from .stepper import begin_step, go_on
+from .starting.begin import begin
+from .stepping.stepper import begin_step, go_on
 
 _BLOCK = types.CPointer(types.float64)
 _OPTIONS: dict[str, Any] = {"nopython": True, "error_model": "numpy", "boundscheck": False, "fastmath": False}

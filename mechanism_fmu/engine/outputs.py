@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from .. import codes
-from .acceleration import derivative
-from .forces import kinetic_energy, shaft_torque, spring_energy
-from .guards import gap
-from .kinematics import place_bodies
-from .ports import feed
-from .room import Array
-from .stepper import state_at_time
-from .subset import entry, jit
-from .views import bodies, contacts, course, linear_system, patterns, ports, pose, sizes, stages
+from .block.layout import Array
+from .block.motion import course, linear_system, pose, stages
+from .block.parts import bodies, contacts, patterns, ports, sizes
+from .compiler.subset import entry, jit
+from .constraints.kinematics import place_bodies
+from .contacts.guards import gap
+from .dynamics.acceleration import derivative
+from .dynamics.forces import kinetic_energy, shaft_torque, spring_energy
+from .dynamics.inputs import feed
+from .stepping.stepper import state_at_time
 
 
 @entry

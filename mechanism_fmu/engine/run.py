@@ -14,9 +14,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-
-Array = np.ndarray[Any, np.dtype[Any]]
+from .block.layout import Array
 
 _SYSTEMS = {"linux": ("linux", ".so"), "win32": ("windows", ".dll"), "darwin": ("darwin", ".dylib")}
 _PROCESSORS = {"amd64": "x86_64", "arm64": "aarch64"}
@@ -51,10 +49,10 @@ def engine_for(block: Array) -> Engine:
         address, words = block.ctypes.data, len(block)
         functions: list[Any] = [getattr(library, f"engine_{name}") for name in Engine._fields]
         return Engine(*(partial(function, address, words) for function in functions))
-    from .assembly import begin
     from .output_rates import read_output_rates
     from .outputs import read_outputs
-    from .stepper import advance, begin_step, go_on
+    from .starting.begin import begin
+    from .stepping.stepper import advance, begin_step, go_on
 
     entries: list[Any] = [begin, advance, begin_step, go_on, read_outputs, read_output_rates]
     return Engine(*(partial(function, block) for function in entries))

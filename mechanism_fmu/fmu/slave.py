@@ -15,8 +15,8 @@ from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 from .. import __version__
-from ..engine.layout import FIELDS, sizes_of
-from ..engine.pack import pack
+from ..engine.block.layout import FIELDS, sizes_of
+from ..engine.block.pack import pack
 from ..engine.run import compiled_library
 from ..model import MechanismError, Model
 from ..model.model import check_value

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from ..engine.assembly import CLOSED_WITHIN
+from ..engine.starting.assembly import CLOSED_WITHIN
 from .equations import Equations, FloatArray
 from .rank import free_directions
 from .solve import newton

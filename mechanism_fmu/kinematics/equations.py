@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..engine import status
-from ..engine.assembly import CLOSED_WITHIN, assemble_at
-from ..engine.layout import field_of
-from ..engine.pack import pack
-from ..engine.textbook import textbook_rows
+from ..engine.block.layout import field_of
+from ..engine.block.pack import pack
+from ..engine.constraints.textbook import textbook_rows
+from ..engine.starting.assembly import CLOSED_WITHIN
+from ..engine.starting.begin import assemble_at
 from ..model import Contact, Mechanism
 from ..model.joints import Joint
 from .errors import KinematicsError

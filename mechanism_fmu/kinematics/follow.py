@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..engine.assembly import CLOSED_WITHIN
+from ..engine.starting.assembly import CLOSED_WITHIN
 from .equations import Equations, FloatArray
 from .errors import KinematicsError
 from .solve import close

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..engine.assembly import CLOSED_WITHIN
+from ..engine.starting.assembly import CLOSED_WITHIN
 from .equations import Equations, FloatArray
 
 _STEPS = 40

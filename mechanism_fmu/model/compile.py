@@ -73,7 +73,7 @@ class MechanismTables:
     pattern_pitch: Table
     pattern_enabled: Table
     function_kind: Table
-    function_index: Table
+    function_subject: Table
     function_limit: Table
     curve_piece: Table
     curve_pieces: Table
@@ -157,7 +157,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         pattern_pitch=_numbers([p.pitch for p in mechanism.patterns]),
         pattern_enabled=_numbers([p.enabled for p in mechanism.patterns]),
         function_kind=_integers([kind for kind, _ in watched]),
-        function_index=_integers([index for _, index in watched]),
+        function_subject=_integers([index for _, index in watched]),
         function_limit=_numbers([function.below for function in mechanism.functions]),
         curve_piece=_integers(list(first_pieces[:-1])),
         curve_pieces=_integers([len(curve.pieces) for curve in curves]),

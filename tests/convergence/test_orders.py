@@ -9,13 +9,13 @@ import math
 import numpy as np
 import pytest
 
-from mechanism_fmu.engine.acceleration import derivative
-from mechanism_fmu.engine.dormand_prince import try_step
-from mechanism_fmu.engine.interpolation import interpolate
-from mechanism_fmu.engine.pack import pack
-from mechanism_fmu.engine.subset import entry
-from mechanism_fmu.engine.vectors import copy
-from mechanism_fmu.engine.views import stages
+from mechanism_fmu.engine.block.motion import stages
+from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.engine.block.vectors import copy
+from mechanism_fmu.engine.compiler.subset import entry
+from mechanism_fmu.engine.dynamics.acceleration import derivative
+from mechanism_fmu.engine.stepping.dormand_prince import try_step
+from mechanism_fmu.engine.stepping.interpolation import interpolate
 from mechanism_fmu.model import GROUND, Body, Mechanism, Output, Revolute, Settings, TorsionSpring
 from mechanism_fmu.simulation import Simulation
 

@@ -15,8 +15,8 @@ from benchmarks.c_limit.library import Limit, NoCompilerError, build, export
 from benchmarks.table import as_json, table, this_machine
 from benchmarks.timing import Comparison, DisagreementError, in_turns, require_agreement
 from mechanism_fmu import codes
-from mechanism_fmu.engine.layout import field_of
-from mechanism_fmu.engine.pack import pack
+from mechanism_fmu.engine.block.layout import field_of
+from mechanism_fmu.engine.block.pack import pack
 
 
 @pytest.mark.parametrize(

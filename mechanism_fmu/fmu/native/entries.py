@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ...engine.layout import FIELDS, Array, field_of, slot
+from ...engine.block.layout import FIELDS, Array, field_of, slot
 from ...model import GROUND, Mechanism, MechanismError, Settings
 from ...model.compile import curve_owners
 from ...model.symbol import Symbol

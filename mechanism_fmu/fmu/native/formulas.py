@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engine.layout import Array
+from ...engine.block.layout import Array
 from ...model.findings import MOST_NUMBERS, Finding, pieces
 from ...model.functions import Number
 from ...model.symbol import Operation, Symbol

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ... import codes
 from ...engine import status
-from ...engine.layout import FIELDS, SIZES, size_slot, slot
+from ...engine.block.layout import FIELDS, SIZES, size_slot, slot
 from .. import protocol
 from ..model_description import LOG_CATEGORIES
 

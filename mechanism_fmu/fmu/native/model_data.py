@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from ...engine.layout import FIELDS, slot
-from ...engine.pack import pack
+from ...engine.block.layout import FIELDS, slot
+from ...engine.block.pack import pack
 from ...model import Mechanism, Model
 from ...model.contacts import too_deep
 from ..variables import Variable, variables_of

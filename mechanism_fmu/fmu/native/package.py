@@ -13,7 +13,7 @@ from types import ModuleType
 
 import fmpy
 
-from ...engine.pack import pack
+from ...engine.block.pack import pack
 from ...model import Model
 from ...model.trace import trace
 from ..archive import DESCRIPTION, content_hash, write_archive

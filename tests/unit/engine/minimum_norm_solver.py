@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from mechanism_fmu.engine.layout import GIVEN_SIZES, allocate, field_of
-from mechanism_fmu.engine.minimum_norm import minimum_norm
-from mechanism_fmu.engine.subset import entry
-from mechanism_fmu.engine.views import linear_system
+from mechanism_fmu.engine.block.layout import GIVEN_SIZES, allocate, field_of
+from mechanism_fmu.engine.block.motion import linear_system
+from mechanism_fmu.engine.compiler.subset import entry
+from mechanism_fmu.engine.dynamics.minimum_norm import minimum_norm
 
 Array = np.ndarray[Any, Any]
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rotor import Stop, rotor
 
-from mechanism_fmu.engine.assembly import CLOSED_WITHIN
+from mechanism_fmu.engine.starting.assembly import CLOSED_WITHIN
 from mechanism_fmu.model import GROUND, Body, Mechanism, MechanismError, PointLineContact, Revolute, Translational
 from mechanism_fmu.simulation import Simulation
 

@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from touching import touching
 
-from mechanism_fmu.engine.complementarity import MOST_COMBINED
+from mechanism_fmu.engine.contacts.complementarity import MOST_COMBINED
 from mechanism_fmu.model import GROUND, Body, Force, Mechanism, Output, PointLineContact
 from mechanism_fmu.simulation import Simulation
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from textbook import evaluated_rows
 
-from mechanism_fmu.engine.layout import field_of, sizes_of
+from mechanism_fmu.engine.block.layout import field_of, sizes_of
 from mechanism_fmu.model import (
     GROUND,
     Body,

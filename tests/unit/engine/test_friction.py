@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from touching import touching
 
-from mechanism_fmu.engine.friction import SLIP_SPEED
+from mechanism_fmu.engine.dynamics.friction import SLIP_SPEED
 from mechanism_fmu.model import (
     GROUND,
     Body,

@@ -10,11 +10,11 @@ from hypothesis.extra.numpy import arrays
 from stated_joints import DRIVERS, JOINTS, PAIRS, STATEMENTS, State, differentiated_rows
 from textbook import evaluated_rows, written_rows
 
-from mechanism_fmu.engine.layout import field_of
-from mechanism_fmu.engine.pack import pack
-from mechanism_fmu.engine.rows import spare_row, tangent_row
-from mechanism_fmu.engine.subset import entry
-from mechanism_fmu.engine.views import strikes
+from mechanism_fmu.engine.block.layout import field_of
+from mechanism_fmu.engine.block.motion import strikes
+from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.engine.compiler.subset import entry
+from mechanism_fmu.engine.constraints.rows import spare_row, tangent_row
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -48,7 +48,7 @@ ALONG_X = (1.0, 0.0)
 
 @entry
 def evaluate_tangent(block):
-    tangent_row(block, 0, strikes(block).line)
+    tangent_row(block, 0, strikes(block).tangent_line)
     return spare_row(block)
 
 

@@ -4,8 +4,8 @@ import numpy as np
 from rotor import Stop, rotor
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.layout import FIELDS, SIZES, allocate, field_of, sizes_of, state_of
-from mechanism_fmu.engine.pack import pack, write_tables
+from mechanism_fmu.engine.block.layout import FIELDS, SIZES, allocate, field_of, sizes_of, state_of
+from mechanism_fmu.engine.block.pack import pack, write_tables
 
 GIVEN = {
     "bodies": 2,

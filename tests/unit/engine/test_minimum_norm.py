@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from minimum_norm_solver import solve
 
-from mechanism_fmu.engine.minimum_norm import RANK_TOLERANCE
+from mechanism_fmu.engine.dynamics.minimum_norm import RANK_TOLERANCE
 
 SMALL = st.integers(-4, 4).map(float)
 

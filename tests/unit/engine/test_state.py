@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rotor import Stop, rotor
 
-from mechanism_fmu.engine.layout import FIELDS
+from mechanism_fmu.engine.block.layout import FIELDS
 from mechanism_fmu.model import Output
 from mechanism_fmu.simulation import Simulation
 

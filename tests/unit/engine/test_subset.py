@@ -3,8 +3,8 @@
 import numba
 import pytest
 
-from mechanism_fmu.engine.assembly import begin
-from mechanism_fmu.engine.stepper import advance
+from mechanism_fmu.engine.starting.begin import begin
+from mechanism_fmu.engine.stepping.stepper import advance
 from mechanism_fmu.model import Body, Mechanism
 from mechanism_fmu.simulation import Simulation
 

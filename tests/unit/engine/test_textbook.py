@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from textbook import evaluated_rows
 
-from mechanism_fmu.engine.pack import pack
+from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,

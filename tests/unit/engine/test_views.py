@@ -3,34 +3,11 @@
 import numpy as np
 import pytest
 
-from mechanism_fmu.engine import views
-from mechanism_fmu.engine.layout import FIELDS, SIZES, allocate, field_of
-from mechanism_fmu.engine.subset import entry
+from mechanism_fmu.engine.block import motion, parts
+from mechanism_fmu.engine.block.layout import FIELDS, GIVEN_SIZES, SIZES, allocate, field_of
+from mechanism_fmu.engine.compiler.subset import entry
 
-SIZES_GIVEN = dict(
-    zip(
-        (
-            "bodies",
-            "joints",
-            "forces",
-            "contacts",
-            "patterns",
-            "functions",
-            "curves",
-            "pieces",
-            "terms",
-            "alphas",
-            "held",
-            "inputs",
-            "outputs",
-            "joint_rows",
-            "contact_rows",
-        ),
-        range(2, 17),
-        strict=True,
-    )
-)
-BLOCK = allocate(SIZES_GIVEN)
+BLOCK = allocate({name: size for size, name in enumerate(GIVEN_SIZES, 2)})
 NAMES = (
     "bodies",
     "joints",
@@ -53,13 +30,13 @@ NAMES = (
 
 
 def look(name):
-    return getattr(views, name)
+    return getattr(parts if hasattr(parts, name) else motion, name)
 
 
 def compiled(lines):
     """A compiled function of (block, found) with these lines: attributes must be literal to be compiled."""
     source = "\n    ".join(["def read(block, found):", *lines])
-    namespace = {**vars(views)}
+    namespace = {**vars(parts), **vars(motion)}
     exec(source, namespace)
     return entry(namespace["read"])
 
@@ -85,8 +62,8 @@ def test_compiled_sizes_are_pythons():
     compiled(["view = sizes(block)", *(f"found[{k}] = view.{name}" for k, name in enumerate(SIZES))])(
         BLOCK, found := np.zeros(len(SIZES), dtype=np.int64)
     )
-    assert views.sizes(BLOCK) == tuple(found)
-    assert views.sizes(BLOCK)._fields == SIZES
+    assert parts.sizes(BLOCK) == tuple(found)
+    assert parts.sizes(BLOCK)._fields == SIZES
 
 
 def test_every_field_is_seen_by_one_view_only():

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from stated_joints import Rows
 
-from mechanism_fmu.engine.layout import field_of, sizes_of
-from mechanism_fmu.engine.textbook import textbook_rows
+from mechanism_fmu.engine.block.layout import field_of, sizes_of
+from mechanism_fmu.engine.constraints.textbook import textbook_rows
 
 Array = np.ndarray[Any, Any]
 

@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 import models
-from mechanism_fmu.engine.layout import FIELDS, field_of
-from mechanism_fmu.engine.pack import pack
+from mechanism_fmu.engine.block.layout import FIELDS, field_of
+from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.fmu.native.formulas import c_number, formulas, printf_text
 from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model, Parameter
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan, where_positive

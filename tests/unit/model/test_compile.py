@@ -170,7 +170,7 @@ def test_patterns_repeat_the_contacts_that_name_them():
 
 def test_logical_functions_switch_the_contacts_that_name_them():
     assert list(TABLES.function_kind) == [codes.ANGLE, codes.ALONG]
-    assert list(TABLES.function_index) == [1, 2]
+    assert list(TABLES.function_subject) == [1, 2]
     np.testing.assert_array_equal(TABLES.function_limit, [1.5, -0.5])
     none = codes.NONE
     assert list(TABLES.contact_function) == [none, 1, none, none, none, 0]

@@ -1,0 +1,291 @@
+"""What stands where in an instance's block: header, tables, state, work.
+
+`FIELDS` is the only place where a field is declared. The tables describe the mechanism and change only with its
+parameters (an input's value is written into `force_data`); the state is everything that a saved state must restore,
+in one piece; work is scratch that no result depends on.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ... import codes
+
+Array = np.ndarray[Any, np.dtype[Any]]
+
+#: Names of the sizes, in header order.
+SIZES = (
+    "bodies",
+    "coordinates",  # 3 a body
+    "columns",  # coordinates, and 3 more for the ground
+    "wide",  # columns, and one a contact coordinate
+    "frames",  # bodies, and the ground
+    "joints",
+    "forces",
+    "contacts",
+    "patterns",
+    "functions",
+    "curves",
+    "pieces",
+    "terms",
+    "alphas",  # contact coordinates
+    "held",
+    "inputs",
+    "outputs",
+    "joint_rows",
+    "contact_rows",  # of all contacts, when contact coordinates count as coordinates
+    "rows",  # joint rows, contact rows, and a spare one
+    "unknowns",  # positions, rates, work done, energy lost in dampers and friction, contact coordinates
+    "guards",  # two a contact, two a pattern, one a logical function
+    "record",  # columns of an impact record
+    "buffer",  # impacts that are kept of one communication step
+)
+
+
+#: Those that `allocate` is given; the others follow.
+GIVEN_SIZES = (
+    "bodies",
+    "joints",
+    "forces",
+    "contacts",
+    "patterns",
+    "functions",
+    "curves",
+    "pieces",
+    "terms",
+    "alphas",
+    "held",
+    "inputs",
+    "outputs",
+    "joint_rows",
+    "contact_rows",
+)
+
+
+class Field(NamedTuple):
+    """A field: its room ("tables", "state" or "work"), name, shape (names of sizes, or numbers) and type."""
+
+    room: str
+    name: str
+    shape: tuple[str | int, ...]
+    integer: bool = False
+
+
+FIELDS = (
+    Field("tables", "inverse_mass", ("columns",)),
+    Field("tables", "inverse_root_mass", ("columns",)),
+    Field("tables", "body_start", ("bodies", 3)),
+    Field("tables", "body_start_rate", ("bodies", 3)),
+    Field("tables", "joint_kind", ("joints",), True),
+    Field("tables", "joint_body_i", ("joints",), True),
+    Field("tables", "joint_body_j", ("joints",), True),
+    Field("tables", "joint_row", ("joints",), True),
+    Field("tables", "joint_data", ("joints", 9)),
+    Field("tables", "joint_friction", ("joints",)),
+    Field("tables", "joint_curve", ("joints",), True),
+    Field("tables", "force_kind", ("forces",), True),
+    Field("tables", "force_body", ("forces",), True),
+    Field("tables", "force_reaction", ("forces",), True),
+    Field("tables", "force_data", ("forces", 4)),
+    Field("tables", "contact_kind", ("contacts",), True),
+    Field("tables", "contact_body_i", ("contacts",), True),
+    Field("tables", "contact_body_j", ("contacts",), True),
+    Field("tables", "contact_pattern", ("contacts",), True),
+    Field("tables", "contact_function", ("contacts",), True),
+    Field("tables", "contact_closes_when", ("contacts",), True),
+    Field("tables", "contact_data", ("contacts", 6)),
+    Field("tables", "contact_row_first", ("contacts",), True),
+    Field("tables", "contact_alpha", ("contacts",), True),
+    Field("tables", "contact_curve_i", ("contacts",), True),
+    Field("tables", "contact_curve_j", ("contacts",), True),
+    Field("tables", "contact_value", ("contacts", codes.CONTACT_VALUES)),
+    Field("tables", "pattern_body_i", ("patterns",), True),
+    Field("tables", "pattern_body_j", ("patterns",), True),
+    Field("tables", "pattern_data", ("patterns", 6)),
+    Field("tables", "pattern_pitch", ("patterns",)),
+    Field("tables", "pattern_enabled", ("patterns",)),
+    Field("tables", "function_kind", ("functions",), True),
+    Field("tables", "function_subject", ("functions",), True),
+    Field("tables", "function_limit", ("functions",)),
+    Field("tables", "curve_piece", ("curves",), True),
+    Field("tables", "curve_pieces", ("curves",), True),
+    Field("tables", "curve_periodic", ("curves",), True),
+    Field("tables", "curve_range", ("curves", 2)),
+    Field("tables", "piece_term", ("pieces",), True),
+    Field("tables", "piece_terms", ("pieces",), True),
+    Field("tables", "piece_start", ("pieces",)),
+    Field("tables", "term_data", ("terms", codes.TERM_COLUMNS)),
+    Field("tables", "held", ("held",), True),
+    Field("tables", "input_force", ("inputs",), True),
+    Field("tables", "input_column", ("inputs",), True),
+    Field("tables", "input_start", ("inputs",)),
+    Field("tables", "output_kind", ("outputs",), True),
+    Field("tables", "output_index", ("outputs",), True),
+    Field("tables", "output_slot", ("outputs",), True),
+    Field("tables", "output_value", ("outputs",)),
+    Field("tables", "settings", (3,)),
+    Field("state", "clock", (codes.CLOCK_LENGTH,)),
+    Field("state", "counters", (codes.COUNTERS_LENGTH,), True),
+    Field("state", "ledger", (codes.LEDGER_LENGTH,)),
+    Field("state", "inputs", ("inputs",)),
+    Field("state", "held_inputs", ("inputs",)),
+    Field("state", "input_slopes", ("inputs",)),
+    Field("state", "held_slopes", ("inputs",)),
+    Field("state", "y_end", ("unknowns",)),
+    Field("state", "dy_end", ("unknowns",)),
+    Field("state", "dense", (5, "unknowns")),
+    Field("state", "independence_end", (1,)),
+    Field("state", "contact_mode", ("contacts",), True),
+    Field("state", "contact_touching", ("contacts",), True),
+    Field("state", "contact_clicks", ("contacts",), True),
+    Field("state", "contact_line", ("contacts", 4)),
+    Field("state", "contact_hollow", ("contacts",), True),
+    Field("state", "alpha_haste", ("alphas",)),
+    Field("state", "pattern_copy", ("patterns",), True),
+    Field("state", "pattern_line", ("patterns", 8)),
+    Field("state", "function_true", ("functions",), True),
+    Field("state", "pull_time", ("contacts",)),
+    Field("state", "last_impact", ("record",)),
+    Field("state", "impacts", ("buffer", "record")),
+    Field("state", "events", (codes.EVENT_BUFFER_LENGTH, codes.EVENT_COLUMNS)),
+    Field("work", "x", ("frames",)),
+    Field("work", "y", ("frames",)),
+    Field("work", "phi", ("frames",)),
+    Field("work", "cosine", ("frames",)),
+    Field("work", "sine", ("frames",)),
+    Field("work", "x_rate", ("frames",)),
+    Field("work", "y_rate", ("frames",)),
+    Field("work", "phi_rate", ("frames",)),
+    Field("work", "alpha", ("alphas",)),
+    Field("work", "alpha_rate", ("alphas",)),
+    Field("work", "instant", (1,)),
+    Field("work", "contact_row", ("contacts",), True),
+    Field("work", "contact_role", ("contacts",), True),
+    Field("work", "contact_target", ("contacts",)),
+    Field("work", "contact_closing", ("contacts",)),
+    Field("work", "contact_impulse", ("contacts",)),
+    Field("work", "least_push", ("contacts",)),
+    Field("work", "candidates", ("contacts",), True),
+    Field("work", "problem", (2,), True),
+    Field("work", "guard_watched", ("guards",), True),
+    Field("work", "guard_armed", ("guards",), True),
+    Field("work", "guard_floor", ("guards",)),
+    Field("work", "guard_now", ("guards", 2)),
+    Field("work", "guard_next", ("guards", 2)),
+    Field("work", "tangent_line", (4,)),
+    Field("work", "residual", ("rows",)),
+    Field("work", "residual_rate", ("rows",)),
+    Field("work", "gamma", ("rows",)),
+    Field("work", "nu", ("rows",)),
+    Field("work", "jacobian", ("rows", "wide")),
+    Field("work", "scaled", ("rows", "columns")),
+    Field("work", "right_side", ("rows",)),
+    Field("work", "solution", ("columns",)),
+    Field("work", "multiplier", ("rows",)),
+    Field("work", "basis", ("rows", "columns")),
+    Field("work", "triangle", ("rows", "rows")),
+    Field("work", "column_basis", ("rows", "rows")),
+    Field("work", "column_triangle", ("rows", "rows")),
+    Field("work", "order", ("rows",), True),
+    Field("work", "row_norm", ("rows", 2)),
+    Field("work", "coefficient", ("rows",)),
+    Field("work", "rank", (1,), True),
+    Field("work", "independence", (1,)),
+    Field("work", "stage", (1,), True),
+    Field("work", "stage_independence", (7,)),
+    Field("work", "dual", ("rows",)),
+    Field("work", "force", ("columns",)),
+    Field("work", "applied", ("columns",)),
+    Field("work", "last_multiplier", ("rows",)),
+    Field("work", "weight", ("columns",)),
+    Field("work", "free_acceleration", ("columns",)),
+    Field("work", "derivatives", (7, "unknowns")),
+    Field("work", "tried", (2,)),
+    Field("work", "y_start", ("unknowns",)),
+    Field("work", "y_stage", ("unknowns",)),
+    Field("work", "y_new", ("unknowns",)),
+    Field("work", "y_at", ("unknowns",)),
+    Field("work", "dy_at", ("unknowns",)),
+    Field("work", "new_dense", (5, "unknowns")),
+    Field("work", "rates_before", ("coordinates",)),
+    Field("work", "outputs", ("outputs",)),
+    Field("work", "output_rates", ("outputs",)),
+)
+
+_FIRST_OFFSET = len(SIZES)
+_HEADER = _FIRST_OFFSET + len(FIELDS)
+FIELDS_BY_NAME = {field.name: field for field in FIELDS}
+_SLOTS = {field.name: _FIRST_OFFSET + i for i, field in enumerate(FIELDS)}
+
+
+def size_slot(name: str) -> int:
+    """The header word that holds the size `name`."""
+    return SIZES.index(name)
+
+
+def slot(name: str) -> int:
+    """The header word that holds the offset of the field `name`."""
+    return _SLOTS[name]
+
+
+def allocate(sizes: dict[str, int]) -> Array:
+    """A zeroed block with its header filled in.
+
+    Args:
+        sizes: those of `GIVEN_SIZES`, by name.
+
+    Returns:
+        The block, float64 of shape (words,).
+
+    """
+    complete = _complete(sizes)
+    offsets = [_HEADER]
+    for field in FIELDS:
+        offsets.append(offsets[-1] + int(np.prod(shape_of(field, complete))))
+    block = np.zeros(offsets[-1])
+    block[:_HEADER].view(np.int64)[:] = [*(complete[name] for name in SIZES), *offsets[:-1]]
+    return block
+
+
+def sizes_of(block: Array) -> dict[str, int]:
+    """The sizes in a block's header, by name, in the order of `SIZES`."""
+    return dict(zip(SIZES, block[:_FIRST_OFFSET].view(np.int64).tolist(), strict=True))
+
+
+def field_of(block: Array, name: str) -> Array:
+    """A view of the field `name`, in its own shape and type."""
+    field = FIELDS_BY_NAME[name]
+    shape = shape_of(field, sizes_of(block))
+    start = int(block[:_HEADER].view(np.int64)[_SLOTS[name]])
+    flat = block[start : start + int(np.prod(shape))]
+    return (flat.view(np.int64) if field.integer else flat).reshape(shape)
+
+
+def state_of(block: Array) -> Array:
+    """A view of the whole state, shape (words,): copy it to save, write it to restore."""
+    header = block[:_HEADER].view(np.int64)
+    first = next(f.name for f in FIELDS if f.room == "state")
+    after = next(f.name for f in FIELDS if f.room == "work")
+    return block[int(header[_SLOTS[first]]) : int(header[_SLOTS[after]])]
+
+
+def shape_of(field: Field, sizes: dict[str, int]) -> tuple[int, ...]:
+    """The shape of a field for given sizes."""
+    return tuple(sizes[n] if isinstance(n, str) else n for n in field.shape)
+
+
+def _complete(sizes: dict[str, int]) -> dict[str, int]:
+    coordinates = 3 * sizes["bodies"]
+    return sizes | {
+        "coordinates": coordinates,
+        "columns": coordinates + 3,
+        "wide": coordinates + 3 + sizes["alphas"],
+        "frames": sizes["bodies"] + 1,
+        "rows": sizes["joint_rows"] + sizes["contact_rows"] + 1,
+        "unknowns": 2 * coordinates + 2 + sizes["alphas"],
+        "guards": 2 * sizes["contacts"] + 2 * sizes["patterns"] + sizes["functions"],
+        "record": codes.RECORD_CONTACT_IMPULSES + sizes["contacts"] + 2 * coordinates,
+        "buffer": codes.IMPACT_BUFFER_LENGTH,
+    }

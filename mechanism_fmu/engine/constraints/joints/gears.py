@@ -1,0 +1,65 @@
+"""Gears: Phi = d.n, the line of centres d = r_j^P - r_i^P stands at the angle that the gears ask for, one row."""
+
+from __future__ import annotations
+
+import math
+
+from ...block.layout import Array
+from ...block.motion import Pose, Rows
+from ...compiler.subset import jit, keep_small
+
+
+@jit
+def gears(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array) -> None:
+    """Write the row of two external gears: th = (R_i (phi_i + th_i) + R_j (phi_j + th_j - pi)) / (R_i + R_j)."""
+    keep_small()
+    _gears(at, rows, row, i, j, data, data[6], math.pi)
+
+
+@jit
+def internal_gears(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array) -> None:
+    """Write the row of a ring i and a gear j: th = (R_i (phi_i + th_i) - R_j (phi_j + th_j)) / (R_i - R_j)."""
+    keep_small()
+    _gears(at, rows, row, i, j, data, -data[6], 0.0)
+
+
+@jit
+def _gears(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array, radius_j: float, behind: float) -> None:
+    """Write the row with `data` = (point_i, point_j, R_i, th_i, R_j, th_j) and R_j with its sign.
+
+    With a = A_i s_i, b = A_j s_j, t = (cos th, sin th), n = R t, th' = k_i phi_i' + k_j phi_j':
+    Phi_q = [-n, -n.R a - k_i t.d, n, n.R b - k_j t.d], Phi' = n.d' - th' t.d, nu = 0,
+    gamma = n.d th'^2 + 2 t.d' th' - n.(a phi_i'^2 - b phi_j'^2).
+    """
+    keep_small()
+    ax = at.cosine[i] * data[0] - at.sine[i] * data[1]
+    ay = at.sine[i] * data[0] + at.cosine[i] * data[1]
+    bx = at.cosine[j] * data[2] - at.sine[j] * data[3]
+    by = at.sine[j] * data[2] + at.cosine[j] * data[3]
+    ui, uj = at.phi_rate[i], at.phi_rate[j]
+    part_i = data[4] / (data[4] + radius_j)
+    part_j = radius_j / (data[4] + radius_j)
+    theta = part_i * (at.phi[i] + data[5]) + part_j * (at.phi[j] + data[7] - behind)
+    turn = part_i * ui + part_j * uj
+    tx, ty = math.cos(theta), math.sin(theta)
+    nx, ny = -ty, tx
+    dx = at.x[j] + bx - at.x[i] - ax
+    dy = at.y[j] + by - at.y[i] - ay
+    dx_rate = at.x_rate[j] - by * uj - at.x_rate[i] + ay * ui
+    dy_rate = at.y_rate[j] + bx * uj - at.y_rate[i] - ax * ui
+    apart = tx * dx + ty * dy
+    rows.residual[row] = nx * dx + ny * dy
+    rows.residual_rate[row] = nx * dx_rate + ny * dy_rate - turn * apart
+    rows.gamma[row] = (
+        (nx * dx + ny * dy) * turn * turn
+        + 2.0 * (tx * dx_rate + ty * dy_rate) * turn
+        - (nx * ax + ny * ay) * ui * ui
+        + (nx * bx + ny * by) * uj * uj
+    )
+    line = rows.jacobian[row]
+    line[3 * i] = -nx
+    line[3 * i + 1] = -ny
+    line[3 * i + 2] = nx * ay - ny * ax - part_i * apart
+    line[3 * j] = nx
+    line[3 * j + 1] = ny
+    line[3 * j + 2] = ny * bx - nx * by - part_j * apart

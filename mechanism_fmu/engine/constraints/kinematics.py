@@ -1,0 +1,43 @@
+"""Poses and rates of all bodies at one instant."""
+
+from __future__ import annotations
+
+import math
+
+from ..block.layout import Array
+from ..block.motion import pose
+from ..block.parts import sizes
+from ..compiler.subset import jit, keep_small
+
+
+@jit
+def place_bodies(block: Array, y: Array) -> None:
+    """Write poses and rates from y = (q, qd, ..., alpha).
+
+    q and qd are (x, y, phi) of each body in turn, shape (3 bodies,); alpha are the contact coordinates.
+    """
+    keep_small()
+    bodies = sizes(block).bodies
+    at = pose(block)
+    for i in range(bodies):
+        k = 3 * i
+        at.x[i] = y[k]
+        at.y[i] = y[k + 1]
+        at.phi[i] = y[k + 2]
+        at.cosine[i] = math.cos(y[k + 2])
+        at.sine[i] = math.sin(y[k + 2])
+        k += 3 * bodies
+        at.x_rate[i] = y[k]
+        at.y_rate[i] = y[k + 1]
+        at.phi_rate[i] = y[k + 2]
+    at.x[bodies] = 0.0
+    at.y[bodies] = 0.0
+    at.phi[bodies] = 0.0
+    at.cosine[bodies] = 1.0
+    at.sine[bodies] = 0.0
+    at.x_rate[bodies] = 0.0
+    at.y_rate[bodies] = 0.0
+    at.phi_rate[bodies] = 0.0
+    alphas = sizes(block).alphas
+    for k in range(alphas):
+        at.alpha[k] = y[y.shape[0] - alphas + k]

@@ -1,0 +1,73 @@
+"""The gap between two profiles, one row (docs/decisions/009-contact-coordinates.md).
+
+s(q) = n.(C_i - C_j) at the contact coordinates alpha(q) at which the two curves are nearest to each other. There
+ds/dalpha = 0, so that s_q is that of a point against a line, and the massless alpha are eliminated exactly: only their
+rates enter gamma. The textbook's rows of the same pairs are in `joints`; both give the same motion.
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ..block.layout import Array
+from ..block.motion import pose, rows
+from ..block.parts import contacts
+from ..compiler.subset import jit, keep_small
+from ..profiles.touch import change, look
+
+
+@jit
+def profile_row(block: Array, contact: int, row: int) -> float:
+    """Write the gap, its rate, gamma and Jacobian of a contact, and the rates of its contact coordinates.
+
+    With e = r_i + a - r_j, u = phi_j', n = -R t and the rates at fixed alpha T_1' = (u - phi_i') t.g_i and
+    T_2' = t.(e' - u R b) - u s: s' = n.e' + u t.e, T_alpha alpha' = -T', and
+    gamma = n.a phi_i'^2 + n.e u^2 - 2 u t.e' - T_1' alpha_i' - w T_2' alpha_j', w the turning of t with alpha_j.
+
+    Returns:
+        How well the curves fit (see `touch.change`).
+
+    """
+    keep_small()
+    table = contacts(block)
+    at = pose(block)
+    out = rows(block)
+    i = table.body_i[contact]
+    j = table.body_j[contact]
+    kind = table.kind[contact]
+    touch = look(block, contact)
+    tx, ty = touch.tx, touch.ty
+    nx, ny = ty, -tx
+    ui, uj = at.phi_rate[i], at.phi_rate[j]
+    ex = at.x[i] + touch.ax - at.x[j]
+    ey = at.y[i] + touch.ay - at.y[j]
+    ex_rate = at.x_rate[i] - touch.ay * ui - at.x_rate[j]
+    ey_rate = at.y_rate[i] + touch.ax * ui - at.y_rate[j]
+    gap = nx * (ex - touch.bx) + ny * (ey - touch.by)
+    along = tx * ex + ty * ey
+    first = (uj - ui) * (tx * touch.gx + ty * touch.gy)
+    second = tx * (ex_rate + uj * touch.by) + ty * (ey_rate - uj * touch.bx) - uj * gap
+    move_i, move_j, fit = change(kind, touch, gap, first, second)
+    alpha = table.alpha[contact]
+    if kind == codes.POINT_FOLLOWER:
+        at.alpha_rate[alpha] = move_j
+    else:
+        at.alpha_rate[alpha] = move_i
+    if kind == codes.CAM_FOLLOWER:
+        at.alpha_rate[alpha + 1] = move_j
+    out.residual[row] = gap
+    out.residual_rate[row] = nx * ex_rate + ny * ey_rate + uj * along
+    out.gamma[row] = (
+        (nx * touch.ax + ny * touch.ay) * ui * ui
+        + (nx * ex + ny * ey) * uj * uj
+        - 2.0 * uj * (tx * ex_rate + ty * ey_rate)
+        - first * move_i
+        - touch.turn * second * move_j
+    )
+    entry = out.jacobian[row]
+    entry[3 * i] = nx
+    entry[3 * i + 1] = ny
+    entry[3 * i + 2] = ny * touch.ax - nx * touch.ay
+    entry[3 * j] = -nx
+    entry[3 * j + 1] = -ny
+    entry[3 * j + 2] = along
+    return fit

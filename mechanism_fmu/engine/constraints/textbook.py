@@ -1,0 +1,67 @@
+"""All constraint rows with the contact coordinates among the coordinates, as the textbook has them (ME451, after Haug).
+
+The motion itself does without contact coordinates; kinematic analysis works with these rows.
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ..block.layout import Array
+from ..block.motion import course, pose, rows
+from ..block.parts import contacts, sizes
+from ..block.vectors import clear
+from ..compiler.subset import entry, jit, keep_small
+from ..profiles.curves import curve
+from .joints.cam_flat_follower import cam_flat_follower
+from .joints.cam_follower import cam_follower
+from .joints.point_follower import point_follower
+from .kinematics import place_bodies
+from .rows import contact_row, joint_rows
+
+
+@entry
+def textbook_rows(block: Array, time: float) -> None:
+    """Write the rows of all joints, then of all contacts that are enabled, open or closed, at `time` [s].
+
+    Positions, rates and contact coordinates are those in y_end, the rates of contact coordinates those in `alpha_rate`.
+    Contact c has the rows from `joint_rows + row_first[c]` on (without meaning when it is not enabled); contact
+    coordinate k has the column `columns + k`. gamma is without Baumgarte's terms.
+    """
+    pose(block).instant[0] = time
+    place_bodies(block, course(block).y_end)
+    joint_rows(block)
+    table = contacts(block)
+    for c in range(table.kind.shape[0]):
+        if table.value[c, codes.ENABLED] > 0.5:
+            row = sizes(block).joint_rows + table.row_first[c]
+            if table.kind[c] >= codes.CAM_FOLLOWER:
+                _profile_rows(block, c, row)
+            else:
+                contact_row(block, c, row)
+
+
+@jit
+def _profile_rows(block: Array, contact: int, row: int) -> None:
+    """Write the rows of a contact of profiles."""
+    keep_small()
+    at = pose(block)
+    out = rows(block)
+    table = contacts(block)
+    i = table.body_i[contact]
+    j = table.body_j[contact]
+    data = table.data[contact]
+    first = table.alpha[contact]
+    column = sizes(block).columns + first
+    clear(out.jacobian[row])
+    clear(out.jacobian[row + 1])
+    if table.kind[contact] == codes.CAM_FOLLOWER:
+        clear(out.jacobian[row + 2])
+        profile_i = curve(block, table.curve_i[contact], at.alpha[first])
+        profile_j = curve(block, table.curve_j[contact], at.alpha[first + 1])
+        cam_follower(at, out, row, i, j, data, first, column, profile_i, profile_j)
+    elif table.kind[contact] == codes.CAM_FLAT_FOLLOWER:
+        profile = curve(block, table.curve_i[contact], at.alpha[first])
+        cam_flat_follower(at, out, row, i, j, data, first, column, profile)
+    else:
+        profile = curve(block, table.curve_j[contact], at.alpha[first])
+        point_follower(at, out, row, i, j, data, first, column, profile)

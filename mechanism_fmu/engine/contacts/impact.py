@@ -1,0 +1,142 @@
+"""The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7)), for all touching contacts together.
+
+Joints and closed guided contacts keep their rows, v = 0. Every touching contact that approaches must separate with e
+times its closing speed (with 0 when that is below `STICK_SPEED`), every one at rest must not approach, and impulses
+only push: p >= 0, s'+ >= e |s'-|, p (s'+ - e |s'-|) = 0. One contact alone gives eq (7). Contacts that already separate
+take no part, so that the energy cannot grow (dT = -1/2 sum p (1 - e) |s'-|); when the impact turns one of them round,
+it strikes in the next round, at the same instant.
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
+from .. import status
+from ..block.layout import Array
+from ..block.motion import course, linear_system, rows, strikes
+from ..block.parts import bodies, contacts, sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from ..constraints.rows import contact_row, driver_power, spare_row
+from .complementarity import COUNT, push_impulses
+from .friction_impulse import rub
+from .guards import gap
+from .records import keep_impact
+
+#: From this round at the same instant on, all impacts are plastic and all touching contacts take part: that ends it.
+_PLASTIC_FROM = 32
+MOST_ROUNDS = 40
+
+# strikes.role
+ABSENT = 0
+KEPT = 1
+DECIDED = 2
+
+
+@jit
+def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
+    """One round of impacts at y_end: x- becomes x+, and a record is kept of each contact that strikes.
+
+    `struck` is the contact whose gap has just become zero, or `codes.NONE`. Return whether any contact approached (else
+    nothing is changed), and a status.
+    """
+    keep_small()
+    n = sizes(block).coordinates
+    table = contacts(block)
+    taking_part = strikes(block)
+    rate = course(block).y_end[n:]
+    place_bodies(block, course(block).y_end)
+    if not _cast(block, struck, round_ >= _PLASTIC_FROM):
+        return False, status.OK
+    count = 0
+    for c in range(table.mode.shape[0]):
+        if taking_part.role[c] == DECIDED:
+            taking_part.candidates[count] = c
+            count += 1
+        if taking_part.role[c] != ABSENT:
+            table.mode[c] = codes.CLOSED
+    taking_part.problem[COUNT] = count
+    outcome = push_impulses(block)
+    if outcome != status.OK:
+        return False, outcome
+    for k in range(n):
+        taking_part.rates_before[k] = rate[k]
+        rate[k] += bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
+    for c in range(table.mode.shape[0]):
+        taking_part.impulse[c] = 0.0
+        if table.mode[c] == codes.CLOSED:
+            taking_part.impulse[c] = linear_system(block).multiplier[table.row[c]]
+    course(block).y_end[2 * n] += driver_power(block)  # of impulses: drivers do work at once
+    rub(block)
+    for c in range(table.mode.shape[0]):
+        if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
+            keep_impact(block, c)
+    _open_what_leaves(block)
+    return True, outcome
+
+
+@jit
+def _cast(block: Array, struck: int, plastic: bool) -> bool:
+    """Give every contact its role, closing speed and target; whether any of them approaches."""
+    keep_small()
+    table = contacts(block)
+    taking_part = strikes(block)
+    approached = False
+    for c in range(table.mode.shape[0]):
+        taking_part.role[c] = ABSENT
+        taking_part.closing[c] = 0.0
+        taking_part.target[c] = 0.0
+        if table.value[c, codes.ENABLED] < 0.5:
+            continue
+        closed = table.mode[c] == codes.CLOSED
+        guided = table.value[c, codes.GUIDED] > 0.5
+        switched = table.function[c] != codes.NONE
+        if closed and guided:
+            taking_part.role[c] = KEPT
+            continue
+        distance, rate = gap(block, c)
+        if switched:
+            if closed:
+                taking_part.role[c] = KEPT
+                taking_part.target[c] = -rate
+                approached = approached or abs(rate) > RESTS_BELOW
+            continue
+        touches = closed or c == struck or distance <= TOUCHES_WITHIN
+        approaches = not closed and (rate < -RESTS_BELOW or (c == struck and guided and rate < 0.0))
+        if not touches or not (closed or plastic or approaches or rate <= RESTS_BELOW):
+            continue
+        taking_part.role[c] = KEPT if guided else DECIDED
+        if guided and not approaches:
+            taking_part.role[c] = ABSENT
+        taking_part.target[c] = -rate
+        if rate > 0.0 and not plastic:
+            # At rest but for a leftover of less than `STICK_SPEED`: it may turn round, as an elastic contact would.
+            # That keeps the problem solvable (by reversing all rates) and the energy from growing.
+            taking_part.target[c] = -2.0 * rate
+        if approaches:
+            approached = True
+            taking_part.closing[c] = -rate
+            restitution = table.value[c, codes.RESTITUTION]
+            if not plastic and restitution * -rate >= STICK_SPEED:
+                taking_part.target[c] = (1.0 + restitution) * -rate
+    return approached
+
+
+@jit
+def _open_what_leaves(block: Array) -> None:
+    """After the impact: what comes apart faster than `STICK_SPEED` is open, what rests is closed for the time being."""
+    keep_small()
+    table = contacts(block)
+    taking_part = strikes(block)
+    place_bodies(block, course(block).y_end)
+    for c in range(table.mode.shape[0]):
+        if taking_part.role[c] == ABSENT or table.function[c] != codes.NONE:
+            continue
+        if taking_part.role[c] == KEPT and taking_part.closing[c] == 0.0:
+            continue
+        contact_row(block, c, spare_row(block))
+        if rows(block).residual_rate[spare_row(block)] < STICK_SPEED:
+            table.mode[c] = codes.CLOSED
+        else:
+            table.mode[c] = codes.OPEN
+            table.touching[c] = 1

@@ -1,0 +1,128 @@
+"""Records of impacts and events: of the last one, and of all within the communication step."""
+
+from __future__ import annotations
+
+from ... import codes
+from ..block.layout import Array
+from ..block.motion import course, strikes
+from ..block.parts import contacts, patterns, sizes
+from ..compiler.subset import jit, keep_small
+
+
+@jit
+def keep_impact(block: Array, contact: int) -> None:
+    """Record the impact of one contact from `strikes` and the rates at y_end.
+
+    When the buffer is full, the oldest is lost.
+    """
+    keep_small()
+    n = sizes(block).coordinates
+    table = contacts(block)
+    now = course(block)
+    taking_part = strikes(block)
+    rate = now.y_end[n:]
+    record = now.last_impact
+    record[codes.RECORD_TIME] = now.clock[codes.STEP_END]
+    record[codes.RECORD_CONTACT] = contact
+    record[codes.RECORD_TOOTH] = _copy(block, contact)
+    record[codes.RECORD_CLOSING_SPEED] = taking_part.closing[contact]
+    record[codes.RECORD_IMPULSE] = taking_part.impulse[contact]
+    record[codes.RECORD_VELOCITY] = 0.0
+    struck_body = table.body_j[contact]
+    if 3 * struck_body < n:
+        record[codes.RECORD_VELOCITY] = table.value[contact, codes.BEAM_LENGTH] * rate[3 * struck_body + 2]
+    first = codes.RECORD_CONTACT_IMPULSES
+    for c in range(table.mode.shape[0]):
+        record[first + c] = taking_part.impulse[c]
+    first += table.mode.shape[0]
+    for k in range(n):
+        record[first + k] = taking_part.rates_before[k]
+        record[first + n + k] = rate[k]
+
+    now.counters[codes.COUNT_IMPACTS] += 1
+    place = now.counters[codes.COUNT_IN_STEP]
+    if place == codes.IMPACT_BUFFER_LENGTH:
+        now.counters[codes.COUNT_LOST] += 1
+        _make_room(now.impacts)
+        place -= 1
+    else:
+        now.counters[codes.COUNT_IN_STEP] = place + 1
+    for k in range(now.impacts.shape[1]):
+        now.impacts[place, k] = record[k]
+
+
+@jit
+def keep_event(block: Array, guard: int, subject: int, old_mode: float, impulse: float) -> None:
+    """Record an event at STEP_END; when the buffer is full, the oldest is lost."""
+    keep_small()
+    now = course(block)
+    now.counters[codes.COUNT_EVENTS] += 1
+    place = now.counters[codes.EVENTS_IN_STEP]
+    if place == codes.EVENT_BUFFER_LENGTH:
+        _make_room(now.events)
+        place -= 1
+    else:
+        now.counters[codes.EVENTS_IN_STEP] = place + 1
+    record = now.events[place]
+    record[codes.EVENT_TIME] = now.clock[codes.STEP_END]
+    record[codes.EVENT_GUARD] = guard
+    record[codes.EVENT_SUBJECT] = subject
+    record[codes.EVENT_OLD_MODE] = old_mode
+    record[codes.EVENT_NEW_MODE] = mode_number(block)
+    record[codes.EVENT_IMPULSE] = impulse
+
+
+@jit
+def mode_number(block: Array) -> float:
+    """The mode of the mechanism: the sum of 2^c over its closed contacts c."""
+    mode = contacts(block).mode
+    number = 0.0
+    bit = 1.0
+    for c in range(mode.shape[0]):
+        if mode[c] == codes.CLOSED:
+            number += bit
+        bit *= 2.0
+    return number
+
+
+@jit
+def clear_impact(record: Array) -> None:
+    """Make an impact record say that there was none: time, contact and tooth -1, all else 0."""
+    for k in range(record.shape[0]):
+        record[k] = 0.0
+    record[codes.RECORD_TIME] = -1.0
+    record[codes.RECORD_CONTACT] = -1.0
+    record[codes.RECORD_TOOTH] = -1.0
+
+
+@jit
+def clear_records(block: Array) -> None:
+    """Begin a communication step: empty the buffers."""
+    now = course(block)
+    for b in range(now.counters[codes.COUNT_IN_STEP]):
+        clear_impact(now.impacts[b])
+    now.counters[codes.COUNT_IN_STEP] = 0
+    for b in range(now.counters[codes.EVENTS_IN_STEP]):
+        for k in range(now.events.shape[1]):
+            now.events[b, k] = 0.0
+    now.counters[codes.EVENTS_IN_STEP] = 0
+
+
+@jit
+def _copy(block: Array, contact: int) -> int:
+    """The index of the tooth: of the contact's pattern, or the clicks of a stop."""
+    table = contacts(block)
+    pattern = table.pattern[contact]
+    if pattern == codes.NONE:
+        clicks: int = table.clicks[contact]
+        return clicks
+    index: int = patterns(block).copy[pattern]
+    return index
+
+
+@jit
+def _make_room(buffer: Array) -> None:
+    """Drop the first row and move the others up."""
+    for b in range(buffer.shape[0] - 1):
+        for k in range(buffer.shape[1]):
+            buffer[b, k] = buffer[b + 1, k]

@@ -1,0 +1,184 @@
+"""What happens at an event: x- becomes x+, and the mechanism's mode changes.
+
+In this order: the guard's own effect (the next tooth, a click, a logical function); impacts, until nothing approaches;
+mending of drift; the choice, among the contacts at rest, of those that push. All of it takes no time.
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
+from .. import status
+from ..block.layout import Array
+from ..block.motion import course, strikes
+from ..block.parts import bodies, contacts, functions, patterns, sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from ..dynamics.drift import LEAST_DRIFT, mend
+from ..dynamics.forces import kinetic_energy
+from .complementarity import COUNT, push_forces
+from .copies import place_contact, place_pattern
+from .guards import can_open, gap
+from .impact import MOST_ROUNDS, strike
+from .records import keep_event, mode_number
+
+#: So many events within `PILE_TIME` [s] are no motion any more.
+MOST_PILED = 2000
+PILE_TIME = 1e-9
+
+
+@jit
+def transit(block: Array, guard: int, subject: int) -> int:
+    """Let an event happen at y_end and STEP_END; return a status.
+
+    `guard` is `codes.GUARD_BEGIN` when the motion begins and `codes.GUARD_INPUT` when an input has changed: then only
+    the contacts that push are chosen afresh.
+    """
+    keep_small()
+    only_choose = guard == codes.GUARD_INPUT or guard == codes.GUARD_BEGIN
+    n = sizes(block).coordinates
+    now = course(block)
+    rate = now.y_end[n:]
+    inverse_mass = bodies(block).inverse_mass
+    old_mode = mode_number(block)
+    energy = kinetic_energy(inverse_mass, rate, n)
+    work = now.y_end[2 * n]
+    outcome = _take_effect(block, guard, subject)
+    if outcome != status.OK:
+        return outcome
+    struck = codes.NONE
+    if guard == codes.GUARD_GAP:
+        struck = subject
+    fired = struck
+    impulse = 0.0
+    hits = 0
+    settled = only_choose
+    for round_ in range(MOST_ROUNDS):
+        if settled:
+            break
+        approached, outcome = strike(block, struck, round_)
+        if outcome != status.OK:
+            return outcome
+        settled = not approached
+        if approached:
+            hits += 1
+            impulse += _struck_impulse(block)
+        struck = codes.NONE
+    if not settled:
+        return status.CHATTERING
+    outcome = _settle(block, fired, only_choose, hits > 0)
+    if outcome != status.OK:
+        return outcome
+    energy += now.y_end[2 * n] - work
+    now.ledger[codes.LEDGER_LOST] += energy - kinetic_energy(inverse_mass, rate, n)
+    if not only_choose or (guard == codes.GUARD_INPUT and mode_number(block) != old_mode):
+        keep_event(block, guard, subject, old_mode, impulse)
+    if only_choose:
+        return status.OK
+    return _progress(block)
+
+
+@jit
+def _struck_impulse(block: Array) -> float:
+    """Sum of the impulses' magnitudes over the contacts that have just struck, or been switched on in motion."""
+    taking_part = strikes(block)
+    table = contacts(block)
+    total = 0.0
+    for c in range(table.mode.shape[0]):
+        switched_on = table.function[c] != codes.NONE and abs(taking_part.target[c]) > RESTS_BELOW
+        if taking_part.closing[c] > 0.0 or switched_on:
+            total += abs(taking_part.impulse[c])
+    return total
+
+
+@jit
+def _take_effect(block: Array, guard: int, subject: int) -> int:
+    """What the guard itself changes; return a status."""
+    keep_small()
+    table = contacts(block)
+    place_bodies(block, course(block).y_end)
+    if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
+        move = 1
+        if guard == codes.GUARD_PREVIOUS:
+            move = -1
+        patterns(block).copy[subject] += move
+        place_pattern(block, subject)
+        for c in range(table.mode.shape[0]):
+            if table.pattern[c] == subject and table.function[c] == codes.NONE:
+                table.mode[c] = codes.OPEN
+                table.touching[c] = 0
+    elif guard == codes.GUARD_CLICK:
+        table.clicks[subject] += 1
+        place_contact(block, subject)
+    elif guard == codes.GUARD_FUNCTION:
+        functions(block).true[subject] = 1 - functions(block).true[subject]
+        switch_contacts(block)
+        for c in range(table.mode.shape[0]):
+            if table.function[c] == subject and table.mode[c] == codes.CLOSED and abs(gap(block, c)[0]) > CLOSES_WITHIN:
+                return status.ROW_AWAY
+    return status.OK
+
+
+@jit
+def switch_contacts(block: Array) -> None:
+    """Close and open the contacts that logical functions switch; a lock closes where it is nearest."""
+    keep_small()
+    table = contacts(block)
+    for c in range(table.mode.shape[0]):
+        function = table.function[c]
+        if function == codes.NONE:
+            continue
+        closed = functions(block).true[function] == table.closes_when[c] and table.value[c, codes.ENABLED] > 0.5
+        if closed and table.mode[c] == codes.OPEN:
+            place_contact(block, c)
+            table.mode[c] = codes.CLOSED
+        elif not closed:
+            table.mode[c] = codes.OPEN
+
+
+@jit
+def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
+    """Choose, among the contacts that touch and rest, those that push; `fired` is the one whose gap has become zero."""
+    keep_small()
+    table = contacts(block)
+    near = GAP_NOISE
+    slow = RESTS_BELOW
+    if hit:
+        near = TOUCHES_WITHIN
+        slow = STICK_SPEED
+    place_bodies(block, course(block).y_end)
+    count = 0
+    for c in range(table.mode.shape[0]):
+        if table.value[c, codes.ENABLED] < 0.5 or not can_open(block, c):
+            continue
+        if table.mode[c] == codes.OPEN:
+            distance, rate = gap(block, c)
+            if (distance > near and c != fired) or not abs(rate) < slow:
+                continue
+            table.mode[c] = codes.CLOSED
+        strikes(block).candidates[count] = c
+        count += 1
+    if not only_choose:
+        mend(block, LEAST_DRIFT, 0.0)  # also of what is about to open: a gap must not be left below zero
+    if count == 0:
+        return status.OK
+    strikes(block).problem[COUNT] = count
+    outcome = push_forces(block)
+    for k in range(count):
+        c = strikes(block).candidates[k]
+        table.touching[c] = 1 - table.mode[c]
+    return outcome
+
+
+@jit
+def _progress(block: Array) -> int:
+    """Count events that follow each other without progress in time."""
+    now = course(block)
+    time = now.clock[codes.STEP_END]
+    if time - now.clock[codes.LAST_EVENT] > PILE_TIME:
+        now.clock[codes.LAST_EVENT] = time
+        now.counters[codes.PILE] = 0
+    now.counters[codes.PILE] += 1
+    if now.counters[codes.PILE] > MOST_PILED:
+        return status.CHATTERING
+    return status.OK

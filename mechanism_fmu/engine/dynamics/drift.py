@@ -1,0 +1,60 @@
+"""Back to the constraints, when integration has drifted off them."""
+
+from __future__ import annotations
+
+from ..block.layout import Array
+from ..block.motion import course, linear_system, rows
+from ..block.parts import bodies, sizes
+from ..block.vectors import largest
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from ..constraints.rows import active_rows
+from ..profiles.nearest import settle_contact_points
+from .acceleration import scale_rows
+from .minimum_norm import minimum_norm
+
+#: Active rows may be off by this: in position [m, rad, m2], and in their rates [m/s, rad/s].
+MOST_DRIFT = 1e-11
+MOST_RATE_DRIFT = 1e-10
+#: At events, where positions and rates are put right anyway.
+LEAST_DRIFT = 1e-14
+
+
+@jit
+def mend(block: Array, most: float, most_rate: float) -> bool:
+    """Close the active rows at y_end when one is off by more than `most`, or its rate; whether anything was moved.
+
+    Both corrections are the least in the metric of the masses, as that of an impact.
+    """
+    keep_small()
+    n = sizes(block).coordinates
+    y = course(block).y_end
+    moved = False
+    place_bodies(block, y)
+    settle_contact_points(block, y)
+    count = active_rows(block)
+    if largest(rows(block).residual, count) > most:
+        _correct(block, count, rows(block).residual, y)
+        place_bodies(block, y)
+        settle_contact_points(block, y)
+        active_rows(block)
+        moved = True
+    if moved or largest(rows(block).residual_rate, count) > most_rate:
+        _correct(block, count, rows(block).residual_rate, y[n:])
+        moved = True
+    return moved
+
+
+@jit
+def _correct(block: Array, count: int, left: Array, values: Array) -> None:
+    """Values += -M^-1/2 D^+ left."""
+    keep_small()
+    n = sizes(block).coordinates
+    root = bodies(block).inverse_root_mass
+    system = linear_system(block)
+    scale_rows(block, count)
+    for r in range(count):
+        system.right_side[r] = -left[r]
+    minimum_norm(block, count, n)
+    for k in range(n):
+        values[k] += root[k] * system.solution[k]

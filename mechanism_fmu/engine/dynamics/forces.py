@@ -1,0 +1,134 @@
+"""Applied forces: generalised forces, their power, and the energy stored in springs."""
+
+from __future__ import annotations
+
+from ... import codes
+from ..block.layout import Array
+from ..block.motion import loads
+from ..block.parts import forces, sizes
+from ..block.vectors import clear
+from ..compiler.subset import jit, keep_small
+
+
+@jit
+def apply_forces(block: Array, y: Array) -> tuple[float, float]:
+    """Write the generalised forces F [N, N m] to `loads.force`; return the powers given and lost [W].
+
+    Given: by torques, forces, shafts, and the preloads of springs (the linear part of a spring stores energy instead).
+    Lost: in dampers.
+    """
+    n = sizes(block).coordinates
+    force = loads(block).force
+    clear(force)
+    table = forces(block)
+    rates = y[n:]
+    given = 0.0
+    lost = 0.0
+    for k in range(table.kind.shape[0]):
+        kind = table.kind[k]
+        first = 3 * table.body[k]
+        if kind == codes.FORCE:
+            for axis in range(2):
+                force[first + axis] += table.data[k, axis]
+                given += table.data[k, axis] * _entry(rates, first + axis, n)
+            continue
+        on = first + 2
+        against = 3 * table.reaction[k] + 2
+        rate = _relative(rates, on, against, n)
+        if kind == codes.TORSION_SPRING:
+            preload = table.data[k, codes.SPRING_PRELOAD]
+            stretch = _relative(y, on, against, n) - table.data[k, codes.SPRING_FREE_ANGLE]
+            torque = -(table.data[k, codes.SPRING_STIFFNESS] * stretch + preload)
+            given -= preload * rate
+        elif kind == codes.DAMPER:
+            torque = -table.data[k, codes.DAMPING] * rate
+            lost -= torque * rate
+        else:
+            torque = table.data[k, codes.TORQUE_VALUE]
+            if kind == codes.SHAFT:
+                torque = shaft_torque(block, y, k)
+            given += torque * rate
+        force[on] += torque
+        force[against] -= torque
+    return given, lost
+
+
+@jit
+def shaft_torque(block: Array, y: Array, shaft: int) -> float:
+    """Torque of a compliant shaft on its body [N m]."""
+    n = sizes(block).coordinates
+    table = forces(block)
+    data = table.data[shaft]
+    on = 3 * table.body[shaft] + 2
+    against = 3 * table.reaction[shaft] + 2
+    twist = data[codes.SHAFT_ANGLE] - _relative(y, on, against, n)
+    twist_rate = data[codes.SHAFT_SPEED] - _relative(y[n:], on, against, n)
+    torque: float = data[codes.SHAFT_STIFFNESS] * twist + data[codes.SHAFT_DAMPING] * twist_rate
+    return torque
+
+
+@jit
+def spring_energy(block: Array, y: Array) -> float:
+    """Energy stored in the linear part of all springs [J]."""
+    keep_small()
+    n = sizes(block).coordinates
+    table = forces(block)
+    energy = 0.0
+    for k in range(table.kind.shape[0]):
+        if table.kind[k] == codes.TORSION_SPRING:
+            on = 3 * table.body[k] + 2
+            against = 3 * table.reaction[k] + 2
+            stretch = _relative(y, on, against, n) - table.data[k, codes.SPRING_FREE_ANGLE]
+            energy += 0.5 * table.data[k, codes.SPRING_STIFFNESS] * stretch * stretch
+    return energy
+
+
+@jit
+def spring_power(block: Array, y: Array) -> float:
+    """Power stored in the linear part of all springs [W]."""
+    keep_small()
+    n = sizes(block).coordinates
+    table = forces(block)
+    power = 0.0
+    for k in range(table.kind.shape[0]):
+        if table.kind[k] == codes.TORSION_SPRING:
+            on = 3 * table.body[k] + 2
+            against = 3 * table.reaction[k] + 2
+            stretch = _relative(y, on, against, n) - table.data[k, codes.SPRING_FREE_ANGLE]
+            power += table.data[k, codes.SPRING_STIFFNESS] * stretch * _relative(y[n:], on, against, n)
+    return power
+
+
+@jit
+def kinetic_energy(inverse_mass: Array, rate: Array, count: int) -> float:
+    """Kinetic energy [J] of rates (count,) with inverse masses (count,)."""
+    keep_small()
+    energy = 0.0
+    for k in range(count):
+        energy += 0.5 * rate[k] * rate[k] / inverse_mass[k]
+    return energy
+
+
+@jit
+def kinetic_power(inverse_mass: Array, rate: Array, acceleration: Array, count: int) -> float:
+    """Derivative of the kinetic energy [W] from rates and accelerations (count,) with inverse masses (count,)."""
+    keep_small()
+    power = 0.0
+    for k in range(count):
+        power += rate[k] * acceleration[k] / inverse_mass[k]
+    return power
+
+
+@jit
+def _relative(values: Array, on: int, against: int, n: int) -> float:
+    """Difference of two entries; the ground's is zero."""
+    return _entry(values, on, n) - _entry(values, against, n)
+
+
+@jit
+def _entry(values: Array, index: int, n: int) -> float:
+    """One entry; the ground's (index >= n) is zero."""
+    if index < n:
+        value: float = values[index]
+        return value
+    return 0.0

@@ -1,0 +1,86 @@
+"""Ports: inputs are written into table entries, outputs are read from the state. No model-specific code.
+
+An input may have a slope, which acts during one communication step only. The step's first value and slope are kept
+(`held_inputs`, `held_slopes`, from RAMP_START on), and whoever moves the time calls `set_time` before forces or rows
+are asked for.
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ..block.layout import Array
+from ..block.motion import course, pose
+from ..block.parts import forces, ports
+from ..compiler.subset import jit, keep_small
+
+
+@jit
+def inputs_changed(block: Array) -> bool:
+    """Whether an input differs from what the motion has used so far, or has, or had until now, a slope."""
+    table = ports(block)
+    changed: bool = course(block).counters[codes.RAMPING] != 0
+    for k in range(table.inputs.shape[0]):
+        if table.inputs[k] != table.held_inputs[k] or table.input_slopes[k] != 0.0:
+            changed = True
+    return changed
+
+
+@jit
+def take_inputs(block: Array) -> None:
+    """Let the present inputs act from TIME on, with their slopes, which are used up by that."""
+    keep_small()
+    table = ports(block)
+    now = course(block)
+    now.clock[codes.RAMP_START] = now.clock[codes.TIME]
+    now.counters[codes.RAMPING] = 0
+    for k in range(table.inputs.shape[0]):
+        table.held_inputs[k] = table.inputs[k]
+        table.held_slopes[k] = table.input_slopes[k]
+        table.input_slopes[k] = 0.0
+        if table.held_slopes[k] != 0.0:
+            now.counters[codes.RAMPING] = 1
+    feed(block, table.inputs)
+
+
+@jit
+def feed(block: Array, values: Array) -> None:
+    """Write `values`, shape (inputs,), into the table entries that the inputs feed."""
+    table = ports(block)
+    data = forces(block).data
+    for k in range(values.shape[0]):
+        data[table.input_force[k], table.input_column[k]] = values[k]
+
+
+@jit
+def set_time(block: Array, time: float) -> None:
+    """Make `time` [s] the instant that drivers see, and feed the inputs' values there, if any has a slope."""
+    pose(block).instant[0] = time
+    if course(block).counters[codes.RAMPING] != 0:
+        _feed_ramp(block, time)
+
+
+@jit
+def _feed_ramp(block: Array, time: float) -> None:
+    keep_small()
+    table = ports(block)
+    data = forces(block).data
+    for k in range(table.inputs.shape[0]):
+        data[table.input_force[k], table.input_column[k]] = _reached(block, k, time)
+
+
+@jit
+def show_reached(block: Array) -> None:
+    """Make `inputs` the values that inputs with slopes have reached at TIME."""
+    now = course(block)
+    table = ports(block)
+    if now.counters[codes.RAMPING] != 0:
+        for k in range(table.inputs.shape[0]):
+            table.inputs[k] = _reached(block, k, now.clock[codes.TIME])
+
+
+@jit
+def _reached(block: Array, k: int, time: float) -> float:
+    """Value of input `k` at `time` [s]."""
+    table = ports(block)
+    value: float = table.held_inputs[k] + table.held_slopes[k] * (time - course(block).clock[codes.RAMP_START])
+    return value

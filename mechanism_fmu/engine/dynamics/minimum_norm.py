@@ -1,0 +1,190 @@
+"""The minimum-norm least-squares solution z = D^+ b, and the multipliers of the same solve.
+
+D = L Q by row-pivoted modified Gram-Schmidt with re-orthogonalisation: Q has orthonormal rows, L one column a basis
+row. When all rows are independent, L is triangular up to the order of rows; when some depend on others, a second
+Gram-Schmidt on the columns of L gives the least-squares answer, which is what the pseudoinverse of the papers means.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..block.layout import Array
+from ..block.motion import LinearSystem, linear_system
+from ..compiler.subset import jit, keep_small
+
+#: A row depends on the rows before it when less than this fraction of its length is left after projection.
+RANK_TOLERANCE = 1e-10
+#: A row that lost more than this fraction of its squared length to the projection is orthogonalised once more.
+_REORTHOGONALISE_BELOW = 0.25
+#: Below this fraction, the squared length left of a row is computed afresh, because subtraction has cancelled it.
+_RECOMPUTE_BELOW = 1e-4
+
+
+@jit
+def minimum_norm(block: Array, count: int, width: int) -> None:
+    """Solve D z = b in the minimum-norm least-squares sense.
+
+    Reads D = `scaled`[:count, :width] and b = `right_side`[:count] of the linear system; writes z = D^+ b to
+    `solution`[:width], the minimum-norm solution of D^T multiplier = z to `multiplier`[:count], and the rank of D.
+    """
+    system = linear_system(block)
+    rank = orthogonalise(block, count, width)
+    if rank == count:
+        _solve_full_rank(block, count)
+    else:
+        _solve_deficient(block, count, rank)
+    for k in range(width):
+        system.solution[k] = 0.0
+    for r in range(rank):
+        _add_multiple(system.solution, system.coefficient[r], system.basis[system.order[r]], width)
+
+
+@jit
+def orthogonalise(block: Array, count: int, width: int) -> int:
+    """D = L Q; row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i. Return the rank."""
+    system = linear_system(block)
+    basis = system.basis
+    system.rank[0] = count
+    system.independence[0] = 1.0
+    for i in range(count):
+        system.order[i] = i
+        for k in range(width):
+            basis[i, k] = system.scaled[i, k]
+        square = _dot(basis[i], basis[i], width)
+        system.row_norm[i, 0] = square
+        system.row_norm[i, 1] = square
+    for r in range(count):
+        fraction = _choose_pivot(system, r, count)
+        if not fraction > RANK_TOLERANCE * RANK_TOLERANCE:
+            system.rank[0] = r
+            return r
+        p = system.order[r]
+        square = _dot(basis[p], basis[p], width)
+        if square < _REORTHOGONALISE_BELOW * system.row_norm[p, 0]:
+            for j in range(r):
+                share = _dot(basis[system.order[j]], basis[p], width)
+                system.triangle[p, j] += share
+                _add_multiple(basis[p], -share, basis[system.order[j]], width)
+            square = _dot(basis[p], basis[p], width)
+        if not square > RANK_TOLERANCE * RANK_TOLERANCE * system.row_norm[p, 0]:
+            system.rank[0] = r
+            return r
+        system.independence[0] = fraction
+        length = math.sqrt(square)
+        system.triangle[p, r] = length
+        for k in range(width):
+            basis[p, k] /= length
+        for s in range(r + 1, count):
+            i = system.order[s]
+            share = _dot(basis[p], basis[i], width)
+            system.triangle[i, r] = share
+            _add_multiple(basis[i], -share, basis[p], width)
+            left = system.row_norm[i, 1] - share * share
+            if left < _RECOMPUTE_BELOW * system.row_norm[i, 0]:
+                left = _dot(basis[i], basis[i], width)
+            system.row_norm[i, 1] = left
+    return count
+
+
+@jit
+def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
+    """Move the row with the largest remaining fraction of its squared length to place r; return that fraction."""
+    best = r
+    best_fraction = -1.0
+    for s in range(r, count):
+        i = system.order[s]
+        fraction = 0.0
+        if system.row_norm[i, 0] > 0.0:
+            fraction = system.row_norm[i, 1] / system.row_norm[i, 0]
+        if fraction > best_fraction:
+            best_fraction = fraction
+            best = s
+    chosen = system.order[best]
+    system.order[best] = system.order[r]
+    system.order[r] = chosen
+    return best_fraction
+
+
+@jit
+def _solve_full_rank(block: Array, count: int) -> None:
+    """L coefficient = b forwards, then L^T multiplier = coefficient backwards."""
+    system = linear_system(block)
+    for r in range(count):
+        p = system.order[r]
+        value = system.right_side[p]
+        for j in range(r):
+            value -= system.triangle[p, j] * system.coefficient[j]
+        system.coefficient[r] = value / system.triangle[p, r]
+    for back in range(count):
+        r = count - 1 - back
+        p = system.order[r]
+        value = system.coefficient[r]
+        for s in range(r + 1, count):
+            q = system.order[s]
+            value -= system.triangle[q, r] * system.multiplier[q]
+        system.multiplier[p] = value / system.triangle[p, r]
+
+
+@jit
+def _solve_deficient(block: Array, count: int, rank: int) -> None:
+    """L = U R by columns; coefficient = R^-1 U^T b, multiplier = U R^-T coefficient."""
+    keep_small()
+    system = linear_system(block)
+    u = system.column_basis
+    triangle = system.column_triangle
+    for r in range(rank):
+        for i in range(count):
+            u[r, i] = system.triangle[i, r]
+        for i in range(r):
+            u[r, system.order[i]] = 0.0
+            triangle[i, r] = 0.0
+        for _ in range(2):
+            for j in range(r):
+                share = _dot(u[j], u[r], count)
+                triangle[j, r] += share
+                _add_multiple(u[r], -share, u[j], count)
+        length = math.sqrt(_dot(u[r], u[r], count))
+        triangle[r, r] = length
+        for i in range(count):
+            u[r, i] /= length
+    for r in range(rank):
+        system.coefficient[r] = _dot(u[r], system.right_side, count)
+    for back in range(rank):
+        r = rank - 1 - back
+        for s in range(r + 1, rank):
+            system.coefficient[r] -= triangle[r, s] * system.coefficient[s]
+        system.coefficient[r] /= triangle[r, r]
+    for i in range(count):
+        system.multiplier[i] = 0.0
+    for r in range(rank):
+        value = system.coefficient[r]
+        for j in range(r):
+            value -= triangle[j, r] * system.dual[j]
+        system.dual[r] = value / triangle[r, r]
+        _add_multiple(system.multiplier, system.dual[r], u[r], count)
+
+
+@jit
+def _dot(a: Array, b: Array, length: int) -> float:
+    """Scalar product of the first `length` entries, in four sums: one would wait for each addition."""
+    first = 0.0
+    second = 0.0
+    third = 0.0
+    fourth = 0.0
+    whole = length - length % 4
+    for k in range(0, whole, 4):
+        first += a[k] * b[k]
+        second += a[k + 1] * b[k + 1]
+        third += a[k + 2] * b[k + 2]
+        fourth += a[k + 3] * b[k + 3]
+    for k in range(whole, length):
+        first += a[k] * b[k]
+    return (first + second) + (third + fourth)
+
+
+@jit
+def _add_multiple(target: Array, factor: float, source: Array, length: int) -> None:
+    """Target += factor * source, in the first `length` entries."""
+    for k in range(length):
+        target[k] += factor * source[k]

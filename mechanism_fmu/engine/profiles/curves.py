@@ -1,0 +1,83 @@
+"""Curves at a place: profiles of cams and slots, motions of drivers (see `mechanism_fmu.model.curves`)."""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ..block.layout import Array
+from ..block.parts import curves
+from ..compiler.subset import jit, keep_small
+
+_DEGREE = codes.AMPLITUDE - codes.POLYNOMIAL - 1
+
+
+@jit
+def curve(block: Array, number: int, x: float) -> tuple[float, float, float, float]:
+    """Value and first three derivatives of a curve at x."""
+    keep_small()
+    table = curves(block)
+    first = table.piece[number]
+    last = first + table.pieces[number] - 1
+    start = table.range[number, 0]
+    if table.periodic[number] == 1:
+        span = table.range[number, 1]
+        x -= math.floor((x - start) / span) * span
+    while first < last:  # the last piece that begins at or before x
+        middle = (first + last + 1) // 2
+        if table.piece_start[middle] <= x:
+            first = middle
+        else:
+            last = middle - 1
+    x -= table.piece_start[first]
+    f0 = 0.0
+    f1 = 0.0
+    f2 = 0.0
+    f3 = 0.0
+    begin = table.piece_term[first]
+    for t in range(begin, begin + table.piece_terms[first]):
+        term = table.term_data[t]
+        p0 = 0.0
+        p1 = 0.0
+        p2 = 0.0
+        p3 = 0.0
+        for back in range(_DEGREE + 1):  # Horner's scheme, with the derivatives over their factorials
+            p3 = p3 * x + p2
+            p2 = p2 * x + p1
+            p1 = p1 * x + p0
+            p0 = p0 * x + term[_DEGREE - back]
+        f0 += p0
+        f1 += p1
+        f2 += 2.0 * p2
+        f3 += 6.0 * p3
+        amplitude = term[codes.AMPLITUDE]
+        if amplitude != 0.0:
+            w = term[codes.FREQUENCY]
+            sine = amplitude * math.sin(w * x + term[codes.PHASE])
+            cosine = amplitude * math.cos(w * x + term[codes.PHASE])
+            f0 += sine
+            f1 += w * cosine
+            f2 -= w * w * sine
+            f3 -= w * w * w * cosine
+    return f0, f1, f2, f3
+
+
+@jit
+def sample(block: Array, number: int, k: int, count: int) -> float:
+    """The k-th of `count` equidistant places in the range of a profile."""
+    table = curves(block)
+    value: float = table.range[number, 0] + table.range[number, 1] * k / count
+    return value
+
+
+@jit
+def quarter_wave(block: Array, piece: int) -> float:
+    """A quarter of the shortest wave within a piece of a curve, in the unit of its variable; infinite without waves."""
+    keep_small()
+    table = curves(block)
+    shortest = math.inf
+    for t in range(table.piece_term[piece], table.piece_term[piece] + table.piece_terms[piece]):
+        frequency = abs(table.term_data[t, codes.FREQUENCY])
+        if table.term_data[t, codes.AMPLITUDE] != 0.0 and frequency > 0.0:
+            shortest = min(shortest, 0.5 * math.pi / frequency)
+    return shortest

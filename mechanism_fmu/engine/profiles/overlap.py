@@ -1,0 +1,72 @@
+"""Profiles that run into each other where they do not touch."""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ..block.layout import Array
+from ..block.motion import pose
+from ..block.parts import contacts
+from ..compiler.subset import jit, keep_small
+from .curves import curve, sample
+from .touch import look
+
+#: Points of profile i that are looked at.
+_SAMPLES = 720
+#: Profiles overlap when one reaches into the other by more than this [m].
+_OVERLAP = 1e-9
+
+
+@jit
+def bridged(block: Array) -> bool:
+    """Whether a closed pair has run into itself at a second point, because one profile bridges the other's hollow."""
+    keep_small()
+    table = contacts(block)
+    deepest = 0.0
+    for c in range(table.kind.shape[0]):
+        if table.hollow[c] == codes.BRIDGES and table.mode[c] == codes.CLOSED:
+            deepest = max(deepest, overlap(block, c))
+    return deepest > 0.0
+
+
+@jit
+def overlap(block: Array, contact: int) -> float:
+    """How far profile i reaches into the other one anywhere, beyond what is allowed for rounding [m]; 0 if nowhere."""
+    keep_small()
+    table = contacts(block)
+    at = pose(block)
+    if table.kind[contact] == codes.POINT_FOLLOWER:
+        return 0.0
+    alpha = table.alpha[contact]
+    kept = at.alpha[alpha]
+    deepest = 0.0
+    for k in range(_SAMPLES):
+        at.alpha[alpha] = sample(block, table.curve_i[contact], k, _SAMPLES)
+        deepest = max(deepest, _depth(block, contact))
+    at.alpha[alpha] = kept
+    if deepest > _OVERLAP:
+        return deepest
+    return 0.0
+
+
+@jit
+def _depth(block: Array, contact: int) -> float:
+    """How deep the present point of curve i is inside the other body [m]; in a profile, towards its centre."""
+    keep_small()
+    table = contacts(block)
+    at = pose(block)
+    touch = look(block, contact)
+    i = table.body_i[contact]
+    j = table.body_j[contact]
+    dx = at.x[i] + touch.ax - at.x[j]
+    dy = at.y[i] + touch.ay - at.y[j]
+    depth: float = touch.tx * (dy - touch.by) - touch.ty * (dx - touch.bx)
+    if table.kind[contact] == codes.CAM_FOLLOWER:
+        c = at.cosine[j]
+        s = at.sine[j]
+        x = c * dx + s * dy - table.data[contact, 2]
+        y = c * dy - s * dx - table.data[contact, 3]
+        rho, _, _, _ = curve(block, table.curve_j[contact], math.atan2(y, x))
+        depth = rho - math.sqrt(x * x + y * y)
+    return depth

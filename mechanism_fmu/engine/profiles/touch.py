@@ -1,0 +1,110 @@
+"""Where two profiles touch: the geometry of a pair of curves, one in each body.
+
+The pair's contact coordinates say which point of each curve is looked at: C_i = r_i + a on body i, C_j = r_j + b on
+body j, a = A_i (s_i + rho_i e(alpha_i)) and b likewise. One of the two curves may be a mere point, or curve j a line.
+Profiles run counter-clockwise around their body's material, so that with the unit tangent t of curve j the normal
+n = -R t points out of it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from ... import codes
+from ..block.layout import Array
+from ..block.motion import Pose, pose
+from ..block.parts import contacts
+from ..compiler.subset import jit, keep_small
+from .curves import curve
+from .profile import profile_point
+
+
+class Touch(NamedTuple):
+    """The two curve points of a pair, in the global frame.
+
+    a and b [m]; g = dC_i/dalpha_i and h = its derivative [m] (zero for a point); the unit tangent t of curve j; its
+    length |g_j| = |dC_j/dalpha_j| [m] (zero for a line); how fast t turns with alpha_j.
+    """
+
+    ax: float
+    ay: float
+    bx: float
+    by: float
+    gx: float
+    gy: float
+    hx: float
+    hy: float
+    tx: float
+    ty: float
+    stretch: float
+    turn: float
+
+
+@jit
+def look(block: Array, contact: int) -> Touch:
+    """The curve points of a contact at the present pose and contact coordinates."""
+    keep_small()
+    table = contacts(block)
+    at = pose(block)
+    data = table.data[contact]
+    kind = table.kind[contact]
+    i = table.body_i[contact]
+    j = table.body_j[contact]
+    first = table.alpha[contact]
+    gx, gy, hx, hy, stretch, turn = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    if kind == codes.POINT_FOLLOWER:
+        ax, ay = turned(at, i, data[0], data[1])
+    else:
+        profile = curve(block, table.curve_i[contact], at.alpha[first])
+        ax, ay, gx, gy, hx, hy, _, _ = profile_point(at, i, data[0], data[1], at.alpha[first], profile)
+    if kind == codes.CAM_FLAT_FOLLOWER:
+        bx, by = turned(at, j, data[2], data[3])
+        tx, ty = turned(at, j, -data[4], -data[5])
+    else:
+        last = first
+        if kind == codes.CAM_FOLLOWER:
+            last = first + 1
+        alpha = at.alpha[last]
+        profile = curve(block, table.curve_j[contact], alpha)
+        bx, by, tx, ty, kx, ky, _, _ = profile_point(at, j, data[2], data[3], alpha, profile)
+        stretch = math.sqrt(tx * tx + ty * ty)
+        tx /= stretch
+        ty /= stretch
+        turn = (tx * ky - ty * kx) / stretch
+    return Touch(ax, ay, bx, by, gx, gy, hx, hy, tx, ty, stretch, turn)
+
+
+@jit
+def turned(at: Pose, body: int, x: float, y: float) -> tuple[float, float]:
+    """A vector (x, y) of a body, in the global frame."""
+    c, s = at.cosine[body], at.sine[body]
+    return c * x - s * y, s * x + c * y
+
+
+@jit
+def change(kind: int, touch: Touch, gap: float, first: float, second: float) -> tuple[float, float, float]:
+    """The changes of alpha_i and alpha_j that make up for given amounts of T_1 and T_2, and how well the curves fit.
+
+    T_1 = n.g_i and T_2 = t.(C_i - C_j) vanish where the points are nearest to each other. A point has no T_1, a line
+    no T_2. The fit is minus the determinant of T by alpha: positive where the curves bend away from each other, as
+    they do where their distance is least.
+    """
+    keep_small()
+    t11 = 1.0
+    t12 = 0.0
+    t21 = 0.0
+    t22 = -1.0
+    if kind != codes.POINT_FOLLOWER:
+        t11 = touch.ty * touch.hx - touch.tx * touch.hy
+    else:
+        first = 0.0
+    if kind != codes.CAM_FLAT_FOLLOWER:
+        t22 = -(touch.turn * gap + touch.stretch)
+    else:
+        second = 0.0
+    if kind == codes.CAM_FOLLOWER:
+        t21 = touch.tx * touch.gx + touch.ty * touch.gy
+        t12 = touch.turn * t21
+    fit = t12 * t21 - t11 * t22
+    return (first * t22 - second * t12) / fit, (second * t11 - first * t21) / fit, fit

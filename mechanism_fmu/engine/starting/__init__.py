@@ -1,0 +1,1 @@
+"""From the start guess to a mechanism that is assembled and ready to begin."""

@@ -1,0 +1,1 @@
+"""Runge-Kutta steps, the first event within one, and the communication steps that are made of them."""

@@ -1,0 +1,262 @@
+"""Where inside a step the first event happens.
+
+An event is the first fraction in (0, 1] of the step at which a guard, positive before, reaches zero. Guards of the
+position are looked at on the dense output, the forces of closed contacts at the step's stages. The root of a gap is
+then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the interpolant's.
+
+A gap that is zero at the step's start counts only after it has opened (`armed`). One that neither opens nor closes
+there (a contact that has just been let go) is left alone within `GAP_NOISE`, which is above rounding.
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE
+from ..block.layout import Array
+from ..block.motion import stages, watch
+from ..block.parts import contacts, sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from ..constraints.rows import row_count
+from ..contacts.complementarity import push_ratio
+from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
+from ..dynamics.acceleration import derivative
+from ..dynamics.inputs import set_time
+from .dormand_prince import try_step
+from .interpolation import interpolate
+
+#: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
+_LOOKS = 8
+#: Bisections of a bracket: 2^-60 of a step is below rounding.
+_BISECTIONS = 60
+#: Those of a force: it changes sign once, and what follows does not depend on the last digits of when.
+_FORCE_BISECTIONS = 36
+_NEWTON_STEPS = 12
+#: A closed contact opens when its force is less than this times the tolerance of the complementarity problem.
+_OPENS = -2.0
+
+
+@jit
+def first_event(block: Array) -> tuple[int, int, float]:
+    """The first event within the step in `new_dense`: its guard, contact (pattern, function), and fraction of the step.
+
+    (`codes.GUARD_NONE`, `codes.NONE`, 2.0) when there is none.
+    """
+    keep_small()
+    number, fraction = _first_zero(block)
+    guard = codes.GUARD_NONE
+    subject = codes.NONE
+    if fraction <= 1.0:
+        guard, subject = guard_of(block, number)
+    table = contacts(block)
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED and can_open(block, c) and table.least_push[c] < _OPENS:
+            lets_go = _first_pull(block, c, fraction)
+            if lets_go < fraction:
+                guard = codes.GUARD_PUSH
+                subject = c
+                fraction = lets_go
+    return guard, subject, fraction
+
+
+@jit
+def refine(block: Array, contact: int, step_size: float) -> float:
+    """The step size at which the true step, not its interpolant, ends at zero gap; that step is the last one tried."""
+    keep_small()
+    s = stages(block)
+    start = s.tried[0]
+    limit = 2.0 * step_size
+    for _ in range(_NEWTON_STEPS):
+        try_step(block, start, step_size)
+        place_bodies(block, s.y_new)
+        distance, rate = gap(block, contact)
+        if not rate < 0.0:
+            return step_size
+        move = -distance / rate
+        if abs(move) <= ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
+            return step_size
+        step_size += move
+    try_step(block, start, step_size)
+    return step_size
+
+
+@jit
+def _first_zero(block: Array) -> tuple[int, float]:
+    """The first guard that reaches zero, and where; (`codes.NONE`, 2.0) when none does."""
+    keep_small()
+    look_at = watch(block)
+    _place(block, 0.0)
+    count = 0
+    for g in range(sizes(block).guards):
+        if is_watched(block, g):
+            if _begin(block, g):
+                return g, 0.0
+            look_at.watched[count] = g
+            count += 1
+    if count == 0:
+        return codes.NONE, 2.0
+    before = 0.0
+    for look in range(1, _LOOKS + 1):
+        after = look / _LOOKS
+        _place(block, after)
+        for k in range(count):
+            g = look_at.watched[k]
+            look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, g)
+        which = codes.NONE
+        earliest = 2.0
+        for k in range(count):
+            g = look_at.watched[k]
+            fraction = _zero_between(block, g, before, after)
+            if fraction < earliest:
+                earliest = fraction
+                which = g
+        if which != codes.NONE:
+            return which, earliest
+        before = after
+    return codes.NONE, 2.0
+
+
+@jit
+def _begin(block: Array, number: int) -> bool:
+    """Note a guard's value at the step's start; True when it fires right there."""
+    keep_small()
+    look_at = watch(block)
+    value, rate = guard_value(block, number)
+    look_at.now[number, 0] = value
+    look_at.now[number, 1] = rate
+    look_at.armed[number] = 1
+    look_at.floor[number] = 0.0
+    guard, subject = guard_of(block, number)
+    if guard != codes.GUARD_GAP:
+        return value <= 0.0
+    if value > 0.0 and contacts(block).touching[subject] == 0:
+        return False
+    if rate < -RESTS_BELOW:
+        return True
+    look_at.floor[number] = -GAP_NOISE
+    if rate > RESTS_BELOW:
+        look_at.armed[number] = 0
+        look_at.floor[number] += min(value, 0.0)
+    fires: bool = value <= look_at.floor[number]
+    return fires
+
+
+@jit
+def _zero_between(block: Array, number: int, before: float, after: float) -> float:
+    """Where between two looks, whose values are in `watch`, a guard reaches zero; 2.0 when it does not."""
+    keep_small()
+    look_at = watch(block)
+    rate = look_at.now[number, 1]
+    next_value = look_at.next[number, 0]
+    next_rate = look_at.next[number, 1]
+    floor = look_at.floor[number]
+    fraction = 2.0
+    if look_at.armed[number] == 0:
+        if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
+            before = _after_opening(block, number, after)
+            if before > 0.0:
+                fraction = _bisect(block, number, before, after, 0.0)
+            elif next_value <= floor:
+                fraction = _bisect(block, number, before, after, floor)
+    elif next_value <= floor:
+        fraction = _bisect(block, number, before, after, floor)
+    elif rate < 0.0 < next_rate and floor == 0.0:
+        bottom = _bottom(block, number, before, after)
+        if _value_at(block, number, bottom)[0] <= 0.0:
+            fraction = _bisect(block, number, before, bottom, floor)
+    if next_value > 0.0 and look_at.armed[number] == 0:
+        look_at.armed[number] = 1
+        look_at.floor[number] = 0.0
+    if next_value > GAP_NOISE:
+        look_at.floor[number] = 0.0
+    look_at.now[number, 0] = next_value
+    look_at.now[number, 1] = next_rate
+    return fraction
+
+
+@jit
+def _place(block: Array, fraction: float) -> None:
+    """Put the bodies where they are at `fraction` of the step."""
+    keep_small()
+    s = stages(block)
+    interpolate(s.new_dense, fraction, s.y_at)
+    place_bodies(block, s.y_at)
+
+
+@jit
+def _value_at(block: Array, number: int, fraction: float) -> tuple[float, float]:
+    keep_small()
+    _place(block, fraction)
+    return guard_value(block, number)
+
+
+@jit
+def _after_opening(block: Array, number: int, after: float) -> float:
+    """A fraction before `after` at which a gap that opens from zero is positive; 0.0 when rounding hides it."""
+    keep_small()
+    fraction = after
+    for _ in range(_BISECTIONS):
+        fraction *= 0.5
+        if _value_at(block, number, fraction)[0] > 0.0:
+            return fraction
+    return 0.0
+
+
+@jit
+def _bisect(block: Array, number: int, before: float, after: float, floor: float) -> float:
+    """The fraction at which a guard, above `floor` at `before` and not at `after`, comes down to it."""
+    keep_small()
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (before + after)
+        if middle <= before or middle >= after:
+            return after
+        if _value_at(block, number, middle)[0] > floor:
+            before = middle
+        else:
+            after = middle
+    return after
+
+
+@jit
+def _bottom(block: Array, number: int, before: float, after: float) -> float:
+    """The fraction at which a guard that falls at `before` and rises at `after` is least."""
+    keep_small()
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (before + after)
+        if _value_at(block, number, middle)[1] < 0.0:
+            before = middle
+        else:
+            after = middle
+    return after
+
+
+@jit
+def _first_pull(block: Array, contact: int, latest: float) -> float:
+    """Where before `latest` a contact's force falls to its limit; 2.0 when the dense output shows no pull there."""
+    keep_small()
+    before = 0.0
+    for look in range(1, _LOOKS + 1):
+        after = min(latest, look / _LOOKS)
+        if _push_at(block, contact, after) < _OPENS:
+            for _ in range(_FORCE_BISECTIONS):
+                middle = 0.5 * (before + after)
+                if _push_at(block, contact, middle) < _OPENS:
+                    after = middle
+                else:
+                    before = middle
+            return after
+        if after >= latest:
+            return 2.0
+        before = after
+    return 2.0
+
+
+@jit
+def _push_at(block: Array, contact: int, fraction: float) -> float:
+    """A closed contact's force over its tolerance at `fraction` of the step."""
+    keep_small()
+    s = stages(block)
+    interpolate(s.new_dense, fraction, s.y_at)
+    set_time(block, s.tried[0] + fraction * s.tried[1])
+    derivative(block, s.y_at, s.dy_at)
+    return push_ratio(block, contact, row_count(block))

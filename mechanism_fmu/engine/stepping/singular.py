@@ -1,0 +1,120 @@
+"""Singular configurations: where the rank of the active rows drops, the motion can go on along more than one branch.
+
+At such an instant the rows depend on each other although they do not just before and after, as in a parallelogram that
+lies flat. A step may well pass over it, and come out on any branch. So after each step the independence of the rows at
+its stages is looked at: where it has a dip, the least value is sought, and that decides.
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ..block.layout import Array
+from ..block.motion import course, linear_system, rows, stages
+from ..block.parts import sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from ..constraints.rows import active_rows
+from ..dynamics.inputs import set_time
+from ..dynamics.minimum_norm import orthogonalise
+from .interpolation import interpolate
+
+#: Rows with less independence than this (a squared sine) are singular: the configuration is passed, not just neared.
+_SINGULAR_BELOW = 1e-10
+#: Dips above this are no sign of a singular configuration.
+_LOOK_BELOW = 0.1
+_SEARCH_STEPS = 60
+#: A dip that seems to lie between two steps is sought from so much of a step before the second one on.
+_BACK = 0.5
+_GOLDEN = 0.3819660112501051
+
+
+@jit
+def independence(block: Array) -> float:
+    """How independent the active rows are, by the last acceleration; 0 when their rank has dropped."""
+    keep_small()
+    system = linear_system(block)
+    if system.rank[0] < course(block).counters[codes.RANK]:
+        return 0.0
+    value: float = system.independence[0]
+    return value
+
+
+@jit
+def note_rank(block: Array) -> None:
+    """After an event or a change of inputs, and the acceleration there: the rank that the rows have from now on."""
+    now = course(block)
+    now.counters[codes.RANK] = linear_system(block).rank[0]
+    now.independence_end[0] = linear_system(block).independence[0]
+
+
+@jit
+def is_singular(block: Array) -> bool:
+    """Whether the step last tried, from y_start on, leads over a singular configuration, or begins in one."""
+    keep_small()
+    now = course(block)
+    at = stages(block).independence
+    at[0] = now.independence_end[0]
+    inside = min(min(at[1], at[2]), min(at[3], at[4]))
+    if linear_system(block).rank[0] > now.counters[codes.RANK]:
+        return True
+    before = now.counters[codes.FALLING] == 1 and at[1] > at[0]
+    dips = before or (inside < at[0] and inside < at[6])
+    if not dips or min(inside, at[0]) > _LOOK_BELOW:
+        return False
+    begin = 0.0
+    if before:
+        begin = -_BACK
+    return _least(block, begin) < _SINGULAR_BELOW
+
+
+@jit
+def keep_independence(block: Array) -> None:
+    """Of the step last tried, which is accepted: how independent the rows are at its end, and whether that falls."""
+    now = course(block)
+    at = stages(block).independence
+    now.independence_end[0] = at[6]
+    now.counters[codes.FALLING] = 0
+    if at[6] < at[4]:
+        now.counters[codes.FALLING] = 1
+
+
+@jit
+def _least(block: Array, low: float) -> float:
+    """The least independence from `low` on within the step last tried, by golden section on its dense output."""
+    keep_small()
+    high = 1.0
+    left = low + _GOLDEN * (high - low)
+    right = high - _GOLDEN * (high - low)
+    at_left = _independence_at(block, left)
+    at_right = _independence_at(block, right)
+    for _ in range(_SEARCH_STEPS):
+        if at_left < at_right:
+            high = right
+            right = left
+            at_right = at_left
+            left = low + _GOLDEN * (high - low)
+            at_left = _independence_at(block, left)
+        else:
+            low = left
+            left = right
+            at_left = at_right
+            right = high - _GOLDEN * (high - low)
+            at_right = _independence_at(block, right)
+    return min(at_left, at_right)
+
+
+@jit
+def _independence_at(block: Array, fraction: float) -> float:
+    """As `independence`, of the bare rows: very different masses make rows look alike that are not."""
+    keep_small()
+    s = stages(block)
+    interpolate(s.new_dense, fraction, s.y_at)
+    set_time(block, s.tried[0] + fraction * s.tried[1])
+    place_bodies(block, s.y_at)
+    count = active_rows(block)
+    n = sizes(block).coordinates
+    for r in range(count):
+        for k in range(n):
+            linear_system(block).scaled[r, k] = rows(block).jacobian[r, k]
+    orthogonalise(block, count, n)
+    return independence(block)

@@ -1,0 +1,119 @@
+"""One step of the engine's own, as far as the first event within it."""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tolerances import GAP_NOISE
+from .. import status
+from ..block.layout import Array
+from ..block.motion import course, stages
+from ..block.parts import contacts, sizes
+from ..block.vectors import copy
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from ..contacts.guards import gap
+from ..dynamics.acceleration import derivative
+from ..dynamics.drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
+from ..dynamics.inputs import set_time
+from ..profiles.nearest import least_fit
+from ..profiles.overlap import bridged
+from .dormand_prince import try_step
+from .events import first_event, refine
+from .pulling import watch_step
+from .singular import is_singular, keep_independence
+from .step_size import accurate_step, smallest_step, why_no_step
+
+
+@jit
+def take_step(block: Array) -> int:
+    """Take one step from STEP_END on, cut at the first event, which then waits as PENDING_GUARD; return a status."""
+    keep_small()
+    now = course(block)
+    s = stages(block)
+    start = now.clock[codes.STEP_END]
+    copy(now.y_end, s.y_start)
+    copy(now.dy_end, s.derivatives[0])
+    step = accurate_step(block, start)
+    if step == 0.0:
+        return why_no_step(block)
+    if is_singular(block):
+        return status.SINGULAR
+    keep_independence(block)
+    guard, subject, fraction = first_event(block)
+    if guard != codes.GUARD_NONE:
+        step *= fraction
+        if step > smallest_step(start):
+            step = _end_at_event(block, guard, subject, start, step)
+            if math.isnan(s.y_new[2 * sizes(block).coordinates + 1]):
+                return why_no_step(block)
+        else:
+            step = 0.0  # it happens here and now
+    now.counters[codes.PENDING_GUARD] = guard
+    now.counters[codes.PENDING_SUBJECT] = subject
+    if step == 0.0:
+        return status.OK
+    _keep(block, start, step)
+    watch_step(block)
+    struck = codes.NONE
+    if guard == codes.GUARD_GAP:
+        struck = subject
+    release(block, struck)
+    return _mend_and_check(block)
+
+
+@jit
+def _end_at_event(block: Array, guard: int, subject: int, start: float, step: float) -> float:
+    """Take a true step to an event that is `step` [s] away on the dense output; return its size [s]."""
+    keep_small()
+    if guard == codes.GUARD_GAP:
+        return refine(block, subject, step)
+    try_step(block, start, step)
+    return step
+
+
+@jit
+def _keep(block: Array, start: float, step: float) -> None:
+    """The step last tried, from `start` on and of size `step` [s], is where the motion has come to."""
+    keep_small()
+    now = course(block)
+    s = stages(block)
+    now.counters[codes.COUNT_STEPS] += 1
+    now.clock[codes.STEP_START] = start
+    now.clock[codes.STEP_SIZE] = step
+    now.clock[codes.STEP_END] = start + step
+    if now.counters[codes.RAMPING] != 0 and abs(start + step - now.clock[codes.RAMP_END]) <= smallest_step(start):
+        now.clock[codes.STEP_END] = now.clock[codes.RAMP_END]
+    copy(s.y_new, now.y_end)
+    copy(s.derivatives[6], now.dy_end)
+    for r in range(5):
+        copy(s.new_dense[r], now.dense[r])
+
+
+@jit
+def _mend_and_check(block: Array) -> int:
+    """After a step: bring back what has drifted, and look whether profiles still fit; return a status."""
+    keep_small()
+    now = course(block)
+    set_time(block, now.clock[codes.STEP_END])
+    if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
+        derivative(block, now.y_end, now.dy_end)
+    if sizes(block).alphas > 0 and not least_fit(block) > 0.0:
+        return status.NO_CONTACT_POINT
+    if sizes(block).alphas > 0 and bridged(block):
+        return status.BRIDGED
+    return status.OK
+
+
+@jit
+def release(block: Array, struck: int) -> None:
+    """Contacts that touched at the step's start have come off by y_end, but for the one that strikes there."""
+    keep_small()
+    table = contacts(block)
+    place_bodies(block, course(block).y_end)
+    for c in range(table.mode.shape[0]):
+        if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
+            distance, _ = gap(block, c)
+            if distance > GAP_NOISE:
+                table.touching[c] = 0

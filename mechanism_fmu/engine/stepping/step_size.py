@@ -1,0 +1,112 @@
+"""The size of a step: as long as its error allows, and no longer than what may happen within it."""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from .. import status
+from ..block.layout import Array
+from ..block.motion import course, linear_system, stages
+from ..block.parts import contacts, sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from ..profiles.nearest import least_fit
+from .dormand_prince import try_step
+from .step_limits import within_motions, within_ramp
+
+#: Smallest step as a fraction of max(1 s, |t|).
+_SMALLEST_STEP = 1e-15
+#: Where there are guards, no body turns further than this in one step [rad]: a step without error may be of any length,
+#: and would pass over what a turning point meets in every turn.
+MOST_TURN = 1.0
+#: Where steps shrink to nothing and profiles fit less well than this, that is why [rad/rad].
+_FITS_BARELY = 0.01
+_SAFETY = 0.9
+_SHRINK_MOST = 0.2
+_GROW_MOST = 5.0
+
+
+@jit
+def accurate_step(block: Array, start: float) -> float:
+    """Try steps from y_start at `start` [s] until one is accurate enough; return its size [s], 0 when there is none.
+
+    NEXT_STEP, the size that is tried first, becomes that of the step to come.
+    """
+    keep_small()
+    now = course(block)
+    wanted = now.clock[codes.NEXT_STEP]
+    step = representable(start, within_ramp(block, start, wanted))
+    step = representable(start, within_motions(block, start, step))
+    error = _try(block, start, step)
+    grow_most = _GROW_MOST
+    while not error <= 1.0:
+        step = representable(start, step * _scale(error, 1.0))
+        grow_most = 1.0
+        if not step > smallest_step(start):
+            return 0.0
+        error = _try(block, start, step)
+    now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
+    if now.counters[codes.RAMPING] != 0 and grow_most > 1.0 and step < wanted:  # cut short by the slopes' end alone
+        now.clock[codes.NEXT_STEP] = max(now.clock[codes.NEXT_STEP], wanted)
+    return step
+
+
+@jit
+def smallest_step(start: float) -> float:
+    """The size that a step from `start` [s] must exceed [s]."""
+    return _SMALLEST_STEP * max(1.0, abs(start))
+
+
+@jit
+def why_no_step(block: Array) -> int:
+    """What has made the step shrink to nothing: the power lost is not a number where friction found no agreement."""
+    s = stages(block)
+    lost = 2 * sizes(block).coordinates + 1
+    for k in range(1, s.derivatives.shape[0]):
+        if math.isnan(s.derivatives[k, lost]) and not math.isnan(s.derivatives[k, 0]):
+            return status.JAMMED
+    if linear_system(block).rank[0] > course(block).counters[codes.RANK]:
+        return status.SINGULAR
+    if sizes(block).alphas > 0:
+        place_bodies(block, s.y_start)
+        if not least_fit(block) > _FITS_BARELY:
+            return status.NO_CONTACT_POINT
+    return status.STEP_TOO_SMALL
+
+
+@jit
+def _try(block: Array, start: float, step: float) -> float:
+    """Try a step from `start`; return its error, or how much too far a body turns if that shortens the step more."""
+    keep_small()
+    s = stages(block)
+    error = try_step(block, start, step)
+    if sizes(block).guards == 0:
+        return error
+    turn = 0.0
+    for k in range(2, sizes(block).coordinates, 3):
+        turn = max(turn, abs(s.y_new[k] - s.y_start[k]) / MOST_TURN)
+    haste = contacts(block).alpha_haste
+    first = 2 * sizes(block).coordinates + 2
+    for k in range(haste.shape[0]):
+        turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) * haste[k])
+    too_far = math.pow(turn, 5.0)  # `_scale` takes the fifth root
+    if too_far > error:
+        return too_far
+    return error
+
+
+@jit
+def representable(start: float, step: float) -> float:
+    """The step whose end, start + step, is a floating-point number: late on the clock, rounding would add up."""
+    return (start + step) - start
+
+
+@jit
+def _scale(error: float, most: float) -> float:
+    """Factor for the next step size (order 5)."""
+    if error == 0.0:
+        return most
+    if not error < math.inf:
+        return _SHRINK_MOST
+    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -0.2)))

@@ -1,0 +1,200 @@
+"""Communication steps: where integration, contact geometry and the impact law meet.
+
+The engine takes steps of its own, with dense output, and may be ahead of the time that the outside has reached
+(TIME <= STEP_END): the trajectory then does not depend on the communication step at all. When an input changes, what
+lies ahead is dropped and the motion goes on from TIME. Only a step in which an input has a slope ends at the target,
+because nobody knows the input beyond.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from .. import status
+from ..block.layout import Array
+from ..block.motion import course, stages
+from ..block.parts import contacts, ports
+from ..block.vectors import copy
+from ..compiler.subset import entry, jit, keep_small
+from ..contacts.records import clear_records
+from ..contacts.transition import transit
+from ..dynamics.acceleration import derivative
+from ..dynamics.inputs import feed, inputs_changed, set_time, show_reached, take_inputs
+from .dormand_prince import initial_step_size, try_step
+from .interpolation import interpolate
+from .pulling import watch_at
+from .singular import keep_independence, note_rank
+from .step import release, take_step
+
+#: Most internal steps of one communication step.
+MOST_STEPS = 200_000
+
+
+@entry
+def advance(block: Array, target: float) -> int:
+    """One communication step: bring TIME to `target` [s]; return a status.
+
+    When a step fails, TIME and all outputs stay at the last good instant. When an event fails, they stay at the event,
+    and only a restored state leads on.
+    """
+    outcome = _begin_step(block)
+    if outcome == status.OK:
+        outcome = _go_on(block, target, codes.STOP_AT_TARGET)
+    return outcome
+
+
+@entry
+def begin_step(block: Array) -> int:
+    """Begin a communication step at TIME: empty the records, let inputs and their slopes act; return a status."""
+    return _begin_step(block)
+
+
+@entry
+def go_on(block: Array, target: float, rule: int) -> int:
+    """Go on within the communication step until `target` [s], or until `rule` stops it earlier; return a status.
+
+    `rule` is `codes.STOP_AT_TARGET`, `STOP_AT_IMPACT` or `STOP_AT_STEP`; the motion is the same with all of them. After
+    a stop, the step may be continued to the same target (what is set meanwhile acts from the next `begin_step` on), or
+    another one be begun. Where it stops, `inputs` are the values reached. Failures: as of `advance`.
+    """
+    return _go_on(block, target, rule)
+
+
+@jit
+def _begin_step(block: Array) -> int:
+    outcome = _why_ended(block)
+    if outcome != status.OK:
+        return outcome
+    clear_records(block)
+    if inputs_changed(block):
+        return resume(block)
+    return status.OK
+
+
+@jit
+def _go_on(block: Array, target: float, rule: int) -> int:
+    now = course(block)
+    if now.clock[codes.TIME] < now.clock[codes.STEP_END] and target < now.clock[codes.STEP_END]:
+        now.clock[codes.TIME] = target  # the engine has been there already
+        return status.OK
+    outcome = _why_ended(block)
+    if outcome == status.OK:
+        outcome = _move(block, target, rule)
+        show_reached(block)
+    return outcome
+
+
+@jit
+def _why_ended(block: Array) -> int:
+    """The status of an event that has failed, or `status.OK`."""
+    counters = course(block).counters
+    if counters[codes.PENDING_GUARD] == codes.GUARD_FAILED:
+        failed: int = counters[codes.PENDING_SUBJECT]
+        return failed
+    return status.OK
+
+
+@jit
+def _move(block: Array, target: float, rule: int) -> int:
+    """Step after step, event after event, until there is a reason to stop; return a status."""
+    now = course(block)
+    feed(block, ports(block).held_inputs)  # a restored state brings its own
+    if now.counters[codes.RAMPING] != 0:
+        now.clock[codes.RAMP_END] = target
+    for _ in range(MOST_STEPS):
+        begins = now.counters[codes.PENDING_GUARD] == codes.GUARD_BEGIN
+        if now.clock[codes.TIME] >= now.clock[codes.STEP_END] and not begins:
+            if now.clock[codes.TIME] >= target:
+                return status.OK
+            outcome = take_step(block)
+            if outcome != status.OK:
+                return outcome
+        if now.clock[codes.STEP_END] > target:
+            now.clock[codes.TIME] = target
+            return status.OK
+        now.clock[codes.TIME] = now.clock[codes.STEP_END]
+        impacts = now.counters[codes.COUNT_IMPACTS]
+        guard = now.counters[codes.PENDING_GUARD]
+        if guard != codes.GUARD_NONE:
+            set_time(block, now.clock[codes.STEP_END])
+            outcome = transit(block, guard, now.counters[codes.PENDING_SUBJECT])
+            if outcome != status.OK:
+                now.counters[codes.PENDING_GUARD] = codes.GUARD_FAILED
+                now.counters[codes.PENDING_SUBJECT] = outcome
+                return outcome
+            now.counters[codes.FALLING] = 0  # what was before belongs to other rows
+            restart(block)
+            now.clock[codes.NEXT_STEP] = initial_step_size(block)
+        struck = now.counters[codes.COUNT_IMPACTS] > impacts
+        if rule == codes.STOP_AT_STEP or (rule == codes.STOP_AT_IMPACT and struck):
+            return status.OK
+    return status.TOO_MANY_STEPS
+
+
+@jit
+def restart(block: Array) -> None:
+    """Begin anew from y_end at STEP_END: nothing lies ahead."""
+    keep_small()
+    now = course(block)
+    now.clock[codes.STEP_START] = now.clock[codes.STEP_END]
+    now.clock[codes.STEP_SIZE] = 0.0
+    now.counters[codes.PENDING_GUARD] = codes.GUARD_NONE
+    now.counters[codes.PENDING_SUBJECT] = codes.NONE
+    set_time(block, now.clock[codes.STEP_END])
+    derivative(block, now.y_end, now.dy_end)
+    note_rank(block)
+    watch_at(block, now.clock[codes.STEP_END])
+
+
+@jit
+def resume(block: Array) -> int:
+    """Drop what lies ahead of TIME, because the inputs or their slopes have changed; return a status."""
+    keep_small()
+    now = course(block)
+    table = contacts(block)
+    time = now.clock[codes.TIME]
+    if time < now.clock[codes.STEP_END]:
+        _step_back(block)
+        release(block, codes.NONE)
+        now.clock[codes.STEP_END] = time
+    for c in range(table.mode.shape[0]):
+        if time < table.pull_time[c] < math.inf:
+            table.pull_time[c] = math.inf
+            now.counters[codes.COUNT_PULLS] -= 1
+    take_inputs(block)
+    set_time(block, time)
+    outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
+    restart(block)
+    return outcome
+
+
+@jit
+def _step_back(block: Array) -> None:
+    """Bring y_end back to TIME by a true step of its own from STEP_START, with the inputs that were held.
+
+    The dense output is less accurate, which adds up when inputs change at every communication point.
+    """
+    keep_small()
+    now = course(block)
+    s = stages(block)
+    start = now.clock[codes.STEP_START]
+    feed(block, ports(block).held_inputs)
+    set_time(block, start)
+    copy(now.dense[0], s.y_start)
+    derivative(block, s.y_start, s.derivatives[0])
+    try_step(block, start, now.clock[codes.TIME] - start)
+    keep_independence(block)
+    copy(s.y_new, now.y_end)
+
+
+@jit
+def state_at_time(block: Array, y: Array) -> None:
+    """Y at TIME, shape (unknowns,); `y` may be `y_end` itself."""
+    keep_small()
+    now = course(block)
+    if now.clock[codes.TIME] < now.clock[codes.STEP_END]:
+        fraction = (now.clock[codes.TIME] - now.clock[codes.STEP_START]) / now.clock[codes.STEP_SIZE]
+        interpolate(now.dense, fraction, y)
+    else:
+        copy(now.y_end, y)
