@@ -1,7 +1,8 @@
 """A pytest plugin for runs of the engine as plain Python (NUMBA_DISABLE_JIT=1), which is a hundred times as slow.
 
 Load it before anything else: `python -m pytest -p tests.plain_engine`. Each view of a block is made once for the block
-last looked at (nine tenths of the time go into that otherwise), and a law is tried on ten examples at most.
+last looked at (nine tenths of the time go into that otherwise), and a law is tried on ten examples at most, without a
+search for the simplest that fails.
 """
 
 from __future__ import annotations
@@ -10,11 +11,12 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from hypothesis import settings
+from hypothesis import Phase, settings
 
-from mechanism_fmu.engine import room
+from mechanism_fmu.engine.block import room
 
 _MOST_EXAMPLES = 10
+_PHASES = (Phase.explicit, Phase.generate)
 
 _compilable = room._compilable
 
@@ -40,5 +42,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         test: Any = getattr(item, "obj", None)
         asked = getattr(test, "_hypothesis_internal_use_settings", None)
-        if asked is not None and asked.max_examples > _MOST_EXAMPLES:
-            test._hypothesis_internal_use_settings = settings(asked, max_examples=_MOST_EXAMPLES)
+        if asked is not None:
+            most = min(asked.max_examples, _MOST_EXAMPLES)
+            test._hypothesis_internal_use_settings = settings(asked, max_examples=most, phases=_PHASES)

@@ -10,9 +10,9 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.events import first_event
-from mechanism_fmu.engine.layout import field_of
-from mechanism_fmu.engine.subset import entry
+from mechanism_fmu.engine.block.layout import field_of
+from mechanism_fmu.engine.compiler.subset import entry
+from mechanism_fmu.engine.stepping.events import first_event
 from mechanism_fmu.model import GROUND, Body, Mechanism, PointLineContact
 from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tolerances import GAP_NOISE

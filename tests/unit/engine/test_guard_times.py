@@ -82,7 +82,7 @@ def test_the_next_copy_comes_when_the_point_passes_the_boundary(speed, guard, st
     guards, times = guards_and_times(simulation, 3.9 * PITCH / 0.4)
     assert guards == [guard] * 4
     assert times == pytest.approx([(k + 0.5) * PITCH / 0.4 for k in range(4)], abs=4e-9)
-    assert simulation.field("pattern_index")[0] == 4 * step
+    assert simulation.field("pattern_copy")[0] == 4 * step
 
 
 def test_a_pattern_that_is_switched_off_has_one_copy():

@@ -231,3 +231,13 @@ def test_a_driver_does_work_in_an_impact(restitution):
     found = simulation.read()
     assert found["work"] == pytest.approx((1 + restitution) * MASS * u**2, rel=1e-9)
     assert found["lost"] == pytest.approx((1 - restitution**2) * MASS * u**2 / 2, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("height", [1e8 / 3, 1e8 / 7, 1e9 / 11, 1e7 / 13])
+def test_what_is_struck_takes_part_however_far_rounding_leaves_it_from_zero(height):
+    """At 1e8 m/s, and so far from the origin, the gap at the impact is zero to 1e-8 m only."""
+    simulation = ball([wall("lid", (0.0, height), (0.0, -1.0), restitution=0.5)], (0.0, -height), (0.0, 1e8))
+    simulation.advance(3 * height / 1e8)
+    (hit,) = simulation.impacts_in_step()
+    assert hit.time == pytest.approx(2 * height / 1e8, rel=1e-14)
+    assert rates(simulation)[1] == pytest.approx(-0.5e8, rel=1e-12)

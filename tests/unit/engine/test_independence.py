@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from minimum_norm_solver import BLOCK, solve
 
-from mechanism_fmu.engine.layout import field_of
-from mechanism_fmu.engine.minimum_norm import RANK_TOLERANCE
+from mechanism_fmu.engine.block.layout import field_of
+from mechanism_fmu.engine.dynamics.minimum_norm import RANK_TOLERANCE
 
 
 def independence(D):
@@ -70,3 +70,11 @@ def test_more_rows_than_unknowns_leave_the_rank_of_their_width(scale):
     assert rank == 4
     assert independence(D) > RANK_TOLERANCE
     np.testing.assert_allclose(z, x, rtol=1e-13, atol=1e-13)
+
+
+def test_what_is_left_of_a_row_after_many_small_losses_is_exact():
+    """Each of the other rows takes 99.9 % of what the ones before have left."""
+    d = math.sqrt(1e-3)
+    row = d ** np.arange(6)
+    D = np.vstack([np.eye(5, 6), row])
+    assert independence(D) == pytest.approx(d**10 / np.sum(row**2), rel=1e-9)
