@@ -14,12 +14,12 @@ from mechanism_fmu.simulation import Simulation
 MASS = 2.0
 
 
-def pressed(forces, *, closed=None):
+def pressed(forces, *, closed=None, speed=0.0):
     """Bodies on the floor, each pressed on it by a force that is an input, and a ball that flies along x at 1 m/s.
 
-    It starts at x = 0; a wall stops it at x = `closed`.
+    It starts at x = 0; a wall stops it at x = `closed`. The bodies start upwards at `speed`.
     """
-    bodies = [Body(f"body{k}", MASS, 0.3) for k in range(len(forces))]
+    bodies = [Body(f"body{k}", MASS, 0.3, start_rate=(0.0, speed, 0.0)) for k in range(len(forces))]
     floors = [
         PointLineContact(f"floor{k}", f"body{k}", (0.0, 0.0), GROUND, (0.0, 0.0), (0.0, 1.0))
         for k in range(len(forces))
@@ -115,3 +115,12 @@ def test_an_impact_is_on_the_line_however_coarse_the_step(share):
     (hit,) = simulation.impacts_in_step()
     assert simulation.time == hit.time
     assert simulation.field("y_end")[2] == pytest.approx(0.5 * share, abs=5e-13)
+
+
+@pytest.mark.parametrize(("speed", "slope"), [(0.3, 5.0), (1.0, 2.0)])
+def test_the_time_of_an_impact_under_a_force_that_changes(speed, slope):
+    """Thrown up, without weight, against a force that grows from zero: y = v t - s t^3 / 6 m."""
+    lands = math.sqrt(6 * MASS * speed / slope)
+    guards, times = guards_and_times(pressed([0.0], speed=speed), 1.1 * lands, -slope)
+    assert guards == ["floor0.gap"]
+    assert times == pytest.approx([lands], rel=1e-12)

@@ -6,6 +6,7 @@ is 1 s long; what the search answers is the fraction of it.
 
 import math
 
+import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
@@ -114,6 +115,37 @@ def test_a_gap_that_opens_from_about_zero_counts_when_it_closes_again(back, star
     event = found(walls(0.0), start + T * (back - T), touching=[0])
     root = back / 2 + math.sqrt(back**2 / 4 + start)
     assert_hits(event, 0, root, 1e-14)
+
+
+def test_a_gap_that_opens_between_two_looks_is_followed_forwards():
+    """Before the step's start this polynomial is positive again, which does not count."""
+    assert_hits(found(walls(0.0), T * (0.1 - T) * (0.03 + T), touching=[0]), 0, 0.1, 1e-14)
+
+
+def test_a_dip_counts_that_comes_after_the_gap_has_opened_from_zero():
+    """x = t ((t - 0.69)^2 - 1e-4): positive at all looks."""
+    assert_hits(found(walls(0.0), T * ((T - 0.69) ** 2 - 1e-4), touching=[0]), 0, 0.68, 1e-13)
+
+
+def test_a_gap_that_closes_right_after_opening_counts_though_a_look_finds_it_within_the_noise():
+    """At the first look, after 1/8, it is 4e-14 below zero and falls; at the second it is open."""
+    back = 1 / 8 - 4e-12
+    assert_hits(found(walls(0.0), T * (T - back) * (T - 0.2), touching=[0]), 0, back, 1e-14)
+
+
+def test_a_dip_within_the_noise_right_after_opening_is_left_alone():
+    """At the first look, after 1/8, the gap is 7e-14 below zero and rises."""
+    bottom = 1 / 8 - 1e-7
+    assert found(walls(0.0), T * ((T - bottom) ** 2 - 6e-13), touching=[0]) == NOTHING
+
+
+def test_a_dip_counts_that_comes_after_a_rise():
+    """The summit is at 0.2, the bottom at 0.69, half way between two looks."""
+    motion = ((T - 0.2) * (T - 0.69)).integ()
+    motion = motion - motion(0.69) - 1e-5
+    root = np.sort(motion.roots().real)[1]
+    assert_hits(found(walls(0.0), motion), 0, root, 1e-13)
+    assert found(walls(0.0), motion + 2e-5) == NOTHING
 
 
 def test_a_gap_that_opens_and_stays_open_is_no_event():

@@ -14,7 +14,7 @@ from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.contacts.impact import MOST_ROUNDS, strike
 from mechanism_fmu.model import GROUND, Body, Mechanism, PointLineContact
 from mechanism_fmu.simulation import Simulation
-from mechanism_fmu.tolerances import RESTS_BELOW, TOUCHES_WITHIN
+from mechanism_fmu.tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 
 MASS = 0.7
 S, C = math.sin(math.radians(30)), math.cos(math.radians(30))
@@ -27,11 +27,12 @@ def strike_in(block, struck, round_):
     return strike(block, struck, round_)
 
 
-def corner(rate, *, height=0.0, restitution=0.0, **floor):
+def corner(rate, *, height=0.0, restitution=0.0, up=False, **floor):
     """The ball at the slope, `height` above the floor, with both contacts open and never touched."""
+    rise = S if up else -S
     contacts = (
         PointLineContact("floor", "ball", (0.0, 0.0), GROUND, (0.0, 0.0), (0.0, 1.0), restitution=restitution, **floor),
-        PointLineContact("slope", "ball", (0.0, 0.0), GROUND, (1.0, 0.0), (-C, -S), restitution=restitution),
+        PointLineContact("slope", "ball", (0.0, 0.0), GROUND, (1.0, 0.0), (-C, rise), restitution=restitution),
     )
     simulation = Simulation(Mechanism(bodies=(Body("ball", MASS, 0.1, (0.0, 0.3, 0.0)),), contacts=contacts))
     simulation.field("y_end")[:6] = [1.0 - height * S / C, height, 0.0, *rate, 0.0]
@@ -105,9 +106,17 @@ def test_nothing_happens_when_nothing_approaches(rate, round_):
     np.testing.assert_array_equal(simulation.state, before)
 
 
-@pytest.mark.parametrize(("struck", "strikes"), [(FLOOR, True), (codes.NONE, False), (SLOPE, False)])
-def test_a_guided_contact_strikes_however_slowly_where_its_own_gap_closed(struck, strikes):
-    rate = -0.5 * RESTS_BELOW
+@pytest.mark.parametrize(
+    ("struck", "rate", "strikes"),
+    [
+        (FLOOR, -0.5 * RESTS_BELOW, True),
+        (codes.NONE, -0.5 * RESTS_BELOW, False),
+        (SLOPE, -0.5 * RESTS_BELOW, False),
+        (FLOOR, 0.0, False),
+        (FLOOR, 0.5, False),
+    ],
+)
+def test_a_guided_contact_strikes_however_slowly_where_its_own_gap_closed(struck, rate, strikes):
     simulation = corner((-1.0, rate), guided=True)
     approached, velocity, _ = after(simulation, struck, 0)
     assert approached == strikes
@@ -132,3 +141,20 @@ def test_a_contact_that_does_not_exist_is_passed_over_and_the_next_still_counts(
     assert approached
     np.testing.assert_allclose(velocity, np.array([1.0, -1.0]) - (C - S) * np.array([C, S]), rtol=1e-12)
     assert mode == [codes.OPEN, codes.CLOSED]
+
+
+@pytest.mark.parametrize("rate", [(1.0, 0.0), (-1.0, -2.0)])
+def test_what_comes_apart_is_open_and_was_touching(rate):
+    """A floor at rest, from which the slope drives the ball up; a floor from which it bounces by itself."""
+    simulation = corner(rate, restitution=0.5, up=True)
+    after(simulation, codes.NONE, 0)
+    assert simulation.field("contact_mode")[FLOOR] == codes.OPEN
+    assert simulation.field("contact_touching")[FLOOR] == 1
+
+
+def test_what_comes_apart_more_slowly_than_the_stick_speed_is_closed():
+    speed = 0.9 * STICK_SPEED / S
+    simulation = corner((speed / C, 0.0), up=True)
+    _, velocity, mode = after(simulation, SLOPE, 0)
+    assert velocity[1] == pytest.approx(speed * S, rel=1e-9)
+    assert mode == [codes.CLOSED, codes.CLOSED]
