@@ -153,9 +153,9 @@ def test_a_gap_that_opens_and_stays_open_is_no_event():
         assert found(walls(0.0), start + T, touching=[0]) == NOTHING
 
 
-@pytest.mark.parametrize("start", [0.0, -1e-13, 5e-13])
-def test_a_touching_gap_that_closes_fires_at_the_start(start):
-    event = found(walls(0.0), start - 1e-3 * T, touching=[0])
+@pytest.mark.parametrize(("start", "touching"), [(0.0, [0]), (-1e-13, [0]), (5e-13, [0]), (0.0, []), (-1e-13, [])])
+def test_a_gap_of_zero_or_touching_that_closes_fires_at_the_start(start, touching):
+    event = found(walls(0.0), start - 1e-3 * T, touching=touching)
     assert event == (codes.GUARD_GAP, 0, 0.0)
 
 

@@ -233,7 +233,7 @@ def test_a_driver_does_work_in_an_impact(restitution):
     assert found["lost"] == pytest.approx((1 - restitution**2) * MASS * u**2 / 2, rel=1e-9, abs=1e-12)
 
 
-@pytest.mark.parametrize("height", [1e8 / 3, 1e8 / 7, 1e9 / 11, 1e7 / 13])
+@pytest.mark.parametrize("height", [1e8 / 3, 1e8 / 7, 1e9 / 43])
 def test_what_is_struck_takes_part_however_far_rounding_leaves_it_from_zero(height):
     """At 1e8 m/s, and so far from the origin, the gap at the impact is zero to 1e-8 m only."""
     simulation = ball([wall("lid", (0.0, height), (0.0, -1.0), restitution=0.5)], (0.0, -height), (0.0, 1e8))
