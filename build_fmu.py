@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import time
-import zipfile
 from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
-from xml.etree import ElementTree
 
 import typer
 
@@ -99,6 +97,8 @@ def build(
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
+    seconds = time.perf_counter() - began
+    typer.echo(f"{path}  {path.stat().st_size / 1e3:.0f} kB  GUID {_guid(path)}  {seconds:.1f} s")
     if flavour is Flavour.PYTHONFMU and not has_linker():
         messages.print(
             "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "
@@ -106,11 +106,12 @@ def build(
             style="yellow",
             markup=False,
         )
-    seconds = time.perf_counter() - began
-    typer.echo(f"{path}  {path.stat().st_size / 1e3:.0f} kB  GUID {_guid(path)}  {seconds:.1f} s")
 
 
 def _guid(path: Path) -> str:
+    import zipfile
+    from xml.etree import ElementTree
+
     with zipfile.ZipFile(path) as fmu:
         description = ElementTree.fromstring(fmu.read("modelDescription.xml")).attrib
     return description.get("guid") or description["instantiationToken"]

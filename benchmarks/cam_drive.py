@@ -18,6 +18,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from .curve_file import print_curve
+
 #: Of the reference curve: cam speed [rad/s], rows in its one turn.
 SPEED, ROWS = 2 * math.pi, 400
 
@@ -190,9 +192,7 @@ def curve() -> Iterator[tuple[float, ...]]:
 
 def main() -> None:
     """Print the reference curve as CSV."""
-    print("time,cam_angle,follower_angle,follower_speed,follower_acceleration,contact_force")
-    for row in curve():
-        print(",".join(f"{number:.15g}" for number in row))
+    print_curve("time,cam_angle,follower_angle,follower_speed,follower_acceleration,contact_force", curve())
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ from mechanism_fmu.model import (
     Torque,
     Translational,
 )
+from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.joints import Joint
 from mechanism_fmu.model.profiles import circle, harmonic_profile
 
@@ -39,7 +40,7 @@ _TORQUE = 0.7
 def compare(rounds: int) -> list[Comparison]:
     """Compare the acceleration of `ten_bodies` at its start, where the cams turn at 3 rad/s."""
     mechanism = ten_bodies()
-    block = pack(mechanism.compile())
+    block = pack(compile_mechanism(mechanism))
     outcome = begin(block, 0.0)
     if outcome != status.OK:
         raise RuntimeError(status.ADVICE[outcome])

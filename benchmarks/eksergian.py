@@ -10,7 +10,9 @@ Points are complex numbers, x + i y [m].
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import cmath
+import math
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +27,10 @@ class Course(NamedTuple):
     curvature: float
 
 
+#: A point and its first and second derivative by the crank's angle [m].
+Point = tuple[complex, complex, complex]
+
+
 class Link(NamedTuple):
     """A link at one angle of the crank.
 
@@ -37,7 +43,7 @@ class Link(NamedTuple):
     mass: float
     inertia: float
     angle: Course
-    centre: tuple[complex, complex, complex]
+    centre: Point
 
     @property
     def reduced_inertia(self) -> float:
@@ -49,6 +55,16 @@ class Link(NamedTuple):
         """Its part of I' [kg m2/rad]."""
         translation = (self.centre[1].conjugate() * self.centre[2]).real
         return 2 * (self.mass * translation + self.inertia * self.angle.rate * self.angle.curvature)
+
+
+def along(distance: float, angle: Course, begin: Point = (0.0, 0.0, 0.0)) -> Point:
+    """The point at a distance [m] along a link from where that begins."""
+    point = distance * cmath.exp(1j * angle.value)
+    return (
+        begin[0] + point,
+        begin[1] + 1j * point * angle.rate,
+        begin[2] + point * (1j * angle.curvature - angle.rate**2),
+    )
 
 
 #: The links at an angle of the crank [rad].
@@ -83,3 +99,15 @@ def motion(
         derivative, (times[0], times[-1]), (theta, speed), "DOP853", t_eval=np.asarray(times), rtol=1e-13, atol=1e-13
     )
     return done.y[0].tolist(), done.y[1].tolist()
+
+
+#: Of reference curves: speed at the start and of the shaft's driven end [rad/s], damping of the shaft [N m s/rad],
+#: length [s] and number of rows.
+SPEED, DAMPING, LENGTH, ROWS = 2 * math.pi, 0.1, 2.0, 400
+
+
+def default_run(links: Links) -> Iterator[tuple[float, float, float]]:
+    """Time [s], angle [rad] and speed [rad/s] of the crank in the default run of the models of linkages."""
+    times = np.linspace(0.0, LENGTH, ROWS + 1)
+    angles, speeds = motion(links, lambda _theta, speed: DAMPING * (SPEED - speed), 0.0, SPEED, times.tolist())
+    return zip(times, angles, speeds, strict=True)

@@ -17,9 +17,8 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-import numpy as np
-
-from .eksergian import Course, Link, motion
+from .curve_file import print_curve
+from .eksergian import Course, Link, along, default_run
 
 
 class FourBar(NamedTuple):
@@ -60,20 +59,13 @@ class FourBar(NamedTuple):
         """Crank, coupler and rocker."""
         phi, psi = self.angles(theta)
         own = Course(theta, 1.0, 0.0)
-        pin = _along(self.crank, own)
-        coupler = tuple(p + q for p, q in zip(pin, _along(self.coupler_centre, phi), strict=True))
-        rocker = _along(self.rocker_centre, psi)
+        coupler = along(self.coupler_centre, phi, along(self.crank, own))
+        rocker = along(self.rocker_centre, psi, (self.ground, 0.0, 0.0))
         return (
-            Link(self.crank_mass, self.crank_inertia, own, _along(self.crank_centre, own)),
-            Link(self.coupler_mass, self.coupler_inertia, phi, (coupler[0], coupler[1], coupler[2])),
-            Link(self.rocker_mass, self.rocker_inertia, psi, (self.ground + rocker[0], rocker[1], rocker[2])),
+            Link(self.crank_mass, self.crank_inertia, own, along(self.crank_centre, own)),
+            Link(self.coupler_mass, self.coupler_inertia, phi, coupler),
+            Link(self.rocker_mass, self.rocker_inertia, psi, rocker),
         )
-
-
-def _along(distance: float, angle: Course) -> tuple[complex, complex, complex]:
-    """A point at a distance along a link from where that begins, and its derivatives."""
-    point = distance * cmath.exp(1j * angle.value)
-    return point, 1j * point * angle.rate, point * (1j * angle.curvature - angle.rate**2)
 
 
 def _solve(coupler: complex, rocker: complex, right: complex) -> tuple[float, float]:
@@ -83,25 +75,17 @@ def _solve(coupler: complex, rocker: complex, right: complex) -> tuple[float, fl
     return -(rocker.conjugate() * u).imag / determinant, -(coupler.conjugate() * u).imag / determinant
 
 
-#: As of `benchmarks.slider_crank`.
-SPEED, DAMPING, LENGTH, ROWS = 2 * math.pi, 0.1, 2.0, 400
-
-
 def curve() -> Iterator[tuple[float, ...]]:
     """Rows of the reference: the default run, with the columns that `main` names."""
     linkage = FourBar()
-    times = np.linspace(0.0, LENGTH, ROWS + 1)
-    motions = motion(linkage.links, lambda _theta, speed: DAMPING * (SPEED - speed), 0.0, SPEED, times.tolist())
-    for time, theta, speed in zip(times, *motions, strict=True):
+    for time, theta, speed in default_run(linkage.links):
         phi, psi = linkage.angles(theta)
         yield time, theta, phi.value, psi.value, speed, phi.rate * speed, psi.rate * speed
 
 
 def main() -> None:
     """Print the reference curve as CSV."""
-    print("time,crank_angle,coupler_angle,rocker_angle,crank_speed,coupler_speed,rocker_speed")
-    for row in curve():
-        print(",".join(f"{number:.15g}" for number in row))
+    print_curve("time,crank_angle,coupler_angle,rocker_angle,crank_speed,coupler_speed,rocker_speed", curve())
 
 
 if __name__ == "__main__":

@@ -15,6 +15,8 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from .curve_file import print_curve
+
 #: Time between two rows of the reference, and its end [s].
 STEP, STOP = 0.01, 1.0
 
@@ -67,9 +69,7 @@ def curve() -> Iterator[tuple[float, ...]]:
 
 def main() -> None:
     """Print the reference curve as CSV."""
-    print("time,pinion_angle,wheel_angle,pinion_speed,wheel_speed,mesh_force")
-    for row in curve():
-        print(",".join(f"{number:.15g}" for number in row))
+    print_curve("time,pinion_angle,wheel_angle,pinion_speed,wheel_speed,mesh_force", curve())
 
 
 if __name__ == "__main__":

@@ -19,6 +19,8 @@ from typing import NamedTuple
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from .curve_file import print_curve
+
 #: Of the reference curve: slots, turns of the driver per second, time between two rows [s].
 SLOTS, SPEED, STEP = 4, 2 * math.pi, 2.5e-3
 
@@ -131,9 +133,7 @@ def curve() -> Iterator[tuple[float, ...]]:
 
 def main() -> None:
     """Print the reference curve as CSV."""
-    print("time,driver_angle,wheel_angle,wheel_speed,wheel_acceleration")
-    for row in curve():
-        print(",".join(f"{number:.15g}" for number in row))
+    print_curve("time,driver_angle,wheel_angle,wheel_speed,wheel_acceleration", curve())
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.engine.outputs import read_outputs
 from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.engine.stepping.stepper import advance
+from mechanism_fmu.model.compile import compile_mechanism
 
 from .plain import OUTPUTS
 from .reference import FACE, State
@@ -36,7 +37,7 @@ class Instance:
     def __init__(self, time: float) -> None:
         model = models.load("ratchet").MODEL
         mechanism = model.build(model.values())
-        self.block: Array = pack(mechanism.compile())
+        self.block: Array = pack(compile_mechanism(mechanism))
         self.inputs: Array = field_of(self.block, "inputs")
         self._shown = [[port.name for port in mechanism.outputs].index(name) for name in OUTPUTS]
         _require_ok(begin(self.block, 0.0))

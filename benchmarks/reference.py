@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import OdeSolution, solve_ivp
 
+from .curve_file import print_curve
 from .ratchet import Parameters, Ratchet, Vector, build, rotation
 
 CRANK_ANGLE, PAWL_ANGLE, WHEEL_ANGLE = 2, 5, 8
@@ -209,11 +210,13 @@ def simulate(r: Ratchet, stop_time: float, rtol: float = 1e-9, atol: float = 1e-
 def main() -> None:
     """Print the reference curve of the base case: CSV, 0..6 s every 0.01 s."""
     trajectory = simulate(build(Parameters()), stop_time=6.0, rtol=1e-12, atol=1e-14)
-    print("time,wheel_angle,crank_angle,pawl_angle,wheel_speed,crank_speed,pawl_speed")
     angles = [WHEEL_ANGLE, CRANK_ANGLE, PAWL_ANGLE]
-    for k in range(601):
-        q, qd = trajectory.at(k / 100)
-        print(",".join(f"{number:.12g}" for number in (k / 100, *q[angles], *qd[angles])))
+    moments = ((time, *trajectory.at(time)) for time in (k / 100 for k in range(601)))
+    print_curve(
+        "time,wheel_angle,crank_angle,pawl_angle,wheel_speed,crank_speed,pawl_speed",
+        ((time, *q[angles], *qd[angles]) for time, q, qd in moments),
+        digits=12,
+    )
 
 
 if __name__ == "__main__":

@@ -9,14 +9,12 @@ Independent of the library. With the crank r, the rod l and the offset e, and th
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-import numpy as np
-
-from .eksergian import Course, Link, motion
+from .curve_file import print_curve
+from .eksergian import Course, Link, along, default_run
 
 
 class SliderCrank(NamedTuple):
@@ -54,42 +52,27 @@ class SliderCrank(NamedTuple):
     def links(self, theta: float) -> tuple[Link, Link, Link]:
         """Crank, rod and slider."""
         phi, x = self.rod_angle(theta), self.slider(theta)
-        outwards, along = cmath.exp(1j * theta), cmath.exp(1j * phi.value)
-        on_crank, pin, on_rod = self.crank_centre * outwards, self.crank * outwards, self.rod_centre * along
-        rod_centre = (
-            pin + on_rod,
-            1j * (pin + on_rod * phi.rate),
-            -pin + on_rod * (1j * phi.curvature - phi.rate**2),
-        )
+        own = Course(theta, 1.0, 0.0)
         return (
-            Link(self.crank_mass, self.crank_inertia, Course(theta, 1, 0), (on_crank, 1j * on_crank, -on_crank)),
-            Link(self.rod_mass, self.rod_inertia, phi, rod_centre),
+            Link(self.crank_mass, self.crank_inertia, own, along(self.crank_centre, own)),
+            Link(self.rod_mass, self.rod_inertia, phi, along(self.rod_centre, phi, along(self.crank, own))),
             Link(
                 self.slider_mass, 0.0, Course(0, 0, 0), (complex(x.value, self.offset), x.rate + 0j, x.curvature + 0j)
             ),
         )
 
 
-#: Of the reference curve: speed at the start and of the shaft's driven end [rad/s], damping of the shaft [N m s/rad],
-#: length [s] and number of rows.
-SPEED, DAMPING, LENGTH, ROWS = 2 * math.pi, 0.1, 2.0, 400
-
-
 def curve() -> Iterator[tuple[float, ...]]:
     """Rows of the reference: the default run, with the columns that `main` names."""
     linkage = SliderCrank()
-    times = np.linspace(0.0, LENGTH, ROWS + 1)
-    motions = motion(linkage.links, lambda _theta, speed: DAMPING * (SPEED - speed), 0.0, SPEED, times.tolist())
-    for time, theta, speed in zip(times, *motions, strict=True):
+    for time, theta, speed in default_run(linkage.links):
         phi, x = linkage.rod_angle(theta), linkage.slider(theta)
         yield time, theta, phi.value, x.value, speed, phi.rate * speed, x.rate * speed
 
 
 def main() -> None:
     """Print the reference curve as CSV."""
-    print("time,crank_angle,rod_angle,slider_position,crank_speed,rod_speed,slider_velocity")
-    for row in curve():
-        print(",".join(f"{number:.15g}" for number in row))
+    print_curve("time,crank_angle,rod_angle,slider_position,crank_speed,rod_speed,slider_velocity", curve())
 
 
 if __name__ == "__main__":

@@ -8,10 +8,18 @@ The harness knows a mechanism only through its FMU. In Python, start with `exper
 
 Where to find what:
 
-- an FMU: `description` (what it says about itself), `units` and `si`, `messages`, `fmu` (fmpy), `workspace`
+- an FMU: `description` (what it says about itself), `units` and `si`, `logic` (its modes), `drawing`, `messages`,
+  `fmu` (fmpy), `workspace`
 - simulation: `slave` (what can be simulated), `clock`, `inputs`, `master` (moves time), `observers` (look on):
-  `recorder`, `impacts`; `experiment` puts them together
-- meaning: `tooth_stress`, `checks` (verdicts), `paper` (its claims), `study` and `wheels`, `validate`
-- for people: `assignments` (name=value unit), `numbers`, `results` (files), `report`, `cli`, `commands`, `closing`,
+  `recorder`, `impacts`, `events` (`buffers`); `experiment` puts them together
+- several FMUs as one machine: `coupling`, `bonds` (the energy that a coupling makes)
+- meaning: `tooth_stress`, `checks` (verdicts), `paper` (its claims), `study` and `wheels`, `cycle` (indexing),
+  `validate`
+- for people: `assignments` (name=value unit), `numbers`, `results` (files), `report`, `cli`, `commands`, `ending`,
   `terminal`, `interrupt`
+
+The modules named in `__all__` are for users (docs/public-interface.md); import from them, e.g. `from harness.fmu import
+open_fmu`. They are not imported here, because `mechanism-fmu --help` must not wait for them.
 """
+
+__all__ = ["bonds", "clock", "coupling", "errors", "experiment", "fmu", "master", "recorder", "results", "slave"]

@@ -3,15 +3,33 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from build_fmu import build
+
+
+class _Group(TyperGroup):
+    """Commands whose --help comes at once.
+
+    When a command is named, the group's own --help was not given; typer imports pydantic (0.2 s) to find that None is
+    no Boolean, and does not when it is one.
+    """
+
+    def get_help_option(self, ctx: Any) -> Any:
+        """The option --help, False unless it is given."""
+        option = super().get_help_option(ctx)
+        if option is not None:
+            option.default = False
+        return option
+
 
 # Everything else is imported inside the commands: --help must not wait for pandas and fmpy.
 main = typer.Typer(
     name="mechanism-fmu",
+    cls=_Group,
     help="Build planar mechanisms with impacts as FMUs, run them, and see the stress that every impact leaves.",
     epilog="Start with: mechanism-fmu demo",
     no_args_is_help=True,
@@ -181,7 +199,9 @@ def validate(fmu: FmuPath) -> None:
         raise typer.Exit(validate_fmu(fmu))
 
 
-study = typer.Typer(help="Parameter studies with one FMU.", no_args_is_help=True, rich_markup_mode="markdown")
+study = typer.Typer(
+    cls=_Group, help="Parameter studies with one FMU.", no_args_is_help=True, rich_markup_mode="markdown"
+)
 main.add_typer(study, name="study")
 
 

@@ -33,6 +33,14 @@ def seconds(time: int) -> float:
     return time / SECOND
 
 
+def begin_and_size(begin: int, end: int) -> tuple[float, float]:
+    """A step from `begin` to `end` [ns] as FMUs are asked for it: where it begins, and its size [s].
+
+    The size is the difference of the two rounded instants, so that begin + size is where the next step begins.
+    """
+    return seconds(begin), seconds(end) - seconds(begin)
+
+
 @dataclass(frozen=True)
 class TimeGrid:
     """Equal communication steps from start to stop [ns]; the last one is shortened to end exactly at stop."""

@@ -9,7 +9,7 @@ from rich.markup import escape
 
 from .assignments import start_values
 from .checks import Check, all_passed
-from .closing import close_run
+from .ending import show_ending
 from .errors import FmuError, UsageError
 from .experiment import Experiment, Run, default_times, perform
 from .fmu import Fmu, open_fmu
@@ -27,7 +27,7 @@ _CYCLE_STEP = 5e-3
 def run_demo(folder: Path) -> int:
     """Build the ratchet, run the paper's base case, compare it with reference values, write everything."""
     prepare_folder(folder)
-    path = _built_ratchet(folder)
+    path = _built_ratchet(folder, f"run its base case for {_DEMO.stop_time:g} s")
     with open_fmu(path) as fmu:
         run = _performed(fmu, _DEMO)
     return _written(run, folder, base_case_checks(run.impacts))
@@ -38,7 +38,7 @@ def run_cycle(folder: Path) -> int:
     from . import cycle
 
     prepare_folder(folder)
-    path = _built_ratchet(folder)
+    path = _built_ratchet(folder, f"run it through four strokes in {cycle.STOP_TIME:g} s")
     drive = cycle.write_drive(folder / "drive.csv")
     experiment = Experiment(cycle.STOP_TIME, _CYCLE_STEP, cycle.VALUES, drive)
     with open_fmu(path) as fmu:
@@ -132,7 +132,7 @@ def run_study(folder: Path, path: Path | None) -> int:
     from .study import ratchet_study, write_study
 
     prepare_folder(folder)
-    path = _built_ratchet(folder) if path is None else path
+    path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
     with open_fmu(path) as fmu, console.status(f"Loading {path.name} ...") as status:
         study = ratchet_study(fmu, lambda number, of: status.update(f"{number} of {of} wheels"))
     rows = [
@@ -155,12 +155,14 @@ def run_study(folder: Path, path: Path | None) -> int:
     return 0 if all_passed(study.checks) else FAILED
 
 
-def _built_ratchet(folder: Path) -> Path:
-    """Build the ratchet into `folder`."""
+def _built_ratchet(folder: Path, purpose: str) -> Path:
+    """Build the ratchet into `folder`, after saying so and what for."""
     import build_fmu
 
+    path = folder / "Ratchet.fmu"
+    console.print(f"Building the paper's ratchet, {escape(str(path))}, to {purpose}.", soft_wrap=True)
     build_fmu.build("ratchet", folder)
-    return folder / "Ratchet.fmu"
+    return path
 
 
 def _performed(fmu: Fmu, experiment: Experiment) -> Run:
@@ -185,4 +187,4 @@ def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
     from .report.run_report import write_report
 
     files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]
-    return close_run(run, files, more_checks)
+    return show_ending(run, files, more_checks)

@@ -94,7 +94,7 @@ class Coupling:
     def step(self, time: float, size: float) -> None:
         """Exchange, then advance all parts from `time` by `size` [s]."""
         self._exchange()
-        self._go_on()
+        self._pass_slopes()
         for slave in self._slaves.values():
             slave.step(time, size)
 
@@ -120,7 +120,7 @@ class Coupling:
             self._set(inputs)
             known = inputs
 
-    def _go_on(self) -> None:
+    def _pass_slopes(self) -> None:
         """Let inputs with a rate go on at it during the next step."""
         links = [link for link in self._links if link.rate]
         rates = self.get([link.rate for link in links if link.rate])

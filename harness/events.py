@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 
 import pandas as pd
 
 from mechanism_fmu.statechart import Logic, taken
 
+from .buffers import Buffer
 from .description import Description, Value
 from .logic import LogicFile
-from .slave import Slave
+from .slave import Observable
 
-_BUFFERED = re.compile(r"events\[(\d+)\]\.(\w+)")
-_IN_STEP = "events_in_step"
 _COUNT = "event_count"
 _FIELDS = ("time", "guard", "subject", "old_mode", "new_mode", "impulse")
 
@@ -25,37 +23,27 @@ UNITS = {"time": "s", "guard": "1", "old_mode": "1", "new_mode": "1", "impulse":
 class EventCollector:
     """An observer that keeps the events in `events[1].time`, `events[1].guard`, ... after every step.
 
-    The number of them is read from `events_in_step`. An FMU without these variables has no events to tell.
-
     Attributes:
+        tells: whether the FMU has these variables; one without them has no events to tell.
         lost: events that did not fit into the buffer, when the FMU counts all in `event_count`.
     """
 
     def __init__(self, description: Description) -> None:
-        slots: dict[int, set[str]] = {}
-        for name in description.variables:
-            match = _BUFFERED.fullmatch(name)
-            if match is not None:
-                slots.setdefault(int(match[1]), set()).add(match[2])
-        whole = sorted(slot for slot, fields in slots.items() if fields >= set(_FIELDS))
-        self.tells = bool(whole) and _IN_STEP in description.variables
-        self._slots = [[f"events[{slot}].{field}" for field in _FIELDS] for slot in whole]
+        self._buffer = Buffer(description, "events", _FIELDS)
         self._counts = _COUNT in description.variables
         self._rows: list[list[Value]] = []
+        self.tells = bool(self._buffer.fields)
         self.lost = 0
 
-    def started(self, slave: Slave, time: float) -> None:
+    def started(self, unit: Observable, time: float) -> None:
         """No step, no event."""
 
-    def stepped(self, slave: Slave, time: float) -> None:
+    def stepped(self, unit: Observable, time: float) -> None:
         """Keep the events of the step that ends at `time`."""
-        if not self.tells:
-            return
-        count = int(slave.get((_IN_STEP,))[0])
-        for slot in self._slots[:count]:
-            self._rows.append(slave.get(slot))
-        if count and self._counts:
-            self.lost = int(slave.get((_COUNT,))[0]) - len(self._rows)
+        new = self._buffer.read(unit)
+        self._rows += new
+        if new and self._counts:
+            self.lost = int(unit.get((_COUNT,))[0]) - len(self._rows)
 
     def table(self, logic: LogicFile) -> pd.DataFrame:
         """One row for each event, in the order of time, in words: the columns of `UNITS`."""

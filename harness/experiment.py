@@ -26,7 +26,7 @@ from .master import Outcome, never, run_fixed_step
 from .messages import LogMessage
 from .observers import Observer
 from .recorder import Recorder, recorded_variables
-from .slave import Slave
+from .slave import Observable
 from .tooth_stress import STRESS_UNITS, tooth_of, with_stress
 
 
@@ -99,10 +99,10 @@ class _ParameterReader:
         self.names = [variable.name for variable in description.of("parameter", "calculatedParameter")]
         self.values: dict[str, Value] = {}
 
-    def started(self, slave: Slave, time: float) -> None:
-        self.values = dict(zip(self.names, slave.get(self.names), strict=True))
+    def started(self, unit: Observable, time: float) -> None:
+        self.values = dict(zip(self.names, unit.get(self.names), strict=True))
 
-    def stepped(self, slave: Slave, time: float) -> None:
+    def stepped(self, unit: Observable, time: float) -> None:
         pass
 
 

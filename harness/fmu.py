@@ -91,26 +91,26 @@ class FmuSlave:
         self._initialized = False
         self._fatal = False
         self._known_batches: dict[tuple[str, ...], list[tuple[str, list[int], list[int]]]] = {}
-        self._fmu = self._load(fmu.folder)
+        self._instance = self._load(fmu.folder)
         self._instantiate()
 
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name: one FMI call for each type."""
         given = list(values.values())
         for kind, references, places in self._batches(tuple(values)):
-            self._call(f"fmi2Set{kind}", getattr(self._fmu, f"set{kind}"), references, [given[i] for i in places])
+            self._call(f"fmi2Set{kind}", getattr(self._instance, f"set{kind}"), references, [given[i] for i in places])
 
     def set_slopes(self, slopes: Mapping[str, float]) -> None:
         """Let inputs change linearly in the next step, by so much in a second; for FMUs that take slopes."""
         references = [self.description.variable(name).reference for name in slopes]
         values, first = list(slopes.values()), [1] * len(slopes)
-        self._call("fmi2SetRealInputDerivatives", self._fmu.setRealInputDerivatives, references, first, values)
+        self._call("fmi2SetRealInputDerivatives", self._instance.setRealInputDerivatives, references, first, values)
 
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`: one FMI call for each type."""
         values: list[Value] = [0.0] * len(names)
         for kind, references, places in self._batches(tuple(names)):
-            numbers = self._call(f"fmi2Get{kind}", getattr(self._fmu, f"get{kind}"), references)
+            numbers = self._call(f"fmi2Get{kind}", getattr(self._instance, f"get{kind}"), references)
             for place, number in zip(places, map(_FROM_C[kind], numbers), strict=True):
                 values[place] = number
         return values
@@ -118,47 +118,47 @@ class FmuSlave:
     def initialize(self, start_time: float, stop_time: float) -> None:
         """Go through the initialization mode."""
         self._time = start_time
-        self._call("fmi2SetupExperiment", self._fmu.setupExperiment, None, start_time, stop_time)
-        self._call("fmi2EnterInitializationMode", self._fmu.enterInitializationMode)
-        self._call("fmi2ExitInitializationMode", self._fmu.exitInitializationMode)
+        self._call("fmi2SetupExperiment", self._instance.setupExperiment, None, start_time, stop_time)
+        self._call("fmi2EnterInitializationMode", self._instance.enterInitializationMode)
+        self._call("fmi2ExitInitializationMode", self._instance.exitInitializationMode)
         self._initialized = True
 
     def step(self, time: float, size: float) -> None:
         """Advance from `time` by `size` [s]."""
         self._time = time
-        self._call("fmi2DoStep", self._fmu.doStep, time, size)
+        self._call("fmi2DoStep", self._instance.doStep, time, size)
 
     def terminate(self) -> None:
         """End the run; a failed one cannot be terminated, only freed or reset."""
         if self._initialized:
             self._initialized = False
-            self._call("fmi2Terminate", self._fmu.terminate)
+            self._call("fmi2Terminate", self._instance.terminate)
 
     def reset(self) -> None:
         """Back to the state just after the instantiation."""
-        self._call("fmi2Reset", self._fmu.reset)
+        self._call("fmi2Reset", self._instance.reset)
         self._initialized = False
 
     def save(self) -> Any:
         """A snapshot of the whole state; give it back with `free_state`."""
-        return self._call("fmi2GetFMUstate", self._fmu.getFMUstate)
+        return self._call("fmi2GetFMUstate", self._instance.getFMUstate)
 
     def restore(self, state: Any) -> None:
         """Continue from a snapshot."""
-        self._call("fmi2SetFMUstate", self._fmu.setFMUstate, state)
+        self._call("fmi2SetFMUstate", self._instance.setFMUstate, state)
 
     def free_state(self, state: Any) -> None:
         """Release a snapshot."""
-        self._call("fmi2FreeFMUstate", self._fmu.freeFMUstate, state)
+        self._call("fmi2FreeFMUstate", self._instance.freeFMUstate, state)
 
     def serialize(self, state: Any) -> bytes:
         """A snapshot as bytes."""
-        data: bytes = self._call("fmi2SerializeFMUstate", self._fmu.serializeFMUstate, state)
+        data: bytes = self._call("fmi2SerializeFMUstate", self._instance.serializeFMUstate, state)
         return data
 
     def deserialize(self, data: bytes) -> Any:
         """A snapshot from bytes."""
-        return self._call("fmi2DeSerializeFMUstate", self._fmu.deSerializeFMUstate, data)
+        return self._call("fmi2DeSerializeFMUstate", self._instance.deSerializeFMUstate, data)
 
     def free(self) -> None:
         """Terminate if need be, free the instance and unload the library.
@@ -170,7 +170,7 @@ class FmuSlave:
             with suppress(FmuError):
                 self.terminate()
         if not self._fatal:
-            self._fmu.freeInstance()
+            self._instance.freeInstance()
 
     def _load(self, folder: Path) -> Any:
         working_folder = os.getcwd()
@@ -188,9 +188,9 @@ class FmuSlave:
 
     def _instantiate(self) -> None:
         try:
-            self._fmu.instantiate(visible=False, callbacks=self._callbacks(), loggingOn=True)
+            self._instance.instantiate(visible=False, callbacks=self._callbacks(), loggingOn=True)
         except Exception as error:  # fmpy raises a bare Exception when the FMU returns no instance
-            self._fmu.freeLibrary()
+            self._instance.freeLibrary()
             raise self._error("fmi2Instantiate", Status.ERROR, self.messages) from error
 
     def _callbacks(self) -> Any:

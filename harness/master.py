@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from .clock import TimeGrid, seconds
+from .clock import TimeGrid, begin_and_size, seconds
 from .description import Value
 from .errors import FmuError
 from .inputs import InputSignals
@@ -68,7 +68,7 @@ def run_fixed_step(
                 break
             if inputs is not None:
                 slave.set(inputs.at(seconds(begin)))
-            slave.step(seconds(begin), seconds(end) - seconds(begin))
+            slave.step(*begin_and_size(begin, end))
             reached, steps = end, steps + 1
             for observer in observers:
                 observer.stepped(slave, seconds(end))

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from .description import Description, Variable
-from .slave import Slave
+from .slave import Observable
 
 _DTYPES = {"Real": "float64", "Integer": "int64", "Boolean": "bool"}
 
@@ -30,14 +30,14 @@ class Recorder:
         self._names = tuple(variable.name for variable in variables)
         self._numbers = array("d")
 
-    def started(self, slave: Slave, time: float) -> None:
+    def started(self, unit: Observable, time: float) -> None:
         """Keep the initial values."""
-        self.stepped(slave, time)
+        self.stepped(unit, time)
 
-    def stepped(self, slave: Slave, time: float) -> None:
+    def stepped(self, unit: Observable, time: float) -> None:
         """Keep the values at the end of a step."""
         self._numbers.append(time)
-        self._numbers.extend(map(float, slave.get(self._names)))
+        self._numbers.extend(map(float, unit.get(self._names)))
 
     def table(self) -> pd.DataFrame:
         """One row for each communication point: `time` [s], then the variables by name, in their units."""

@@ -1,4 +1,4 @@
-"""What a master needs of a simulation unit: the smallest of interfaces, so that a test can fake it."""
+"""What a simulation unit is to those around it: the smallest of interfaces, so that a test can fake it."""
 
 from __future__ import annotations
 
@@ -8,30 +8,41 @@ from typing import Protocol
 from .description import Description, Value
 
 
-class Slave(Protocol):
-    """One instance of a co-simulation unit.
-
-    Every method raises `FmuError` when the unit refuses or fails.
-    """
+class Observable(Protocol):
+    """What an observer sees of a unit: it can be read, and nothing else."""
 
     @property
     def description(self) -> Description:
         """What the unit says about itself."""
 
-    def initialize(self, start_time: float, stop_time: float) -> None:
-        """Fix the parameters and find a consistent state at `start_time` [s]."""
+    def get(self, names: Sequence[str]) -> list[Value]:
+        """Values of variables, in the order of `names`."""
+
+
+class Slave(Observable, Protocol):
+    """One instance of a co-simulation unit, as a master sees it.
+
+    The calls come in this order, and `get` at any time:
+
+    1. `set`: start values of parameters and inputs
+    2. `initialize`
+    3. as often as there are steps: `set` and `set_slopes` (inputs), then `step`
+    4. `terminate`
+
+    Every method raises `FmuError` when the unit refuses or fails; the master then calls nothing more.
+    """
 
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name."""
 
+    def initialize(self, start_time: float, stop_time: float) -> None:
+        """Fix the parameters and find a consistent state at `start_time` [s]; no step will end behind `stop_time`."""
+
     def set_slopes(self, slopes: Mapping[str, float]) -> None:
         """Let inputs change linearly in the next step, by so much in a second; for units that take slopes."""
 
-    def get(self, names: Sequence[str]) -> list[Value]:
-        """Values of variables, in the order of `names`."""
-
     def step(self, time: float, size: float) -> None:
-        """Advance from communication point `time` by `size` [s]; a step that is not completed is an error."""
+        """Advance by `size` [s] from `time`, where the last step ended; a step that is not completed is an error."""
 
     def terminate(self) -> None:
         """End the simulation run."""

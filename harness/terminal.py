@@ -16,7 +16,7 @@ from rich.table import Table
 from .checks import Check
 from .errors import HarnessError, UsageError
 from .messages import LogMessage, Status
-from .slave import Slave
+from .slave import Observable
 
 #: Exit codes of the command line; Ctrl-C has the shell's own.
 FAILED, USAGE, INTERRUPTED = 1, 2, 130
@@ -90,7 +90,6 @@ class RunDisplay:
     """An observer that says what is going on: a spinner until the first step, a bar when the steps take long."""
 
     def __init__(self, stop_time: float, loading: str, now: Callable[[], float] = clock.monotonic) -> None:
-        self._stop_time = stop_time
         self._now = now
         self._began = now()
         self._spinner = console.status(loading)
@@ -107,12 +106,12 @@ class RunDisplay:
         self._spinner.stop()
         self._bar.stop()
 
-    def started(self, slave: Slave, time: float) -> None:
+    def started(self, unit: Observable, time: float) -> None:
         """The FMU is ready."""
         self._spinner.stop()
         self._began = self._now()
 
-    def stepped(self, slave: Slave, time: float) -> None:
+    def stepped(self, unit: Observable, time: float) -> None:
         """Move the bar."""
         if not self.bar_shown:
             if self._now() - self._began < _PATIENCE:

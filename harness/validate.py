@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 import fmpy.validation
 
 from .checks import Check
-from .clock import TimeGrid, seconds
+from .clock import TimeGrid, begin_and_size, seconds
 from .description import Description, Value
 from .errors import FmuError, HarnessError
 from .fmu import Fmu, FmuSlave
@@ -104,7 +104,7 @@ class _Conformance:
     def _through(self, slave: FmuSlave, steps: Sequence[tuple[int, int]]) -> Trajectory:
         trajectory = []
         for begin, end in steps:
-            slave.step(seconds(begin), seconds(end) - seconds(begin))
+            slave.step(*begin_and_size(begin, end))
             values = slave.get(self._outputs)
             for name, value in zip(self._outputs, values, strict=True):
                 if isinstance(value, float) and not math.isfinite(value):

@@ -1,7 +1,12 @@
 """Planar mechanisms with exact impacts, packaged as FMUs.
 
-Rooms: `model` (what a mechanism is), `engine` (how it moves), `fmu` (the plug), `stress` (what an impact means).
-The machine around an FMU lives in the package `harness`, ready-made mechanisms in `models`.
+Rooms: `model` (what a mechanism is), `engine` (how it moves), `simulation` (both together, in Python), `kinematics`
+(what is known without forces), `fmu` (the plug), `statechart` (modes and transitions as data), `stress` (what an impact
+means). The machine around an FMU lives in the package `harness`, ready-made mechanisms in `models`. What of all this is
+for users: docs/public-interface.md.
 """
 
+__all__ = ["__version__"]
+
+#: Version of the library, which every FMU tells as its own.
 __version__ = "0.1.0"

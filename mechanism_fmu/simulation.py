@@ -13,9 +13,11 @@ from .engine import status
 from .engine.block.layout import field_of, state_of
 from .engine.block.pack import pack
 from .engine.run import engine_for
-from .model import Mechanism, MechanismError
+from .model import Mechanism, MechanismError, compile_mechanism
 from .model.contacts import too_deep
 from .model.event_names import event_name
+
+__all__ = ["Event", "Impact", "Simulation", "SimulationError"]
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -76,7 +78,7 @@ class Simulation:
 
     def __init__(self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float] | None = None) -> None:
         self._mechanism = mechanism
-        self._block = pack(mechanism.compile())
+        self._block = pack(compile_mechanism(mechanism))
         self._engine = engine_for(self._block)
         self._input_names = [port.name for port in mechanism.inputs]
         self._output_names = [o.name for o in mechanism.outputs] + [c.name for c in mechanism.calculated]
@@ -137,11 +139,19 @@ class Simulation:
         return self.outputs
 
     def set_input(self, name: str, value: float) -> None:
-        """Set an input from now on (SI units)."""
+        """Set an input from now on (SI units).
+
+        Raises:
+            ValueError: there is no such input.
+        """
         self.inputs[self._input_names.index(name)] = value
 
     def set_slope(self, name: str, slope: float) -> None:
-        """Let an input change by `slope` (its SI unit per second) during the next communication step, and hold then."""
+        """Let an input change by `slope` (its SI unit per second) during the next communication step, and hold then.
+
+        Raises:
+            ValueError: there is no such input.
+        """
         self.field("input_slopes")[self._input_names.index(name)] = slope
 
     def read_rates(self) -> dict[str, float]:

@@ -8,6 +8,8 @@ from types import ModuleType
 
 from mechanism_fmu.model import MechanismError
 
+__all__ = ["available", "load"]
+
 
 def available() -> dict[str, Path]:
     """Folders of all models, by name."""

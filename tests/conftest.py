@@ -1,5 +1,7 @@
 import os
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from hypothesis import settings
@@ -18,73 +20,17 @@ for _name in ("FORCE_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "T
     os.environ.pop(_name, None)
 
 
-@pytest.fixture(scope="session")
-def ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built Ratchet.fmu."""
-    return build_fmu(models.load("ratchet"), tmp_path_factory.mktemp("fmu"))
+def _built(name: str, folder: str, build: Callable[[ModuleType, Path], Path]) -> object:
+    """A session fixture: the path of a model's freshly built FMU."""
+
+    @pytest.fixture(scope="session")
+    def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+        return build(models.load(name), tmp_path_factory.mktemp(folder))
+
+    return path
 
 
-@pytest.fixture(scope="session")
-def geneva_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built Geneva.fmu."""
-    return build_fmu(models.load("geneva"), tmp_path_factory.mktemp("fmu"))
-
-
-@pytest.fixture(scope="session")
-def slider_crank_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built SliderCrank.fmu."""
-    return build_fmu(models.load("slider_crank"), tmp_path_factory.mktemp("fmu"))
-
-
-@pytest.fixture(scope="session")
-def four_bar_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built FourBar.fmu."""
-    return build_fmu(models.load("four_bar"), tmp_path_factory.mktemp("fmu"))
-
-
-@pytest.fixture(scope="session")
-def gear_train_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built GearTrain.fmu."""
-    return build_fmu(models.load("gear_train"), tmp_path_factory.mktemp("fmu"))
-
-
-@pytest.fixture(scope="session")
-def cam_drive_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built CamDrive.fmu."""
-    return build_fmu(models.load("cam_drive"), tmp_path_factory.mktemp("fmu"))
-
-
-@pytest.fixture(scope="session")
-def native_ratchet_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built native Ratchet.fmu."""
-    return build_native_fmu(models.load("ratchet"), tmp_path_factory.mktemp("native"))
-
-
-@pytest.fixture(scope="session")
-def native_geneva_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built native Geneva.fmu."""
-    return build_native_fmu(models.load("geneva"), tmp_path_factory.mktemp("native"))
-
-
-@pytest.fixture(scope="session")
-def native_slider_crank_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built native SliderCrank.fmu."""
-    return build_native_fmu(models.load("slider_crank"), tmp_path_factory.mktemp("native"))
-
-
-@pytest.fixture(scope="session")
-def native_four_bar_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built native FourBar.fmu."""
-    return build_native_fmu(models.load("four_bar"), tmp_path_factory.mktemp("native"))
-
-
-@pytest.fixture(scope="session")
-def native_gear_train_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built native GearTrain.fmu."""
-    return build_native_fmu(models.load("gear_train"), tmp_path_factory.mktemp("native"))
-
-
-@pytest.fixture(scope="session")
-def native_cam_drive_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Path of a freshly built native CamDrive.fmu."""
-    return build_native_fmu(models.load("cam_drive"), tmp_path_factory.mktemp("native"))
+# Of each model two fixtures: ratchet_fmu, native_ratchet_fmu, geneva_fmu, ...
+for _model in models.available():
+    globals()[f"{_model}_fmu"] = _built(_model, "fmu", build_fmu)
+    globals()[f"native_{_model}_fmu"] = _built(_model, "native", build_native_fmu)

@@ -17,6 +17,7 @@ from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.engine.dynamics.inputs import feed
 from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.engine.stepping.stepper import advance, state_at_time
+from mechanism_fmu.model.compile import compile_mechanism
 
 from ..timing import Comparison, DisagreementError, batch, in_turns, require_agreement
 from .library import STEP, Limit, build
@@ -45,7 +46,7 @@ class Engine:
 
     def __init__(self) -> None:
         model = models.load("ratchet").MODEL
-        self.block: Array = pack(model.build(model.values()).compile())
+        self.block: Array = pack(compile_mechanism(model.build(model.values())))
         _require_ok(begin(self.block, 0.0) or advance(self.block, 0.0))
         self._unknowns = np.zeros(field_of(self.block, "y_end").size)
 

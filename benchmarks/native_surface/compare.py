@@ -15,6 +15,7 @@ from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.engine.run import library_path
 from mechanism_fmu.fmu.native.libraries import engine_libraries
 from mechanism_fmu.fmu.native.package import build_native_fmu
+from mechanism_fmu.model.compile import compile_mechanism
 
 from ..c_limit.library import NoCompilerError
 from ..timing import Comparison
@@ -41,7 +42,7 @@ def compare(folder: Path, rounds: int) -> list[Comparison]:
     with zipfile.ZipFile(build_native_fmu(models.load("ratchet"), folder / "native")) as fmu:
         fmu.extractall(folder / "native")
     description = fmpy.read_model_description(str(folder / "native"))
-    block = pack(model.build(model.values()).compile())
+    block = pack(compile_mechanism(model.build(model.values())))
     (folder / "block").write_bytes(block.tobytes())
     library.write_bytes(engine_libraries()[library.name])
     host = folder / "host"

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from models.svg import DIMENSION, HALO, INK, Point, View, polar
+from models.svg import DIMENSION, HALO, INK, Point, View, polar, sheet
 
 BODY_I, BODY_J = "#c9d2dc", "#e9c46a"
 EDGE = f'stroke="{INK}" stroke-width="1.6"'
@@ -124,3 +124,13 @@ def quarter(a: Point) -> Point:
 def along(start: Point, end: Point, part: float) -> Point:
     """The point at a part of the way."""
     return add(start, scale(minus(end, start), part))
+
+
+def joint_sketch() -> Sketch:
+    """The view of the drawing of a joint."""
+    return Sketch((40, 300), 100)
+
+
+def joint_sheet(title: str, parts: Sequence[str]) -> str:
+    """The SVG text of the drawing of a joint."""
+    return sheet(520, 340, title, parts)

@@ -26,7 +26,11 @@ def _in_order(pin: str) -> str:
 
 
 def licence_text(distribution: str) -> str:
-    """Text of the licence of an installed distribution, or of this project."""
+    """Text of the licence of an installed distribution, or of this project.
+
+    Raises:
+        FileNotFoundError: the distribution was installed without its licence.
+    """
     if distribution == "mechanism_fmu" and _PROJECT.is_file():
         return (_CHECKOUT / "LICENSE").read_text(encoding="utf-8")
     text = metadata.distribution(distribution).read_text("licenses/LICENSE")

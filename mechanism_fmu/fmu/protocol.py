@@ -45,7 +45,7 @@ class Experiment:
 
 
 def experiment(start_time: float, stop_time: float | None, tolerance: float | None) -> Experiment:
-    """The experiment for the arguments of fmi2SetupExperiment, None where undefined.
+    """The experiment for the arguments of fmi2SetupExperiment: times [s], relative tolerance; None where undefined.
 
     Raises:
         FmiError: an argument that cannot be.

@@ -18,7 +18,7 @@ from .. import __version__
 from ..engine.block.layout import FIELDS, sizes_of
 from ..engine.block.pack import pack
 from ..engine.run import compiled_library
-from ..model import MechanismError, Model
+from ..model import MechanismError, Model, compile_mechanism
 from ..model.model import check_value
 from ..simulation import Simulation, SimulationError
 from . import saved_state
@@ -63,7 +63,7 @@ class MechanismSlave(Fmi2Slave):
 
     @fmi_call
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
-        """fmi2SetupExperiment: the tighter of the host's tolerance and `relative_tolerance` will be used."""
+        """fmi2SetupExperiment, times in s; of its tolerance and `relative_tolerance`, the tighter will be used."""
         require(self._phase, (Phase.INSTANTIATED,), "fmi2SetupExperiment")
         self._experiment = experiment(start_time, stop_time, tolerance)
         self._forget_simulation()
@@ -89,7 +89,7 @@ class MechanismSlave(Fmi2Slave):
 
     @fmi_call
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """fmi2DoStep."""
+        """fmi2DoStep from `current_time` [s] over `step_size` [s]."""
         require(self._phase, (Phase.STEPPING,), "fmi2DoStep")
         simulation = self._prepared()
         stop_time = math.inf if self._experiment is None else self._experiment.stop_time
@@ -307,7 +307,7 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
         import numba  # noqa: F401  (to be missed here, where the start says what to install, and not in a run)
     variables = variables_of(model)
     # In an FMU the package's name holds the hash of all sources: a state is for the very same ones.
-    sizes = sizes_of(pack(model.build(model.values()).compile()))
+    sizes = sizes_of(pack(compile_mechanism(model.build(model.values()))))
     parts = [__name__, __version__, model.name, *(v.name for v in variables), *map(repr, FIELDS), repr(sizes)]
     members = {
         "model": model,

@@ -22,7 +22,10 @@ _MOVES = 1e-6
 
 
 def rows_around(equations: Equations, q: FloatArray, time: float) -> list[FloatArray]:
-    """Balanced Phi_q in configurations a little away from q that joints and contacts allow, whatever drivers say."""
+    """Balanced Phi_q in configurations a little away from q that joints and contacts allow, whatever drivers say.
+
+    Each is of shape (rows, coordinates); q has shape (coordinates,), `time` is in s.
+    """
     free = free_directions(equations.balanced(equations.at(q, time).jacobian)[~equations.driving])
     found = []
     for direction in _directions(free.shape[1]):
@@ -47,7 +50,10 @@ def _go(equations: Equations, q: FloatArray, time: float, way: FloatArray) -> tu
 
 
 def moving(equations: Equations, configurations: Sequence[FloatArray]) -> tuple[str, ...]:
-    """Names of the coordinates that can move in one of the configurations, given by their balanced Phi_q."""
+    """Names of the coordinates that can move in one of the configurations.
+
+    Each is given by its balanced Phi_q, of shape (rows, coordinates).
+    """
     moves = np.zeros(len(equations.coordinates), dtype=bool)
     for rows in configurations:
         moves |= np.abs(free_directions(rows)).max(axis=1, initial=0.0) > _MOVES

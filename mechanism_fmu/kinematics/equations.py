@@ -12,7 +12,7 @@ from ..engine.block.pack import pack
 from ..engine.constraints.textbook import textbook_rows
 from ..engine.starting.assembly import CLOSED_WITHIN
 from ..engine.starting.begin import assemble_at
-from ..model import Contact, Mechanism
+from ..model import Contact, Mechanism, compile_mechanism
 from ..model.joints import Joint
 from .errors import KinematicsError
 
@@ -29,7 +29,7 @@ class Rows(NamedTuple):
 
 
 class Equations:
-    """The rows of all joints and closed contacts, by the engine (`mechanism_fmu.engine.textbook`).
+    """The rows of all joints and closed contacts, by the engine (`mechanism_fmu.engine.constraints.textbook`).
 
     Args:
         mechanism: its start guess is where assembly begins.
@@ -50,7 +50,7 @@ class Equations:
     """
 
     def __init__(self, mechanism: Mechanism, time: float) -> None:
-        tables = mechanism.compile()
+        tables = compile_mechanism(mechanism)
         self._block = pack(tables)
         self._bodies = 3 * len(mechanism.bodies)
         names = [f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle")]
@@ -99,7 +99,7 @@ class Equations:
         return float(levers.max(initial=0.0)) or 1.0
 
     def balanced(self, jacobian: FloatArray) -> FloatArray:
-        """Phi_q with angles measured as lengths on the longest lever arm, and every row of length 1.
+        """Phi_q, of shape (rows, coordinates), with angles as lengths on the longest lever arm, and rows of length 1.
 
         So neither the size of the mechanism nor the units of its rows have a say in how near to each other they are.
         """
@@ -109,12 +109,12 @@ class Equations:
         return balanced
 
     def as_lengths(self, step: FloatArray) -> FloatArray:
-        """A change of the coordinates with angles measured as `balanced` does [m]."""
+        """A change of the coordinates, shape (coordinates,), with angles measured as `balanced` does [m]."""
         lengths: FloatArray = step / self._columns
         return lengths
 
     def from_lengths(self, step: FloatArray) -> FloatArray:
-        """The reverse of `as_lengths`."""
+        """A change of the coordinates [m, rad] from what `as_lengths` made of it, shape (coordinates,)."""
         change: FloatArray = step * self._columns
         return change
 

@@ -9,7 +9,7 @@ from .rank import FloatArray
 
 
 def piece_values(piece: Piece, places: FloatArray) -> FloatArray:
-    """Rho and its first two derivatives on a piece at `places`, shape (3, places)."""
+    """Rho [m] and its first two derivatives on a piece at `places` [rad]: from shape (places,) to (3, places)."""
     xi = places - float(piece.start)
     values = np.zeros((3, len(xi)))
     for term in piece.terms:
@@ -22,7 +22,7 @@ def piece_values(piece: Piece, places: FloatArray) -> FloatArray:
 
 
 def curve_values(curve: Curve, places: FloatArray) -> FloatArray:
-    """Value and first two derivatives of a curve at `places`, shape (3, places)."""
+    """Value and first two derivatives of a curve at `places`: from shape (places,) to (3, places)."""
     if curve.periodic:
         places = float(curve.start) + (places - float(curve.start)) % float(curve.span)
     starts = np.array([float(piece.start) for piece in curve.pieces])
@@ -34,7 +34,11 @@ def curve_values(curve: Curve, places: FloatArray) -> FloatArray:
 
 
 def curvature(values: FloatArray) -> FloatArray:
-    """Curvature of a profile [1/m] from rho, rho', rho'': positive where it bends as a circle about its centre does."""
+    """Curvature of a profile [1/m]: positive where it bends as a circle about its centre does.
+
+    Args:
+        values: rho, rho' and rho'' [m], shape (3, places).
+    """
     rho, rate, bend = values
     result: FloatArray = (rho * rho + 2 * rate * rate - rho * bend) / (rho * rho + rate * rate) ** 1.5
     return result

@@ -90,7 +90,7 @@ class ProfileReport:
         return found
 
     def undercut(self, roller_radius: float) -> bool:
-        """Whether a cam cut with such a roller, this profile being the path of its centre, is undercut."""
+        """Whether a cam cut with such a roller [m], this profile being the path of its centre, is undercut."""
         return roller_radius >= self.tip_radius
 
 

@@ -13,7 +13,7 @@ _STEPS = 40
 
 
 def close(equations: Equations, q: FloatArray, time: float) -> tuple[FloatArray, float]:
-    """Coordinates near q that close all rows at `time` [s], and what is left open."""
+    """Coordinates near q that close all rows at `time` [s], shape (coordinates,), and the largest row left open."""
 
     def rows_at(q: FloatArray) -> tuple[FloatArray, FloatArray]:
         rows = equations.at(q, time)
@@ -25,8 +25,8 @@ def close(equations: Equations, q: FloatArray, time: float) -> tuple[FloatArray,
 def newton(rows_at: Callable[[FloatArray], tuple[FloatArray, FloatArray]], q: FloatArray) -> tuple[FloatArray, float]:
     """Where the rows vanish near q, by steps of least length, and the largest magnitude that is left of them.
 
-    `rows_at` gives them and their derivatives. After they are closed one more step is taken: it takes away what
-    rounding allows.
+    `rows_at` gives them, shape (rows,), and their derivatives, shape (rows, coordinates). After they are closed one
+    more step is taken: it takes away what rounding allows.
     """
     best, least = q, np.inf
     for _ in range(_STEPS):

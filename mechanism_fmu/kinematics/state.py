@@ -37,7 +37,7 @@ def least_singular_value(rows: FloatArray) -> float:
 
 
 def state_at(equations: Equations, q: FloatArray, time: float) -> State:
-    """The state in a position q that closes the rows.
+    """The state at `time` [s] in a position q, shape (coordinates,), that closes the rows.
 
     Raises:
         KinematicsError: something is free, drivers contradict each other, or one is at the end of its range.

@@ -1,8 +1,13 @@
-"""What a mechanism is: frozen records with SI units, and no numerics."""
+"""What a mechanism is: frozen records with SI units, and no numerics.
+
+Here are all parts, curves, ports and their builders, the `Mechanism` that holds them, the `Model` that makes it from
+parameters, and `compile_mechanism`, which checks it and writes the tables that the engine reads. Beside them, for a
+model's formulas, objections and state charts: `functions`, `findings`, `transitions`.
+"""
 
 from ..codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH
 from .body import GROUND, Body
-from .compile import MechanismTables
+from .compile import MechanismTables, compile_mechanism
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
 from .curves import Curve, Piece, Term, constant, cosine, sine
 from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
@@ -32,40 +37,41 @@ from .model import Model
 from .motion_laws import Law, Move, cycloidal, dwell, modified_sine, polynomial_345
 from .motions import harmonic_motion, polynomial_motion, table_motion
 from .patterns import CircularPattern
-from .port_builders.impacts import event_buffer_outputs, impact_buffer_outputs, impact_outputs, last_impact_outputs
-from .port_builders.inputs import load_torque_input, shaft_inputs, torque_input
-from .port_builders.outputs import (
+from .port_builders import (
     active_output,
     angle_output,
+    angle_parameter,
     body_angle_output,
-    body_speed_output,
-    energy_outputs,
-    flag_output,
-    force_output,
-    shaft_torque_output,
-    speed_output,
-    torque_output,
-    whole_output,
-)
-from .port_builders.part_parameters import (
     body_parameters,
+    body_speed_output,
     damping_parameter,
+    energy_outputs,
+    event_buffer_outputs,
+    flag_output,
+    flag_parameter,
+    force_output,
+    fraction_parameter,
+    impact_buffer_outputs,
+    impact_outputs,
+    inertia_parameter,
     joint_friction_parameter,
+    last_impact_outputs,
+    length_parameter,
     link_parameters,
+    load_torque_input,
+    mass_parameter,
     rotor_parameters,
     settings_parameters,
+    shaft_inputs,
     shaft_parameters,
-)
-from .port_builders.quantity_parameters import (
-    angle_parameter,
-    flag_parameter,
-    fraction_parameter,
-    inertia_parameter,
-    length_parameter,
-    mass_parameter,
+    shaft_torque_output,
+    speed_output,
     speed_parameter,
     stiffness_parameter,
+    torque_input,
+    torque_output,
     torque_parameter,
+    whole_output,
 )
 from .ports import Calculated, Input, Output, Parameter
 from .profiles import circle, harmonic_profile, motion_profile, piecewise_profile, slot, spline_profile
@@ -129,6 +135,7 @@ __all__ = [
     "body_parameters",
     "body_speed_output",
     "circle",
+    "compile_mechanism",
     "constant",
     "cosine",
     "cycloidal",

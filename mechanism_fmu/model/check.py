@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .. import codes
 from .body import GROUND
 from .check_contacts import check_contacts
 from .check_numbers import number_findings
-from .compile import curve_owners
 from .curves import Curve
 from .errors import MechanismError
 from .findings import messages
+from .mechanism import Mechanism, curve_owners
 from .ports import Calculated, Input, Output
 from .sources import resolve_output
-
-if TYPE_CHECKING:
-    from .mechanism import Mechanism
 
 
 def check(mechanism: Mechanism) -> None:

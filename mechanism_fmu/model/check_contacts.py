@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from .contacts import Contact, PointLineContact
 from .errors import MechanismError
 from .logic import resolve_function, switch
-
-if TYPE_CHECKING:
-    from .mechanism import Mechanism
+from .mechanism import Mechanism
 
 #: Most contacts of a mechanism: their modes are written as one number.
 MOST_CONTACTS = 50

@@ -8,12 +8,14 @@ from itertools import pairwise
 from .conditions import finite, not_negative, plain, positive, size
 from .curves import Curve, Piece
 from .findings import Finding, literal, refuse_unless
-from .functions import Number, cos, sin, where_positive
+from .functions import Number, cos, is_plain, sin, where_positive
 
 #: Rounding is allowed this much, of 1 and the value at a join, or of the period.
 _ROUNDING = 1e-9
 #: And this much, of 1 and the slope at a join.
 _SLOPE_ROUNDING = 1e-7
+#: Between its ends, a piece is looked at in so many places.
+_PLACES = 16
 
 
 def curve_findings(owner: str, curve: Curve) -> Iterator[Finding]:
@@ -31,6 +33,32 @@ def curve_findings(owner: str, curve: Curve) -> Iterator[Finding]:
         yield refuse_unless(positive(curve.span), text, curve.span)
         if curve.pieces:
             yield from _closing(label, curve)
+
+
+def least_value(curve: Curve) -> Number:
+    """The least value that a motion is known to take: on pieces with an end, at sampled places.
+
+    Of a last piece without an end, at its start, and everywhere when it is a constant and one harmonic.
+    """
+    bounds = [plain(piece.start) for piece in curve.pieces]
+    if curve.periodic:
+        bounds.append(plain(curve.start) + plain(curve.span))
+    values = [
+        _value_and_slope(piece, start + (end - start) * (k / _PLACES))[0]
+        for piece, (start, end) in zip(curve.pieces, pairwise(bounds), strict=False)
+        for k in range(_PLACES)
+    ]
+    last = curve.pieces[-1]
+    begin = _value_and_slope(last, last.start)[0]
+    values.append(begin)
+    swinging = [term for term in last.terms if not (is_plain(term.amplitude) and term.amplitude == 0.0)]
+    if not curve.periodic and len(swinging) == 1 and all(len(term.polynomial) <= 1 for term in last.terms):
+        mean = sum((plain(term.polynomial[0]) for term in last.terms if term.polynomial), 0.0)
+        values.append(where_positive(size(swinging[0].frequency), mean - size(swinging[0].amplitude), begin))
+    least = values[0]
+    for value in values[1:]:
+        least = where_positive(least - value, value, least)
+    return least
 
 
 def _closing(label: str, curve: Curve) -> Iterator[Finding]:

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .body import Point
-from .conditions import finite_positive, length, plain
+from .check_curves import least_value
+from .conditions import finite_positive, length, plain, positive
 from .contacts import Contact
 from .findings import Finding, literal, refuse_unless
 from .functions import Number
 from .joints import (
     CamFlatFollower,
     Distance,
+    DistanceDriver,
     Gears,
     InternalGears,
     Joint,
@@ -32,6 +34,13 @@ def joint_findings(joint: Joint) -> Iterator[Finding]:
         yield _axis(f"{label}: axis_i", joint.axis_i)
     elif isinstance(joint, Distance):
         yield _size(f"{label}: distance", joint.distance)
+    elif isinstance(joint, DistanceDriver) and joint.motion.pieces:
+        least = least_value(joint.motion)
+        text = (
+            f"{label}: its motion comes to a distance of {{:.6g}} m, but it must stay above 0: where the two points "
+            "meet, nothing says in which direction they part. Give another motion."
+        )
+        yield refuse_unless(positive(least), text, least)
     elif isinstance(joint, RackAndPinion):
         yield _size(f"{label}: radius_j", joint.radius_j)
     elif isinstance(joint, (Gears, InternalGears)):

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from .body import Body
 from .check_contact_numbers import contact_findings, pattern_findings
 from .check_curves import curve_findings
 from .check_joint_numbers import joint_findings, pair_findings
-from .compile import curve_owners
 from .conditions import (
     finite,
     finite_not_negative,
@@ -19,9 +17,7 @@ from .conditions import (
 )
 from .findings import Finding, literal, refuse_unless
 from .forces import CompliantShaft, Damper, ForceElement, TorsionSpring
-
-if TYPE_CHECKING:
-    from .mechanism import Mechanism, Settings
+from .mechanism import Mechanism, Settings, curve_owners
 
 
 def number_findings(mechanism: Mechanism) -> Iterator[Finding]:

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import codes
 from .body import GROUND
+from .check import check
 from .curves import Curve
 from .functions import Number, is_plain, sqrt
 from .logic import resolve_function, switch
+from .mechanism import Mechanism, curve_owners
 from .sources import output_factor, resolve_output
 
-if TYPE_CHECKING:
-    from .mechanism import Mechanism
-
-#: Width of `joint_data`, `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
+#: Widths of `joint_data`, of `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
 JOINT_COLUMNS = 9
 FORCE_COLUMNS = 4
-LINE_COLUMNS = 6
+CONTACT_COLUMNS = 6
 
 #: A one- or two-dimensional table of numbers; of dtype object when the numbers are symbolic.
 Table = np.ndarray[Any, np.dtype[Any]]
@@ -94,8 +93,18 @@ class MechanismTables:
     settings: Table
 
 
+def compile_mechanism(mechanism: Mechanism) -> MechanismTables:
+    """Check a mechanism whose values are plain numbers, and write it as tables.
+
+    Raises:
+        MechanismError: a part cannot be right; the message names it and the way out.
+    """
+    check(mechanism)
+    return compile_tables(mechanism)
+
+
 def compile_tables(mechanism: Mechanism) -> MechanismTables:
-    """Write a mechanism as tables (no checks: see `check`). Numbers may be symbolic."""
+    """Write a mechanism as tables, unchecked: what cannot be right is refused by `check`. Numbers may be symbolic."""
     bodies = {body.name: i for i, body in enumerate(mechanism.bodies)} | {GROUND: len(mechanism.bodies)}
     forces = {force.name: i for i, force in enumerate(mechanism.forces)}
     contacts = mechanism.contacts
@@ -138,7 +147,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         contact_pattern=_integers([codes.NONE if c.pattern is None else patterns[c.pattern] for c in contacts]),
         contact_function=_integers([codes.NONE if f is None else functions[f] for f, _ in switches]),
         contact_closes_when=_integers([int(value) for _, value in switches]),
-        contact_data=_rows([c.data() for c in contacts], LINE_COLUMNS),
+        contact_data=_rows([c.data() for c in contacts], CONTACT_COLUMNS),
         contact_row_first=_integers(list(first_contact_rows[:-1])),
         contact_rows=int(first_contact_rows[-1]),
         contact_alpha=_integers(
@@ -153,7 +162,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         ),
         pattern_body_i=_integers([bodies[p.body_i] for p in mechanism.patterns]),
         pattern_body_j=_integers([bodies[p.body_j] for p in mechanism.patterns]),
-        pattern_data=_rows([p.data() for p in mechanism.patterns], LINE_COLUMNS),
+        pattern_data=_rows([p.data() for p in mechanism.patterns], CONTACT_COLUMNS),
         pattern_pitch=_numbers([p.pitch for p in mechanism.patterns]),
         pattern_enabled=_numbers([p.enabled for p in mechanism.patterns]),
         function_kind=_integers([kind for kind, _ in watched]),
@@ -185,13 +194,6 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             ]
         ),
     )
-
-
-def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:
-    """The motions of drivers, then the profiles of contacts, as the tables number them, each with its part's name."""
-    motions = [(joint.name, joint.motion) for joint in mechanism.joints]
-    profiles = [(contact.name, profile) for contact in mechanism.contacts for profile in contact.profiles]
-    return [(name, curve) for name, curve in (*motions, *profiles) if curve is not None]
 
 
 def _number_of(curve: Curve | None, curves: list[Curve]) -> int:

@@ -27,13 +27,6 @@ def both(a: Number, b: Number) -> Number:
     return where_positive(a, b, 0.0)
 
 
-def any_of(a: Number, b: Number) -> Number:
-    """Where `a` or `b` holds."""
-    if is_plain(b):
-        a, b = b, a
-    return where_positive(a, 1.0, b)
-
-
 def finite(*numbers: Number) -> Number:
     """Where all numbers are finite; parameters with known limits are."""
     known = [float(x) for x in numbers if is_plain(x)]
@@ -95,8 +88,8 @@ def length(vector: tuple[Number, Number]) -> Number:
 
 
 def size(x: Number) -> Number:
-    """|x|."""
-    return where_positive(plain(x), plain(x), -plain(x))
+    """|x|; never a negative zero, which a message would show."""
+    return where_positive(-plain(x), -plain(x), plain(x))
 
 
 def _limits(x: Number) -> Number:

@@ -1,4 +1,12 @@
-"""Contacts: one-sided constraints that open and close."""
+"""Contacts: one-sided constraints that open and close.
+
+Here stands how near two bodies are to each other (the gap and what it takes to compute it), and the numbers that the
+impact law and friction need; the law itself is one for all contacts: eq (7) with inequalities, in
+`mechanism_fmu.engine.contacts.impact`.
+
+Under Outputs: what an `Output` can have as its source "<name>.<output>". All have `closed`, whether the contact is
+closed, and `gap`, which is 0 then; the notation is that of `joints`.
+"""
 
 from __future__ import annotations
 
@@ -19,6 +27,8 @@ class PointLineContact:
     The gap is s = normal . (A_j^T (r_i^P - r_j) - line_point), positive when open. An open contact whose gap reaches
     zero impacts by eq (7); one that is closed is a constraint row that can only push, and opens when it would pull.
     With `closed_while` it is no one-sided contact but a row that a logical function switches on and off.
+
+    Outputs: `force` [N], on body i along the normal: positive when it pushes; 0 when open. `gap` [m].
 
     Attributes:
         name: unique within the mechanism.
@@ -69,6 +79,9 @@ class AngleStop:
     The latched angle is `angle` at first. Each time the relative angle has gone one pitch beyond it, the stop clicks:
     the latched angle grows by one pitch, as when a holding pawl drops behind the next tooth. It never goes back.
 
+    Outputs: `force` [N m], the torque on body i: positive when it pushes; 0 when open. `gap` [rad].
+    `latched` [rad], the latched angle, and `clicks`, how often it has grown.
+
     Attributes:
         name: unique within the mechanism.
         body_i, body_j: the bodies.
@@ -107,6 +120,8 @@ class AngleLock:
     """A lock that a logical function closes, as the locking arc of a Geneva drive.
 
     While closed, it holds the relative angle at the nearest of `angle` + k `pitch`, in both directions.
+
+    Outputs: `force` [N m], the torque on body i; 0 when open. `gap` [rad], phi_i - phi_j from the angle held.
 
     Attributes:
         name: unique within the mechanism.

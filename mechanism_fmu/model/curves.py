@@ -19,8 +19,8 @@ class Term:
 
     Attributes:
         polynomial: at most six coefficients, constant first.
-        amplitude: of the harmonic.
-        frequency: [1/unit of the variable].
+        amplitude: of the harmonic, in the unit of the curve.
+        frequency: angular, [1/unit of the variable], e.g. [rad/s].
         phase: [rad].
     """
 
@@ -62,15 +62,15 @@ class Curve:
 
 
 def constant(value: Number) -> Term:
-    """A term that does not vary."""
+    """A term that does not vary: `value`, in the unit of the curve."""
     return Term((value,))
 
 
 def cosine(amplitude: Number, frequency: Number) -> Term:
-    """The term amplitude cos(frequency xi)."""
+    """The term amplitude cos(frequency xi): in the unit of the curve, and 1/unit of its variable."""
     return Term((), amplitude, frequency, math.pi / 2)
 
 
 def sine(amplitude: Number, frequency: Number, phase: Number = 0.0) -> Term:
-    """The term amplitude sin(frequency xi + phase)."""
+    """The term amplitude sin(frequency xi + phase): as of `cosine`, phase in rad."""
     return Term((), amplitude, frequency, phase)

@@ -95,6 +95,7 @@ class Striker:
     at: Place
 
 
+#: Any shape of a drawing.
 Shape = Bar | Wheel | Disc | Hinge | Striker
 
 

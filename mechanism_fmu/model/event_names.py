@@ -7,12 +7,9 @@ and a declared logical function give the names of their functions: "teeth.next",
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from .. import codes
-
-if TYPE_CHECKING:
-    from .mechanism import Mechanism
+from .mechanism import Mechanism
 
 #: The event of inputs that have changed.
 INPUT = "input"

@@ -11,6 +11,8 @@ from .conditions import plain, unless
 from .errors import MechanismError
 from .functions import Number, where_positive
 
+__all__ = ["Finding", "at_most", "either", "first", "refuse_unless", "where"]
+
 #: Most numbers in one text: code without Python always hands so many to printf.
 MOST_NUMBERS = 8
 

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+__all__ = ["Number", "atan2", "cos", "sin", "sqrt", "tan", "where_positive"]
+
 #: A float, or a symbolic stand-in for one.
 Number = Any
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from ..statechart import Definition
 from ..tolerances import (
@@ -16,10 +15,8 @@ from ..tolerances import (
     TOUCHES_WITHIN,
 )
 from .contacts import AngleStop, Contact, is_angular
+from .mechanism import Mechanism
 from .patterns import CircularPattern
-
-if TYPE_CHECKING:
-    from .mechanism import Mechanism
 
 
 def exists(part: Contact | CircularPattern) -> bool:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .body import Body
-from .check import check
-from .compile import MechanismTables, compile_tables
 from .contacts import Contact
+from .curves import Curve
 from .forces import ForceElement
 from .functions import Number
 from .joints import Joint
@@ -53,11 +52,9 @@ class Mechanism:
     held: tuple[str, ...] = ()
     settings: Settings = Settings()
 
-    def compile(self) -> MechanismTables:
-        """Check the mechanism and write it as tables.
 
-        Raises:
-            MechanismError: a part cannot be right; the message names it and the way out.
-        """
-        check(self)
-        return compile_tables(self)
+def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:
+    """The motions of drivers, then the profiles of contacts, as the tables number them, each with its part's name."""
+    motions = [(joint.name, joint.motion) for joint in mechanism.joints]
+    profiles = [(contact.name, profile) for contact in mechanism.contacts for profile in contact.profiles]
+    return [(name, curve) for name, curve in (*motions, *profiles) if curve is not None]

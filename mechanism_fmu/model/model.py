@@ -112,7 +112,7 @@ class Limited(Protocol):
 
 
 def check_value(parameter: Limited, value: float) -> None:
-    """Check one value against the limits of what it is meant for.
+    """Check one value, in the unit of what it is meant for, against its limits.
 
     Raises:
         MechanismError: not finite, or outside the limits.

@@ -13,23 +13,23 @@ from .functions import Number, is_plain, where_positive
 #: Moves may fill the turn to the last bit but this share of it.
 _ROUNDING = 1e-9
 
-#: From where it begins, the value there, the rise and the width to the pieces of a move.
+#: From where it begins [rad], the value there, the rise [both m or rad] and the width [rad] to the pieces of a move.
 Law = Callable[[Number, Number, Number, Number], tuple[Piece, ...]]
 
 
 def dwell(start: Number, value: Number, _rise: Number, _width: Number) -> tuple[Piece, ...]:
-    """No motion, whatever the rise."""
+    """No motion, whatever the rise. The arguments are those of every `Law`."""
     return (Piece(start, (Term((value,)),)),)
 
 
 def cycloidal(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
-    """Lift = rise (u - sin(2 pi u)/(2 pi)), u = xi/width: largest acceleration 6.283 rise/width^2."""
+    """Lift = rise (u - sin(2 pi u)/(2 pi)), u = xi/width: largest acceleration 6.283 rise/width^2; see `Law`."""
     divisor = _divisor(width)
     return (Piece(start, (Term((value, rise / divisor), -rise / (2 * math.pi), 2 * math.pi / divisor),)),)
 
 
 def polynomial_345(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
-    """Lift = rise (10 u^3 - 15 u^4 + 6 u^5), u = xi/width: largest acceleration 5.7735 rise/width^2."""
+    """Lift = rise (10 u^3 - 15 u^4 + 6 u^5), u = xi/width: largest acceleration 5.7735 rise/width^2; see `Law`."""
     divisor = _divisor(width)
     third = rise / (divisor * divisor * divisor)
     fourth = third / divisor
@@ -37,10 +37,10 @@ def polynomial_345(start: Number, value: Number, rise: Number, width: Number) ->
 
 
 def modified_sine(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
-    """Modified sine: sine arcs of a quarter at both ends and a slow one between; largest acceleration 5.528.
+    """Modified sine, arcs of a quarter at both ends and a slow one between: largest acceleration 5.528 rise/width^2.
 
     With k = rise/(4 + pi): k (pi u - sin(4 pi u)/4) up to u = 1/8, k (2 + pi u - 9/4 sin(4 pi u/3 + pi/3)) up to 7/8,
-    and k (4 + pi u - sin(4 pi u)/4) to the end.
+    and k (4 + pi u - sin(4 pi u)/4) to the end. The arguments are those of every `Law`.
     """
     k = rise / (4 + math.pi)
     divisor = _divisor(width)
@@ -74,7 +74,7 @@ class Move:
 
 
 def moves_to_pieces(base: Number, moves: Sequence[Move], turn: float, back: Law) -> tuple[Piece, ...]:
-    """The pieces of base + lift over one turn; what the moves leave of it leads back to the base by `back`.
+    """The pieces of base + lift over one turn [rad]; what the moves leave of it leads back to the base by `back`.
 
     Raises:
         MechanismError: a width is negative, or the moves need more than the turn. Of symbolic widths, the curve's

@@ -6,16 +6,16 @@ from collections.abc import Sequence
 
 from .curves import Curve, Piece, Term, constant, sine
 from .functions import Number
-from .splines import spline_pieces
+from .splines import plain_places, spline_pieces
 
 
 def polynomial_motion(*coefficients: Number) -> Curve:
-    """C = coefficients[0] + coefficients[1] t + ..., at most up to t^5; two of them are a constant speed."""
+    """C = coefficients[0] + coefficients[1] t + ... [m or rad], at most up to t^5; two of them are a constant speed."""
     return Curve((Piece(0.0, (Term(tuple(coefficients)),)),))
 
 
 def harmonic_motion(mean: Number, amplitude: Number, frequency: Number, phase: Number = 0.0) -> Curve:
-    """C = mean + amplitude sin(frequency t + phase), frequency in rad/s and phase in rad."""
+    """C = mean + amplitude sin(frequency t + phase) [m or rad], frequency in rad/s and phase in rad."""
     return Curve((Piece(0.0, (constant(mean), sine(amplitude, frequency, phase))),))
 
 
@@ -25,9 +25,9 @@ def table_motion(points: Sequence[tuple[float, Number]]) -> Curve:
     The speed is zero there, too.
 
     Raises:
-        MechanismError: fewer than 3 points, or times that do not increase.
+        MechanismError: fewer than 3 points, or times that do not increase or that depend on a parameter.
     """
-    times, values = [float(time) for time, _ in points], [value for _, value in points]
+    times, values = plain_places([time for time, _ in points], "time"), [value for _, value in points]
     pieces = spline_pieces(times, values, 3, periodic=False)
     before = Piece(times[0], (constant(values[0]),))  # the first piece of a curve holds before its start
     rest = Piece(times[-1], (constant(values[-1]),))

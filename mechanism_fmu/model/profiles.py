@@ -11,13 +11,13 @@ from collections.abc import Sequence
 from .curves import Curve, Piece, Term, constant, cosine, sine
 from .functions import Number
 from .motion_laws import Law, Move, cycloidal, moves_to_pieces
-from .splines import spline_pieces
+from .splines import plain_places, spline_pieces
 
 _TURN = 2 * math.pi
 
 
 def circle(radius: Number) -> Curve:
-    """A circle about Q: a roller."""
+    """A circle of a radius [m] about Q: a roller."""
     return _closed((Piece(0.0, (constant(radius),)),))
 
 
@@ -30,7 +30,7 @@ def harmonic_profile(mean: Number, cosines: Sequence[Number] = (), sines: Sequen
 
 
 def piecewise_profile(*pieces: tuple[Number, Sequence[Term]]) -> Curve:
-    """A closed profile of analytic pieces: (alpha where it starts, its terms), the first from 0 on."""
+    """A closed profile of analytic pieces: (alpha where it starts [rad], its terms [m]), the first from 0 on."""
     return _closed(tuple(Piece(start, tuple(terms)) for start, terms in pieces))
 
 
@@ -43,10 +43,11 @@ def spline_profile(radii: Sequence[Number], angles: Sequence[float] | None = Non
         degree: 3 or 5.
 
     Raises:
-        MechanismError: fewer than 3 points, another count of angles or degree, or angles that do not increase.
+        MechanismError: fewer than 3 points, another count of angles or degree, or angles that do not increase or that
+            depend on a parameter.
     """
     count = len(radii)
-    places = [_TURN * k / count for k in range(count)] if angles is None else [float(angle) for angle in angles]
+    places = [_TURN * k / count for k in range(count)] if angles is None else plain_places(angles, "angle")
     knots = [*places, places[0] + _TURN] if places else [0.0]
     return Curve(spline_pieces(knots, radii, degree, periodic=True), knots[0], _TURN, periodic=True)
 
@@ -69,10 +70,15 @@ def motion_profile(base_radius: Number, moves: Sequence[Move], back: Law = cyclo
 def slot(points: Sequence[tuple[float, Number]], degree: int = 3) -> Curve:
     """An open profile through points (alpha [rad], rho [m]): a spline, rho' (of degree 5, and rho'') 0 at its ends.
 
+    Args:
+        points: at least 3, their alpha plain numbers that increase.
+        degree: of the spline, 3 (C2) or 5 (C4).
+
     Raises:
-        MechanismError: fewer than 3 points, or angles that do not increase.
+        MechanismError: fewer than 3 points, another degree, or angles that do not increase or that depend on a
+            parameter.
     """
-    angles, radii = [float(angle) for angle, _ in points], [radius for _, radius in points]
+    angles, radii = plain_places([angle for angle, _ in points], "angle"), [radius for _, radius in points]
     pieces = spline_pieces(angles, radii, degree, periodic=False)
     return Curve(pieces, angles[0], angles[-1] - angles[0])
 

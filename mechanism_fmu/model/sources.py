@@ -5,15 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
 
 from .. import codes
 from .efforts import EFFORTS, effort
 from .errors import MechanismError
 from .functions import Number
-
-if TYPE_CHECKING:
-    from .mechanism import Mechanism
+from .mechanism import Mechanism
 
 _COORDINATES = {"x": 0, "y": 1, "angle": 2}
 _RATES = {"x_rate": 0, "y_rate": 1, "speed": 2}

@@ -11,7 +11,7 @@ import numpy as np
 from .conditions import plain
 from .curves import Piece, Term
 from .errors import MechanismError
-from .functions import Number
+from .functions import Number, is_plain
 
 Matrix = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -46,6 +46,22 @@ def spline_pieces(knots: Sequence[float], values: Sequence[Number], degree: int,
         terms = [_combine(row, values) for row in coefficients[k]]
         pieces.append(Piece(float(start), (Term(tuple(terms)),)))
     return tuple(pieces)
+
+
+def plain_places(places: Sequence[Number], what: str) -> list[float]:
+    """The places of a spline's points, which `what` names (an angle, a time), as plain numbers.
+
+    Raises:
+        MechanismError: one of them depends on a parameter.
+    """
+    for number, place in enumerate(places, start=1):
+        if not is_plain(place):
+            raise MechanismError(
+                f"The {what} of point {number} of a spline depends on a parameter, but its points must stand at plain "
+                "numbers: what each of them contributes is solved for once, for all values of the parameters. Let only "
+                "the values there depend on parameters, or make a Curve of Pieces, which may begin anywhere."
+            )
+    return [float(place) for place in places]
 
 
 def _combine(weights: Matrix, values: Sequence[Number]) -> Number:

@@ -15,9 +15,9 @@ import numpy as np
 
 from . import functions
 from .check_numbers import number_findings
-from .compile import MechanismTables, Table, compile_tables
+from .compile import MechanismTables, Table, compile_mechanism, compile_tables
 from .errors import MechanismError
-from .findings import Finding, messages
+from .findings import Finding
 from .functions import Number
 from .mechanism import Mechanism
 from .model import Model
@@ -71,28 +71,11 @@ class Trace:
             ValueError, ZeroDivisionError: where the model's own functions do, because a result does not exist.
         """
         tables = {name: table for name, table in _arrays(self.tables) if table.dtype == object}
-        known = self._results(values, (x for table in tables.values() for x in table.flat))
+        numbers = iter(self.numbers([x for table in tables.values() for x in table.flat], values))
         plain: dict[str, Any] = {
-            name: np.array([_value(x, known) for x in table.flat], dtype=np.float64).reshape(table.shape)
-            for name, table in tables.items()
+            name: np.fromiter(numbers, np.float64, table.size).reshape(table.shape) for name, table in tables.items()
         }
         return replace(self.tables, **plain)
-
-    def refused(self, values: SimpleNamespace) -> list[str]:
-        """As `Model.refused`, from the recorded operations."""
-        return self._messages(self.objections, values)
-
-    def impossible(self, values: SimpleNamespace) -> list[str]:
-        """What `check` says of the numbers of the mechanism for parameter values, from the recorded operations.
-
-        Raises:
-            ValueError, ZeroDivisionError: where `evaluate` does; ask only where nothing is refused.
-        """
-        return self._messages(self.problems, values)
-
-    def warned(self, values: SimpleNamespace) -> list[str]:
-        """As `Model.warned`, from the recorded operations."""
-        return self._messages(self.warnings, values)
 
     def needed(self, numbers: Iterable[Number]) -> list[int]:
         """The operations, in order, on which numbers depend; plain numbers depend on none."""
@@ -102,16 +85,16 @@ class Trace:
                 needed.update(self.operations[number].operands)
         return sorted(needed)
 
-    def _messages(self, findings: tuple[Finding, ...], values: SimpleNamespace) -> list[str]:
-        known = self._results(values, (x for f in findings for x in (f.applies, *f.numbers)))
-        return messages(
-            Finding(_value(f.applies, known), f.text, tuple(_value(x, known) for x in f.numbers)) for f in findings
-        )
+    def numbers(self, wanted: Iterable[Number], values: SimpleNamespace) -> list[float]:
+        """Recorded numbers for parameter values; plain numbers are themselves.
 
-    def _results(self, values: SimpleNamespace, numbers: Iterable[Number]) -> dict[int, float]:
+        Raises:
+            ValueError, ZeroDivisionError: as of `evaluate`.
+        """
+        wanted = list(wanted)
         given = [float(getattr(values, parameter.name)) for parameter in self.model.parameters]
         known: dict[int, float] = {}
-        for number in self.needed(numbers):
+        for number in self.needed(wanted):
             operation = self.operations[number]
             if operation.name == "parameter":
                 known[number] = given[int(operation.value)]
@@ -119,7 +102,7 @@ class Trace:
                 known[number] = operation.value
             else:
                 known[number] = _APPLY[operation.name](*(known[i] for i in operation.operands))
-        return known
+        return [known[x.number] if isinstance(x, Symbol) else float(x) for x in wanted]
 
 
 def trace(model: Model) -> Trace:
@@ -130,7 +113,7 @@ def trace(model: Model) -> Trace:
     """
     recorder = Recorder()
     values = SimpleNamespace(**{p.name: recorder.parameter(i, _limits(p)) for i, p in enumerate(model.parameters)})
-    plain = model.build(model.values()).compile()
+    plain = compile_mechanism(model.build(model.values()))
     try:
         mechanism = model.mechanism(values)
         tables = compile_tables(mechanism)
@@ -186,7 +169,3 @@ def _check_structure(model: Model, tables: Mapping[str, Table], plain: Mapping[s
 def _arrays(tables: MechanismTables) -> list[tuple[str, Table]]:
     named: list[tuple[str, Any]] = [(f.name, getattr(tables, f.name)) for f in fields(tables)]
     return [(name, table) for name, table in named if isinstance(table, np.ndarray)]
-
-
-def _value(x: Number, known: Mapping[int, float]) -> float:
-    return known[x.number] if isinstance(x, Symbol) else float(x)

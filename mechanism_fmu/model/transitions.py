@@ -21,6 +21,8 @@ from .logic import switch
 from .logical_functions import definitions, exists, is_kept
 from .mechanism import Mechanism
 
+__all__ = ["logic_of", "transition_diagram", "transition_table"]
+
 OPEN, CLOSED = "open", "closed"
 
 

@@ -1,4 +1,8 @@
-"""Stress that an impact leaves in a tooth: beam modes, their response, and the bending stress they make."""
+"""Stress that an impact leaves in a tooth: beam modes, their response, and the bending stress they make.
+
+A `WedgeTooth` of a `Material` has `ritz_modes`; struck, it swings by `damped_response` with `bending_moment` and
+`bending_stress`, of which `maximum_stress` is the largest over length and time.
+"""
 
 from .material import STEEL, Material
 from .maximum import MaximumStress, maximum_stress

@@ -36,19 +36,19 @@ class WedgeTooth:
         )
 
     def area(self, x: FloatArray) -> FloatArray:
-        """Area A of the cross section [m2] at the distances `x` from the root [m], eq (14)."""
+        """Area A of the cross section [m2] at the distances `x` from the root [m], in its shape; eq (14)."""
         return self.thickness * self._height(x)
 
     def second_moment(self, x: FloatArray) -> FloatArray:
-        """Second moment of area I_n of the cross section [m4] at the distances `x` from the root [m], eq (14)."""
+        """Second moment I_n of the cross section [m4] at the distances `x` from the root [m], in its shape; eq (14)."""
         return self.thickness / 12 * self._height(x) ** 3
 
     def section_modulus(self, x: FloatArray) -> FloatArray:
-        """Section modulus W_b [m3] at the distances `x` from the root [m]."""
+        """Section modulus W_b [m3] at the distances `x` from the root [m], in its shape."""
         return self.thickness / 6 * self._height(x) ** 2
 
     def outer_fibre(self, x: FloatArray) -> FloatArray:
-        """Distance of the outer fibre from the neutral axis [m] at the distances `x` from the root [m].
+        """Distance of the outer fibre from the neutral axis [m] at the distances `x` from the root [m], in its shape.
 
         It is I_n / W_b, in the form that stays exact at the tip, where both vanish.
         """

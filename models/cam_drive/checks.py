@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from mechanism_fmu.model import Finding
 from mechanism_fmu.model.findings import at_most, first
 from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
+from mechanism_fmu.model.triangles import angle_between
 
 from .geometry import Point, follower_angle, move_at, roller_direction
 
@@ -106,8 +107,7 @@ def _pressure_angle(values: SimpleNamespace) -> Number:
         for k in range(_PLACES + 1):
             cosine = _transmission(values, move_at(values, width, k / _PLACES), sense)
             least = where_positive(least - cosine, cosine, least)
-    rest = 1 - least * least
-    return atan2(sqrt(where_positive(rest, rest, 0.0)), least)
+    return angle_between(least)
 
 
 def _transmission(values: SimpleNamespace, at: Point, sense: int) -> Number:

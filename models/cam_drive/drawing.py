@@ -11,6 +11,7 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
+from models.icon import icon_axes
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import radius_at, timing
@@ -53,25 +54,17 @@ def drawing(values: SimpleNamespace) -> str:
 
 def icon(values: SimpleNamespace, path: Path) -> None:
     """Write the model's icon, 100 x 100 px, with matplotlib."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
     from matplotlib.patches import Circle
 
-    figure = Figure(figsize=(1, 1), dpi=100)
-    FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.02, 0.02, 0.96, 0.96))
     at = timing(values)
     hinge = (-values.hinge_distance, 0.0)
     roller = polar(hinge, values.follower_length, at.high)
     outline = _outline(values, (at.rise_end + at.return_start) / 2)
-    axes.fill(*zip(*outline, strict=True), facecolor=CAM, edgecolor=INK, linewidth=1.0)
-    axes.plot(*zip(hinge, roller, strict=True), color=FOLLOWER, linewidth=4, solid_capstyle="round")
-    axes.add_patch(Circle(roller, values.roller_radius, facecolor="white", edgecolor=INK, linewidth=1.0, zorder=3))
-    axes.plot(*zip(hinge, (0.0, 0.0), strict=True), "o", color="white", markeredgecolor=INK, markersize=3.5)
-    axes.set_aspect("equal")
-    axes.margins(0.08)
-    axes.axis("off")
-    figure.savefig(path, transparent=True, metadata={"Software": None})
+    with icon_axes(path, 0.08) as axes:
+        axes.fill(*zip(*outline, strict=True), facecolor=CAM, edgecolor=INK, linewidth=1.0)
+        axes.plot(*zip(hinge, roller, strict=True), color=FOLLOWER, linewidth=4, solid_capstyle="round")
+        axes.add_patch(Circle(roller, values.roller_radius, facecolor="white", edgecolor=INK, linewidth=1.0, zorder=3))
+        axes.plot(*zip(hinge, (0.0, 0.0), strict=True), "o", color="white", markeredgecolor=INK, markersize=3.5)
 
 
 def _outline(values: SimpleNamespace, theta: float) -> list[Point]:

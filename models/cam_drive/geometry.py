@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Curve
-from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
+from mechanism_fmu.model.functions import Number, atan2, cos, sin, where_positive
 from mechanism_fmu.model.motion_laws import Move, dwell
 from mechanism_fmu.model.profiles import motion_profile
+from mechanism_fmu.model.triangles import angle_between
 
 
 def profile(values: SimpleNamespace) -> Curve:
@@ -68,8 +69,7 @@ def follower_angle(values: SimpleNamespace, distance: Number) -> Number:
     """
     d, arm = values.hinge_distance, values.follower_length
     cosine = (d * d + arm * arm - distance * distance) / (2 * d * arm)
-    rest = 1 - cosine * cosine
-    return atan2(sqrt(where_positive(rest, rest, 0.0)), cosine)
+    return angle_between(cosine)
 
 
 def roller_direction(values: SimpleNamespace, psi: Number) -> Number:

@@ -10,7 +10,6 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
-    Body,
     CamFollower,
     CompliantShaft,
     Damper,
@@ -21,6 +20,7 @@ from mechanism_fmu.model import (
     Torque,
     TorsionSpring,
 )
+from mechanism_fmu.model.part_bodies import rotor_body
 from mechanism_fmu.model.profiles import circle
 
 from .checks import objections, warnings
@@ -34,19 +34,8 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     follower_hinge, rubbing = (-values.hinge_distance, 0.0), values.joint_friction_radius
     return Mechanism(
         bodies=(
-            Body(
-                "cam",
-                values.cam_mass,
-                values.cam_inertia,
-                (0.0, 0.0, values.cam_angle_start),
-                (0.0, 0.0, values.cam_speed_start),
-            ),
-            Body(
-                "follower",
-                values.follower_mass,
-                values.follower_inertia,
-                (*follower_hinge, start_angle(values)),
-            ),
+            rotor_body(values, "cam", (0.0, 0.0), values.cam_angle_start, values.cam_speed_start),
+            rotor_body(values, "follower", follower_hinge, start_angle(values)),
         ),
         joints=(
             Revolute("cam_hinge", "cam", (0.0, 0.0), GROUND, (0.0, 0.0), rubbing),

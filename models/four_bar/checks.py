@@ -6,8 +6,8 @@ import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Finding
+from mechanism_fmu.model.conditions import size
 from mechanism_fmu.model.findings import at_most, first
-from mechanism_fmu.model.functions import Number, where_positive
 
 from .geometry import diagonal
 
@@ -22,7 +22,7 @@ _AT = "at crank_angle_start = {:.6g} deg the crank pin is {:.6g} m from the rock
 def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
     """Why the linkage cannot be assembled at the start: value, limit and way out; at most one applies."""
     b, c, distance = values.coupler_length, values.rocker_length, diagonal(values)
-    both, difference = b + c, _size(b - c)
+    both, difference = b + c, size(b - c)
     where = (values.crank_angle_start * (180 / math.pi), distance)
     return first(
         Finding(
@@ -50,12 +50,12 @@ def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
     """What the linkage cannot do, by Grashof's rule; it means something only where nothing is objected to."""
     a, b, c, d = values.crank_length, values.coupler_length, values.rocker_length, values.ground_length
     flat = _CHANGES_WITHIN * (a + b + c + d)
-    nearest, difference = _size(d - a), _size(b - c)
+    nearest, difference = size(d - a), size(b - c)
     shown = (d, a, b, c)
     return first(
         *(
             Finding(
-                flat - _size(excess),
+                flat - size(excess),
                 f"Change point: {sums}, with ground_length = {{:.6g}} m, crank_length = {{:.6g}} m, coupler_length = "
                 "{:.6g} m, rocker_length = {:.6g} m, so that all links can lie in one line. There the constraints lose "
                 "a rank, and whether the linkage goes on open or crossed is undetermined. Change a length by more than "
@@ -83,8 +83,3 @@ def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
             (difference, nearest, nearest),
         ),
     )
-
-
-def _size(x: Number) -> Number:
-    """|x|; never a negative zero, which would be shown."""
-    return where_positive(-x, -x, x)

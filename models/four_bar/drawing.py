@@ -11,6 +11,7 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
+from models.icon import icon_axes
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import start
@@ -54,20 +55,11 @@ def drawing(values: SimpleNamespace) -> str:
 
 def icon(values: SimpleNamespace, path: Path) -> None:
     """Write the model's icon, 100 x 100 px, with matplotlib."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(1, 1), dpi=100)
-    FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.02, 0.02, 0.96, 0.96))
-    for begin, end, colour in _bars(values):
-        axes.plot(*zip(begin, end, strict=True), color=colour, linewidth=3.5, solid_capstyle="round")
-    places = ((0.0, 0.0), (values.ground_length, 0.0), *_points(values))
-    axes.plot(*zip(*places, strict=True), "o", color="white", markeredgecolor=INK, markersize=3.5)
-    axes.set_aspect("equal")
-    axes.margins(0.1)
-    axes.axis("off")
-    figure.savefig(path, transparent=True, metadata={"Software": None})
+    with icon_axes(path, 0.1) as axes:
+        for begin, end, colour in _bars(values):
+            axes.plot(*zip(begin, end, strict=True), color=colour, linewidth=3.5, solid_capstyle="round")
+        places = ((0.0, 0.0), (values.ground_length, 0.0), *_points(values))
+        axes.plot(*zip(*places, strict=True), "o", color="white", markeredgecolor=INK, markersize=3.5)
 
 
 def _points(values: SimpleNamespace) -> tuple[Point, Point]:

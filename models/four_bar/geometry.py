@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 
 from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
+from mechanism_fmu.model.triangles import angle_between
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,8 @@ def start(values: SimpleNamespace) -> Start:
     square = _diagonal_square(values)
     # Both angles are seen from the line that goes from the crank pin to the rocker's hinge.
     line = atan2(-a * sin(theta), values.ground_length - a * cos(theta))
-    phi = line + side * _angle_between(square + b * b - c * c, 4 * square * b * b)
-    psi = line + side * _angle_between(b * b - c * c - square, 4 * square * c * c)
+    phi = line + side * angle_between(square + b * b - c * c, 4 * square * b * b)
+    psi = line + side * angle_between(b * b - c * c - square, 4 * square * c * c)
     across = sin(phi - psi)
     return Start(
         coupler_angle=phi,
@@ -80,10 +81,4 @@ def form(values: SimpleNamespace) -> Form:
     a, b, c, d = values.crank_length, values.coupler_length, values.rocker_length, values.ground_length
     near, far = d - a, d + a
     sides, product = b * b + c * c, 4 * b * b * c * c
-    return Form(_angle_between(sides - near * near, product), _angle_between(sides - far * far, product))
-
-
-def _angle_between(adjacent: Number, square: Number) -> Number:
-    """The angle in 0..pi whose cosine is adjacent/sqrt(square)."""
-    rest = square - adjacent * adjacent
-    return atan2(sqrt(where_positive(rest, rest, 0.0)), adjacent)
+    return Form(angle_between(sides - near * near, product), angle_between(sides - far * far, product))

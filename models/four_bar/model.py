@@ -6,7 +6,6 @@ rocker from the fixed hinge on, of the coupler from the crank pin on. Equations 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
@@ -22,7 +21,7 @@ from mechanism_fmu.model import (
     Torque,
     TorsionSpring,
 )
-from mechanism_fmu.model.functions import Number, cos, sin
+from mechanism_fmu.model.part_bodies import MovingPoint, link_body
 
 from .checks import objections, warnings
 from .geometry import start
@@ -62,35 +61,14 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 
 
 def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
-    a, theta, speed, at = values.crank_length, values.crank_angle_start, values.crank_speed_start, start(values)
-    origin = _Moving(0.0, 0.0)
-    pin = origin.along(a, theta, speed)
-    links = (
-        ("crank", origin, theta, speed),
-        ("coupler", pin, at.coupler_angle, at.coupler_speed),
-        ("rocker", _Moving(values.ground_length, 0.0), at.rocker_angle, at.rocker_speed),
+    theta, speed, at = values.crank_angle_start, values.crank_speed_start, start(values)
+    origin = MovingPoint(0.0, 0.0)
+    pin = origin.along(values.crank_length, theta, speed)
+    return (
+        link_body(values, "crank", origin, theta, speed),
+        link_body(values, "coupler", pin, at.coupler_angle, at.coupler_speed),
+        link_body(values, "rocker", MovingPoint(values.ground_length, 0.0), at.rocker_angle, at.rocker_speed),
     )
-    bodies = []
-    for name, begin, angle, turns in links:
-        mass, inertia, distance = (getattr(values, f"{name}_{what}") for what in ("mass", "inertia", "centre"))
-        centre = begin.along(distance, angle, turns)
-        bodies.append(Body(name, mass, inertia, (centre.x, centre.y, angle), (centre.x_rate, centre.y_rate, turns)))
-    return tuple(bodies)
-
-
-@dataclass(frozen=True)
-class _Moving:
-    """A point [m] and its velocity [m/s]."""
-
-    x: Number
-    y: Number
-    x_rate: Number = 0.0
-    y_rate: Number = 0.0
-
-    def along(self, distance: Number, angle: Number, turns: Number) -> _Moving:
-        """The point at a distance [m] along a link that begins here, with its angle [rad] and rate [rad/s]."""
-        x, y = distance * cos(angle), distance * sin(angle)
-        return _Moving(self.x + x, self.y + y, self.x_rate - y * turns, self.y_rate + x * turns)
 
 
 MODEL = Model(

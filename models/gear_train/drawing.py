@@ -11,6 +11,7 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
+from models.icon import icon_axes
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import pairing
@@ -46,20 +47,12 @@ def drawing(values: SimpleNamespace) -> str:
 
 def icon(values: SimpleNamespace, path: Path) -> None:
     """Write the model's icon, 100 x 100 px, with matplotlib."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
     from matplotlib.patches import Circle
 
-    figure = Figure(figsize=(1, 1), dpi=100)
-    FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.02, 0.02, 0.96, 0.96))
-    for centre, radius, angle, colour in _gears(values):
-        axes.add_patch(Circle(centre, radius, facecolor="white", edgecolor=INK, linewidth=1.2))
-        axes.fill(*zip(*_arms(centre, radius, angle), strict=True), facecolor=colour, edgecolor=INK, linewidth=0.8)
-    axes.set_aspect("equal")
-    axes.autoscale_view()
-    axes.axis("off")
-    figure.savefig(path, transparent=True, metadata={"Software": None})
+    with icon_axes(path) as axes:
+        for centre, radius, angle, colour in _gears(values):
+            axes.add_patch(Circle(centre, radius, facecolor="white", edgecolor=INK, linewidth=1.2))
+            axes.fill(*zip(*_arms(centre, radius, angle), strict=True), facecolor=colour, edgecolor=INK, linewidth=0.8)
 
 
 def _gears(values: SimpleNamespace) -> list[tuple[Point, float, float, str]]:

@@ -21,6 +21,7 @@ from mechanism_fmu.model import (
     Settings,
     Torque,
 )
+from mechanism_fmu.model.part_bodies import rotor_body
 
 from .checks import objections
 from .geometry import pairing
@@ -60,14 +61,8 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, Body]:
     pair = pairing(values)
     angle, speed = values.pinion_angle_start, values.pinion_speed_start
     return (
-        Body("pinion", values.pinion_mass, values.pinion_inertia, (0.0, 0.0, angle), (0.0, 0.0, speed)),
-        Body(
-            "wheel",
-            values.wheel_mass,
-            values.wheel_inertia,
-            (pair.centre_distance, 0.0, pair.ratio * angle),
-            (0.0, 0.0, pair.ratio * speed),
-        ),
+        rotor_body(values, "pinion", (0.0, 0.0), angle, speed),
+        rotor_body(values, "wheel", (pair.centre_distance, 0.0), pair.ratio * angle, pair.ratio * speed),
     )
 
 

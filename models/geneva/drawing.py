@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Wheel
+from models.icon import icon_axes
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import geneva
@@ -42,20 +43,12 @@ def drawing(values: SimpleNamespace) -> str:
 
 def icon(values: SimpleNamespace, path: Path) -> None:
     """Write the model's icon, 100 x 100 px, with matplotlib."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(1, 1), dpi=100)
-    FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.02, 0.02, 0.96, 0.96))
     theta = math.pi - 0.35 * geneva(values).engagement
-    for points, colour in zip(_outlines(values, theta), (WHEEL, DRIVER), strict=True):
-        axes.fill(*zip(*points, strict=True), facecolor=colour, edgecolor=INK, linewidth=0.8)
-    pin = polar((values.centre_distance, 0.0), geneva(values).pin_radius, theta)
-    axes.plot(*zip((values.centre_distance, 0.0), pin, strict=True), color=INK, linewidth=3, solid_capstyle="round")
-    axes.set_aspect("equal")
-    axes.axis("off")
-    figure.savefig(path, transparent=True, metadata={"Software": None})
+    with icon_axes(path) as axes:
+        for points, colour in zip(_outlines(values, theta), (WHEEL, DRIVER), strict=True):
+            axes.fill(*zip(*points, strict=True), facecolor=colour, edgecolor=INK, linewidth=0.8)
+        pin = polar((values.centre_distance, 0.0), geneva(values).pin_radius, theta)
+        axes.plot(*zip((values.centre_distance, 0.0), pin, strict=True), color=INK, linewidth=3, solid_capstyle="round")
 
 
 def _at(view: View, values: SimpleNamespace, theta: float) -> list[str]:

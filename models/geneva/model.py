@@ -13,7 +13,6 @@ from mechanism_fmu.model import (
     GROUND,
     AngleLock,
     AngleStop,
-    Body,
     CircularPattern,
     CompliantShaft,
     Contact,
@@ -27,6 +26,7 @@ from mechanism_fmu.model import (
     Torque,
 )
 from mechanism_fmu.model.functions import cos, sin
+from mechanism_fmu.model.part_bodies import rotor_body
 
 from .checks import objections
 from .geometry import geneva
@@ -40,20 +40,8 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     c, rubbing = values.centre_distance, values.joint_friction_radius
     return Mechanism(
         bodies=(
-            Body(
-                "driver",
-                values.driver_mass,
-                values.driver_inertia,
-                (c, 0.0, values.driver_angle_start),
-                (0.0, 0.0, values.driver_speed_start),
-            ),
-            Body(
-                "wheel",
-                values.wheel_mass,
-                values.wheel_inertia,
-                (0.0, 0.0, wheel_angle(values)),
-                (0.0, 0.0, wheel_speed(values)),
-            ),
+            rotor_body(values, "driver", (c, 0.0), values.driver_angle_start, values.driver_speed_start),
+            rotor_body(values, "wheel", (0.0, 0.0), wheel_angle(values), wheel_speed(values)),
         ),
         joints=(
             Revolute("driver_hinge", "driver", (0.0, 0.0), GROUND, (c, 0.0), rubbing),

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import Bar, Calculated, Disc, Hinge, Wheel
 from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt
+from mechanism_fmu.model.triangles import angle_between
 
 from .geometry import geneva
 
@@ -97,7 +98,7 @@ def _opening(values: SimpleNamespace) -> Number:
     geometry, c = geneva(values), values.centre_distance
     a, r = geometry.pin_radius, geometry.locking_radius
     cosine = (a * a + r * r) / (2 * c * r)
-    return atan2(sqrt(1 - cosine * cosine), cosine)
+    return angle_between(cosine)
 
 
 def _seen(c: Number, r: Number, angle: Number) -> tuple[Number, Number]:

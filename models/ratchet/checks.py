@@ -6,6 +6,7 @@ import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Finding
+from mechanism_fmu.model.conditions import size
 from mechanism_fmu.model.findings import at_most, either, first, where
 from mechanism_fmu.model.functions import Number, cos, sin, sqrt, where_positive
 
@@ -37,7 +38,7 @@ def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
     return where(
         values.guided,
         Finding(
-            _size(values.pawl_angle_start),
+            size(values.pawl_angle_start),
             "pawl_angle_start is not used by the guided pawl, whose tip starts on the slope; set guided = false.",
         ),
         Finding(
@@ -112,7 +113,7 @@ def _free_start(values: SimpleNamespace) -> tuple[Finding, ...]:
     distance, tips = _distance(pin.x, pin.y), _distance(*tooth(values).apex)
     at = "the crank pin starts {:.6g} m from the wheel's hinge"
     return where(
-        at_most(_size(values.pawl_angle_start), 0.0),
+        at_most(size(values.pawl_angle_start), 0.0),
         Finding(
             distance - tips - b,
             "pawl_length = {:.6g} m is {:.6g} m too short: " + at + ", and the tips of the teeth at "
@@ -120,10 +121,10 @@ def _free_start(values: SimpleNamespace) -> tuple[Finding, ...]:
             (b, distance - tips - b, distance, tips, distance - tips),
         ),
         Finding(
-            either(b - (distance + r), _size(b - r) - distance),
+            either(b - (distance + r), size(b - r) - distance),
             "pawl_length = {:.6g} m does not fit: " + at + ", and its tip cannot come to the roots of the teeth at "
             "{:.6g} m. Give between {:.6g} m and {:.6g} m, or change crank_angle_start.",
-            (b, distance, r, _size(distance - r), distance + r),
+            (b, distance, r, size(distance - r), distance + r),
         ),
     )
 
@@ -168,8 +169,3 @@ def _distance(x: Number, y: Number) -> Number:
 
 def _larger(a: Number, b: Number) -> Number:
     return where_positive(a - b, a, b)
-
-
-def _size(x: Number) -> Number:
-    """|x|; never a negative zero, which would be shown."""
-    return where_positive(-x, -x, x)

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from mechanism_fmu.model.sawtooth import wheel_outline
+from models.icon import icon_axes
 from models.svg import INK, Point, View, polar, sheet
 
 from .model import MODEL
@@ -46,20 +47,12 @@ def drawing(values: SimpleNamespace) -> str:
 
 def icon(values: SimpleNamespace, path: Path) -> None:
     """Write the model's icon, 100 x 100 px, with matplotlib."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(1, 1), dpi=100)
-    FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.02, 0.02, 0.96, 0.96))
     hinge, pin, tip = _points(values)
-    axes.fill(*zip(*_wheel(values), strict=True), facecolor="#9aa5b1", edgecolor=INK, linewidth=0.8)
-    for start, end, colour in ((hinge, pin, CRANK), (pin, tip, PAWL)):
-        axes.plot(*zip(start, end, strict=True), color=colour, linewidth=3.5, solid_capstyle="round")
-    axes.plot(*zip((0.0, 0.0), hinge, pin, strict=True), "o", color="white", markeredgecolor=INK, markersize=3.5)
-    axes.set_aspect("equal")
-    axes.axis("off")
-    figure.savefig(path, transparent=True, metadata={"Software": None})
+    with icon_axes(path) as axes:
+        axes.fill(*zip(*_wheel(values), strict=True), facecolor="#9aa5b1", edgecolor=INK, linewidth=0.8)
+        for start, end, colour in ((hinge, pin, CRANK), (pin, tip, PAWL)):
+            axes.plot(*zip(start, end, strict=True), color=colour, linewidth=3.5, solid_capstyle="round")
+        axes.plot(*zip((0.0, 0.0), hinge, pin, strict=True), "o", color="white", markeredgecolor=INK, markersize=3.5)
 
 
 def _points(values: SimpleNamespace) -> tuple[Point, Point, Point]:

@@ -25,6 +25,7 @@ from mechanism_fmu.model import (
     TorsionSpring,
 )
 from mechanism_fmu.model.functions import cos, sin
+from mechanism_fmu.model.part_bodies import rotor_body
 
 from .checks import objections, warnings
 from .inputs import INPUTS
@@ -84,7 +85,7 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
             values.pawl_inertia,
             (pin.x + half_pawl * cos(gamma), pin.y + half_pawl * sin(gamma), gamma),
         ),
-        Body("wheel", values.wheel_mass, values.wheel_inertia, (0.0, 0.0, values.wheel_angle_start)),
+        rotor_body(values, "wheel", (0.0, 0.0), values.wheel_angle_start),
     )
 
 

@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
+from mechanism_fmu.model.functions import Number, atan2, cos, sin, where_positive
 from mechanism_fmu.model.sawtooth import Sawtooth, sawtooth
+from mechanism_fmu.model.triangles import angle_between, root
 
 
 @dataclass(frozen=True)
@@ -62,8 +63,7 @@ def angle_on_slope(values: SimpleNamespace) -> Number:
     """
     height, b = crank_pin(values).height, values.pawl_length
     normal_angle = values.wheel_angle_start + values.tooth_slope_angle - math.pi / 2
-    rest = b * b - height * height
-    return normal_angle + atan2(sqrt(where_positive(rest, rest, 0.0)), -height)
+    return normal_angle + angle_between(-height, b * b)
 
 
 def angle_near_wheel(values: SimpleNamespace) -> Number:
@@ -73,13 +73,10 @@ def angle_near_wheel(values: SimpleNamespace) -> Number:
     """
     pin, b, r = crank_pin(values), values.pawl_length, values.wheel_inner_radius
     square = pin.x * pin.x + pin.y * pin.y
-    adjacent = square + b * b - r * r
-    rest = 4 * square * b * b - adjacent * adjacent
-    return 2 * math.pi + atan2(-pin.y, -pin.x) - atan2(sqrt(where_positive(rest, rest, 0.0)), adjacent)
+    return 2 * math.pi + atan2(-pin.y, -pin.x) - angle_between(square + b * b - r * r, 4 * square * b * b)
 
 
 def tip_distance(values: SimpleNamespace) -> Number:
     """Start distance of the guided pawl's tip from the struck root, along the slope [m]. Needs |height| <= b."""
     pin, b = crank_pin(values), values.pawl_length
-    rest = b * b - pin.height * pin.height
-    return pin.distance - sqrt(where_positive(rest, rest, 0.0))
+    return pin.distance - root(b * b - pin.height * pin.height)

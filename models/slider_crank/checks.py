@@ -6,8 +6,8 @@ import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Finding
+from mechanism_fmu.model.conditions import size
 from mechanism_fmu.model.findings import at_most, first
-from mechanism_fmu.model.functions import Number, where_positive
 
 from .geometry import rise
 
@@ -19,7 +19,7 @@ _CHANGES_WITHIN = 1e-6
 
 def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
     """Why the linkage cannot be assembled at the start: value, limit and way out."""
-    distance = _size(rise(values))
+    distance = size(rise(values))
     return (
         Finding(
             at_most(values.rod_length * (1 - _UPRIGHT), distance),
@@ -40,13 +40,13 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
 
 def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
     """What the crank cannot do; it means something only where nothing is objected to."""
-    crank, rod, offset = values.crank_length, values.rod_length, _size(values.offset)
+    crank, rod, offset = values.crank_length, values.rod_length, size(values.offset)
     needed = crank + offset
     flat = _CHANGES_WITHIN * (rod + needed)
     return first(
         *(
             Finding(
-                flat - _size(excess),
+                flat - size(excess),
                 "Change point: with rod_length = {:.6g} m, crank_length = {:.6g} m and |offset| = {:.6g} m, crank and "
                 "rod can both stand at a right angle to the slider's line. There the constraints lose a rank, and "
                 f"whether crank and slider go on together or apart is undetermined. Give a rod {way} by more than "
@@ -63,8 +63,3 @@ def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
             (rod, needed, needed),
         ),
     )
-
-
-def _size(x: Number) -> Number:
-    """|x|; never a negative zero, which would be shown."""
-    return where_positive(-x, -x, x)

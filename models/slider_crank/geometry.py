@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
+from mechanism_fmu.model.functions import Number, atan2, cos, sin
+from mechanism_fmu.model.triangles import root
 
 
 @dataclass(frozen=True)
@@ -69,8 +70,3 @@ def dead_positions(values: SimpleNamespace) -> DeadPositions:
     far, near = values.rod_length + values.crank_length, values.rod_length - values.crank_length
     square = values.offset * values.offset
     return DeadPositions(root(far * far - square), root(near * near - square))
-
-
-def root(square: Number) -> Number:
-    """Square root, 0 of what is negative."""
-    return sqrt(where_positive(square, square, 0.0))

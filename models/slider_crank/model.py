@@ -21,7 +21,7 @@ from mechanism_fmu.model import (
     Torque,
     Translational,
 )
-from mechanism_fmu.model.functions import cos, sin
+from mechanism_fmu.model.part_bodies import MovingPoint, link_body
 
 from .checks import objections, warnings
 from .geometry import start
@@ -68,28 +68,11 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 
 
 def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
-    r, k, theta, turns = values.crank_length, values.crank_centre, values.crank_angle_start, values.crank_speed_start
-    at, m = start(values), values.rod_centre
-    phi, swings = at.rod_angle, at.rod_speed
+    r, theta, speed, at = values.crank_length, values.crank_angle_start, values.crank_speed_start, start(values)
+    origin = MovingPoint(0.0, 0.0)
     return (
-        Body(
-            "crank",
-            values.crank_mass,
-            values.crank_inertia,
-            (k * cos(theta), k * sin(theta), theta),
-            (-k * sin(theta) * turns, k * cos(theta) * turns, turns),
-        ),
-        Body(
-            "rod",
-            values.rod_mass,
-            values.rod_inertia,
-            (r * cos(theta) + m * cos(phi), r * sin(theta) + m * sin(phi), phi),
-            (
-                -r * sin(theta) * turns - m * sin(phi) * swings,
-                r * cos(theta) * turns + m * cos(phi) * swings,
-                swings,
-            ),
-        ),
+        link_body(values, "crank", origin, theta, speed),
+        link_body(values, "rod", origin.along(r, theta, speed), at.rod_angle, at.rod_speed),
         # The slider does not turn: its inertia matters for nothing, and is of the size of the others.
         Body(
             "slider",

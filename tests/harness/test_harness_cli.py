@@ -4,6 +4,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
 from harness.cli import main
@@ -34,7 +35,10 @@ def fmi1_fmu(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("command", [[], ["run"], ["demo"], ["validate"], ["study"], ["study", "ratchet"], ["build"]])
+COMMANDS = [[], ["build"], ["demo"], ["modes"], ["new"], ["run"], ["study"], ["study", "ratchet"], ["validate"]]
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_every_command_explains_itself(command: list[str]) -> None:
     code, text = invoke(*command, "--help")
     assert code == 0
@@ -92,6 +96,53 @@ def test_build_knows_its_models(tmp_path: Path) -> None:
 
 
 def test_help_does_not_wait_for_the_libraries() -> None:
-    heavy = "pandas", "numpy", "fmpy", "plotly", "mechanism_fmu", "models"
-    script = f"import sys, harness.cli; sys.exit(bool(set({heavy!r}) & set(sys.modules)))"
-    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
+    """Of all commands: it comes at once when nothing is imported for it but what parses and prints."""
+    heavy = {
+        "fmpy",
+        "llvmlite",
+        "mechanism_fmu",
+        "models",
+        "numba",
+        "numpy",
+        "pandas",
+        "plotly",
+        "pydantic",
+        "pythonfmu",
+        "scipy",
+    }
+    script = f"""
+import sys
+from typer.testing import CliRunner
+from harness.cli import main
+for command in {COMMANDS}:
+    assert CliRunner().invoke(main, [*command, "--help"]).exit_code == 0
+print(sorted({heavy} & set(sys.modules)))
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("[]\n", "")
+
+
+@pytest.mark.parametrize(
+    ("command", "purpose"),
+    [
+        (["demo"], "run its base case for 6 s"),
+        (["demo", "--full"], "run it through four strokes in 34 s"),
+        (["study", "ratchet"], "run the paper's study with it"),
+    ],
+    ids=["demo", "full", "study"],
+)
+def test_what_is_being_done_is_said_first(command: list[str], purpose: str, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr("build_fmu.build", lambda *_: typer.echo("The engine is not inside"))
+    code, text = invoke(*command, "-o", tmp_path)
+    assert code == 2  # there is no FMU to go on with
+    path = tmp_path / "Ratchet.fmu"
+    assert text.startswith(f"Building the paper's ratchet, {path}, to {purpose}. The engine is not inside")
+
+
+def test_a_build_says_what_it_made_before_what_it_lacks(ratchet_fmu: Path, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr("mechanism_fmu.fmu.package.build_fmu", lambda *_: ratchet_fmu)
+    monkeypatch.setattr("mechanism_fmu.fmu.native.link.has_linker", lambda: False)
+    code, text = invoke("build", "ratchet", "-o", tmp_path)
+    assert code == 0
+    assert text.startswith(str(ratchet_fmu))
+    assert text.index("GUID") < text.index("python -m pip install ziglang")

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from harness.clock import SECOND, TimeGrid, seconds
+from harness.clock import SECOND, TimeGrid, begin_and_size, seconds
 from harness.errors import UsageError
 
 
@@ -27,6 +27,12 @@ def test_time_never_drifts_over_a_million_steps() -> None:
         assert seconds(begin) == number / 100
         added += 0.01
     assert added != 1e4  # what the clock is there to avoid
+
+
+@given(st.integers(1, 2**53), st.integers(1, 2**53))
+def test_begin_and_size_add_up_to_the_end_to_the_last_bit(length: int, step: int) -> None:
+    for begin, end in itertools.islice(TimeGrid(0, length, step), 1000):
+        assert sum(begin_and_size(begin, end)) == seconds(end)
 
 
 def test_last_step_is_shortened() -> None:

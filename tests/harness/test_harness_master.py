@@ -10,7 +10,7 @@ from harness.inputs import InputSignals
 from harness.master import Ending, run_fixed_step
 from harness.messages import Status
 from harness.recorder import Recorder, recorded_variables
-from harness.slave import Slave
+from harness.slave import Observable
 
 GRID = TimeGrid.of(stop_time=1.0, step=0.3)
 
@@ -83,10 +83,10 @@ def test_a_request_ends_the_run_at_a_communication_point() -> None:
 
 def test_a_mistake_in_an_observer_is_not_taken_for_a_failure_of_the_fmu() -> None:
     class Careless:
-        def started(self, slave: Slave, time: float) -> None:
+        def started(self, unit: Observable, time: float) -> None:
             raise ZeroDivisionError
 
-        def stepped(self, slave: Slave, time: float) -> None: ...
+        def stepped(self, unit: Observable, time: float) -> None: ...
 
     with pytest.raises(ZeroDivisionError):
         run_fixed_step(FakeSlave(), GRID, {}, [Careless()])

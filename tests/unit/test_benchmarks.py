@@ -17,6 +17,7 @@ from benchmarks.timing import Comparison, DisagreementError, in_turns, require_a
 from mechanism_fmu import codes
 from mechanism_fmu.engine.block.layout import field_of
 from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.model.compile import compile_mechanism
 
 
 @pytest.mark.parametrize(
@@ -118,7 +119,7 @@ def test_c_of_another_mechanism_is_not_timed(engine: c_limit.Engine, tmp_path: P
 )
 def test_the_c_program_refuses_what_it_does_not_know(parameters: dict[str, float], what: str) -> None:
     model = models.load("ratchet").MODEL
-    block = pack(model.build(model.values(**parameters)).compile())
+    block = pack(compile_mechanism(model.build(model.values(**parameters))))
     with pytest.raises(ValueError, match=what):
         export(block)
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...engine.block.layout import FIELDS, Array, field_of, slot
 from ...model import GROUND, Mechanism, MechanismError, Settings
-from ...model.compile import curve_owners
+from ...model.mechanism import curve_owners
 from ...model.symbol import Symbol
 from ...model.trace import Trace
 

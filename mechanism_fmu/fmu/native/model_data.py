@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from ...engine.block.layout import FIELDS, slot
 from ...engine.block.pack import pack
-from ...model import Mechanism, Model
+from ...model import Mechanism, Model, compile_mechanism
 from ...model.contacts import too_deep
 from ..variables import Variable, variables_of
 from .description3 import array_layout
@@ -27,7 +27,7 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> st
         mark: 16 bytes by which a serialized state is recognised.
     """
     mechanism = model.mechanism(model.values())
-    block = pack(mechanism.compile())
+    block = pack(compile_mechanism(mechanism))
     first_of_work = next(field.name for field in FIELDS if field.room == "work")
     given = int(block.view("int64")[slot(first_of_work)])
     variables = variables_of(model)

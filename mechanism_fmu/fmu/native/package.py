@@ -14,7 +14,7 @@ from types import ModuleType
 import fmpy
 
 from ...engine.block.pack import pack
-from ...model import Model
+from ...model import Model, compile_mechanism
 from ...model.trace import trace
 from ..archive import DESCRIPTION, content_hash, write_archive
 from ..contents import common_entries, file_in, model_of
@@ -28,8 +28,9 @@ from .start_check import check_start
 from .targets import TARGETS, Target
 from .universal import universal
 
-#: The files of the C surface; both versions of FMI stand in one library.
-_SURFACE = ("instance.c", "values.c", "saved.c", "log.c", "fmi2.c", "fmi3.c")
+#: The files of the C surface, each using those before it; both versions of FMI stand in one library.
+_SURFACE = ("log.c", "instance.c", "values.c", "saved.c", "fmi2.c", "fmi3.c")
+_HEADERS = ("model.h", "record.h", "log.h", "instance.h")
 
 #: The headers of both standards, which the package fmpy brings.
 _STANDARD = Path(fmpy.__file__).with_name("c-code")
@@ -74,7 +75,7 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
     origin = model_of(module)
     model = origin.model
     path = file_in(destination, f"{model.name}.fmu")
-    traced = formulas(trace(model), pack(model.build(model.values()).compile()))
+    traced = formulas(trace(model), pack(compile_mechanism(model.build(model.values()))))
     entries = common_entries(origin, _FACTS, ("mechanism_fmu",))
     if fmi == 3:
         entries = {_PLACES3.get(name, name): contents for name, contents in entries.items()}
@@ -104,7 +105,7 @@ def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], e
     parts = {
         **entries,
         "model.c": model_source(model, traced, "", bytes(16)).encode(),
-        **linked_with(*_SURFACE, "model.h", "instance.h"),
+        **linked_with(*_SURFACE, *_HEADERS),
         **{file.name: file.read_bytes() for file in sorted(_STANDARD.glob("fmi[23]*.h"))},
         **{name: object_file.read_bytes() for name, object_file in engine.objects.items()},
     }

@@ -9,7 +9,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output, Parameter
+from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output, Parameter, compile_mechanism
 from ...model.trace import trace
 from ..contents import model_of
 from ..drawing import drawing
@@ -49,7 +49,7 @@ def examine(module: ModuleType, path: Path, native: bool) -> list[str]:
         model_of(module)
         mechanism = model.build(model.values())
         check_mechanism(mechanism)
-        mechanism.compile()
+        compile_mechanism(mechanism)
         _check_variables(model)
         model_description(model, "")
         drawing(model)

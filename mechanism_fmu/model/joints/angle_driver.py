@@ -21,6 +21,8 @@ class AngleDriver:
     4. nu = C'.
     5. gamma = C''.
 
+    Outputs: `torque` [N m], of the driver on body j.
+
     Attributes:
         name: unique within the mechanism.
         body_j: the body that is driven.

@@ -10,10 +10,11 @@ from ..body import Point
 from ..curves import Curve
 from ..functions import Number
 from .direction import direction
+from .profile_contact import ProfileContact
 
 
 @dataclass(frozen=True)
-class CamFlatFollower:
+class CamFlatFollower(ProfileContact):
     """A profile touches a straight face (ME451, cam-flat-faced follower).
 
     1. Allows: the profile rolls and slides on the face; two degrees of freedom remain of three.
@@ -36,16 +37,12 @@ class CamFlatFollower:
         direction_j: along the face in the frame of body j (any length > 0; u_j is its unit vector), so that R u_j,
             u_j turned by +90 deg, points from the face towards the cam.
         centre_i: s, the centre of the profile in the frame of body i [m].
-        unilateral, restitution, closed, enabled: as of `CamFollower`.
+        unilateral, restitution, closed, enabled: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.CAM_FLAT_FOLLOWER
     rows: ClassVar[int] = 2
     alphas: ClassVar[int] = 1
-    friction: ClassVar[Number] = 0.0
-    beam_length: ClassVar[Number] = 0.0
-    pattern: ClassVar[str | None] = None
-    closed_while: ClassVar[str | None] = None
 
     name: str
     body_i: str
@@ -58,11 +55,6 @@ class CamFlatFollower:
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
-
-    @property
-    def guided(self) -> Number:
-        """Whether the contact, once closed, also pulls and never opens."""
-        return 1 - self.unilateral
 
     @property
     def profiles(self) -> tuple[Curve | None, Curve | None]:

@@ -9,10 +9,11 @@ from ... import codes
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
+from .profile_contact import ProfileContact
 
 
 @dataclass(frozen=True)
-class CamFollower:
+class CamFollower(ProfileContact):
     """Two profiles touch each other (ME451, cam-follower).
 
     1. Allows: the profiles roll and slide on each other; two degrees of freedom remain of three.
@@ -32,19 +33,12 @@ class CamFollower:
         body_i, body_j: names of cam and follower (or `GROUND`).
         profile_i, profile_j: rho [m] over alpha [rad], about each profile's centre.
         centre_i, centre_j: s, the centres in the frame of each body [m].
-        unilateral: whether the contact only pushes, and opens; otherwise it holds, as a groove does.
-        restitution: e of eq (4), 0..1, of a unilateral contact.
-        closed: whether assembly puts the profiles in contact.
-        enabled: whether the contact exists; a number, so that a parameter can switch it off.
+        unilateral, restitution, closed, enabled: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.CAM_FOLLOWER
     rows: ClassVar[int] = 3
     alphas: ClassVar[int] = 2
-    friction: ClassVar[Number] = 0.0
-    beam_length: ClassVar[Number] = 0.0
-    pattern: ClassVar[str | None] = None
-    closed_while: ClassVar[str | None] = None
 
     name: str
     body_i: str
@@ -57,11 +51,6 @@ class CamFollower:
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
-
-    @property
-    def guided(self) -> Number:
-        """Whether the contact, once closed, also pulls and never opens."""
-        return 1 - self.unilateral
 
     @property
     def profiles(self) -> tuple[Curve | None, Curve | None]:

@@ -21,6 +21,8 @@ class Distance:
     4. nu = 0.
     5. gamma = -2 d'.d' - 2 d.(a phi_i'^2 - b phi_j'^2).
 
+    Outputs: `force` [N], the tension of the rod: positive when it pulls.
+
     Attributes:
         name: unique within the mechanism.
         body_i, body_j: names of the two bodies (or `GROUND`).

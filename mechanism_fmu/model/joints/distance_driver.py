@@ -19,11 +19,7 @@ class DistanceDriver(PointDriver):
     4. nu = 2 C C'.
     5. gamma = -2 d'.d' - 2 d.(a phi_i'^2 - b phi_j'^2) + 2 (C'^2 + C C'').
 
-    Attributes:
-        name: unique within the mechanism.
-        body_j, point_j: body, and P in its frame [m], that are driven.
-        motion: C(t) [m], > 0, with two derivatives.
-        body_i, point_i: what they are driven against: the ground at its origin unless given.
+    Attributes: as of `PointDriver`, with C > 0.
     """
 
     kind: ClassVar[int] = codes.DISTANCE_DRIVER

@@ -20,6 +20,8 @@ class Gears(GearPair):
     4. nu = 0.
     5. gamma = n.d th'^2 + 2 t.d' th' - n.(a phi_i'^2 - b phi_j'^2).
 
+    Outputs: `force` [N], tangential: positive when its torque on body i, force times R_i, is.
+
     Traps: the row does not keep the centres R_i + R_j apart (give each gear a pin on a carrier or the ground, or join
     the centres by a `Distance`); it also accepts centres that stand opposite, so start near the right side; angles must
     count turns, as those of bodies do: 2 pi more on one gear is another mesh.

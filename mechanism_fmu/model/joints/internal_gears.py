@@ -19,6 +19,8 @@ class InternalGears(GearPair):
     4. nu = 0.
     5. gamma as of `Gears`.
 
+    Outputs: `force` [N], as of `Gears`.
+
     Traps: as of `Gears`; here the centres must be kept R_i - R_j apart.
 
     Attributes:

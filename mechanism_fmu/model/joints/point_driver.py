@@ -12,7 +12,14 @@ from ..functions import Number
 
 @dataclass(frozen=True)
 class PointDriver:
-    """A driver of point P of body j against point P of body i, as of `XDriver`."""
+    """A driver of point P of body j against point P of body i.
+
+    Attributes:
+        name: unique within the mechanism.
+        body_j, point_j: body, and P in its frame [m], that are driven.
+        motion: C(t) [m], with two derivatives.
+        body_i, point_i: what they are driven against: the ground at its origin unless given.
+    """
 
     rows: ClassVar[int] = 1
     friction: ClassVar[Number] = 0.0

@@ -9,10 +9,11 @@ from ... import codes
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
+from .profile_contact import ProfileContact
 
 
 @dataclass(frozen=True)
-class PointFollower:
+class PointFollower(ProfileContact):
     """A point of body i stays on a profile of body j (ME451, point-follower).
 
     1. Allows: the point slides along the profile, and body i turns; two degrees of freedom remain of three.
@@ -27,16 +28,12 @@ class PointFollower:
         point_i: P in the frame of body i [m].
         profile_j: rho [m] over alpha [rad], about the profile's centre.
         centre_j: s, the centre of the profile in the frame of body j [m].
-        unilateral, restitution, closed, enabled: as of `CamFollower`.
+        unilateral, restitution, closed, enabled: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.POINT_FOLLOWER
     rows: ClassVar[int] = 2
     alphas: ClassVar[int] = 1
-    friction: ClassVar[Number] = 0.0
-    beam_length: ClassVar[Number] = 0.0
-    pattern: ClassVar[str | None] = None
-    closed_while: ClassVar[str | None] = None
 
     name: str
     body_i: str
@@ -48,11 +45,6 @@ class PointFollower:
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
-
-    @property
-    def guided(self) -> Number:
-        """Whether the contact, once closed, also pulls and never opens."""
-        return 1 - self.unilateral
 
     @property
     def profiles(self) -> tuple[Curve | None, Curve | None]:

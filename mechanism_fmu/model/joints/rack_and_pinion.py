@@ -23,6 +23,8 @@ class RackAndPinion:
     4. nu = 0.
     5. gamma = w.d phi_i'^2 - 2 (R w).d' phi_i' - w.(a phi_i'^2 - b phi_j'^2) of either row.
 
+    Outputs: `force` [N], on the pinion along the rack, and `normal_force` [N], on the pinion away from the rack.
+
     Traps: unlike the row of gears these rows do keep the distance, so that a guide and a pin beside them repeat it;
     angles must count turns, as those of bodies do: after a turn the pinion is 2 pi R_j further.
 

@@ -21,6 +21,8 @@ class Revolute:
     4. nu = 0.
     5. gamma = a phi_i'^2 - b phi_j'^2.
 
+    Outputs: `force_x` and `force_y` [N], the force on body i, along the global axes.
+
     Attributes:
         name: unique within the mechanism.
         body_i, body_j: names of the two bodies (or `GROUND`).

@@ -22,6 +22,8 @@ class RevoluteTranslational:
     4. nu = 0.
     5. gamma = n.d phi_i'^2 + 2 u.d' phi_i' - n.(a phi_i'^2 - b phi_j'^2).
 
+    Outputs: `force` [N], of the guide on the pin (body j): positive along R u_i, to the left of the guide.
+
     Attributes:
         name: unique within the mechanism.
         body_i, body_j: names of the two bodies (or `GROUND`); the guide is on body i.

@@ -21,6 +21,8 @@ class Translational:
     4. nu = 0.
     5. gamma = n.d phi_i'^2 + 2 v_i.d' phi_i' - n.(a phi_i'^2 - b phi_j'^2) and n.v_j (phi_i' - phi_j')^2.
 
+    Outputs: `force` [N], across the axis, on body j: positive along R v_i, to the left of the axis.
+
     Traps: the rows do not know which way along the axis is forward, so that a slider may come to stand turned by 180
     degrees: the start guess decides.
 

@@ -22,6 +22,8 @@ class TranslationalDriver:
     4. nu = C'.
     5. gamma = u.d phi_i'^2 - 2 (R u).d' phi_i' - u.(a phi_i'^2 - b phi_j'^2) + C''.
 
+    Outputs: `force` [N], of the driver on body j along u_i.
+
     Attributes:
         name: unique within the mechanism.
         body_j, point_j: body, and P in its frame [m], that are driven.

@@ -19,11 +19,9 @@ class XDriver(PointDriver):
     4. nu = C'.
     5. gamma = -(A_i s_i)_x phi_i'^2 + (A_j s_j)_x phi_j'^2 + C''.
 
-    Attributes:
-        name: unique within the mechanism.
-        body_j, point_j: body, and P in its frame [m], that are driven.
-        motion: C(t) [m], with two derivatives.
-        body_i, point_i: what they are driven against: the ground at its origin unless given.
+    Outputs: `force` [N], of the driver on body j along x.
+
+    Attributes: as of `PointDriver`.
     """
 
     kind: ClassVar[int] = codes.X_DRIVER

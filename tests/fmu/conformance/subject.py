@@ -31,8 +31,8 @@ class Subject:
     native: bool = False
 
     @property
-    def told(self) -> set[str]:
-        """Log categories of what happens in the rough run."""
+    def event_categories(self) -> set[str]:
+        """Log categories in which the rough run tells its impacts and other events."""
         return {"logEvents"} if self.impacts else set()
 
     def assert_struck(self, one: Instance) -> None:

@@ -16,7 +16,7 @@ def test_every_category_that_is_used_is_declared(subject, instance):
     refuse(one)
     declared = {category.name for category in subject.fmu.description.logCategories}
     used = {message.category for message in one.log}
-    assert {*subject.told, "logStatusError"} <= used
+    assert {*subject.event_categories, "logStatusError"} <= used
     # The wrapper's own line after a refusal has no category.
     assert used - declared <= {""}
 
@@ -46,7 +46,7 @@ def test_categories_are_obeyed(subject, instance):
     one.slave.setDebugLogging(True, ["logEvents"])
     one.begin(subject.rough).run(subject.until, 0.05)
     refuse(one)
-    assert {message.category for message in one.log} == subject.told
+    assert {message.category for message in one.log} == subject.event_categories
 
 
 def test_a_refusal_names_the_instance_that_refused(subject, instance):

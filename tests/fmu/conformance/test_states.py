@@ -99,7 +99,7 @@ def test_what_is_replayed_is_told_again(subject, instance):
         one.run(subject.until, 0.05)
         told.append(one.log[since:])
     assert told[0] == told[1]
-    assert {message.category for message in told[0]} >= subject.told
+    assert {message.category for message in told[0]} >= subject.event_categories
     one.slave.freeFMUstate(state)
 
 

@@ -1,4 +1,4 @@
-"""A native FMU refuses the numbers that `Mechanism.compile` refuses, in the same words."""
+"""A native FMU refuses the numbers that `compile_mechanism` refuses, in the same words."""
 
 import pytest
 from fmpy.fmi1 import FMICallException
@@ -6,6 +6,7 @@ from fmpy.fmi1 import FMICallException
 import tests.unlimited as unlimited
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.model import MechanismError
+from mechanism_fmu.model.compile import compile_mechanism
 from tests.fmu.conformance.host import Fmu, Instance
 from tests.unlimited import MODEL
 
@@ -32,7 +33,7 @@ def fmu(tmp_path_factory):
 @pytest.mark.parametrize("values", IMPOSSIBLE.values(), ids=IMPOSSIBLE)
 def test_impossible_numbers_are_refused_in_the_words_of_the_check(fmu, values):
     with pytest.raises(MechanismError) as refusal:
-        MODEL.build(MODEL.values(**values)).compile()
+        compile_mechanism(MODEL.build(MODEL.values(**values)))
     with Instance(fmu) as one:
         one.slave.setupExperiment(startTime=0.0)
         one.set(values)

@@ -36,6 +36,7 @@ from mechanism_fmu.model import (
     XDriver,
     YDriver,
 )
+from mechanism_fmu.model.compile import compile_mechanism
 
 ORACLE = Path(os.environ.get("JOINT_ORACLE", Path(__file__).parents[2] / "data" / "joints.json"))
 
@@ -130,7 +131,7 @@ def rows_of(kind, case):
     assert names == [*(c for body in bodies for c in BODIES[body]), *(name for name in ALPHAS if name in names)]
     part = (JOINTS | CONTACTS)[kind](Numbers(case["attrs"]))
     place = {"joints": (part,)} if kind in JOINTS else {"contacts": (part,)}
-    block = pack(Mechanism(bodies=tuple(Body(body, 1.0, 1.0) for body in bodies), **place).compile())
+    block = pack(compile_mechanism(Mechanism(bodies=tuple(Body(body, 1.0, 1.0) for body in bodies), **place)))
     q, qd = np.array(case["q"]), np.array(case["qd"])
     return evaluated_rows(block, q, qd, case["t"]), evaluated_rows(block, q, 0 * qd, case["t"])
 

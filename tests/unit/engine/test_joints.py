@@ -40,6 +40,7 @@ from mechanism_fmu.model import (
     XDriver,
     YDriver,
 )
+from mechanism_fmu.model.compile import compile_mechanism
 
 NAMES = ("a", "b", GROUND)
 ORIGIN = (0.0, 0.0)
@@ -54,7 +55,7 @@ def evaluate_tangent(block):
 
 def a_curve():
     """A curve with a place of its own in the tables."""
-    return Curve((Piece(0.0, (Term(),)),))
+    return Curve((Piece(0.0, (Term((1.0,)),)),))
 
 
 #: A part of each kind between bodies i and j; its numbers are still to be written into the tables.
@@ -85,7 +86,7 @@ def block_with(kind, frames):
     """A block of two bodies and one part."""
     part = PARTS[kind](*(NAMES[frame] for frame in frames))
     place = {"joints": (part,)} if kind in JOINTS | DRIVERS else {"contacts": (part,)}
-    return pack(Mechanism(bodies=(Body("a", 1.0, 1.0), Body("b", 1.0, 1.0)), **place).compile())
+    return pack(compile_mechanism(Mechanism(bodies=(Body("a", 1.0, 1.0), Body("b", 1.0, 1.0)), **place)))
 
 
 def engine_rows(kind, data, curves, frames, state):

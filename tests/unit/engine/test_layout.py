@@ -6,6 +6,7 @@ from rotor import Stop, rotor
 from mechanism_fmu import codes
 from mechanism_fmu.engine.block.layout import FIELDS, SIZES, allocate, field_of, sizes_of, state_of
 from mechanism_fmu.engine.block.pack import pack, write_tables
+from mechanism_fmu.model.compile import compile_mechanism
 
 GIVEN = {
     "bodies": 2,
@@ -76,7 +77,7 @@ def test_the_state_is_the_state_fields_and_nothing_else():
 
 
 def test_pack_writes_every_table_where_field_of_finds_it():
-    tables = rotor([Stop(1.0)], acceleration=2.0).compile()
+    tables = compile_mechanism(rotor([Stop(1.0)], acceleration=2.0))
     block = pack(tables)
     for field in FIELDS:
         if field.room == "tables":
@@ -85,8 +86,8 @@ def test_pack_writes_every_table_where_field_of_finds_it():
 
 
 def test_new_tables_leave_the_state_as_it_is():
-    block = pack(rotor([Stop(1.0)], acceleration=2.0).compile())
+    block = pack(compile_mechanism(rotor([Stop(1.0)], acceleration=2.0)))
     state_of(block)[:] = 7.0
-    write_tables(block, rotor([Stop(0.5)], acceleration=3.0).compile())
+    write_tables(block, compile_mechanism(rotor([Stop(0.5)], acceleration=3.0)))
     assert (state_of(block) == 7.0).all()
     assert field_of(block, "input_start")[0] == rotor(acceleration=3.0).inputs[0].start

@@ -20,6 +20,7 @@ from mechanism_fmu.model import (
     Revolute,
     Term,
 )
+from mechanism_fmu.model.compile import compile_mechanism
 
 EGG = Curve((Piece(0.0, (Term((1.0,), 0.2, 2.0),)),))
 ROUND = Curve((Piece(0.0, (Term((0.25,)),)),))
@@ -45,7 +46,7 @@ TIME = 0.7
 
 def rows_of(joints, contacts, alphas):
     """Rows with the contact coordinates of the given numbers."""
-    block = pack(Mechanism(bodies=BODIES, joints=joints, contacts=contacts).compile())
+    block = pack(compile_mechanism(Mechanism(bodies=BODIES, joints=joints, contacts=contacts)))
     chosen = [*range(6), *(6 + k for k in alphas)]
     return evaluated_rows(block, Q[chosen], QD[chosen], TIME)
 
@@ -76,5 +77,5 @@ def test_contacts_follow_open_or_closed_with_columns_for_their_coordinates(name)
 
 def test_only_drivers_depend_on_time():
     assert np.flatnonzero(ALL.nu).tolist() == [2]
-    later = evaluated_rows(pack(Mechanism(BODIES, JOINTS, contacts=CONTACTS).compile()), Q, QD, TIME + 0.1)
+    later = evaluated_rows(pack(compile_mechanism(Mechanism(BODIES, JOINTS, contacts=CONTACTS))), Q, QD, TIME + 0.1)
     assert np.flatnonzero(later.phi - ALL.phi).tolist() == [2]

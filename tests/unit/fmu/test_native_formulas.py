@@ -14,6 +14,7 @@ from mechanism_fmu.engine.block.layout import FIELDS, field_of
 from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.fmu.native.formulas import c_number, formulas, printf_text
 from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model, Parameter
+from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan, where_positive
 from mechanism_fmu.model.trace import trace
 from models.geneva.model import MODEL as GENEVA
@@ -62,7 +63,7 @@ class Compiled:
 
     def __init__(self, model, folder):
         self.model = model
-        self.block = pack(model.build(model.values()).compile())
+        self.block = pack(compile_mechanism(model.build(model.values())))
         self.formulas = formulas(trace(model), self.block)
         library = _library(self.formulas.source + SAY, folder / model.name)
         pointer = np.ctypeslib.ndpointer(np.float64, flags="C")
@@ -113,7 +114,7 @@ def compiled(request, tmp_path_factory):
 def test_c_writes_the_tables_of_the_model_to_the_last_bit(compiled, data):
     values = data.draw(near_defaults(compiled.model))
     assume(not compiled.model.refused(values))
-    block, expected = compiled(values)[0], pack(compiled.model.build(values).compile())
+    block, expected = compiled(values)[0], pack(compile_mechanism(compiled.model.build(values)))
     for field in FIELDS:
         if field.room == "tables":
             assert field_of(block, field.name).tobytes() == field_of(expected, field.name).tobytes(), field.name
@@ -152,7 +153,7 @@ def test_texts_become_formats_of_printf():
 
 
 def test_every_word_that_depends_on_a_parameter_has_a_name():
-    block = pack(RATCHET.build(RATCHET.values()).compile())
+    block = pack(compile_mechanism(RATCHET.build(RATCHET.values())))
     words = formulas(trace(RATCHET), block).words
     assert len({word for word, _ in words}) == len(words)
     by_value = {label: block[word] for word, label in words}
@@ -167,4 +168,4 @@ def test_every_word_that_depends_on_a_parameter_has_a_name():
 
 def test_a_block_of_another_model_is_refused():
     with pytest.raises(MechanismError, match="not one of Ratchet: its table inverse_mass has another size"):
-        formulas(trace(RATCHET), pack(GENEVA.build(GENEVA.values()).compile()))
+        formulas(trace(RATCHET), pack(compile_mechanism(GENEVA.build(GENEVA.values()))))

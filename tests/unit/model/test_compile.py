@@ -26,66 +26,71 @@ from mechanism_fmu.model import (
     TorsionSpring,
     Translational,
 )
+from mechanism_fmu.model.compile import compile_mechanism
 
-TABLES = Mechanism(
-    bodies=(Body("arm", 4.0, 0.25, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), Body("slider", 16.0, 1.0)),
-    joints=(
-        Revolute("hinge", "arm", (1.0, 2.0), GROUND, (3.0, 4.0), 0.03),
-        Translational("guide", "slider", (1.0, 2.0), (3.0, 4.0), "arm", (5.0, 6.0), (7.0, 8.0), 0.2),
-    ),
-    forces=(
-        Torque("drive", "slider", reaction="arm", torque=9.0),
-        TorsionSpring("spring", "arm", stiffness=1.0, free_angle=2.0, preload=3.0),
-        Damper("oil", "arm", "slider", 0.5),
-        CompliantShaft("shaft", "slider", stiffness=7.0, damping=8.0, angle=0.1, speed=0.2),
-        Force("weight", "arm", (-3.0, -4.0)),
-    ),
-    contacts=(
-        PointLineContact("rest", "arm", (1.0, 2.0), "slider", (3.0, 4.0), (0.6, 0.8), True, 0.5, 0.1, 0.04, True),
-        PointLineContact(
-            "stop",
-            "arm",
-            (1.0, 2.0),
-            GROUND,
-            (3.0, 4.0),
-            (0.0, 1.0),
-            friction=0.3,
-            beam_length=0.02,
-            closed_while="not near",
+TABLES = compile_mechanism(
+    Mechanism(
+        bodies=(Body("arm", 4.0, 0.25, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), Body("slider", 16.0, 1.0)),
+        joints=(
+            Revolute("hinge", "arm", (1.0, 2.0), GROUND, (3.0, 4.0), 0.03),
+            Translational("guide", "slider", (1.0, 2.0), (3.0, 4.0), "arm", (5.0, 6.0), (7.0, 8.0), 0.2),
         ),
-        PointLineContact("tooth", "slider", (1.0, 2.0), "arm", (3.0, 4.0), (1.0, 0.0), enabled=False, pattern="teeth"),
-        AngleStop("click", "arm", GROUND, 0.4, 0.5, 0.25),
-        AngleStop("end", "slider", "arm", -0.4),
-        AngleLock("lock", "arm", "slider", 0.6, 0.7, "turned"),
-    ),
-    patterns=(
-        CircularPattern("holes", "arm", (1.0, 2.0), GROUND, 0.5, (3.0, 4.0), (0.0, 1.0), enabled=False),
-        CircularPattern("teeth", "slider", (5.0, 6.0), "arm", -0.25, (7.0, 8.0), (0.6, -0.8)),
-    ),
-    functions=(LogicalFunction("turned", "slider.angle", 1.5), LogicalFunction("near", "tooth.along", -0.5)),
-    inputs=(Input("preload", "spring.preload", 0.1, "x"), Input("torque", "drive.torque", 0.2, "x")),
-    outputs=(
-        Output("angle", "slider.angle", "x"),
-        Output("rate", "arm.y_rate", "x"),
-        Output("force", "stop.force", "x"),
-        Output("gap", "rest.gap", "x"),
-        Output("closed", "stop.closed", "x", type="Boolean"),
-        Output("clicks", "click.clicks", "x", type="Integer"),
-        Output("latched", "end.latched", "x"),
-        Output("index", "teeth.index", "x", type="Integer"),
-        Output("twist", "shaft.torque", "x"),
-        Output("events", "event.count", "x", type="Integer"),
-        Output("work", "energy.work", "x"),
-        Output("count", "impact.count", "x", type="Integer"),
-        Output("time", "impact.time", "x"),
-        Output("impulse", "impact.impulse:stop", "x"),
-        Output("before", "impact.speed_before:slider", "x"),
-        Output("after", "impacts[3].speed:arm", "x"),
-    ),
-    calculated=(Calculated("size", 2.5, "x"),),
-    held=("slider.y", "arm.angle"),
-    settings=Settings(1e-6, 20.0, 30.0),
-).compile()
+        forces=(
+            Torque("drive", "slider", reaction="arm", torque=9.0),
+            TorsionSpring("spring", "arm", stiffness=1.0, free_angle=2.0, preload=3.0),
+            Damper("oil", "arm", "slider", 0.5),
+            CompliantShaft("shaft", "slider", stiffness=7.0, damping=8.0, angle=0.1, speed=0.2),
+            Force("weight", "arm", (-3.0, -4.0)),
+        ),
+        contacts=(
+            PointLineContact("rest", "arm", (1.0, 2.0), "slider", (3.0, 4.0), (0.6, 0.8), True, 0.5, 0.1, 0.04, True),
+            PointLineContact(
+                "stop",
+                "arm",
+                (1.0, 2.0),
+                GROUND,
+                (3.0, 4.0),
+                (0.0, 1.0),
+                friction=0.3,
+                beam_length=0.02,
+                closed_while="not near",
+            ),
+            PointLineContact(
+                "tooth", "slider", (1.0, 2.0), "arm", (3.0, 4.0), (1.0, 0.0), enabled=False, pattern="teeth"
+            ),
+            AngleStop("click", "arm", GROUND, 0.4, 0.5, 0.25),
+            AngleStop("end", "slider", "arm", -0.4),
+            AngleLock("lock", "arm", "slider", 0.6, 0.7, "turned"),
+        ),
+        patterns=(
+            CircularPattern("holes", "arm", (1.0, 2.0), GROUND, 0.5, (3.0, 4.0), (0.0, 1.0), enabled=False),
+            CircularPattern("teeth", "slider", (5.0, 6.0), "arm", -0.25, (7.0, 8.0), (0.6, -0.8)),
+        ),
+        functions=(LogicalFunction("turned", "slider.angle", 1.5), LogicalFunction("near", "tooth.along", -0.5)),
+        inputs=(Input("preload", "spring.preload", 0.1, "x"), Input("torque", "drive.torque", 0.2, "x")),
+        outputs=(
+            Output("angle", "slider.angle", "x"),
+            Output("rate", "arm.y_rate", "x"),
+            Output("force", "stop.force", "x"),
+            Output("gap", "rest.gap", "x"),
+            Output("closed", "stop.closed", "x", type="Boolean"),
+            Output("clicks", "click.clicks", "x", type="Integer"),
+            Output("latched", "end.latched", "x"),
+            Output("index", "teeth.index", "x", type="Integer"),
+            Output("twist", "shaft.torque", "x"),
+            Output("events", "event.count", "x", type="Integer"),
+            Output("work", "energy.work", "x"),
+            Output("count", "impact.count", "x", type="Integer"),
+            Output("time", "impact.time", "x"),
+            Output("impulse", "impact.impulse:stop", "x"),
+            Output("before", "impact.speed_before:slider", "x"),
+            Output("after", "impacts[3].speed:arm", "x"),
+        ),
+        calculated=(Calculated("size", 2.5, "x"),),
+        held=("slider.y", "arm.angle"),
+        settings=Settings(1e-6, 20.0, 30.0),
+    )
+)
 
 
 def test_masses_repeat_for_x_and_y_and_the_ground_has_none():
@@ -228,7 +233,7 @@ def test_structure_is_integer_and_numbers_are_floats():
 
 
 def test_a_single_free_body_has_tables_of_the_right_width():
-    tables = Mechanism(bodies=(Body("stone", 1.0, 1.0, (0.0, 1.0, math.pi)),)).compile()
+    tables = compile_mechanism(Mechanism(bodies=(Body("stone", 1.0, 1.0, (0.0, 1.0, math.pi)),)))
     assert tables.joint_data.shape == (0, 9)
     assert tables.force_data.shape == (0, 4)
     assert tables.contact_data.shape == (0, 6)

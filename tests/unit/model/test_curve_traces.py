@@ -3,8 +3,10 @@
 import math
 from types import SimpleNamespace
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from recorded import said
 
 from mechanism_fmu.model import (
     GROUND,
@@ -12,6 +14,7 @@ from mechanism_fmu.model import (
     Body,
     CamFollower,
     Mechanism,
+    MechanismError,
     Model,
     Move,
     Parameter,
@@ -83,4 +86,33 @@ def test_traced_curves_have_the_same_tables_and_findings(radius: float, lift: fl
     expected, found = compile_tables(plain), TRACED.evaluate(values)
     for name in ("curve_range", "piece_start", "term_data"):
         assert getattr(found, name).tobytes() == getattr(expected, name).tobytes(), name
-    assert TRACED.impossible(values) == messages(number_findings(plain))
+    assert said(TRACED, TRACED.problems, values) == messages(number_findings(plain))
+
+
+WAY = ((0.0, 1.0), (1.0, 1.2), (1.5, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("make", "what"),
+    [
+        (lambda width: slot([*WAY, (width, 1.0)]), "angle of point 4"),
+        (lambda width: spline_profile([1.0, 1.2, 1.0], [0.0, width, 2.0]), "angle of point 2"),
+        (lambda width: table_motion([(width - 2.0, 0.0), *WAY]), "time of point 1"),
+    ],
+    ids=["slot", "spline", "table"],
+)
+def test_a_spline_at_places_of_a_parameter_says_so_and_the_way_out(make, what: str) -> None:
+    """Nothing branches there: the message is about the points, and says in which line of the user's they stand."""
+
+    def mechanism(values: SimpleNamespace) -> Mechanism:
+        motion = make(values.width)
+        return Mechanism((Body("cam", 1.0, 1.0),), (AngleDriver("driver", "cam", motion),))
+
+    parameters = (Parameter("width", 1.7, "Of the way", "rad"),)
+    with pytest.raises(MechanismError) as refusal:
+        trace(Model("Way", "A way", parameters, mechanism))
+    said_of_it = str(refusal.value)
+    assert "must not branch" not in said_of_it
+    assert f"The {what} of a spline depends on a parameter" in said_of_it
+    assert "Let only the values there depend on parameters, or make a Curve of Pieces" in said_of_it
+    assert "test_curve_traces.py, line" in said_of_it

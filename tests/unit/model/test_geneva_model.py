@@ -6,6 +6,7 @@ import pytest
 from derivatives import assert_derivatives_agree
 
 from mechanism_fmu.model import MechanismError
+from mechanism_fmu.model.compile import compile_mechanism
 from models.geneva.model import MODEL
 from models.geneva.shapes import SHAPES
 
@@ -24,7 +25,7 @@ def test_derivatives_agree_with_differences(name, point):
 
 @pytest.mark.parametrize("slots", range(3, 25))
 def test_default_lengths_fit_every_number_of_slots(slots):
-    MODEL.build(MODEL.values(slot_count=slots)).compile()
+    compile_mechanism(MODEL.build(MODEL.values(slot_count=slots)))
 
 
 @pytest.mark.parametrize(("slots", "diameter"), [(3, 0.024), (4, 0.042), (24, 0.0125)])

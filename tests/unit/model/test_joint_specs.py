@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from recorded import said
 
 from mechanism_fmu import codes
 from mechanism_fmu.model import (
@@ -35,7 +36,7 @@ from mechanism_fmu.model import (
     YDriver,
 )
 from mechanism_fmu.model.check_numbers import number_findings
-from mechanism_fmu.model.compile import compile_tables
+from mechanism_fmu.model.compile import compile_mechanism, compile_tables
 from mechanism_fmu.model.findings import messages
 from mechanism_fmu.model.trace import trace
 
@@ -63,7 +64,7 @@ GOOD = Mechanism(
     joints=(ROD, GUIDE, PAIR, RING, RACK, DRIVE_X, DRIVE_Y, TURN, REEL, PUSH),
     contacts=(ROLLER, FLAT, PIN),
 )
-TABLES = GOOD.compile()
+TABLES = compile_mechanism(GOOD)
 
 
 def test_joints():
@@ -213,7 +214,7 @@ REFUSALS = {
 @pytest.mark.parametrize(("change", "fragments"), REFUSALS.values(), ids=REFUSALS)
 def test_refusal_names_the_part_and_the_limit(change, fragments):
     with pytest.raises(MechanismError) as refusal:
-        replace(GOOD, **change).compile()
+        compile_mechanism(replace(GOOD, **change))
     for fragment in fragments:
         assert fragment in str(refusal.value)
 
@@ -259,7 +260,7 @@ def test_numbers_may_be_symbolic(size, axis, unilateral):
     """Traced, mechanisms have the same tables to the last bit, and the same is refused."""
     values = TRACED.model.values(size=size, axis=axis, unilateral=unilateral)
     mechanism = _mechanism(values)
-    assert list(TRACED.impossible(values)) == messages(number_findings(mechanism))
+    assert said(TRACED, TRACED.problems, values) == messages(number_findings(mechanism))
     expected, found = compile_tables(mechanism), TRACED.evaluate(values)
     for name in ("joint_data", "contact_data", "contact_value", "curve_range", "term_data"):
         assert getattr(found, name).tobytes() == getattr(expected, name).tobytes(), name

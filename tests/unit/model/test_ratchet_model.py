@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from ratchet_cases import PAPER, gap, paper_values, refused
 
 from mechanism_fmu.model import MechanismError
+from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.sawtooth import sawtooth
 from models.ratchet import drawing
 from models.ratchet.model import MODEL
@@ -19,7 +20,7 @@ from models.ratchet.start import crank_pin, pawl_angle, tip_distance, tooth
 def test_no_case_of_the_paper_is_refused(teeth, angle):
     values = paper_values(teeth, angle)
     assert MODEL.refused(values) == []
-    MODEL.build(values).compile()
+    compile_mechanism(MODEL.build(values))
 
 
 @pytest.mark.parametrize(("teeth", "angle"), PAPER)
@@ -154,7 +155,7 @@ def test_values_within_limits_are_refused_in_words_or_start_on_the_slope(changes
     if objections:
         assert all(objection.endswith(".") for objection in objections)
         return
-    MODEL.build(values).compile()
+    compile_mechanism(MODEL.build(values))
     assert all("beyond the apex" in warning for warning in MODEL.warned(values))
     size = max(values.hinge_distance, values.crank_length, values.pawl_length, values.wheel_inner_radius)
     assert gap(values, tooth(values).slope_normal) == pytest.approx(0, abs=1e-12 * size)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from recorded import said
 
 import models
 from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model, Parameter
@@ -46,8 +47,8 @@ def test_recorded_operations_give_the_tables_of_the_model_to_the_last_bit(traced
 @given(st.data())
 def test_recorded_findings_say_what_the_model_says(traced, data):
     values = data.draw(within_limits(traced.model) | near_defaults(traced.model))
-    assert traced.refused(values) == traced.model.refused(values)
-    assert traced.warned(values) == traced.model.warned(values)
+    assert said(traced, traced.objections, values) == traced.model.refused(values)
+    assert said(traced, traced.warnings, values) == traced.model.warned(values)
 
 
 @pytest.mark.parametrize("traced", TRACES)

@@ -167,8 +167,6 @@ Status initialized(Instance *x) {
     return OK;
 }
 
-double time_of(const Instance *x) { return x->head.prepared ? FIELD(x, clock)[CODE_TIME] : x->head.start_time; }
-
 Status step_target(Instance *x, const char *call, double current_time, double size, double *target) {
     double reached = time_of(x);
     if (!isfinite(current_time) || !isfinite(size))

@@ -2,50 +2,8 @@
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
-#include <stdint.h>
-
-#include "engine.h"
-#include "model.h"
-
-/* The status of a call; the numbers are those of fmi2Status and fmi3Status. */
-typedef enum { OK, WARNING, DISCARD, ERROR, FATAL } Status;
-
-/* States of the life cycle. */
-typedef enum { INSTANTIATED, INITIALIZATION, STEPPING, TERMINATED, EVENT, INTERMEDIATE } Phase;
-
-typedef struct Instance Instance;
-
-/* How a message reaches the host. */
-typedef void Log(const Instance *x, Status status, const char *category, const char *text);
-
-/* What a saved state holds beside parameters and the engine's state. */
-typedef struct {
-    int64_t phase, set_up, prepared;
-    double start_time, stop_time, tolerance;
-    int64_t clock; /* FMI 3.0: the clock `impact` ticks in the event mode that is on, or may be entered next */
-} Head;
-
-struct Instance {
-    /* the host */
-    char *name;
-    Log *log;
-    void *logger, *environment;
-    void *(*allocate)(size_t count, size_t size);
-    void (*release)(void *);
-    unsigned categories; /* a bit for each that is logged */
-    int fmi;             /* major version */
-    int event_mode, early_return;
-    void *intermediate_update;
-    /* the model */
-    Head head;
-    double *parameters;                  /* as set */
-    double *written, written_tolerance; /* what the tables were written for; the tolerance is NaN before */
-    double *findings;
-    double *block;
-    int outputs_read;
-    int64_t told_impacts, told_events, told_lost;
-    unsigned char *told_pull;
-};
+#include "log.h"
+#include "record.h"
 
 /* A value as the host passes it. */
 typedef enum { AS_DOUBLE, AS_INT32, AS_BYTE } Form;
@@ -55,7 +13,6 @@ typedef struct Saved Saved;
 
 Instance *make_instance(const char *name, int fmi, void *(*allocate)(size_t, size_t), void (*release)(void *));
 void free_instance(Instance *x);
-Status set_logging(Instance *x, int on, size_t count, const char *const categories[]);
 
 Status set_up(Instance *x, const char *call, double start_time, int stop_defined, double stop_time, int tolerance_defined,
               double tolerance);
@@ -66,7 +23,6 @@ Status prepare(Instance *x);    /* assemble and begin; before the first step it 
 Status require(Instance *x, const char *call, unsigned phases); /* a bit for each phase in which it is allowed */
 #define IN(phase) (1u << (phase))
 
-double time_of(const Instance *x);
 Status step_target(Instance *x, const char *call, double current_time, double size, double *target);
 Status begin_step(Instance *x, double target);
 Status go_on(Instance *x, double target, int64_t rule);
@@ -83,18 +39,5 @@ void free_saved(Instance *x, Saved *state);
 size_t serialized_size(void);
 Status serialize(Instance *x, const Saved *state, unsigned char *bytes, size_t size);
 Status deserialize(Instance *x, const unsigned char *bytes, size_t size, Saved **state);
-
-void tell_news(Instance *x);
-void forget_news(Instance *x);
-/* No frame may be larger than a page of the stack (4 kB): Windows would need a run-time library to grow the stack. */
-#define OWN_FRAME __attribute__((noinline))
-OWN_FRAME void say(const Instance *x, Status status, const char *category, const char *format, ...);
-OWN_FRAME Status refuse(const Instance *x, const char *format, ...);
-const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size);
-
-/* The entry `index` of a field of the block. */
-#define FIELD(x, name) ((x)->block + ((const int64_t *)(x)->block)[SLOT_##name])
-#define COUNTERS(x) ((int64_t *)FIELD(x, counters))
-#define SIZE(x, name) ((size_t)((const int64_t *)(x)->block)[SIZE_##name])
 
 #endif

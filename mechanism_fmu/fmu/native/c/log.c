@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "instance.h"
+#include "log.h"
 
 static const char *const CATEGORIES[] = LOG_CATEGORIES;
 enum { CATEGORY_COUNT = sizeof CATEGORIES / sizeof *CATEGORIES };

@@ -25,7 +25,7 @@ _IMPACT_COLUMNS = {
 _MOST_IMPACTS = 20
 
 
-def close_run(run: Run, files: Sequence[Path], more_checks: Sequence[Check] = ()) -> int:
+def show_ending(run: Run, files: Sequence[Path], more_checks: Sequence[Check] = ()) -> int:
     """Show how a run ended, and return the exit code."""
     _show_final_values(run)
     _show_impacts(run)

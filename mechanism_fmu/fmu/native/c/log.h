@@ -1,0 +1,15 @@
+/* What an instance tells the host: messages, refusals, and what has happened since it last told. */
+#ifndef LOG_H
+#define LOG_H
+
+#include "record.h"
+
+OWN_FRAME void say(const Instance *x, Status status, const char *category, const char *format, ...);
+OWN_FRAME Status refuse(const Instance *x, const char *format, ...); /* says why, and returns ERROR */
+Status set_logging(Instance *x, int on, size_t count, const char *const categories[]);
+
+void tell_news(Instance *x);
+void forget_news(Instance *x); /* all that has happened so far counts as told */
+const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size);
+
+#endif

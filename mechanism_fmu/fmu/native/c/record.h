@@ -1,0 +1,63 @@
+/* What an instance consists of, and how its fields are read; nothing here refuses or logs. */
+#ifndef RECORD_H
+#define RECORD_H
+
+#include <stdint.h>
+
+#include "engine.h"
+#include "model.h"
+
+/* The status of a call; the numbers are those of fmi2Status and fmi3Status. */
+typedef enum { OK, WARNING, DISCARD, ERROR, FATAL } Status;
+
+/* States of the life cycle. */
+typedef enum { INSTANTIATED, INITIALIZATION, STEPPING, TERMINATED, EVENT, INTERMEDIATE } Phase;
+
+typedef struct Instance Instance;
+
+/* How a message reaches the host. */
+typedef void Log(const Instance *x, Status status, const char *category, const char *text);
+
+/* What a saved state holds beside parameters and the engine's state. */
+typedef struct {
+    int64_t phase, set_up, prepared;
+    double start_time, stop_time, tolerance;
+    int64_t clock; /* FMI 3.0: the clock `impact` ticks in the event mode that is on, or may be entered next */
+} Head;
+
+struct Instance {
+    /* the host */
+    char *name;
+    Log *log;
+    void *logger, *environment;
+    void *(*allocate)(size_t count, size_t size);
+    void (*release)(void *);
+    unsigned categories; /* a bit for each that is logged */
+    int fmi;             /* major version */
+    int event_mode, early_return;
+    void *intermediate_update;
+    /* the model */
+    Head head;
+    double *parameters;                  /* as set */
+    double *written, written_tolerance; /* what the tables were written for; the tolerance is NaN before */
+    double *findings;
+    double *block;
+    int outputs_read;
+    int64_t told_impacts, told_events, told_lost;
+    unsigned char *told_pull;
+};
+
+/* No frame may be larger than a page of the stack (4 kB): Windows would need a run-time library to grow the stack. */
+#define OWN_FRAME __attribute__((noinline))
+
+/* Where a field of the block begins. */
+#define FIELD(x, name) ((x)->block + ((const int64_t *)(x)->block)[SLOT_##name])
+#define COUNTERS(x) ((int64_t *)FIELD(x, counters))
+#define SIZE(x, name) ((size_t)((const int64_t *)(x)->block)[SIZE_##name])
+
+/* The time reached [s]. */
+static inline double time_of(const Instance *x) {
+    return x->head.prepared ? FIELD(x, clock)[CODE_TIME] : x->head.start_time;
+}
+
+#endif
