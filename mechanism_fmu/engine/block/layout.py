@@ -172,7 +172,7 @@ FIELDS = (
     Field("work", "guard_watched", ("guards",), True),
     Field("work", "guard_armed", ("guards",), True),
     Field("work", "guard_floor", ("guards",)),
-    Field("work", "guard_now", ("guards", 2)),
+    Field("work", "guard_rate", ("guards",)),
     Field("work", "guard_next", ("guards", 2)),
     Field("work", "tangent_line", (4,)),
     Field("work", "residual", ("rows",)),

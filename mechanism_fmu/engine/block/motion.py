@@ -158,12 +158,16 @@ strikes = room(Strikes, "contact_")
 
 
 class Watch(NamedTuple):
-    """Scratch of the search for events: which guards are looked at, and their values and rates at two looks."""
+    """Scratch of the search for events.
+
+    Which guards are looked at, whether each is armed and what it must come down to; its rate at the last look; value
+    and rate at the next.
+    """
 
     watched: Array
     armed: Array
     floor: Array
-    now: Array
+    rate: Array
     next: Array
 
 

@@ -25,8 +25,14 @@ def room(view: type[_View], prefix: str = "") -> Callable[[Array], _View]:
     """A function from a block to a `view`: each entry is the field of that name, with `prefix` where there is one."""
     fields = {entry: _field(prefix, entry) for entry in _entries(view)}
 
-    def look(block: Array) -> _View:
-        return view(*(field_of(block, field.name) for field in fields.values()))
+    last: tuple[Array | None, _View | None] = (None, None)
+
+    def look(block: Array) -> Any:
+        nonlocal last
+        seen = last  # plain Python looks at the same block again and again
+        if seen[0] is not block:
+            last = seen = block, view(*(field_of(block, field.name) for field in fields.values()))
+        return seen[1]
 
     return _compilable(look, view.__name__, {entry: _FieldEntry(field) for entry, field in fields.items()})
 

@@ -67,7 +67,7 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
                 system.triangle[p, j] += share
                 _add_multiple(basis[p], -share, basis[system.order[j]], width)
             square = _dot(basis[p], basis[p], width)
-        if not square > RANK_TOLERANCE * RANK_TOLERANCE * system.row_norm[p, 0]:
+        if not square > RANK_TOLERANCE * RANK_TOLERANCE * system.row_norm[p, 0]:  # what rounding hid from the pivoting
             system.rank[0] = r
             return r
         system.independence[0] = fraction

@@ -129,8 +129,7 @@ def _begin(block: Array, number: int) -> bool:
     keep_small()
     look_at = watch(block)
     value, rate = guard_value(block, number)
-    look_at.now[number, 0] = value
-    look_at.now[number, 1] = rate
+    look_at.rate[number] = rate
     look_at.armed[number] = 1
     look_at.floor[number] = 0.0
     guard, subject = guard_of(block, number)
@@ -153,7 +152,7 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     """Where between two looks, whose values are in `watch`, a guard reaches zero; 2.0 when it does not."""
     keep_small()
     look_at = watch(block)
-    rate = look_at.now[number, 1]
+    rate = look_at.rate[number]
     next_value = look_at.next[number, 0]
     next_rate = look_at.next[number, 1]
     floor = look_at.floor[number]
@@ -176,8 +175,7 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
         look_at.floor[number] = 0.0
     if next_value > GAP_NOISE:
         look_at.floor[number] = 0.0
-    look_at.now[number, 0] = next_value
-    look_at.now[number, 1] = next_rate
+    look_at.rate[number] = next_rate
     return fraction
 
 
