@@ -8,23 +8,13 @@ import math
 
 import numpy as np
 import pytest
-from numpy.polynomial import Polynomial
+from written_step import NOTHING, T, search, write
 
 from mechanism_fmu import codes
 from mechanism_fmu.engine.block.layout import field_of
-from mechanism_fmu.engine.compiler.subset import entry
-from mechanism_fmu.engine.stepping.events import first_event
-from mechanism_fmu.model import GROUND, Body, Mechanism, PointLineContact
+from mechanism_fmu.model import GROUND, AngleStop, Body, Mechanism, PointLineContact
 from mechanism_fmu.simulation import Simulation
-from mechanism_fmu.tolerances import GAP_NOISE
-
-T = Polynomial([0.0, 1.0])
-NOTHING = (codes.GUARD_NONE, codes.NONE, 2.0)
-
-
-@entry
-def search(block):
-    return first_event(block)
+from mechanism_fmu.tolerances import GAP_NOISE, MARGIN
 
 
 def walls(*places, **options):
@@ -39,23 +29,10 @@ def walls(*places, **options):
 
 def found(block, x, *, touching=()):
     """What the search answers when the ball's x moves as the polynomial `x`, of degree 4 at most."""
-    dense = field_of(block, "new_dense")
-    dense[:] = 0.0
-    dense[:, 0] = coefficients(x)
-    dense[:, 3] = coefficients(x.deriv())
+    write(block, {0: x})
     field_of(block, "contact_touching")[:] = 0
     field_of(block, "contact_touching")[list(touching)] = 1
     return search(block)
-
-
-def coefficients(x):
-    """Of the dense output: x = d0 + t (d1 + (1 - t) (d2 + t (d3 + (1 - t) d4)))."""
-    kept = []
-    for divisor in (T, 1 - T, T, 1 - T):
-        root = 0.0 if divisor is T else 1.0
-        kept.append(x(root))
-        x = (x - x(root)) // divisor
-    return [*kept, x(0.0)]
 
 
 def assert_hits(event, contact, fraction, within=1e-15):
@@ -98,6 +75,14 @@ def test_the_first_of_two_dips_counts():
     assert_hits(found(walls(0.0), motion), 0, first - 1e-2, 1e-13)
 
 
+def test_the_first_of_two_dips_counts_when_a_look_comes_between():
+    """Bottoms at 0.73 and, deeper, at 0.82; between them a summit at 0.77 and, at 0.75, a look of the search."""
+    motion = ((T - 0.73) * (T - 0.77) * (T - 0.82)).integ()
+    motion = motion - motion(0.73) - 1e-7
+    first = np.sort(motion.roots().real)[0]
+    assert_hits(found(walls(0.0), motion), 0, first, 1e-10)
+
+
 @pytest.mark.parametrize(("places", "struck"), [((0.1, 0.4), 1), ((0.4, 0.1), 0), ((0.30, 0.31), 1), ((0.31, 0.3), 0)])
 def test_of_several_walls_the_first_that_is_reached_is_struck(places, struck):
     """From x = 1 on at speed 1: in different looks, or in the same one."""
@@ -133,10 +118,16 @@ def test_a_gap_that_closes_right_after_opening_counts_though_a_look_finds_it_wit
     assert_hits(found(walls(0.0), T * (T - back) * (T - 0.2), touching=[0]), 0, back, 1e-14)
 
 
-def test_a_dip_within_the_noise_right_after_opening_is_left_alone():
-    """At the first look, after 1/8, the gap is 7e-14 below zero and rises."""
+@pytest.mark.parametrize(("start", "deep"), [(0.0, 6e-13), (4e-13, 9.6e-12)])
+def test_a_dip_within_the_noise_right_after_opening_is_left_alone(start, deep):
+    """At the first look, after 1/8, the gap is 8e-14 or 8e-13 below zero and rises."""
     bottom = 1 / 8 - 1e-7
-    assert found(walls(0.0), T * ((T - bottom) ** 2 - 6e-13), touching=[0]) == NOTHING
+    assert found(walls(0.0), start + T * ((T - bottom) ** 2 - deep), touching=[0]) == NOTHING
+
+
+def test_a_dip_of_a_gap_at_rest_within_the_noise_is_left_alone():
+    """Down by 2e-14 between the start and the first look."""
+    assert found(walls(0.0), 4e-12 * T * (T - 0.14), touching=[0]) == NOTHING
 
 
 def test_a_dip_counts_that_comes_after_a_rise():
@@ -200,3 +191,25 @@ def test_a_wall_behind_does_not_hide_the_one_that_was_left():
 @pytest.mark.parametrize("options", [{"enabled": 0.0}, {"closed": True, "guided": True}])
 def test_walls_that_are_not_there_or_closed_for_good_are_not_watched(options):
     assert found(walls(0.0, **options), 0.5 - T) == NOTHING
+
+
+@pytest.mark.parametrize("angle", [0.6 + 1.1 * MARGIN, 0.7, 0.9, 1.5, 2.0])
+@pytest.mark.parametrize("speed", [-0.01, 0.0, 1.0])
+def test_a_guard_that_is_no_gap_and_is_passed_at_the_start_fires_there(angle, speed):
+    """The stop clicks at 0.1 + 0.5."""
+    block = wheel()
+    write(block, {2: angle + speed * T})
+    assert search(block) == (codes.GUARD_CLICK, 0, 0.0)
+
+
+@pytest.mark.parametrize("angle", [0.2, 0.5, 0.6, 0.6 + 0.9 * MARGIN])
+def test_a_guard_that_is_no_gap_and_is_not_passed_waits(angle):
+    block = wheel()
+    write(block, {2: angle + 0 * T})
+    assert search(block) == NOTHING
+
+
+def wheel():
+    """The block of a wheel on a stop that has clicked at 0.1 and does so next at 0.6."""
+    body = Body("wheel", 1.0, 1.0, (0.0, 0.0, 0.2))
+    return Simulation(Mechanism(bodies=(body,), contacts=(AngleStop("pawl", "wheel", GROUND, 0.1, 0.5),)))._block

@@ -51,6 +51,13 @@ def test_a_stop_with_memory_clicks_at_every_pitch(speed):
     assert simulation.field("contact_clicks")[0] == 3
 
 
+@pytest.mark.parametrize(("angle", "clicks"), [(0.59, 0), (0.61, 1), (1.09, 1), (1.3, 2), (3.2, 6)])
+def test_pitches_that_are_passed_at_the_start_click_there(angle, clicks):
+    simulation = wheel(AngleStop("pawl", "wheel", GROUND, 0.1, 0.5), angle=angle, speed=0.0)
+    assert guards_and_times(simulation, 1.0) == (["pawl.click"] * clicks, [0.0] * clicks)
+    assert simulation.field("contact_clicks")[0] == clicks
+
+
 @pytest.mark.parametrize("options", [{"pitch": None}, {"pitch": 0.5, "enabled": False}])
 def test_a_stop_without_memory_or_existence_does_not_click(options):
     simulation = wheel(AngleStop("pawl", "wheel", GROUND, 0.1, **options), angle=0.2)
