@@ -56,9 +56,9 @@ def new_mechanism(name: str) -> int:
     except (WrongUseError, OSError) as error:
         raise UsageError(str(error)) from error
     console.print(
-        f"Written: {path}. Build its FMU, and run it:\n\n"
+        f"Written: {path}, a lever that falls on a stop. Build its FMU, and run it:\n\n"
         f"mechanism-fmu build {path}\nmechanism-fmu run build/{path.stem}.fmu\n\n"
-        "Then change the file; docs/your-own-mechanism.md explains its parts.",
+        "Then change the file; docs/your-own-mechanism.md explains its parts, and how to begin with a ready model.",
         soft_wrap=True,
         markup=False,
     )
