@@ -41,6 +41,7 @@ def build(
 ) -> None:
     """Build the FMU of a model: one file that any FMI co-simulation tool can load.
 
+    `mechanism-fmu build` and `python build_fmu.py` are the same command.
     `python build_fmu.py ratchet -o build/` writes build/Ratchet.fmu, which runs where there is a Python with numpy.
     `python build_fmu.py my_mechanism.py` builds a mechanism of your own: a file that sets MODEL (to begin with one,
     run `mechanism-fmu new my_mechanism`; see docs/your-own-mechanism.md).

@@ -22,4 +22,16 @@ The modules named in `__all__` are for users (docs/public-interface.md); import 
 open_fmu`. They are not imported here, because `mechanism-fmu --help` must not wait for them.
 """
 
-__all__ = ["bonds", "clock", "coupling", "errors", "experiment", "fmu", "master", "recorder", "results", "slave"]
+__all__ = [
+    "bonds",
+    "clock",
+    "coupling",
+    "errors",
+    "experiment",
+    "fmu",
+    "master",
+    "observers",
+    "recorder",
+    "results",
+    "slave",
+]

@@ -6,11 +6,13 @@ import math
 import re
 from collections.abc import Iterable
 
-from .description import Description, Value, Variable
+from .description import Description, Value, Variable, hint_at
 from .errors import UsageError
+from .numbers import shown
 from .units import UnitMismatchError
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_BARE = re.compile(r"[-+.\deE]+")
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 _INTEGER_LIMIT = 2**31
 
@@ -41,11 +43,15 @@ def settable_variable(name: str, description: Description) -> Variable:
     Raises:
         UsageError: unknown, or neither input nor parameter.
     """
+    known = [variable.name for variable in description.of("input", "parameter")]
+    if name not in description.variables:
+        way_out = hint_at(name, known) or f" Its inputs and parameters: {', '.join(known)}."
+        raise UsageError(f"{description.model} has no variable '{name}'.{way_out}")
     variable = description.variable(name)
     if not variable.settable:
         raise UsageError(
             f"'{name}' is a variable of causality {variable.causality} and cannot be set; "
-            f"inputs and parameters can: {', '.join(v.name for v in description.of('input', 'parameter'))}."
+            f"inputs and parameters can: {', '.join(known)}."
         )
     return variable
 
@@ -59,7 +65,7 @@ def parse_value(text: str, variable: Variable, description: Description) -> Valu
     if variable.type == "String":
         return text
     value = _PARSERS[variable.type](text.strip(), variable, description)
-    _check_limits(value, text.strip(), variable)
+    _check_limits(value, text.strip(), variable, description)
     return value
 
 
@@ -98,14 +104,18 @@ def _boolean(text: str, variable: Variable, _description: Description) -> bool:
 _PARSERS = {"Real": _real, "Integer": _integer, "Boolean": _boolean}
 
 
-def _check_limits(value: Value, text: str, variable: Variable) -> None:
+def _check_limits(value: Value, text: str, variable: Variable, description: Description) -> None:
     if isinstance(value, str | bool):
         return
-    unit = f" {variable.unit}" if variable.unit else ""
     if variable.minimum is not None and value < variable.minimum:
-        raise UsageError(f"{variable.name} = '{text}' is below its limit; give at least {variable.minimum:g}{unit}.")
-    if variable.maximum is not None and value > variable.maximum:
-        raise UsageError(f"{variable.name} = '{text}' is above its limit; give at most {variable.maximum:g}{unit}.")
+        passed, limit, at = "below", variable.minimum, "at least"
+    elif variable.maximum is not None and value > variable.maximum:
+        passed, limit, at = "above", variable.maximum, "at most"
+    else:
+        return
+    nearest = shown(limit, variable.name, description, digits=6)
+    unsaid = f" A number without a unit is in {variable.unit}." if variable.unit and _BARE.fullmatch(text) else ""
+    raise UsageError(f"{variable.name} = '{text}' is {passed} its limit; give {at} {nearest}.{unsaid}")
 
 
 def _with_unit(variable: Variable) -> str:

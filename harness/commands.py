@@ -17,7 +17,17 @@ from .interrupt import interruption
 from .logic import default_parameters, read_logic
 from .paper import base_case_checks
 from .results import prepare_folder, write_run, write_text
-from .terminal import FAILED, RunDisplay, console, show_checks, show_files, show_table, show_warning, show_wide_table
+from .terminal import (
+    FAILED,
+    RunDisplay,
+    console,
+    show_checks,
+    show_error,
+    show_files,
+    show_table,
+    show_warning,
+    show_wide_table,
+)
 
 #: The base case of the paper is the FMU's default; the pawl strikes at 0.94 s and swings back at 4.9 s.
 _DEMO = Experiment(stop_time=6.0, step=1e-3)
@@ -56,9 +66,9 @@ def new_mechanism(name: str) -> int:
     except (WrongUseError, OSError) as error:
         raise UsageError(str(error)) from error
     console.print(
-        f"Written: {path}. Build its FMU, and run it:\n\n"
+        f"Written: {path}, a lever that falls on a stop. Build its FMU, and run it:\n\n"
         f"mechanism-fmu build {path}\nmechanism-fmu run build/{path.stem}.fmu\n\n"
-        "Then change the file; docs/your-own-mechanism.md explains its parts.",
+        "Then change the file; docs/your-own-mechanism.md explains its parts, and how to begin with a ready model.",
         soft_wrap=True,
         markup=False,
     )
@@ -81,10 +91,7 @@ def run_fmu(
         try:
             run = _performed(fmu, experiment)
         except FmuError:
-            if (folder / "summary.json").exists():
-                console.print(
-                    f"[yellow]Nothing was written[/]: the files in {escape(str(folder))} are an earlier run's."
-                )
+            _tell_of_earlier_files(folder)
             raise
     return _written(run, folder)
 
@@ -179,9 +186,19 @@ def _performed(fmu: Fmu, experiment: Experiment) -> Run:
         return perform(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop_requested)
 
 
+def _tell_of_earlier_files(folder: Path) -> None:
+    """Nothing has been written: say so where something lies that could be taken for it."""
+    if (folder / "summary.json").exists():
+        console.print(f"[yellow]Nothing was written[/]: the files in {escape(str(folder))} are an earlier run's.")
+
+
 def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
-    """Write the files of a run and close it in the terminal."""
+    """Write the files of a run, unless it never began, and show in the terminal how it ended."""
     from .report.run_report import write_report
 
+    if run.outcome.error is not None and run.results.empty:
+        _tell_of_earlier_files(folder)
+        show_error(str(run.outcome.error))
+        return FAILED
     files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]
     return show_ending(run, files, more_checks)

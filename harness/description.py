@@ -85,13 +85,17 @@ class Description:
         """
         if name in self.variables:
             return self.variables[name]
-        similar = difflib.get_close_matches(name, self.variables, n=3)
-        hint = f" Did you mean {' or '.join(similar)}?" if similar else ""
-        raise UsageError(f"{self.model} has no variable '{name}'.{hint}")
+        raise UsageError(f"{self.model} has no variable '{name}'.{hint_at(name, self.variables)}")
 
     def of(self, *causalities: str) -> list[Variable]:
         """All variables of these causalities, in the FMU's order."""
         return [variable for variable in self.variables.values() if variable.causality in causalities]
+
+
+def hint_at(name: str, known: Iterable[str]) -> str:
+    """The sentence, after a space, that asks for the known names most like `name`; "" when there are none."""
+    similar = difflib.get_close_matches(name, list(known), n=3)
+    return f" Did you mean {' or '.join(similar)}?" if similar else ""
 
 
 def read_description(path: Path) -> Description:

@@ -120,7 +120,7 @@ def perform(
 
     Raises:
         UsageError: a setting that cannot be used.
-        FmuError: the FMU cannot be instantiated, or not be initialized with these settings.
+        FmuError: the FMU cannot even be instantiated.
     """
     grid = TimeGrid.of(experiment.stop_time, experiment.step)
     inputs = None

@@ -61,6 +61,8 @@ class Fmu:
 def open_fmu(path: Path) -> Iterator[Fmu]:
     """Extract the FMU file `path` into a temporary folder; it is removed afterwards.
 
+    For a `with`: `with open_fmu(Path("build/Ratchet.fmu")) as fmu, fmu.instantiate("ratchet") as ratchet:`.
+
     Raises:
         UsageError: not a file, not an FMU that can be run, or made for other platforms only.
     """

@@ -54,18 +54,15 @@ def run_fixed_step(
 ) -> Outcome:
     """Set the start values of `slave`, initialize it, and take it through the grid.
 
-    Inputs are set at the beginning of each step and stay constant in it. An error of the slave on the way ends the run,
-    and everything observed before it stays with the observers. "Completed" means that the stop time was reached.
-
-    Raises:
-        FmuError: the slave refuses its start values, or cannot be initialized: there is no run then.
+    Inputs are set at the beginning of each step and stay constant in it. An error of the slave ends the run, and
+    everything observed before it stays with the observers. "Completed" means that the stop time was reached.
     """
-    slave.set(start_values if inputs is None else {**start_values, **inputs.at(seconds(grid.start))})
-    slave.initialize(seconds(grid.start), seconds(grid.stop))
-    for observer in observers:
-        observer.started(slave, seconds(grid.start))
     reached, steps = grid.start, 0
     try:
+        slave.set(start_values if inputs is None else {**start_values, **inputs.at(seconds(grid.start))})
+        slave.initialize(seconds(grid.start), seconds(grid.stop))
+        for observer in observers:
+            observer.started(slave, seconds(grid.start))
         for begin, end in grid:
             if stop_requested():
                 break

@@ -20,13 +20,13 @@ def engineering(value: float, unit: str, digits: int = 4) -> str:
     return f"{scaled:.{decimals}f} {_PREFIXES[power]}{unit}"
 
 
-def shown(value: Value, name: str, description: Description) -> str:
+def shown(value: Value, name: str, description: Description, digits: int = 9) -> str:
     """The value of a variable in its unit, and in its display unit when it has one."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if not isinstance(value, float):
         return str(value)
     variable = description.variable(name)
-    text = f"{value:.9g}" if not variable.unit else f"{value:.9g} {variable.unit}"
+    text = f"{value:.{digits}g}" if not variable.unit else f"{value:.{digits}g} {variable.unit}"
     displayed = description.units.to_display(value, variable.unit, variable.display_unit)
     return text if displayed is None else f"{text} ({displayed:.6g} {variable.display_unit})"

@@ -160,7 +160,7 @@ class Simulation:
         return dict(zip(self._output_names, self.field("output_rates").tolist(), strict=True))
 
     def field(self, name: str) -> Array:
-        """A view of a field of the instance's block (see `engine.layout`), for tests and diagnosis."""
+        """A view of a field of the instance's block (see `engine.block.layout`), for tests and diagnosis."""
         return field_of(self._block, name)
 
     def pulling_contacts(self) -> dict[str, float]:

@@ -2,8 +2,8 @@
 
 `run.engine_for` is the way in. What each folder holds, from the ground up; each knows only those before it:
 
-    block         an instance's memory: what stands where in it, and views of it by subject
     compiler      the part of Python that the engine is written in, and how it is compiled
+    block         an instance's memory: what stands where in it, and views of it by subject
     profiles      curves, and where two cam profiles are nearest to each other
     constraints   Phi, Phi_q, nu, gamma: the rows of joints, drivers and contacts
     dynamics      from forces and rows to accelerations: eq (3), the minimum-norm solve, friction

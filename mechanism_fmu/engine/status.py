@@ -18,8 +18,7 @@ BRIDGED = 14
 AT_CENTRE = 15
 
 ADVICE = {
-    NOT_ASSEMBLED: "The joints cannot be closed from the given start positions. Give start positions nearer to closed "
-    "ones, or lengths that can close.",
+    NOT_ASSEMBLED: "The joints cannot be closed from the given start positions.",
     START_RATES: "The start rates do not agree with the joints.",
     START_INSIDE: "The mechanism starts with a contact point inside the other body.",
     STEP_TOO_SMALL: "The step size has shrunk to nothing: the motion is no longer smooth or finite. Check that inputs "

@@ -1,6 +1,6 @@
 """A mechanism's modes and transitions, derived from the mechanism alone: the paper's Fig. 2, for any mechanism.
 
-What is stated here is what `engine.transition`, `engine.impact` and `engine.events` do:
+What is stated here is what `transition` and `impact` in `engine.contacts` and `engine.stepping.events` do:
 
 - An open contact whose gap reaches 0 strikes, eq (7). Afterwards it is closed if it then pushes; a bounce, and an
   impact after which it would pull, leave it open. A guided contact (the paper's) need not push.

@@ -18,8 +18,8 @@ _FLAT = 1e-6
 #: A length that moves the crank pin less than this per metre is no way out.
 _USEFUL_GAIN = 0.1
 
-#: Where the crank pin and the tooth start, with `_start_angles`.
-_AT = "at crank_angle_start = {:.6g} deg and wheel_angle_start = {:.6g} deg"
+#: Where the crank pin and the tooth start, with `_placed`.
+_AT = "at crank_length = {:.6g} m, crank_angle_start = {:.6g} deg and wheel_angle_start = {:.6g} deg"
 
 
 def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
@@ -95,14 +95,14 @@ def _start(values: SimpleNamespace) -> tuple[Finding, ...]:
             nearest - b,
             "pawl_length = {:.6g} m is {:.6g} m too short: from the crank pin it does not reach "
             "the slope of the tooth " + _AT + ". Give at least {:.6g} m and less than {:.6g} m.",
-            (b, nearest - b, *_start_angles(values), nearest, farthest),
+            (b, nearest - b, *_placed(values), nearest, farthest),
         ),
         Finding(
             at_most(tip, 0.0),
             "pawl_length = {:.6g} m is {:.6g} m too long: its tip would start inside the "
             "tooth, {:.6g} m behind the face, " + _AT + ". Give at least {:.6g} m and less than "
             "{:.6g} m, the distance from the crank pin to the root of the tooth.",
-            (b, b - farthest, -gap, *_start_angles(values), nearest, farthest),
+            (b, b - farthest, -gap, *_placed(values), nearest, farthest),
         ),
     )
 
@@ -132,7 +132,7 @@ def _free_start(values: SimpleNamespace) -> tuple[Finding, ...]:
 def _pin_behind(text: str, values: SimpleNamespace, missing: Number, direction: Number) -> tuple[Finding, ...]:
     """Where `missing` >= 0: which length brings the crank pin forward by it along the polar angle `direction`."""
     crank, hinge = cos(values.crank_angle_start - direction), cos(direction)
-    shown = (missing, *_start_angles(values))
+    shown = (missing, *_placed(values))
 
     def longer(applies: Number, name: str, gain: Number) -> Finding:
         length, more = getattr(values, name), missing / _larger(gain, _USEFUL_GAIN)
@@ -154,8 +154,8 @@ def _pin_behind(text: str, values: SimpleNamespace, missing: Number, direction: 
     )
 
 
-def _start_angles(values: SimpleNamespace) -> tuple[Number, Number]:
-    return _degrees(values.crank_angle_start), _degrees(values.wheel_angle_start)
+def _placed(values: SimpleNamespace) -> tuple[Number, Number, Number]:
+    return values.crank_length, _degrees(values.crank_angle_start), _degrees(values.wheel_angle_start)
 
 
 def _degrees(angle: Number) -> Number:

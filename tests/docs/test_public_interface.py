@@ -55,6 +55,11 @@ def test_the_page_lists_what_the_module_lists_and_each_name_once(module: str) ->
         assert len(listed) == len(set(listed))
 
 
+@pytest.mark.parametrize("module", [module for module in LISTED if module.startswith("harness.")])
+def test_a_module_of_the_page_is_listed_by_its_package(module: str) -> None:
+    assert module.removeprefix("harness.") in harness.__all__
+
+
 @pytest.mark.parametrize("name", PACKAGES)
 def test_a_package_says_what_lives_there_and_what_is_for_users(name: str) -> None:
     package = importlib.import_module(name)

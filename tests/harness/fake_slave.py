@@ -54,7 +54,9 @@ def fake_description() -> Description:
         for k, field in enumerate(_FIELDS)
     ]
     parameters = [
-        Variable("tooth_slope_angle", 20, "Real", "parameter", unit="rad", display_unit="deg", start="1.5"),
+        Variable(
+            "tooth_slope_angle", 20, "Real", "parameter", unit="rad", display_unit="deg", start="1.5", maximum=3.0
+        ),
         Variable("tooth_count", 21, "Integer", "parameter", start="10", minimum=3.0),
         Variable("guided", 22, "Boolean", "parameter", start="true"),
         Variable("restitution", 23, "Real", "parameter", start="0", minimum=0.0, maximum=1.0),

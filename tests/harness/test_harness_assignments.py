@@ -40,6 +40,11 @@ def test_every_number_arrives_as_it_was_written(number: float) -> None:
     [
         (["drive_torque"], "is not a setting; write name=value"),
         (["drive_torqe=1"], r"no variable 'drive_torqe'\. Did you mean drive_torque"),
+        (
+            ["wheel_angel=1"],
+            r"no variable 'wheel_angel'\. Its inputs and parameters: drive_torque, gear, brake, tooth_",
+        ),
+        (["tooth_pich=9"], r"Did you mean tooth_count\?$"),
         (["wheel_angle=1"], "causality output and cannot be set; inputs and parameters can: drive_torque, gear"),
         (["tooth_pitch=1"], "causality calculatedParameter and cannot be set"),
         (["drive_torque=1", "drive_torque=2"], "'drive_torque' is set twice"),
@@ -51,7 +56,12 @@ def test_every_number_arrives_as_it_was_written(number: float) -> None:
         (["drive_torque=2 mm"], "'mm' does not measure the same quantity; these fit: N.m"),
         (["restitution=0.5 m"], "has no unit; give the number alone"),
         (["restitution=1.5"], "above its limit; give at most 1"),
-        (["tooth_count=2"], "below its limit; give at least 3"),
+        (["tooth_count=2"], r"below its limit; give at least 3\.$"),
+        (
+            ["tooth_slope_angle=95"],
+            r"above its limit; give at most 3 rad \(171.887 deg\)\. A number without a unit is in rad\.$",
+        ),
+        (["tooth_slope_angle=190deg"], r"'190deg' is above its limit; give at most 3 rad \(171.887 deg\)\.$"),
         (["tooth_count=2.5"], "not a whole number"),
         (["tooth_count=5000000000"], "does not fit in 32 bits"),
         (["guided=perhaps"], "not a Boolean; give true or false"),

@@ -65,15 +65,13 @@ def test_a_step_that_is_refused_ends_the_run_and_keeps_what_was_seen(status: Sta
     assert "terminate" not in slave.log
 
 
-def test_without_an_initialization_there_is_no_run() -> None:
+def test_a_failing_initialization_ends_the_run() -> None:
     class Broken(FakeSlave):
         def initialize(self, start_time: float, stop_time: float) -> None:
             raise FmuError("cannot be assembled")
 
-    slave = Broken()
-    with pytest.raises(FmuError, match=r"^cannot be assembled$"):
-        run_fixed_step(slave, GRID, {})
-    assert slave.calls == []
+    outcome = run_fixed_step(Broken(), GRID, {})
+    assert (outcome.ending, outcome.steps, str(outcome.error)) == (Ending.FAILED, 0, "cannot be assembled")
 
 
 def test_a_request_ends_the_run_at_a_communication_point() -> None:

@@ -1,4 +1,4 @@
-"""Ports: inputs are written into table entries, outputs are read from the state. No model-specific code.
+"""Inputs: each is written into an entry of the force table. No model-specific code.
 
 An input may have a slope, which acts during one communication step only. The step's first value and slope are kept
 (`held_inputs`, `held_slopes`, from RAMP_START on), and whoever moves the time calls `set_time` before forces or rows

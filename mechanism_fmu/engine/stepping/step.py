@@ -5,15 +5,13 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ...tolerances import GAP_NOISE
 from .. import status
 from ..block.layout import Array
 from ..block.motion import course, stages
-from ..block.parts import contacts, sizes
+from ..block.parts import sizes
 from ..block.vectors import copy
 from ..compiler.subset import jit, keep_small
-from ..constraints.kinematics import place_bodies
-from ..contacts.guards import gap
+from ..contacts.release import release
 from ..dynamics.acceleration import derivative
 from ..dynamics.drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from ..dynamics.inputs import set_time
@@ -35,10 +33,12 @@ def take_step(block: Array) -> int:
     start = now.clock[codes.STEP_END]
     copy(now.y_end, s.y_start)
     copy(now.dy_end, s.derivatives[0])
+    wanted = now.clock[codes.NEXT_STEP]
     step = accurate_step(block, start)
     if step == 0.0:
         return why_no_step(block)
     if is_singular(block):
+        now.clock[codes.NEXT_STEP] = wanted  # a step that is refused changes nothing
         return status.SINGULAR
     keep_independence(block)
     guard, subject, fraction = first_event(block)
@@ -104,16 +104,3 @@ def _mend_and_check(block: Array) -> int:
     if sizes(block).alphas > 0 and bridged(block):
         return status.BRIDGED
     return status.OK
-
-
-@jit
-def release(block: Array, struck: int) -> None:
-    """Contacts that touched at the step's start have come off by y_end, but for the one that strikes there."""
-    keep_small()
-    table = contacts(block)
-    place_bodies(block, course(block).y_end)
-    for c in range(table.mode.shape[0]):
-        if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
-            distance, _ = gap(block, c)
-            if distance > GAP_NOISE:
-                table.touching[c] = 0

@@ -18,6 +18,7 @@ from ..block.parts import contacts, ports
 from ..block.vectors import copy
 from ..compiler.subset import entry, jit, keep_small
 from ..contacts.records import clear_records
+from ..contacts.release import release
 from ..contacts.transition import transit
 from ..dynamics.acceleration import derivative
 from ..dynamics.inputs import feed, inputs_changed, set_time, show_reached, take_inputs
@@ -25,7 +26,7 @@ from .dormand_prince import initial_step_size, try_step
 from .interpolation import interpolate
 from .pulling import watch_at
 from .singular import keep_independence, note_rank
-from .step import release, take_step
+from .step import take_step
 
 #: Most internal steps of one communication step.
 MOST_STEPS = 200_000

@@ -30,7 +30,7 @@ from .universal import universal
 
 #: The files of the C surface, each using those before it; both versions of FMI stand in one library.
 _SURFACE = ("log.c", "instance.c", "values.c", "saved.c", "fmi2.c", "fmi3.c")
-_HEADERS = ("model.h", "record.h", "log.h", "instance.h")
+_HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h")
 
 #: The headers of both standards, which the package fmpy brings.
 _STANDARD = Path(fmpy.__file__).with_name("c-code")

@@ -6,8 +6,8 @@ import ast
 import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import fields, is_dataclass
 from difflib import get_close_matches
+from inspect import signature
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -145,12 +145,12 @@ def _no_module(name: str, path: Path) -> str:
 
 
 def _wrong_call(text: str) -> str:
-    """A call with arguments that a part does not have, with those that it has."""
-    called = re.match(r"(\w+)\.__init__\(\) (.*)", text)
+    """A call with arguments that a part or a builder does not have, with those that it has."""
+    called = re.match(r"(\w+)(?:\.__init__)?\(\) (.*)", text)
     part = getattr(public, called[1], None) if called else None
-    if called is None or not (isinstance(part, type) and is_dataclass(part)):
+    if called is None or not callable(part):
         return f"TypeError: {text}"
-    names = [field.name for field in fields(part)]
+    names = list(signature(part).parameters)
     unknown = re.search(r"unexpected keyword argument '(\w+)'", text)
     near = _near(unknown[1], names) if unknown else "."
     return f"{called[1]} {called[2]}{near} It takes {', '.join(names)}."

@@ -69,6 +69,7 @@ def test_short_pawl_is_refused_with_the_missing_length():
     height = crank_pin(MODEL.values()).height
     _, message = refused(pawl_length=height - 0.01)
     assert "0.01 m too short" in message
+    assert "at crank_length = 0.11 m, crank_angle_start = 77 deg and wheel_angle_start = 75 deg." in message
     assert f"at least {height:.6g} m" in message
     assert MODEL.refused(MODEL.values(pawl_length=height + 1e-9)) == []
 

@@ -3,7 +3,7 @@
 #define INSTANCE_H
 
 #include "log.h"
-#include "record.h"
+#include "instance_data.h"
 
 /* A value as the host passes it. */
 typedef enum { AS_DOUBLE, AS_INT32, AS_BYTE } Form;

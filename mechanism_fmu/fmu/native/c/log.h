@@ -2,7 +2,7 @@
 #ifndef LOG_H
 #define LOG_H
 
-#include "record.h"
+#include "instance_data.h"
 
 OWN_FRAME void say(const Instance *x, Status status, const char *category, const char *format, ...);
 OWN_FRAME Status refuse(const Instance *x, const char *format, ...); /* says why, and returns ERROR */

@@ -75,6 +75,11 @@ def test_numpy_may_be_imported(folder: Path) -> None:
             "values.mass, values.lenght",
             "there is no parameter 'lenght'; did you mean 'length'? There are: length, mass, bounce.",
         ),
+        (
+            "length / 12",
+            "length / 12 + torque_input('motor', 'lever', 0.0, 1.0)",
+            "torque_input takes from 2 to 3 positional arguments but 4 were given. It takes force, body, start.",
+        ),
         ("-9.81 * mass", "-9.81 * mass / 0", "ZeroDivisionError: "),
         ("radians(30)", "exit()", "the file ends Python (exit); remove that."),
     ],

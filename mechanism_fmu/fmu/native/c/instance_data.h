@@ -1,6 +1,6 @@
 /* What an instance consists of, and how its fields are read; nothing here refuses or logs. */
-#ifndef RECORD_H
-#define RECORD_H
+#ifndef INSTANCE_DATA_H
+#define INSTANCE_DATA_H
 
 #include <stdint.h>
 

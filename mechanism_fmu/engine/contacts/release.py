@@ -1,0 +1,25 @@
+"""Contacts that no longer touch."""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tolerances import GAP_NOISE
+from ..block.layout import Array
+from ..block.motion import course
+from ..block.parts import contacts
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from .guards import gap
+
+
+@jit
+def release(block: Array, struck: int) -> None:
+    """Contacts that touched at the step's start have come off by y_end, but for the one that strikes there."""
+    keep_small()
+    table = contacts(block)
+    place_bodies(block, course(block).y_end)
+    for c in range(table.mode.shape[0]):
+        if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
+            distance, _ = gap(block, c)
+            if distance > GAP_NOISE:
+                table.touching[c] = 0
