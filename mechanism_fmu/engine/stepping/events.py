@@ -12,7 +12,7 @@ falls between two steps. Only this way round counts. Of several guards the earli
 Guards of the position are looked at on the dense output, the forces of closed contacts at the step's stages. The root
 of a gap is then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the
 interpolant's. A dip between two looks is found where w' changes from minus to plus; two dips between the same two looks
-are not.
+are not, nor one within the noise of a gap at rest.
 """
 
 from __future__ import annotations
