@@ -11,7 +11,7 @@ from mechanism_fmu.fmu.archive import content_hash
 ROOT = Path(__file__).parents[1]
 
 #: Modules of the plain ratchet that travel.
-_PLAIN = ("__init__", "ratchet", "reference", "plain", "plain_slave")
+_PLAIN = ("__init__", "ratchet", "curve_file", "reference", "plain", "plain_slave")
 
 #: Its slave file. What pythonfmu's wrapper does wrong would end the process of the benchmarks, too, with an abort.
 _SLAVE = """from {package}.plain_slave import PlainRatchet

@@ -47,7 +47,7 @@ def arm(tmp_path_factory):
     return Host(program, (emulator, "-L", str(ARM))), "binaries/aarch64-linux/Ratchet.so"
 
 
-@pytest.fixture(params=["windows", "arm"])
+@pytest.fixture(params=[pytest.param("windows", marks=pytest.mark.slow), "arm"])
 def elsewhere(request):
     return request.getfixturevalue(request.param)
 

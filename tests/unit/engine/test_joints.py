@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from stated_joints import DRIVERS, JOINTS, PAIRS, STATEMENTS, State, differentiated_rows
@@ -119,6 +119,7 @@ def sensible(kind, data, curves):
 
 @settings(deadline=None, max_examples=25)
 @given(numbers=arrays(float, 44, elements=st.floats(-3, 3)))
+@example(numbers=np.full(44, 3.0))  # two bodies at one place, whose parts cancel
 @pytest.mark.parametrize("frames", [(0, 1), (1, 0), (0, 2), (2, 1)], ids=str)
 @pytest.mark.parametrize("kind", STATEMENTS)
 def test_rows_are_the_derivatives_of_phi(kind, frames, numbers):
@@ -129,7 +130,12 @@ def test_rows_are_the_derivatives_of_phi(kind, frames, numbers):
     found = engine_rows(kind, data, curves, frames, state)
     expected = differentiated_rows(kind, data, curves, frames, state)
     for name, value in expected._asdict().items():
-        within = 1e-12 * max(1.0, np.abs(value).max())
-        np.testing.assert_allclose(getattr(found, name), value, rtol=0, atol=within, err_msg=name)
+        size = max(1.0, np.abs(value).max())
+        if np.abs(getattr(found, name) - value).max() > 1e-12 * size:
+            # what each body contributes against the ground: the two may cancel, and leave the rounding of their size
+            pairs = {(frames[0], 2), (2, frames[1])} - {(2, 2)}
+            parts = [differentiated_rows(kind, data, curves, pair, state) for pair in pairs]
+            size = max(size, *(np.abs(getattr(part, name)).max() for part in parts))
+        np.testing.assert_allclose(getattr(found, name), value, rtol=0, atol=1e-12 * size, err_msg=name)
     within = 1e-11 * max(1.0, np.abs(expected.jacobian).max())
     np.testing.assert_allclose(found.rate, found.jacobian @ state.qd - expected.nu, rtol=0, atol=within)
