@@ -10,6 +10,8 @@ import pytest
 
 from harness.results import write_with_units
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 #: Where the wheel is latched after two teeth of 18 deg [rad].
 INDEXED = math.radians(75 + 2 * 18)

@@ -85,6 +85,7 @@ def engine() -> c_limit.Engine:
 
 
 @needs_compiler
+@pytest.mark.slow
 @pytest.mark.parametrize("drive", c_limit.DRIVES)
 def test_the_hand_written_c_takes_the_same_steps(drive: str, engine: c_limit.Engine, tmp_path: Path) -> None:
     start = engine.save()

@@ -96,7 +96,7 @@ SUBJECTS: dict[str, dict[str, Any]] = {
 
 
 #: The rest is slow: wrapper and C surface are the same for all models.
-FAST = ("ratchet", "native_ratchet", "native_cam_drive")
+FAST = ("ratchet", "native_ratchet")
 PARAMETERS = [
     pytest.param(flavour + name, marks=() if flavour + name in FAST else pytest.mark.slow)
     for name in SUBJECTS

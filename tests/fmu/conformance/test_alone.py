@@ -6,10 +6,13 @@ import pytest
 
 from tests.fmu.conformance import alone
 
-SESSIONS = (alone.odd_calls, alone.odd_names, alone.random_calls, alone.threads)
+SESSIONS = [
+    pytest.param(session, id=session.__name__, marks=pytest.mark.slow if session is alone.random_calls else ())
+    for session in (alone.odd_calls, alone.odd_names, alone.random_calls, alone.threads)
+]
 
 
-@pytest.mark.parametrize("session", SESSIONS, ids=lambda session: session.__name__)
+@pytest.mark.parametrize("session", SESSIONS)
 def test_the_host_survives(subject, session):
     alone.run_alone(session, subject.fmu.folder)
 

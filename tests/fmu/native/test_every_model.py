@@ -9,7 +9,10 @@ from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.fmu.conformance.conftest import SUBJECTS
 
 
-@pytest.mark.parametrize("name", sorted(models.available()))
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=() if name == "ratchet" else pytest.mark.slow) for name in sorted(models.available())],
+)
 def test_fmi3_goes_the_way_of_fmi2(name, request, tmp_path):
     second = request.getfixturevalue(f"native_{name}_fmu")
     third = build_native_fmu(models.load(name), tmp_path, fmi=3)

@@ -20,7 +20,10 @@ UNTIL = 17.0
 #: The C library for that processor, by Debian's package libc6-arm64-cross.
 ARM = Path("/usr/aarch64-linux-gnu")
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="wine and qemu are looked for on Linux")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform != "linux", reason="wine and qemu are looked for on Linux"),
+]
 
 
 def zig(name):
@@ -47,7 +50,7 @@ def arm(tmp_path_factory):
     return Host(program, (emulator, "-L", str(ARM))), "binaries/aarch64-linux/Ratchet.so"
 
 
-@pytest.fixture(params=[pytest.param("windows", marks=pytest.mark.slow), "arm"])
+@pytest.fixture(params=["windows", "arm"])
 def elsewhere(request):
     return request.getfixturevalue(request.param)
 

@@ -41,7 +41,9 @@ def compiled(lines):
     return entry(namespace["read"])
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in ("contacts", "course") else pytest.mark.slow) for name in NAMES]
+)
 def test_compiled_entries_are_pythons(name):
     view = look(name)(BLOCK)
     lines = [f"view = {name}(block)"]

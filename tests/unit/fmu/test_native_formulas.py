@@ -99,10 +99,14 @@ def _library(source, path):
     return ctypes.CDLL(str(path.with_suffix(".so")))
 
 
-MODELS = [*(models.load(name).MODEL for name in models.available()), SMALL]
+#: The models but the ratchet are slow: each is another C file to compile.
+MODELS = [
+    pytest.param(model, id=model.name, marks=() if model in (RATCHET, SMALL) else pytest.mark.slow)
+    for model in (*(models.load(name).MODEL for name in models.available()), SMALL)
+]
 
 
-@pytest.fixture(scope="module", params=MODELS, ids=lambda model: model.name)
+@pytest.fixture(scope="module", params=MODELS)
 def compiled(request, tmp_path_factory):
     if COMPILER is None or sys.platform == "win32":
         pytest.skip("needs a C compiler")

@@ -59,7 +59,10 @@ def test_conditions_are_those_of_plain_numbers(a, b):
     assert (either(a, b) > 0) == (a > 0 or b > 0)
 
 
-@pytest.mark.parametrize("name", models.available())
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=() if name == "ratchet" else pytest.mark.slow) for name in models.available()],
+)
 @settings(deadline=None)
 @given(st.data())
 def test_findings_can_be_asked_for_any_values_within_the_limits(name, data):
