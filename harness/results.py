@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TextIO
+from typing import IO, Any, TextIO
 
 import pandas as pd
 
@@ -39,10 +39,19 @@ def write_text(path: Path, write: Callable[[TextIO], object]) -> Path:
     Raises:
         UsageError: the disk refuses.
     """
+    return _whole(path, lambda handle: os.fdopen(handle, "w", encoding="utf-8", newline=""), write)
+
+
+def write_bytes(path: Path, data: bytes) -> Path:
+    """Write a file of bytes, whole or not at all; see `write_text`."""
+    return _whole(path, lambda handle: os.fdopen(handle, "wb"), lambda file: file.write(data))
+
+
+def _whole(path: Path, opened: Callable[[int], IO[Any]], write: Callable[[Any], object]) -> Path:
     try:
         handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
         try:
-            with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
+            with opened(handle) as file:
                 write(file)
             os.chmod(temporary, 0o644)  # mkstemp makes files for the owner only
             os.replace(temporary, path)

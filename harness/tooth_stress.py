@@ -78,15 +78,34 @@ def stress_field(tooth: WedgeTooth, velocity: float) -> StressField:
     """Bending stress of a steel tooth along its length and in time, after an impact with `velocity` [m/s]."""
     speed = abs(velocity)
     maximum = maximum_stress(tooth, STEEL, speed)
-    position = np.linspace(0.0, 1.0, _PLACES)
     delay = np.linspace(0.0, _SPAN * maximum.time, _TIMES)
     place = maximum.position * tooth.length
-    sign = float(np.sign(bending_stress(tooth, STEEL, speed, [place], [maximum.time])[0, 0]))
+    position, along = stress_along(tooth, velocity)
+    sign = np.sign(bending_stress(tooth, STEEL, speed, [place], [maximum.time])[0, 0])
     return StressField(
         position=position,
         delay=delay,
         stress=sign * bending_stress(tooth, STEEL, speed, position * tooth.length, delay),
-        along=sign * bending_stress(tooth, STEEL, speed, position * tooth.length, [maximum.time])[:, 0],
+        along=along,
         in_time=sign * bending_stress(tooth, STEEL, speed, [place], delay)[0],
         maximum=maximum,
     )
+
+
+def stress_along(tooth: WedgeTooth, velocity: float) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Bending stress of a steel tooth along its length, at the instant of the largest one after an impact.
+
+    Args:
+        tooth: what is struck.
+        velocity: of the impact [m/s].
+
+    Returns:
+        x / length from the root, and the stress there [Pa], signed so that the largest one is positive;
+        shape (places,) each.
+    """
+    speed = abs(velocity)
+    maximum = maximum_stress(tooth, STEEL, speed)
+    position = np.linspace(0.0, 1.0, _PLACES)
+    place = maximum.position * tooth.length
+    stress = bending_stress(tooth, STEEL, speed, [place, *(position * tooth.length)], [maximum.time])[:, 0]
+    return position, np.sign(stress[0]) * stress[1:]
