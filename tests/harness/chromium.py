@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import base64
+import fcntl
 import json
 import os
 import select
 import shutil
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -73,12 +75,14 @@ class Page:
     """One page in a tab of its own.
 
     Attributes:
+        width: of the screen [CSS px].
         errors: what it has written to the console as an error, or thrown.
         requests: addresses that it has asked for.
     """
 
     browser: Browser
     session: str
+    width: int
     errors: list[str] = field(default_factory=list)
     requests: list[str] = field(default_factory=list)
 
@@ -129,17 +133,22 @@ class Page:
         path.write_bytes(base64.b64decode(image["data"]))
 
 
+def _far(descriptor: int) -> int:
+    far = fcntl.fcntl(descriptor, fcntl.F_DUPFD_CLOEXEC, 10)
+    os.close(descriptor)
+    return far
+
+
 @contextmanager
 def chromium(profile: Path) -> Iterator[Browser]:
     """A headless browser with a new profile in the folder `profile`; it ends with the block."""
     assert PROGRAM is not None
-    ours_in, theirs_out = os.pipe()
-    theirs_in, ours_out = os.pipe()
-    # The browser reads from descriptor 3 and writes to 4.
-    shell = f'exec "$0" "$@" 3<&{theirs_in} 4>&{theirs_out}'
+    # The browser reads from descriptor 3 and writes to 4: those of here must be others.
+    (ours_in, theirs_out), (theirs_in, ours_out) = map(_far, os.pipe()), map(_far, os.pipe())
+    start = "import os, sys; [os.dup2(int(sys.argv[n]), 2 + n) for n in (1, 2)]; os.execv(sys.argv[3], sys.argv[3:])"
     arguments = [PROGRAM, *_QUIET, "--remote-debugging-pipe", f"--user-data-dir={profile}"]
     with subprocess.Popen(
-        ["sh", "-c", shell, *arguments],
+        [sys.executable, "-c", start, str(theirs_in), str(theirs_out), *arguments],
         pass_fds=(theirs_in, theirs_out),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -160,7 +169,7 @@ def chromium(profile: Path) -> Iterator[Browser]:
 def opened(browser: Browser, file: Path, width: int, height: int = 800) -> Iterator[Page]:
     """A file in a new tab of `width` [CSS px]; a narrow one is a phone's. Nothing moves before it is asked to."""
     target = browser.call("Target.createTarget", url="about:blank")["targetId"]
-    page = Page(browser, browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"])
+    page = Page(browser, browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"], width)
     browser.listeners.append(page.hear)
     for domain in ("Page", "Runtime", "Log", "Network"):
         page.call(f"{domain}.enable")

@@ -170,13 +170,36 @@ def test_the_events_of_the_base_case(base_case: Run) -> None:
     assert len(base_case.events) == base_case.results["event_count"].iloc[-1]
 
 
-def test_the_study_command_writes_table_and_charts(ratchet_fmu: Path, tmp_path: Path) -> None:
+def test_teeth_have_the_paper_s_shape(fmu: Fmu) -> None:
+    study = ratchet_study(fmu, lambda *_: None)
+    r = 0.1
+    for wheel, rim in zip(study.wheels, study.rims, strict=True):
+        theta, beta = 2 * math.pi / wheel.tooth_count, wheel.tooth_slope_angle
+        slope = 1.115 * 2 * r * math.sin(theta / 2)
+        x, y = rim.tooth()
+        assert x == pytest.approx([0, slope * math.sin(beta), r * math.sin(theta)], abs=1e-15)
+        assert y == pytest.approx([0, -slope * math.cos(beta), r * math.cos(theta) - r], abs=1e-15)
+
+
+def test_the_study_command_writes_table_and_figures(ratchet_fmu: Path, tmp_path: Path) -> None:
     code, text = invoke("study", "ratchet", "--fmu", ratchet_fmu, "-o", tmp_path)
     assert code == 0
     assert "The maximum stress falls with the number of teeth" in text
-    assert len(pd.read_csv(tmp_path / "study.csv")) == 20
-    assert json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))["units"]["stress_max"] == "Pa"
-    assert "10 teeth" in (tmp_path / "study.html").read_text(encoding="utf-8")
+    table = pd.read_csv(tmp_path / "study.csv")
+    assert len(table) == 20
+    assert table["impact_time [s]"][1] == pytest.approx(IMPACTS[90][0], rel=1e-7)
+    assert table["wheel_speed [rad/s]"][1] == pytest.approx(IMPACTS[90][1], rel=1e-7)
+    assert table["stress_max [Pa]"][1] == pytest.approx(STRESSES[10, 90], abs=0.5)
+    summary = json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))
+    assert summary["units"]["stress_max"] == "Pa"
+    assert summary["parameters"]["tooth_count"][::5] == [10, 15, 20, 25]
+    assert summary["versions"]["model"] == "Ratchet"
+    page = (tmp_path / "study.html").read_text(encoding="utf-8")
+    for heading in ("Wheel shapes", "Tooth shapes", "Stress along the tooth", "Maximum bending stress"):
+        assert f"<h2>{heading}" in page
+    for name in ("fig08_wheels", "fig09_teeth", "fig10_stress", "fig11_maximum"):
+        assert (tmp_path / f"{name}.svg").read_bytes().endswith(b"</svg>\n")
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_the_demo_is_one_command(tmp_path: Path) -> None:
