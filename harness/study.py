@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -27,6 +28,8 @@ _STOP_TIME = 1.2
 #: Impacts are located inside a step, so the step may be large.
 _STEP = 0.1
 
+_NUMBER = re.compile(r"\d+(\.\d+)?(e[+-]?\d+)?")
+
 _NEEDED = ("tooth_count", "tooth_slope_angle", "tooth_length", "tooth_apex_angle", "impacts[1].velocity")
 
 
@@ -40,7 +43,7 @@ class Study:
         wheels: each with its first impact.
         rims: the shape of each wheel.
         parameters: of the FMU, by name, with their values for each wheel.
-        warnings: what the FMU said, with the wheels it said it about.
+        warnings: what the FMU said, once for all that differ in their numbers only, with the wheels concerned.
         checks: the paper's claims.
     """
 
@@ -71,7 +74,7 @@ def ratchet_study(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> Study:
     wheels: list[Wheel] = []
     rims: list[Rim] = []
     runs: list[Run] = []
-    warnings: dict[str, list[str]] = {}
+    warnings: dict[str, list[tuple[str, Wheel]]] = {}
     cases = list(itertools.product(TOOTH_COUNTS, SLOPE_ANGLES_DEG))
     for count, angle in cases:
         run = _performed(fmu, count, math.radians(angle))
@@ -85,7 +88,7 @@ def ratchet_study(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> Study:
         wheels.append(_first_impact(run))
         for message in run.messages:
             if message.needs_attention:
-                warnings.setdefault(message.text, []).append(str(wheels[-1]))
+                warnings.setdefault(_NUMBER.sub("", message.text), []).append((message.text, wheels[-1]))
         on_wheel(len(wheels), len(cases))
     return Study(
         fmu=fmu.path,
@@ -93,9 +96,17 @@ def ratchet_study(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> Study:
         wheels=tuple(wheels),
         rims=tuple(rims),
         parameters={name: tuple(run.parameters[name] for run in runs) for name in runs[0].parameters},
-        warnings=tuple(f"{text} ({'; '.join(where)})" for text, where in warnings.items()),
+        warnings=tuple(map(_told_once, warnings.values())),
         checks=study_checks(wheels),
     )
+
+
+def _told_once(said: list[tuple[str, Wheel]]) -> str:
+    """A warning that differs in its numbers only, with the wheels it was said about: the first one's text for all."""
+    first = said[0][0]
+    same = "; ".join(str(wheel) for text, wheel in said if text == first)
+    alike = "; ".join(str(wheel) for text, wheel in said if text != first)
+    return f"{first} ({same}{f'; with other numbers also {alike}' if alike else ''})"
 
 
 def _performed(fmu: Fmu, count: int, angle: float) -> Run:

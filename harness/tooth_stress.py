@@ -18,7 +18,7 @@ from .errors import FmuError
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
 
 _TIMES = 600
-_PLACES = 201
+_PLACES = 101
 #: The shown time span reaches this many times the delay of the maximum.
 _SPAN = 12.0
 

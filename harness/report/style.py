@@ -83,7 +83,7 @@ _AXIS = {
     "linecolor": "#ebf0f8",
     "zerolinecolor": "#dfe5ea",
     "zerolinewidth": 2,
-    "title": {"standoff": 12},
+    "title": {"standoff": 12, "font": {"size": 13}},
 }
 
 #: What plotly takes where a figure says nothing else.

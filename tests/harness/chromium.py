@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 #: Where a chromium may be; None when there is none.
-PROGRAM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+PROGRAM = next(filter(None, map(shutil.which, ("chromium", "google-chrome"))), None)
 
 _QUIET = [
     *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"),
