@@ -38,7 +38,7 @@ def in_display_unit(value: Value, name: str, description: Description, digits: i
         return "true" if value else "false", ""
     variable = description.variable(name)
     if not isinstance(value, float):
-        return str(value), variable.unit or "1"
+        return str(value), "" if isinstance(value, str) else variable.unit or "1"
     displayed = description.units.to_display(value, variable.unit, variable.display_unit)
     if displayed is not None:
         return f"{displayed:.{digits}g}", variable.display_unit

@@ -21,7 +21,6 @@
     const place = root.querySelector(".plot");
     function draw() {
       const layout = phone.matches ? merged(merged(figure.layout, NARROW), figure.narrow) : merged(figure.layout, {});
-      // Without its data plotly would keep what the reader has zoomed to, in axes of another size.
       Plotly.newPlot(place, figure.data, layout,
         { displaylogo: false, responsive: true, displayModeBar: phone.matches ? false : "hover" });
     }

@@ -8,10 +8,12 @@ from pathlib import Path
 
 from ..description import Value
 from ..numbers import engineering, in_display_unit
+from ..paper import BASE_CASE
 from ..results import write_text
 from ..study import Study
 from ..versions import versions
 from ..wheels import Wheel
+from .animation import animation
 from .interactive import interactive
 from .page import cards, chart, charts, checks_list, page, quantities, section, table, versions_section
 from .paper_figures import PaperFigure
@@ -43,6 +45,7 @@ def study_report(study: Study, figures: Sequence[PaperFigure]) -> str:
     for figure in figures:
         drawn = charts(*(chart(interactive(plot)) for plot in figure.plots))
         body.append(section(figure.heading, drawn, note=figure.note))
+    body.append(animation(study.base_case, f"The base case in motion (nt = {BASE_CASE[0]}, β₀ = {BASE_CASE[1]}°)"))
     body.append(_parameters(study))
     if study.warnings:
         body.append(section("Warnings of the FMU", table(["message"], [[text] for text in study.warnings])))

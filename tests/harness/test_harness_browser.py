@@ -80,6 +80,12 @@ def test_all_charts_are_there(shown: tuple[Page, Report]) -> None:
     assert drawn == report.traces
 
 
+def test_the_mechanism_is_drawn(shown: tuple[Page, Report]) -> None:
+    page, _ = shown
+    assert page.value('document.querySelectorAll(".animation svg polygon").length') == 1  # the wheel
+    assert page.value('document.querySelector(".animation .time").textContent') == "t = 0.000 s"
+
+
 def test_nothing_is_wider_than_the_screen(shown: tuple[Page, Report]) -> None:
     page, _ = shown
     assert page.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth")

@@ -10,11 +10,13 @@ import pytest
 from typer.testing import CliRunner
 
 from harness.cli import main
+from harness.drawing import Drawing
+from harness.errors import UsageError
 from harness.experiment import Experiment, Run, perform
 from harness.fmu import Fmu, open_fmu
 from harness.master import Ending
 from harness.report.animation import animation, animation_data
-from harness.study import ratchet_study
+from harness.study import Study, ratchet_study
 from harness.validate import validate
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -40,6 +42,11 @@ def fmu(ratchet_fmu: Path) -> Fmu:  # type: ignore[misc]
 @pytest.fixture(scope="module")
 def base_case(fmu: Fmu) -> Run:
     return perform(fmu, Experiment(6.0, 1e-3))
+
+
+@pytest.fixture(scope="module")
+def study(fmu: Fmu) -> Study:
+    return ratchet_study(fmu, lambda *_: None)
 
 
 def invoke(*arguments: str | Path) -> tuple[int, str]:
@@ -172,8 +179,28 @@ def test_the_events_of_the_base_case(base_case: Run) -> None:
     assert len(base_case.events) == base_case.results["event_count"].iloc[-1]
 
 
-def test_teeth_have_the_paper_s_shape(fmu: Fmu) -> None:
-    study = ratchet_study(fmu, lambda *_: None)
+def test_the_study_shows_its_base_case_in_motion(study: Study, base_case: Run) -> None:
+    assert study.base_case.impacts["time"][0] == base_case.impacts["time"][0]
+    assert len(study.base_case.results) == 121
+    assert study.parameters["hinge_distance"] == (0.13,) * 20
+
+
+def test_a_warning_is_told_once_for_all_wheels(study: Study) -> None:
+    pulls, apex = study.warnings
+    assert pulls.endswith(
+        "(nt = 10, beta_0 = 105 deg; nt = 15, beta_0 = 105 deg; nt = 20, beta_0 = 105 deg; nt = 25, beta_0 = 105 deg)"
+    )
+    assert "0.00536908 m beyond the apex" in apex
+    assert "(nt = 25, beta_0 = 85 deg; with other numbers also nt = 25, beta_0 = 90 deg; nt" in apex
+
+
+def test_an_fmu_without_a_drawn_wheel_is_no_ratchet(fmu: Fmu, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("harness.study.read_drawing", lambda *_: Drawing())
+    with pytest.raises(UsageError, match="its drawing has no wheel"):
+        ratchet_study(fmu, lambda *_: None)
+
+
+def test_teeth_have_the_paper_s_shape(study: Study) -> None:
     r = 0.1
     for wheel, rim in zip(study.wheels, study.rims, strict=True):
         theta, beta = 2 * math.pi / wheel.tooth_count, wheel.tooth_slope_angle
