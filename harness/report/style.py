@@ -40,7 +40,7 @@ ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
 table {{ border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }}
 th, td {{ padding: 6px 12px 6px 0; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }}
 td {{ white-space: nowrap; }}
-td.long {{ white-space: normal; min-width: 24em; }}
+td.long {{ white-space: normal; min-width: min(24em, 72vw); }}
 th {{ color: var(--soft); font-weight: 600; border-bottom-width: 2px; }}
 td.number, th.number {{ text-align: right; padding-right: 14px; }}
 th.number {{ vertical-align: bottom; }}
