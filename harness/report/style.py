@@ -77,6 +77,9 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
 """
 
 
+#: Margins of a figure whose charts have titles: the tool buttons stand above them.
+WIDE_TOP = {"l": 70, "r": 20, "t": 64, "b": 50}
+
 _AXIS = {
     "automargin": True,
     "gridcolor": "#ebf0f8",
