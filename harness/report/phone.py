@@ -9,8 +9,8 @@ import plotly.graph_objects as go
 
 #: Of a line of a legend, between two charts, and around them all [px].
 _LINE, _GAP, _TOP, _BOTTOM = 17, 34, 10, 46
-#: Two names that are shorter stand beside each other in a legend.
-_SHORT = 14
+#: Two names that are no longer stand beside each other in a legend.
+_SHORT = 11
 
 
 def stacked(figure: go.Figure) -> dict[str, Any]:

@@ -72,6 +72,7 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
   .cards {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
   .card b {{ font-size: 18px; }}
   ul.checks small {{ display: block; margin-left: 0; }}
+  .scroll .statechart {{ max-width: none !important; }}
 }}
 @media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }} }}
 """
