@@ -145,17 +145,7 @@ def run_study(folder: Path, path: Path | None) -> int:
     path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
     with open_fmu(path) as fmu, show_progress(f"Loading {path.name} ...") as progress:
         study = ratchet_study(fmu, lambda number, of: progress(f"{number} of {of} wheels", number / of))
-    rows = [
-        [
-            str(wheel.tooth_count),
-            str(wheel.slope_angle_deg),
-            f"{wheel.impact_time:.10f}",
-            f"{wheel.wheel_speed:.10f}",
-            f"{wheel.impact_velocity:.6e}",
-            f"{wheel.stress_max:.1f}",
-        ]
-        for wheel in study.wheels
-    ]
+    rows = [wheel.cells() for wheel in study.wheels]
     headings = ["nt", "beta_0 [deg]", "t_I [s]", "omega(t_I+) [rad/s]", "v_I [m/s]", "sigma_max [Pa]"]
     show_table("First impact of each wheel", headings, rows, numeric=range(len(headings)))
     for warning in study.warnings:

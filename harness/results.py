@@ -129,6 +129,13 @@ def final_values(run: Run) -> dict[str, Value]:
     return {} if run.results.empty else {str(name): column.iloc[-1].item() for name, column in run.results.items()}
 
 
+def settings(run: Run) -> dict[str, Value]:
+    """Parameters, calculated parameters, and inputs at the start of the run, by name."""
+    inputs = [variable.name for variable in run.description.of("input") if variable.name in run.results]
+    first = {} if run.results.empty else {name: run.results[name].iloc[0].item() for name in inputs}
+    return {**run.parameters, **first}
+
+
 def write_with_units(table: pd.DataFrame, units: Mapping[str, str], path: Path) -> Path:
     """Write a table whose headings are `name [unit]`, or the name alone where there is no unit.
 

@@ -18,7 +18,7 @@ from .errors import FmuError, UsageError
 from .experiment import Experiment, Run, perform
 from .fmu import Fmu
 from .paper import BASE_CASE, SLOPE_ANGLES_DEG, TOOTH_COUNTS, study_checks
-from .results import write_json, write_with_units
+from .results import settings, write_json, write_with_units
 from .rim import Rim, rim_of
 from .versions import versions
 from .wheels import WHEEL_UNITS, Wheel
@@ -42,7 +42,7 @@ class Study:
         description: of the FMU.
         wheels: each with its first impact.
         rims: the shape of each wheel.
-        parameters: of the FMU, by name, with their values for each wheel.
+        parameters: also calculated ones, and inputs at the start, by name, with their values for each wheel.
         base_case: the run of the wheel that Table 2 of the paper belongs to, in fine steps.
         warnings: what the FMU said, once for all that differ in their numbers only, with the wheels concerned.
         checks: the paper's claims.
@@ -93,12 +93,13 @@ def ratchet_study(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> Study:
             if message.needs_attention:
                 warnings.setdefault(_NUMBER.sub("", message.text), []).append((message.text, wheels[-1]))
         on_wheel(len(wheels), len(cases))
+    made = [settings(run) for run in runs]
     return Study(
         fmu=fmu.path,
         description=fmu.description,
         wheels=tuple(wheels),
         rims=tuple(rims),
-        parameters={name: tuple(run.parameters[name] for run in runs) for name in runs[0].parameters},
+        parameters={name: tuple(case[name] for case in made) for name in made[0]},
         base_case=runs[cases.index(BASE_CASE)],
         warnings=tuple(map(_told_once, warnings.values())),
         checks=study_checks(wheels),

@@ -54,9 +54,9 @@ def draw_plot(canvas: Canvas, plot: Plot, corner: Point, width: float, height: f
         _draw_legend(canvas, plot, (right + 12, top + 10))
 
 
-def ticks(low: float, high: float, most: int = 7) -> list[float]:
-    """Multiples of 1, 2 or 5 times a power of ten within low < high; at most `most`."""
-    least = (high - low) / most
+def ticks(low: float, high: float, intervals: int = 7) -> list[float]:
+    """Multiples of 1, 2 or 5 times a power of ten within low < high, at most so many intervals apart."""
+    least = (high - low) / intervals
     power = math.floor(math.log10(least))
     step = next(factor * 10.0**power for factor in (1, 2, 5, 10, 20) if factor * 10.0**power >= least)
     return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]

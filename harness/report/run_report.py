@@ -10,7 +10,7 @@ from ..description import Value
 from ..experiment import Run
 from ..master import Ending
 from ..numbers import engineering, in_display_unit
-from ..results import write_text
+from ..results import settings, write_text
 from ..tooth_stress import stress_field
 from ..versions import versions
 from .animation import animation
@@ -117,11 +117,7 @@ def _cell(value: Value) -> str:
 
 
 def _parameters(run: Run) -> str:
-    values = dict(run.parameters)
-    if not run.results.empty:
-        values |= {
-            v.name: run.results[v.name].iloc[0].item() for v in run.description.of("input") if v.name in run.results
-        }
+    values = settings(run)
     rows = []
     for name, value in values.items():
         variable = run.description.variable(name)

@@ -18,7 +18,7 @@ _WIDTH, _HEIGHT = 480, 340
 def write_static(plots: Sequence[Plot], path: Path) -> list[Path]:
     """Write plots beside each other, two to a row, into `path` with the endings .svg and .png.
 
-    The same plots give the same bytes.
+    The same plots give the same bytes. All points must be finite.
 
     Raises:
         UsageError: the disk refuses.

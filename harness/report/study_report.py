@@ -67,12 +67,7 @@ def _wheels_table(wheels: Sequence[Wheel]) -> str:
     )
     rows = [
         [
-            str(wheel.tooth_count),
-            str(wheel.slope_angle_deg),
-            f"{wheel.impact_time:.10f}",
-            f"{wheel.wheel_speed:.10f}",
-            f"{wheel.impact_velocity:.6e}",
-            f"{wheel.stress_max:.1f}",
+            *wheel.cells(),
             f"{wheel.stress_position:.4f}",
             f"{wheel.tooth_length * 1e3:.3f}",
             f"{math.degrees(wheel.tooth_apex_angle):.3f}",

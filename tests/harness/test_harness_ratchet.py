@@ -183,6 +183,7 @@ def test_the_study_shows_its_base_case_in_motion(study: Study, base_case: Run) -
     assert study.base_case.impacts["time"][0] == base_case.impacts["time"][0]
     assert len(study.base_case.results) == 121
     assert study.parameters["hinge_distance"] == (0.13,) * 20
+    assert study.parameters["drive_torque"] == (1e-3,) * 20
 
 
 def test_a_warning_is_told_once_for_all_wheels(study: Study) -> None:
