@@ -17,6 +17,8 @@ from .recovery import bending_moment, bending_stress
 from .response import damped_response
 from .ritz import natural_modes
 from .scaling import ModeScaling
+from .shear import shear_force, shear_stress
+from .tip import LineContact, axial_stress, hertz_line_contact, peak_force, shortest_contact
 from .tooth import RectangularTooth, TrapezoidTooth, WedgeTooth, wedge_of_sawtooth
 
 __all__ = [
@@ -24,6 +26,7 @@ __all__ = [
     "Beam",
     "BeamMode",
     "End",
+    "LineContact",
     "Material",
     "MaximumStress",
     "Mode",
@@ -34,12 +37,18 @@ __all__ = [
     "TableBeam",
     "TrapezoidTooth",
     "WedgeTooth",
+    "axial_stress",
     "bending_moment",
     "bending_stress",
     "damped_response",
     "exact_wedge_frequencies",
+    "hertz_line_contact",
     "maximum_stress",
     "natural_modes",
+    "peak_force",
     "ritz_modes",
+    "shear_force",
+    "shear_stress",
+    "shortest_contact",
     "wedge_of_sawtooth",
 ]

@@ -30,7 +30,7 @@ def bending_moment(
 
     Arguments, errors and source are those of `bending_stress`.
     """
-    places, times = _checked(tooth, impact_velocity, x, t)
+    places, times = checked(tooth, impact_velocity, x, t)
     return impact_velocity * _field(tooth, material, modes).moment(places, times)
 
 
@@ -59,7 +59,7 @@ def bending_stress(
 
     Source: Pennestrì, Valentini, Vita, eqs (13), (16).
     """
-    places, times = _checked(tooth, impact_velocity, x, t)
+    places, times = checked(tooth, impact_velocity, x, t)
     return impact_velocity * _field(tooth, material, modes).stress(places, times)
 
 
@@ -67,7 +67,7 @@ def _field(tooth: Beam, material: Material, modes: Sequence[Mode] | None) -> Ben
     return BendingField(tooth, material, ritz_modes(tooth, material) if modes is None else modes)
 
 
-def _checked(tooth: Beam, impact_velocity: float, x: npt.ArrayLike, t: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+def checked(tooth: Beam, impact_velocity: float, x: npt.ArrayLike, t: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Places and times as one-dimensional arrays, after refusing what cannot be right."""
     places = np.atleast_1d(np.asarray(x, dtype=np.float64))
     times = np.atleast_1d(np.asarray(t, dtype=np.float64))
