@@ -56,6 +56,10 @@ class BendingField:
         """Bending stress M_b / W_b of the outer fibre [Pa per m/s], of shape (len(x), len(t)); zero at the tip."""
         return -self._youngs_modulus * self._tooth.outer_fibre(x)[:, None] * self._bending(x, t)
 
+    def modal_stress(self, x: FloatArray) -> FloatArray:
+        """Stress of the outer fibre where one mode has eta = 1 [Pa/m], of shape (len(x), number of modes)."""
+        return np.asarray((-self._youngs_modulus * self._tooth.outer_fibre(x) * self._curvatures(x)).T)
+
     def stress_bound(self, x: FloatArray) -> FloatArray:
         """Sum of the modes' largest stresses if they did not decay [Pa per m/s], of shape (len(x),)."""
         amplitudes = 1 / (self.frequencies * math.sqrt(1 - self.damping_ratio**2))
