@@ -13,7 +13,7 @@ from .material import STEEL, Material
 
 _PAPER_DAMPING = "zeta: 0.03 for steel, Pennestrì, Valentini, Vita, section 5"
 _HANDBOOK = "E, rho: usual handbook values of steel, not of this one in particular"
-_EUROCODE = "E: EN 1993-1-1, 3.2.6; rho: EN 1991-1-1, Table A.4, upper value"
+_EUROCODE = "E: EN 1993-1-1, 3.2.6; rho: EN 1993-1-2, 3.2.2"
 _UNIFORM_MATERIAL_LAW = (
     "sigma_f', b: no test data of this steel; estimated from the least R_m by the uniform material law for unalloyed "
     "and low-alloy steels, sigma_f' = 1.5 R_m, b = -0.087: A. Bäumel, T. Seeger, Materials Data for Cyclic Loading, "
