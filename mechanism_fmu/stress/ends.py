@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum
+from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -43,12 +44,13 @@ def norms(degree: int) -> FloatArray:
     return np.asarray(np.sqrt(2.0 * np.arange(degree + 1) + 1))
 
 
+@lru_cache
 def admissible(terms: int, root: End, tip: End) -> FloatArray:
     """`terms` orthonormal polynomials that fulfil the geometric end conditions, of shape (degree + 1, terms).
 
     Columns are coefficients of the normalised Legendre polynomials of `held`; the n-th is of the lowest degree that has
     room for n of them. Because the columns are orthonormal, so are the polynomials over xi: this basis is as well
-    conditioned as can be, where powers of xi lose a digit with each further one.
+    conditioned as can be, where powers of xi end with twelve. Not to be written to: it is remembered.
 
     Source: J. Shen, Efficient spectral-Galerkin method I, SIAM J. Sci. Comput. 15 (1994): neighbouring Legendre
     polynomials recombined to fulfil the end conditions; here made orthonormal, too.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum
@@ -90,15 +91,23 @@ def rainflow_cycles(stress: Iterable[float]) -> Iterator[Cycle]:
         yield Cycle(width / 2, mean, count)
 
 
-def effective_amplitude(cycle: Cycle, tensile_strength: float, mean_stress: MeanStress = MeanStress.GOODMAN) -> float:
-    """Amplitude at zero mean stress that does the same harm as `cycle` [Pa]; infinite from a mean of R_m on.
+def effective_amplitude(
+    amplitude: float, mean: float, tensile_strength: float, mean_stress: MeanStress = MeanStress.GOODMAN
+) -> float:
+    """Amplitude at zero mean stress that does the same harm as a cycle [Pa]; infinite from a mean of R_m on.
+
+    Args:
+        amplitude: sigma_a of the cycle [Pa].
+        mean: sigma_m of the cycle [Pa], tension positive.
+        tensile_strength: R_m [Pa].
+        mean_stress: how the mean counts.
 
     Source: the Goodman line in its usual, linear form; compression: no credit, on the safe side.
     """
-    if mean_stress is MeanStress.NONE or cycle.mean <= 0:
-        return cycle.amplitude
-    left = 1 - cycle.mean / tensile_strength
-    return cycle.amplitude / left if left > 0 else float("inf")
+    if mean_stress is MeanStress.NONE or mean <= 0:
+        return amplitude
+    left = 1 - mean / tensile_strength
+    return amplitude / left if left > 0 else math.inf
 
 
 def miner_damage(cycles: Iterable[Cycle], strength: Strength, mean_stress: MeanStress = MeanStress.GOODMAN) -> float:
@@ -107,6 +116,7 @@ def miner_damage(cycles: Iterable[Cycle], strength: Strength, mean_stress: MeanS
     Source: A. Palmgren (1924), M. A. Miner (1945).
     """
     return sum(
-        cycle.count * strength.damage_of(effective_amplitude(cycle, strength.tensile_strength, mean_stress))
+        cycle.count
+        * strength.damage_of(effective_amplitude(cycle.amplitude, cycle.mean, strength.tensile_strength, mean_stress))
         for cycle in cycles
     )

@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import Polynomial, polynomial
-from numpy.polynomial.legendre import leg2poly, poly2leg
+from numpy.polynomial import polynomial
 
 from .beam import Beam
 from .checks import FloatArray, require_within
 from .material import Material
 from .natural_mode import NaturalMode
+from .powers import legendre_of_powers, powers_of_legendre
 from .ritz import natural_modes
 from .scaling import ModeScaling
 
@@ -46,8 +46,7 @@ class BeamMode:
 
     def legendre_series(self) -> FloatArray:
         """Coefficients of the shape over the Legendre polynomials of s = 2 xi - 1 [-]."""
-        xi_of_s = Polynomial([0.5, 0.5])
-        return np.asarray(poly2leg(Polynomial([0.0, 0.0, *self.coefficients])(xi_of_s).coef))
+        return legendre_of_powers(len(self.coefficients) + 1) @ [0.0, 0.0, *self.coefficients]
 
 
 def ritz_modes(
@@ -80,7 +79,6 @@ def ritz_modes(
 
 def _powers(mode: NaturalMode, scaling: ModeScaling) -> tuple[float, ...]:
     """Coefficients a_1, a_2, ... of a mode of a beam that is clamped at its root."""
-    s_of_xi = Polynomial([-1.0, 2.0])
-    a = np.asarray(Polynomial(leg2poly(mode.legendre_series()))(s_of_xi).coef[2:], dtype=np.float64)
+    a = (powers_of_legendre(len(mode.series) - 1) @ mode.series)[2:]
     rounding = a[0] if scaling is ModeScaling.FIRST_COEFFICIENT else 1.0  # a[0] is 1, nearly
     return tuple((a / rounding).tolist())

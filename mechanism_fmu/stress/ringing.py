@@ -23,10 +23,10 @@ ComplexArray = npt.NDArray[np.complex128]
 _POINTS_OF_PERIOD = 24
 
 #: Ringing is followed until no swing exceeds this part of what the fastest impact alone can cause.
-RESOLUTION = 1e-3
+RESOLUTION = 1e-2
 
 #: Steps of a regula falsi that bring an extreme from a cell of the grid to rounding.
-_REFINEMENTS = 10
+_REFINEMENTS = 8
 
 #: As of `maximum_stress`: with less damping the ringing hardly ends.
 _LEAST_DAMPING = 1e-4

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy.typing as npt
 
@@ -28,7 +28,7 @@ class SequenceDamage:
         time: of it [s].
         position: xi = x / length of the section [-].
         impacts: their number.
-        cycles: of the stress, by rainflow counting, halves as 0.5; swings below 1e-3 of the largest possible are not in
+        cycles: of the stress, by rainflow counting, halves as 0.5; swings below 1e-2 of the largest possible are not in
             it.
         damage: Miner's sum for one such sequence, at the worse of the two outer fibres [-].
         repeats_to_failure: of the whole sequence, 1 / damage; infinite without damage.
@@ -90,9 +90,8 @@ def sequence_damage(
     for cycle in rainflow_cycles(history()):
         count += cycle.count
         for fibre, sign in enumerate((1.0, -1.0)):
-            amplitude = effective_amplitude(
-                replace(cycle, mean=sign * cycle.mean), strength.tensile_strength, mean_stress
-            )
+            mean = sign * cycle.mean
+            amplitude = effective_amplitude(cycle.amplitude, mean, strength.tensile_strength, mean_stress)
             damage[fibre] += cycle.count * strength.damage_of(amplitude)
         worst = max(worst, _use(cycle, strength, mean_stress))
     return SequenceDamage(

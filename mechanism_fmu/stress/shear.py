@@ -7,13 +7,13 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from numpy.polynomial.legendre import leggauss
 
 from .beam import Beam
 from .checks import FloatArray
 from .material import Material
 from .modes import ritz_modes
 from .natural_mode import Mode
+from .quadrature import gauss_rule
 from .recovery import checked
 from .response import damped_response
 
@@ -76,7 +76,7 @@ def shear_stress(
 
 def _beyond(tooth: Beam, material: Material, mode: Mode, x: FloatArray) -> FloatArray:
     """Integral of rho A u from each place to the tip [kg], in the shape of `x`."""
-    nodes, weights = leggauss(_POINTS)
+    nodes, weights = gauss_rule(_POINTS)
     edges = (0.0, *tooth.breaks, tooth.length)
     whole = np.zeros_like(x)
     for low, high in itertools.pairwise(edges):

@@ -115,7 +115,7 @@ def test_nothing_of_the_history_lies_beyond_its_swings():
     for before, after in itertools.pairwise(swings):
         inside = history[(fine > before.time) & (fine < after.time)]
         low, high = sorted((before.stress, after.stress))
-        if len(inside) and after.time < 30 * PERIOD:
+        if len(inside) and after.time < 20 * PERIOD:
             assert low - 1e-9 * largest <= inside.min()
             assert inside.max() <= high + 1e-9 * largest
 
@@ -126,8 +126,8 @@ def test_ringing_is_followed_until_it_is_over():
     largest = maximum_stress(TOOTH, STEEL, 1.0).stress
     after = np.abs(ringing.stress(0.013, end.time + np.linspace(0.0, 3.0, 301) * PERIOD)).max()
     assert end.stress == 0.0
-    assert after < 1.5e-3 * largest
-    assert after > 1e-5 * largest
+    assert after < 1.5e-2 * largest
+    assert after > 1e-4 * largest
 
 
 def test_impacts_at_one_time_add_up():
