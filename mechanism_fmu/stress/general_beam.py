@@ -44,6 +44,7 @@ class SectionBeam:
 
     def __post_init__(self) -> None:
         """Refuse what cannot be a beam."""
+        object.__setattr__(self, "breaks", tuple(self.breaks))  # so that a list will do
         require_size("length", self.length)
         require_size("thickness", self.thickness)
         edges = [0.0, *self.breaks, self.length]

@@ -19,7 +19,8 @@ from .natural_mode import Mode
 
 ComplexArray = npt.NDArray[np.complex128]
 
-#: Points of a period of the fastest mode at which the slope of the stress is looked at: no extreme lies unseen.
+#: Points of a period of the fastest mode at which the slope of the stress is looked at. Two extremes between two of
+#: them would be missed; they would differ by next to nothing.
 _POINTS_OF_PERIOD = 24
 
 #: Ringing is followed until no swing exceeds this part of what the fastest impact alone can cause.
@@ -97,8 +98,8 @@ class Ringing:
     def swings(self, x: float) -> Iterator[Swing]:
         """Stress at the place x [m]: at each impact, and at each of its extremes until the ringing is over.
 
-        The extremes are exact; nothing between two swings is larger or smaller than both. The memory it takes does not
-        grow with the number of impacts.
+        The extremes are refined to rounding, and between two swings the stress goes one way. The memory it takes does
+        not grow with the number of impacts.
 
         Raises:
             ValueError: when the place is off the tooth.

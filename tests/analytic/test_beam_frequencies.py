@@ -55,10 +55,6 @@ def test_exact_wedge_frequencies_by_shooting():
     def determinant(frequency):
         p2 = 12 * frequency**2
 
-        def rates(s, y):
-            u, slope, moment, shear = y[:4], y[4:8], y[8:12], y[12:16]
-            return np.concatenate([slope, moment / s**3, shear, p2 * s * u])
-
         # Solutions bounded at the tip: u = 1 + p2 s^2 / 12 ... and u = s + p2 s^3 / 72 ...; from moment = s^3 u''.
         s = 1e-3
         columns = []

@@ -57,7 +57,7 @@ def test_sequence_is_the_sum_of_its_impacts(gaps, velocities):
     t = np.linspace(0.0, times[-1] + 5 * PERIOD, 301)
     expected = direct(times, velocities, PLACES, t)
     found = Ringing(TOOTH, STEEL, times, velocities).stress(PLACES, t)
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-4)  # of up to 1e8 Pa
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-2)  # of up to 1e8 Pa
 
 
 def test_sequence_of_many_modes_scaled_by_projection():
