@@ -18,7 +18,7 @@ from .errors import FmuError
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
 
 _TIMES = 600
-_PLACES = 201
+_PLACES = 101
 #: The shown time span reaches this many times the delay of the maximum.
 _SPAN = 12.0
 
@@ -78,7 +78,7 @@ def stress_field(tooth: WedgeTooth, velocity: float, material: Material = STEEL)
     """Bending stress of a tooth along its length and in time, after an impact with `velocity` [m/s]."""
     speed = abs(velocity)
     maximum = maximum_stress(tooth, material, speed)
-    position = np.linspace(0.0, 1.0, _PLACES)
+    position, along = stress_along(tooth, velocity, material)
     delay = np.linspace(0.0, _SPAN * maximum.time, _TIMES)
     place = maximum.position * tooth.length
     sign = float(np.sign(bending_stress(tooth, material, speed, [place], [maximum.time])[0, 0]))
@@ -86,7 +86,29 @@ def stress_field(tooth: WedgeTooth, velocity: float, material: Material = STEEL)
         position=position,
         delay=delay,
         stress=sign * bending_stress(tooth, material, speed, position * tooth.length, delay),
-        along=sign * bending_stress(tooth, material, speed, position * tooth.length, [maximum.time])[:, 0],
+        along=along,
         in_time=sign * bending_stress(tooth, material, speed, [place], delay)[0],
         maximum=maximum,
     )
+
+
+def stress_along(
+    tooth: WedgeTooth, velocity: float, material: Material = STEEL
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Bending stress of a tooth along its length, at the instant of the largest one after an impact.
+
+    Args:
+        tooth: what is struck.
+        velocity: of the impact [m/s].
+        material: of the tooth.
+
+    Returns:
+        x / length from the root, and the stress there [Pa], signed so that the largest one is positive;
+        shape (places,) each.
+    """
+    speed = abs(velocity)
+    maximum = maximum_stress(tooth, material, speed)
+    position = np.linspace(0.0, 1.0, _PLACES)
+    place = maximum.position * tooth.length
+    stress = bending_stress(tooth, material, speed, [place, *(position * tooth.length)], [maximum.time])[:, 0]
+    return position, np.sign(stress[0]) * stress[1:]

@@ -38,15 +38,8 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    body += [
-        animation(run),
-        _motion(run),
-        _stress(run),
-        fatigue_section(run),
-        _impacts(run),
-        modes_section(run),
-        events_section(run),
-    ]
+    body += [animation(run), _motion(run), _stress(run), fatigue_section(run), _impacts(run)]
+    body += [modes_section(run), events_section(run)]
     body += [_parameters(run), _messages(run)]
     return page(description.model, subtitle, [part for part in body if part])
 
