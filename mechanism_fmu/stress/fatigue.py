@@ -85,7 +85,7 @@ def rainflow_cycles(stress: Iterable[float]) -> Iterator[Cycle]:
 
     Source: ASTM E1049-85, section 5.4.4, by the package `rainflow`.
     """
-    from rainflow import extract_cycles
+    from rainflow import extract_cycles  # type: ignore[import-untyped]
 
     for width, mean, count, _, _ in extract_cycles(stress):
         yield Cycle(width / 2, mean, count)
