@@ -26,7 +26,8 @@ class MaximumStress:
         stress: |sigma_b| of the outer fibre [Pa].
         position: xi = x / length [-], 0 at the root, 1 at the tip.
         time: since the impact [s].
-        coefficient: C = stress / (v_I sqrt(rho E)) [-]; it depends only on the damping ratio and the modes' scaling.
+        coefficient: C = stress / (v_I sqrt(rho E)) [-]; for beams of one shape it depends only on the damping ratio,
+            the number of modes and their scaling.
     """
 
     stress: float

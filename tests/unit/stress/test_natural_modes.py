@@ -192,6 +192,18 @@ def test_exact_modes_of_a_wedge_with_a1_equal_1_are_projected_already():
             assert math.sqrt(other.mass / one.mass) == pytest.approx(factor, rel=1e-7)
 
 
+@pytest.mark.parametrize("beam", [TOOTH, TrapezoidTooth(0.05, 0.02, 0.002)], ids=["wedge", "trapezoid"])
+def test_largest_stress_of_many_modes_is_that_of_a_fine_grid(beam):
+    modes = natural_modes(beam, STEEL, 24, scaling=ModeScaling.PROJECTION)[:10]
+    found = maximum_stress(beam, STEEL, 1.0, modes)
+    t = np.arange(0.0, 1.0, 2e-3) * 2 * math.pi / modes[0].natural_frequency
+    around = found.time + np.linspace(-0.05, 0.05, 101) * 2 * math.pi / modes[-1].natural_frequency
+    x = np.linspace(0.0, beam.length, 301)
+    coarse, fine = (np.abs(bending_stress(beam, STEEL, 1.0, x, times, modes)).max() for times in (t, around))
+    assert coarse <= found.stress * (1 + 1e-12)
+    assert fine == pytest.approx(found.stress, rel=1e-4)
+
+
 def test_mode_without_part_in_the_rotation_has_no_projection():
     beam = RectangularTooth(0.05, 0.01)
     with pytest.raises(ValueError, match=r"bending 1 takes no part in a rotation about the root.*FIRST_COEFFICIENT"):
