@@ -40,12 +40,12 @@ def tooth_of(parameters: Mapping[str, Value]) -> WedgeTooth | None:
         raise FmuError(f"The FMU's tooth_length and tooth_apex_angle describe no tooth: {error}") from error
 
 
-def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth) -> pd.DataFrame:
-    """The table of impacts with the largest bending stress of steel after each.
+def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth, material: Material = STEEL) -> pd.DataFrame:
+    """The table of impacts with the largest bending stress after each.
 
     Adds `stress_max` [Pa], `stress_position` (x / length, from the root) and `stress_delay` [s] after the impact.
     """
-    found = [maximum_stress(tooth, STEEL, abs(velocity)) for velocity in impacts["velocity"]]
+    found = [maximum_stress(tooth, material, abs(velocity)) for velocity in impacts["velocity"]]
     return impacts.assign(
         stress_max=[maximum.stress for maximum in found],
         stress_position=[maximum.position for maximum in found],

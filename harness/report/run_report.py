@@ -14,6 +14,7 @@ from ..results import settings, write_text
 from ..tooth_stress import stress_field
 from ..versions import versions
 from .animation import animation
+from .fatigue import fatigue_section
 from .interactive import interactive
 from .logic import events_section, modes_section
 from .modes import contacts
@@ -40,7 +41,8 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    body += [animation(run), _motion(run), _stress(run), _impacts(run), modes_section(run), events_section(run)]
+    body += [animation(run), _motion(run), _stress(run), fatigue_section(run), _impacts(run)]
+    body += [modes_section(run), events_section(run)]
     body += [_parameters(run), _messages(run), versions_section(versions(run.fmu, run.description))]
     return page(description.model, subtitle, [part for part in body if part])
 
@@ -81,15 +83,15 @@ def _stress(run: Run) -> str:
     note = (
         f"The impact with the largest stress: t = {worst['time']:.9g} s, "
         f"v_I = {engineering(float(worst['velocity']), 'm/s')};"
-        f" wedge of length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad, steel,"
-        " two Ritz modes."
+        f" wedge of length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad,"
+        f" {run.experiment.material.name}, two Ritz modes."
     )
     if len(run.impacts) > 1:
         note += (
             " v_I is the paper's, wheel speed after the impact times tooth length, meant for a wheel that is struck at "
             "rest: for later impacts on a wheel that already turns it is an upper bound, not the jump of the speed."
         )
-    plots = stress_plots(stress_field(run.tooth, worst["velocity"]))
+    plots = stress_plots(stress_field(run.tooth, worst["velocity"], run.experiment.material.material))
     drawn = charts(*(chart(interactive(plot, height=400)) for plot in plots))
     return section("Bending stress in the tooth", drawn, note=note)
 
