@@ -43,7 +43,8 @@ def _trace(curve: Curve, first: bool) -> dict[str, Any]:
         "showlegend": first,
         "x": _numbers(curve.x),
         "y": _numbers(curve.y),
-        "line": {"color": curve.colour, "width": 2},
+        # simplified by plotly, a smooth curve of few points has corners
+        "line": {"color": curve.colour, "width": 2, "simplify": False},
         "marker": {"color": curve.colour, "size": 7},
     }
     if curve.filled:
