@@ -20,7 +20,7 @@ from harness.errors import UsageError
 from harness.experiment import Experiment, Run, perform
 from harness.report.run_report import run_report
 from harness.results import write_run
-from harness.tooth_damage import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row
+from harness.tooth_damage import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row, stress_history
 from mechanism_fmu.stress import CARDS, STEEL, STEEL_CARD, WedgeTooth, maximum_stress, ritz_modes, sequence_damage
 
 TOOTH = WedgeTooth(length=0.033, apex_angle=0.61)
@@ -76,6 +76,16 @@ def test_contacts_struck_at_one_instant_are_one_impact() -> None:
     table = pd.DataFrame({"time": [0.2, 0.5, 0.5, 0.5], "velocity": [1.0, 0.5, -0.7, 0.7 * (1 - 1e-9)]})
     found = damage_of_impacts(table, TOOTH, STEEL_CARD)
     assert found == sequence_damage(TOOTH, STEEL, STEEL_CARD.strength, [0.2, 0.5], [1.0, -0.7])
+
+
+def test_history_begins_with_the_first_impact_and_holds_the_largest_stress() -> None:
+    run = run_of([0.3, 0.7])
+    assert run.damage is not None
+    time, stress = stress_history(run.impacts, TOOTH, STEEL_CARD, run.damage.position)
+    assert (time[0], stress[0], stress[-1]) == (0.3, 0.0, 0.0)
+    assert np.all(np.diff(time) >= 0)
+    assert np.abs(stress).max() == run.damage.stress
+    assert "bending stress [Pa]" in run_report(run)
 
 
 def test_run_without_tooth_or_impact_has_no_damage(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
