@@ -18,6 +18,7 @@ from harness.description import Variable
 from harness.ending import show_ending
 from harness.errors import UsageError
 from harness.experiment import Experiment, Run, perform
+from harness.fmu import open_fmu
 from harness.report.run_report import run_report
 from harness.results import write_run
 from harness.tooth_damage import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row, stress_history
@@ -54,6 +55,16 @@ def test_damage_of_a_run_is_that_of_its_impacts() -> None:
     assert run.damage.impacts == 3
     # The second comes while the first rings: more than each alone.
     assert run.damage.stress > run.impacts["stress_max"][:2].max()
+
+
+def test_base_case_of_the_paper(ratchet_fmu: Path) -> None:
+    with open_fmu(ratchet_fmu) as fmu:
+        run = perform(fmu, Experiment(1.2, 0.1))
+    assert run.damage is not None
+    assert run.damage.stress == pytest.approx(15547.0, abs=0.5)  # the table of the paper's cases, in whole pascals
+    assert run.damage.position == pytest.approx(0.3956, abs=1e-4)
+    assert run.damage.yield_safety == pytest.approx(235e6 / 15547.0, rel=1e-4)
+    assert run.damage.time == pytest.approx(0.9399211769, abs=1e-5)
 
 
 def test_one_impact_has_the_stress_of_the_table() -> None:
