@@ -187,6 +187,55 @@ def modes(
 
 
 @main.command()
+def sweep(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE.toml", help="What to vary and what to keep.", show_default=False)
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
+    ] = None,
+) -> None:
+    """Run many designs: a grid, random ones, a Latin hypercube or Sobol points.
+
+    A small FILE.toml:
+
+        [fmu]
+        model = "ratchet"
+
+        [run]
+        stop_time = "1.2 s"
+
+        [sweep]
+        method = "grid"
+
+        [vary.tooth_count]
+        values = [10, 15, 20, 25]
+
+        [record]
+        first_impact = ["time", "stress_max"]
+
+    Results are kept as they come: whenever the command ends, by Ctrl-C, a power cut or at midnight, the same command
+    goes on where it stopped. The table results.parquet is for pandas, report.html for people. See docs/sweeps.md.
+
+    Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.
+    """
+    from .sweep_command import run_sweep
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_sweep(file, output, workers, scheduler))
+
+
+@main.command()
 def validate(fmu: FmuPath) -> None:
     """Check an FMU: the file, its default values, a run, saving and restoring of its state, reset.
 
