@@ -26,7 +26,7 @@ from .errors import UsageError
 from .fmu import Fmu, open_fmu
 from .interrupt import interruption
 from .results import prepare_folder
-from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_wide_table
+from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
 
 #: Failed designs that fit a terminal; the file has all.
 _MOST_SHOWN = 10
@@ -94,6 +94,7 @@ class DesignsBar:
             TextColumn("[red]{task.fields[failed]}[/]"),
             console=console,
             transient=True,
+            disable=not console.is_terminal,
         )
         self._task = self._bar.add_task("", total=total, rate="", failed="")
         self._earlier = 0
@@ -153,11 +154,29 @@ def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, tab
 
     new = progress.total - progress.earlier
     console.print(f"{progress.total} designs, {new} of them run now, {progress.earlier} there before.")
+    _show_ranges(sweep, table)
     report = write_sweep_report(sweep, fmu.description, table, store.folder / "report.html")
     failed = failures(table)
     show_files([store.table_file, store.identity_file, report])
     show_failures(failed)
     return FAILED if failed else 0
+
+
+def _show_ranges(sweep: Sweep, table: pa.Table) -> None:
+    """Between which values each quantity lies, and in which designs it has them."""
+    numbers = table["design"].to_pylist()
+    rows = []
+    for quantity in sweep.task.quantities:
+        values = zip(table[quantity.column].to_pylist(), numbers, strict=True)
+        there = [(float(value), number) for value, number in values if value is not None]
+        ends = [text for pair in (min(there), max(there)) for text in _end(*pair)] if there else [""] * 4
+        rows.append([quantity.column, quantity.unit or "1", *ends])
+    headings = ["quantity", "unit", "smallest", "no.", "largest", "no."]
+    show_table(f"Results of {len(table)} designs", headings, rows, numeric=range(2, len(headings)))
+
+
+def _end(value: float, number: int) -> list[str]:
+    return [f"{value:.6g}", str(number)]
 
 
 def show_failures(failed: Sequence[tuple[int, str]]) -> None:

@@ -68,7 +68,7 @@ def on_cluster(
     client.register_plugin(tools)
     waiting = portions(designs, way.together)
     running: dict[Any, list[Design]] = {}
-    completed = as_completed()
+    completed = as_completed(loop=client.loop)
     try:
         while True:
             if not stop_requested():

@@ -68,7 +68,7 @@ def sweep_report(sweep: Sweep, description: Description, results: pa.Table) -> s
     body = [
         cards(figures),
         section("Results", *_charts(varied, found), note="Each dot is one design. Drag over an axis to zoom."),
-        section("Designs", _table(varied, found, results), note=_rows_note(len(results))),
+        section("Designs", _table(varied, found, results), note=_rows_note(results)),
     ]
     if failed:
         rows = [[str(number), message] for number, message in failed[:_MOST_ROWS]]
@@ -79,10 +79,10 @@ def sweep_report(sweep: Sweep, description: Description, results: pa.Table) -> s
 
 def parallel_chart(columns: Sequence[Column], colour: Column) -> go.Figure:
     """Each design a line across all columns, coloured by one of them."""
-    dimensions = [{"label": _broken(column.heading), "values": column.values} for column in columns]
+    dimensions = [{"label": column.heading, "values": column.values} for column in columns]
     line = {"color": colour.values, "colorscale": "Viridis", "colorbar": {"title": {"text": _broken(colour.heading)}}}
-    figure = go.Figure(go.Parcoords(dimensions=dimensions, line=line, labelangle=-12))
-    figure.update_layout(layout(height=460, margin={"l": 80, "r": 40, "t": 110, "b": 30}))
+    figure = go.Figure(go.Parcoords(dimensions=dimensions, line=line, labelangle=-20, rangefont={"size": 10}))
+    figure.update_layout(layout(height=480, margin={"l": 80, "r": 60, "t": 130, "b": 30}))
     return figure
 
 
@@ -168,10 +168,11 @@ def _cell(number: float) -> str:
     return "" if np.isnan(number) else f"{number:.9g}"
 
 
-def _rows_note(count: int) -> str:
-    if count <= _MOST_ROWS:
-        return "results.parquet has the same in SI units and radians, with all digits."
-    return f"The first {_MOST_ROWS} of {count}; results.parquet has all, in SI units and radians, with all digits."
+def _rows_note(results: pa.Table) -> str:
+    count, warned = len(results), len(results) - results["warnings"].null_count
+    which = "" if count <= _MOST_ROWS else f"The first {_MOST_ROWS} of {count}. "
+    said = f" To {warned} designs the FMU had something to say; it stands there, too." if warned else ""
+    return f"{which}results.parquet has all, in SI units and radians, with all digits.{said}"
 
 
 def _set_up(sweep: Sweep, description: Description) -> str:

@@ -1,0 +1,20 @@
+"""The examples of sweeps are right for the FMU that they name."""
+
+from pathlib import Path
+
+import pytest
+
+from harness.description import read_description
+from harness.designs.plan import Source, source
+from harness.designs.sweep_file import read_sweep
+from harness.designs.toml_file import TomlFile
+
+EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
+DESIGNS = {"teeth": 64, "paper_wheels": 20}
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_an_example_of_a_sweep(name: str, ratchet_fmu: Path) -> None:
+    file = TomlFile.read(EXAMPLES / f"{name}.toml")
+    assert source(file) == Source(model="ratchet")
+    assert len(read_sweep(file, read_description(ratchet_fmu)).designs) == DESIGNS[name]
