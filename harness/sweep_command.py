@@ -19,9 +19,10 @@ from .designs.identity import identity
 from .designs.plan import Source, source
 from .designs.store import Store, failures
 from .designs.sweep_file import Sweep, read_sweep
+from .designs.task import Task
 from .designs.toml_file import TomlFile
 from .designs.ways import BY_FMU, Way
-from .designs.workers import Crew, Work, in_processes
+from .designs.workers import Crew, Processes, Work
 from .errors import UsageError
 from .fmu import Fmu, open_fmu
 from .interrupt import interruption
@@ -43,7 +44,7 @@ def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: s
         how = ("sweep", {"method": sweep.method})
         known = identity(fmu.description, sweep.task, sweep.axes, how, sweep.designs)
         store = Store(folder, known, sweep.axes, sweep.task.quantities)
-        with _crew(fmu, sweep, BY_FMU, workers, scheduler) as crew:
+        with crew_of(fmu, sweep.task, BY_FMU, workers, scheduler) as crew:
             progress, table = _performed(sweep, store, crew)
         return _ending(fmu, sweep, store, progress, table)
 
@@ -120,14 +121,15 @@ class DesignsBar:
 
 
 @contextmanager
-def _crew(fmu: Fmu, sweep: Sweep, way: Way, workers: int | None, scheduler: str | None) -> Iterator[Crew]:
+def crew_of(fmu: Fmu, task: Task, way: Way, workers: int | None, scheduler: str | None) -> Iterator[Crew]:
     """Those who run the designs.
 
     Raises:
         UsageError: the cluster cannot be used.
     """
     if scheduler is None:
-        yield partial(in_processes, Work(fmu, sweep.task, way), workers or os.cpu_count() or 1)
+        with Processes(Work(fmu, task, way), workers or os.cpu_count() or 1) as processes:
+            yield processes.run
         return
     try:
         from .designs.cluster import connected, on_cluster
@@ -138,7 +140,7 @@ def _crew(fmu: Fmu, sweep: Sweep, way: Way, workers: int | None, scheduler: str 
             '--scheduler needs Dask, which is not installed: python -m pip install "mechanism_fmu[cluster]"'
         ) from None
     with connected(scheduler) as client:
-        yield partial(on_cluster, client, fmu.path, sweep.task, way)
+        yield partial(on_cluster, client, fmu.path, task, way)
 
 
 def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, table: pa.Table) -> int:

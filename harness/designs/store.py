@@ -1,6 +1,6 @@
 """Results on the disk, such that a process may end at any moment.
 
-    FOLDER/sweep.json         what the results belong to (`identity`); written first
+    FOLDER/identity.json         what the results belong to (`identity`); written first
     FOLDER/parts/*.parquet    results as they come: a file for what came together, by its first design's number
     FOLDER/results.parquet    all of them, in the order of their numbers; written last
 
@@ -39,7 +39,7 @@ class Store:
     Attributes:
         folder: of all files.
         table_file: `results.parquet`.
-        identity_file: `sweep.json`.
+        identity_file: `identity.json`.
     """
 
     def __init__(self, folder: Path, identity: Identity, axes: Sequence[Axis], quantities: Sequence[Quantity]) -> None:
@@ -50,7 +50,7 @@ class Store:
         """
         self.folder = folder
         self.table_file = folder / "results.parquet"
-        self.identity_file = folder / "sweep.json"
+        self.identity_file = folder / "identity.json"
         self._parts = folder / "parts"
         self._quantities = quantities
         self._schema = _schema(identity, axes, quantities)

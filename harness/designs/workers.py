@@ -68,57 +68,75 @@ def here(work: Work, designs: Iterable[Design], stop_requested: Callable[[], boo
         yield work.run(portion)
 
 
-def in_processes(
-    work: Work, count: int, designs: Iterable[Design], stop_requested: Callable[[], bool] = never
-) -> Iterator[Pairs]:
-    """Run designs in `count` processes of this machine.
+class Processes:
+    """Processes of this machine, to be used in a `with`; they are started when the first designs come.
 
-    When a process dies, those that might have been its victims run again, each in a process of its own; one that
-    kills this, too, has failed. All others go on.
+    When a process dies, those designs that might have been its victims run again, each in a process of its own; one
+    that kills this, too, has failed. All others go on.
     """
-    waiting = portions(designs, work.way.together)
-    suspects: list[Design] = []
-    more = True
-    while more:
-        more = yield from _until_broken(work, count, waiting, suspects, stop_requested)
-        for design in suspects:
-            if not stop_requested():
-                yield _alone(work, design)
-        suspects.clear()
 
+    def __init__(self, work: Work, count: int) -> None:
+        self._work, self._count = work, count
+        self._pool: ProcessPoolExecutor | None = None
 
-def _until_broken(
-    work: Work,
-    count: int,
-    waiting: Iterator[list[Design]],
-    suspects: list[Design],
-    stop_requested: Callable[[], bool],
-) -> Generator[Pairs, None, bool]:
-    """Run designs as `in_processes`, until all are done (then return False) or a process has died (then True).
+    def __enter__(self) -> Processes:
+        return self
 
-    `waiting` is emptied from the front; each process has one portion more than it works on. The designs that were on
-    their way when a process died are added to `suspects`.
-    """
-    running: dict[Future[Pairs], list[Design]] = {}
-    pool = _pool(work, count)
-    try:
-        while True:
-            if not stop_requested():
-                for portion in islice(waiting, 2 * count - len(running)):
-                    running[pool.submit(_run_portion, portion)] = portion
-            if not running:
-                return False
-            came, _ = wait(running, return_when=FIRST_COMPLETED)
-            broken = any(isinstance(future.exception(), BrokenProcessPool) for future in came)
-            whole = [future for future in running if future.done() and future.exception() is None] if broken else came
-            yield [pair for future in whole for pair in future.result()]
-            for future in whole:
-                del running[future]
-            if broken:
-                suspects += [design for portion in running.values() for design in portion]
-                return True
-    finally:
-        pool.shutdown(cancel_futures=True)
+    def __exit__(self, *_: object) -> None:
+        self._end()
+
+    def run(self, designs: Iterable[Design], stop_requested: Callable[[], bool] = never) -> Iterator[Pairs]:
+        """Run designs; a `Crew`."""
+        waiting = portions(designs, self._work.way.together)
+        suspects: list[Design] = []
+        more = True
+        while more:
+            more = yield from self._until_broken(waiting, suspects, stop_requested)
+            for design in suspects:
+                if not stop_requested():
+                    yield _alone(self._work, design)
+            suspects.clear()
+
+    def _until_broken(
+        self, waiting: Iterator[list[Design]], suspects: list[Design], stop_requested: Callable[[], bool]
+    ) -> Generator[Pairs, None, bool]:
+        """Run designs until all are done (then return False) or a process has died (then True).
+
+        `waiting` is emptied from the front; each process has one portion more than it works on. The designs that were
+        on their way when a process died are added to `suspects`.
+        """
+        running: dict[Future[Pairs], list[Design]] = {}
+        whole = False
+        try:
+            while True:
+                if not stop_requested():
+                    for portion in islice(waiting, 2 * self._count - len(running)):
+                        running[self._started().submit(_run_portion, portion)] = portion
+                if not running:
+                    whole = True
+                    return False
+                came, _ = wait(running, return_when=FIRST_COMPLETED)
+                broken = any(isinstance(future.exception(), BrokenProcessPool) for future in came)
+                good = [f for f in running if f.done() and f.exception() is None] if broken else list(came)
+                yield [pair for future in good for pair in future.result()]
+                for future in good:
+                    del running[future]
+                if broken:
+                    suspects += [design for portion in running.values() for design in portion]
+                    return True
+        finally:
+            if not whole:
+                self._end()
+
+    def _started(self) -> ProcessPoolExecutor:
+        if self._pool is None:
+            self._pool = _pool(self._work, self._count)
+        return self._pool
+
+    def _end(self) -> None:
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+        self._pool = None
 
 
 def _alone(work: Work, design: Design) -> Pairs:

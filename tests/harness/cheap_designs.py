@@ -18,7 +18,7 @@ from harness.designs.sweep_file import Sweep
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.variation import Axis
 from harness.designs.ways import Way
-from harness.designs.workers import Work, here, in_processes
+from harness.designs.workers import Work, here
 
 SQUARE = Quantity(When.END, "square", "Real", "m2")
 #: Designs with these numbers fail, and crash the process.
@@ -79,9 +79,7 @@ def work_of(sweep: Sweep, folder: Path, way: Way = CHEAP) -> Work:
     return Work(Place(place), sweep.task, way)  # type: ignore[arg-type]
 
 
-def run_cheap(count: int, folder: Path, workers: int = 0) -> None:
-    """Run what is left of a sweep in a folder; `workers` 0 is this process itself."""
+def run_cheap(count: int, folder: Path) -> None:
+    """Run what is left of a sweep in a folder, in this process."""
     sweep = cheap_sweep(count)
-    work = work_of(sweep, folder)
-    crew = partial(in_processes, work, workers) if workers else partial(here, work)
-    perform_sweep(sweep, store_of(sweep, folder), crew, lambda progress: None)
+    perform_sweep(sweep, store_of(sweep, folder), partial(here, work_of(sweep, folder)), lambda progress: None)

@@ -21,7 +21,7 @@ from harness.designs import sampling
 from harness.designs.store import failures
 from harness.designs.sweep import Progress, perform_sweep
 from harness.designs.task import Result
-from harness.designs.workers import here, in_processes
+from harness.designs.workers import Processes, here
 from harness.errors import UsageError
 
 
@@ -96,11 +96,11 @@ def test_a_folder_of_other_designs_is_refused(count: int, seed: int, method: str
 
 def test_a_folder_whose_owner_nobody_knows_is_refused(tmp_path: Path) -> None:
     run_cheap(3, tmp_path)
-    (tmp_path / "sweep.json").write_text("{")
+    (tmp_path / "identity.json").write_text("{")
     with pytest.raises(UsageError, match="cannot be read"):
         store_of(cheap_sweep(3), tmp_path)
-    (tmp_path / "sweep.json").unlink()
-    with pytest.raises(UsageError, match=r"has results, but no sweep\.json"):
+    (tmp_path / "identity.json").unlink()
+    with pytest.raises(UsageError, match=r"has results, but no identity\.json"):
         store_of(cheap_sweep(3), tmp_path)
 
 
@@ -124,8 +124,8 @@ def test_killed_between_the_table_and_the_removal_of_parts_nothing_is_twice(tmp_
 
 def test_what_fails_and_what_kills_its_process_is_recorded_and_the_rest_goes_on(tmp_path: Path) -> None:
     sweep = cheap_sweep(20)
-    crew = partial(in_processes, work_of(sweep, tmp_path, TROUBLED), 2)
-    progress, table = perform_sweep(sweep, store_of(sweep, tmp_path), crew, lambda progress: None)
+    with Processes(work_of(sweep, tmp_path, TROUBLED), 2) as processes:
+        progress, table = perform_sweep(sweep, store_of(sweep, tmp_path), processes.run, lambda progress: None)
     assert progress == Progress(total=20, earlier=0, done=20, failed=2)
     (failing, why), (deadly, how) = failures(table)
     assert (failing, why) == (FAILING, "the pawl has left the wheel.")
@@ -166,4 +166,4 @@ def test_a_sweep_killed_at_any_moment_gives_what_an_undisturbed_one_gives(tmp_pa
 
 def test_the_folder_says_to_which_fmu_it_belongs(tmp_path: Path) -> None:
     store_of(cheap_sweep(3), tmp_path)
-    assert fake_description().guid in (tmp_path / "sweep.json").read_text()
+    assert fake_description().guid in (tmp_path / "identity.json").read_text()
