@@ -236,6 +236,58 @@ def sweep(
 
 
 @main.command()
+def optimise(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE.toml", help="What is free and what is sought.", show_default=False)
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
+    ] = None,
+) -> None:
+    """Find the best design: variables with bounds, an objective, constraints.
+
+    A small FILE.toml:
+
+        [fmu]
+        model = "ratchet"
+
+        [run]
+        stop_time = "1.2 s"
+
+        [optimise]
+        minimise = "first_impact.stress_max"
+        count = 120
+
+        [vary.tooth_count]
+        from = 10
+        to = 25
+
+        [constraint."parameter.tooth_length"]
+        at_least = 6
+        unit = "mm"
+
+    The same file finds the same design on every machine, and the same command goes on after an interruption. The files
+    are those of a sweep, and optimum.json. See docs/optimum-design.md.
+
+    Exit code: 0 all well, 1 no design keeps all constraints, 2 wrong use, 130 interrupted.
+    """
+    from .optimise_command import run_optimise
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_optimise(file, output, workers, scheduler))
+
+
+@main.command()
 def validate(fmu: FmuPath) -> None:
     """Check an FMU: the file, its default values, a run, saving and restoring of its state, reset.
 

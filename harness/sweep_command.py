@@ -39,7 +39,7 @@ def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: s
     wanted = source(file)
     folder = Path(path.stem) if folder is None else folder
     prepare_folder(folder)
-    with _alone(folder), open_fmu(fmu_file(wanted, folder)) as fmu:
+    with alone_in(folder), open_fmu(fmu_file(wanted, folder)) as fmu:
         sweep = read_sweep(file, fmu.description)
         how = ("sweep", {"method": sweep.method})
         known = identity(fmu.description, sweep.task, sweep.axes, how, sweep.designs)
@@ -49,7 +49,8 @@ def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: s
         return _ending(fmu, sweep, store, progress, table)
 
 
-def _alone(folder: Path) -> AbstractContextManager[None]:
+def alone_in(folder: Path) -> AbstractContextManager[None]:
+    """Wait until no other command works in a folder."""
     return alone(
         folder, lambda: console.print(f"Another command is at work in {folder}: waiting for it.", markup=False)
     )

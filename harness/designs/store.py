@@ -52,7 +52,7 @@ class Store:
         self.table_file = folder / "results.parquet"
         self.identity_file = folder / "identity.json"
         self._parts = folder / "parts"
-        self._quantities = quantities
+        self._axes, self._quantities = axes, quantities
         self._schema = _schema(identity, axes, quantities)
         self._claim(identity)
 
@@ -69,6 +69,23 @@ class Store:
         first = {number: row for row, number in reversed(list(enumerate(numbers)))}
         order = pa.array([first[number] for number in sorted(first)], pa.int64())
         return table.take(order).combine_chunks()
+
+    def pairs(self) -> dict[int, tuple[dict[str, Value], Result]]:
+        """Values and result of each design, by its number.
+
+        Raises:
+            UsageError: a file cannot be read.
+        """
+        columns = [quantity.column for quantity in self._quantities]
+        return {
+            row["design"]: (
+                {axis.name: row[axis.name] for axis in self._axes},
+                Result(
+                    row["design"], row["way"], tuple(row[name] for name in columns), row["message"], row["warnings"]
+                ),
+            )
+            for row in self.results().to_pylist()
+        }
 
     def append(self, pairs: Iterable[tuple[Design, Result]]) -> None:
         """Keep results; when this returns, they are on the disk.

@@ -57,6 +57,11 @@ class Axis:
         within = min(max(number, self.low), self.high)
         return _converted(within, self.unit, self.variable, self.description)
 
+    def fraction(self, value: float) -> float:
+        """Where a value in the unit of the variable lies between the limits, in [0, 1]."""
+        low, high = self.real(self.low), self.real(self.high)
+        return min(max((value - low) / (high - low), 0.0), 1.0)
+
 
 def axes(
     file: TomlFile, description: Description, inputs: InputSignals | None, fixed: Sequence[str], *, grid: bool | None
@@ -134,7 +139,7 @@ def _check_limits_given(
         if given is None:
             section.wrong(key, "is missing; give from and to, or values")
     if steps is not None and grid is False:
-        section.wrong("steps", 'goes with method = "grid" only; elsewhere sweep.count says how many designs there are')
+        section.wrong("steps", 'goes with a grid only: [sweep] method = "grid"')
     if steps is not None and variable.type == "Integer":
         section.wrong("steps", "goes with Real variables; of whole numbers a grid takes all, or those listed in values")
     if grid and steps is None and variable.type == "Real" and "steps" not in section.table:

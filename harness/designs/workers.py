@@ -111,7 +111,9 @@ class Processes:
             while True:
                 if not stop_requested():
                     for portion in islice(waiting, 2 * self._count - len(running)):
+                        suspects += portion  # until it has been taken
                         running[self._started().submit(_run_portion, portion)] = portion
+                        suspects.clear()
                 if not running:
                     whole = True
                     return False
@@ -124,6 +126,9 @@ class Processes:
                 if broken:
                     suspects += [design for portion in running.values() for design in portion]
                     return True
+        except BrokenProcessPool:  # found when a portion was given to it
+            suspects += [design for portion in running.values() for design in portion]
+            return True
         finally:
             if not whole:
                 self._end()

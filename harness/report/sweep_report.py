@@ -18,7 +18,7 @@ from ..clock import seconds
 from ..description import Description
 from ..designs.store import failures
 from ..designs.sweep_file import Sweep
-from ..designs.task import Quantity
+from ..designs.task import Quantity, Task
 from ..designs.variation import Axis
 from ..numbers import shown
 from ..results import write_text
@@ -57,24 +57,43 @@ def write_sweep_report(sweep: Sweep, description: Description, results: pa.Table
 
 def sweep_report(sweep: Sweep, description: Description, results: pa.Table) -> str:
     """The report as HTML."""
-    varied = [_varied(axis, results) for axis in sweep.axes if axis.variable.type != "String"]
-    found = [_found(quantity, description, results) for quantity in sweep.task.quantities]
     failed = failures(results)
     figures = [
         ("designs", str(len(results))),
         ("failed", str(len(failed))),
         ("way", ", ".join(sorted(set(results["way"].to_pylist())))),
     ]
+    charts = results_charts(sweep.axes, sweep.task, description, results)
     body = [
         cards(figures),
-        section("Results", *_charts(varied, found), note="Each dot is one design. Drag over an axis to zoom."),
-        section("Designs", _table(varied, found, results), note=_rows_note(results)),
+        section("Results", *charts, note="Each dot is one design. Drag over an axis to zoom."),
+        section("Designs", designs_table(sweep.axes, sweep.task, description, results), note=_rows_note(results)),
     ]
     if failed:
         rows = [[str(number), message] for number, message in failed[:_MOST_ROWS]]
         body.append(section("Failed designs", table(["design", "message"], rows, numeric=[0]), css_class="banner"))
-    body.append(section("What was run", _set_up(sweep, description)))
+    varied = [[f"{axis.name}, varied", range_of(axis)] for axis in sweep.axes]
+    body.append(section("What was run", table(["what", "value"], run_rows(sweep.task, description) + varied)))
     return page(sweep.title, f"{description.model}  ·  {len(results)} designs, {sweep.method}", body)
+
+
+def results_charts(axes: Sequence[Axis], task: Task, description: Description, results: pa.Table) -> list[str]:
+    """What was found over what was varied."""
+    varied, found = _columns(axes, task, description, results)
+    return _charts(varied, found)
+
+
+def designs_table(axes: Sequence[Axis], task: Task, description: Description, results: pa.Table) -> str:
+    """A row for each design, as many as a page can bear."""
+    varied, found = _columns(axes, task, description, results)
+    return _table(varied, found, results)
+
+
+def _columns(
+    axes: Sequence[Axis], task: Task, description: Description, results: pa.Table
+) -> tuple[list[Column], list[Column]]:
+    varied = [_varied(axis, results) for axis in axes if axis.variable.type != "String"]
+    return varied, [_found(quantity, description, results) for quantity in task.quantities]
 
 
 def parallel_chart(columns: Sequence[Column], colour: Column) -> go.Figure:
@@ -175,20 +194,20 @@ def _rows_note(results: pa.Table) -> str:
     return f"{which}results.parquet has all, in SI units and radians, with all digits.{said}"
 
 
-def _set_up(sweep: Sweep, description: Description) -> str:
-    grid = sweep.task.grid
-    rows = [
+def run_rows(task: Task, description: Description) -> list[list[str]]:
+    """What was run, with versions."""
+    grid = task.grid
+    return [
         ["FMU", f"{description.model} {description.guid}, made by {description.generation_tool}"],
         ["mechanism_fmu", __version__],
         ["run", f"{seconds(grid.stop):g} s in communication steps of {seconds(grid.step):g} s"],
-        *([name, shown(value, name, description)] for name, value in sweep.task.fixed.items()),
-        *([f"{axis.name}, varied", _range(axis)] for axis in sweep.axes),
-        *([quantity.column, quantity.when.meaning] for quantity in sweep.task.quantities),
+        *([name, shown(value, name, description)] for name, value in task.fixed.items()),
+        *([quantity.column, quantity.when.meaning] for quantity in task.quantities),
     ]
-    return table(["what", "value"], rows)
 
 
-def _range(axis: Axis) -> str:
+def range_of(axis: Axis) -> str:
+    """Between which values something is varied, with the unit."""
     if axis.values is not None:
         return ", ".join(shown(value, axis.name, axis.description) for value in axis.values)
     return f"{axis.low:g} to {axis.high:g} {axis.unit}"

@@ -69,8 +69,24 @@ def _troubled(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]
     ]
 
 
+def _far(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
+    """A valley whose floor is at restitution 0.3, drive_torque -0.2 and 17 teeth; every 40th design fails."""
+    results = []
+    for design in designs:
+        x, y = float(design.values["restitution"]), float(design.values.get("drive_torque", -0.2))
+        n = int(design.values.get("tooth_count", 17))
+        far = (x - 0.3) ** 2 + 4.0 * (y + 0.2) ** 2 + 0.01 * (n - 17) ** 2
+        results.append(
+            Result.failed(design, "cheap", task, "the pawl has left the wheel.")
+            if design.number % 40 == 0
+            else Result(design.number, "cheap", (far, x + y))
+        )
+    return results
+
+
 CHEAP = Way("cheap", _square)  # type: ignore[arg-type]
 TROUBLED = Way("cheap", _troubled)  # type: ignore[arg-type]
+VALLEY = Way("cheap", _far)  # type: ignore[arg-type]
 
 
 def work_of(sweep: Sweep, folder: Path, way: Way = CHEAP) -> Work:

@@ -305,8 +305,7 @@ MISTAKES = {
     "steps without a grid": (
         "to = 105",
         "to = 105\nsteps = 3",
-        '26: vary.tooth_slope_angle.steps: goes with method = "grid" only; elsewhere sweep.count says how many '
-        "designs there are",
+        '26: vary.tooth_slope_angle.steps: goes with a grid only: [sweep] method = "grid"',
     ),
     "nothing varied": (
         "[vary.",
