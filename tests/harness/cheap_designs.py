@@ -73,7 +73,7 @@ def _far(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
     """A valley whose floor is at restitution 0.3, drive_torque -0.2 and 17 teeth; every 40th design fails."""
     results = []
     for design in designs:
-        x, y = float(design.values["restitution"]), float(design.values.get("drive_torque", -0.2))
+        x, y = float(design.values.get("restitution", 0.3)), float(design.values.get("drive_torque", -0.2))
         n = int(design.values.get("tooth_count", 17))
         far = (x - 0.3) ** 2 + 4.0 * (y + 0.2) ** 2 + 0.01 * (n - 17) ** 2
         results.append(

@@ -41,6 +41,7 @@ COMMANDS = [
     ["demo"],
     ["modes"],
     ["new"],
+    ["optimise"],
     ["run"],
     ["study"],
     ["study", "ratchet"],

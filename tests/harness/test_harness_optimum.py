@@ -155,3 +155,10 @@ def test_near_an_optimum_that_fails_there_are_no_indices(tmp_path: Path) -> None
     optimum = replace(optimum_of(X, Y, count=60), around=Around(64, 0.1))
     history = history_of(optimum, tmp_path)
     assert sensitivity(optimum, search(optimum, history), history) is None
+
+
+def test_nothing_is_asked_for_twice_and_a_small_space_is_soon_exhausted(tmp_path: Path) -> None:
+    optimum = optimum_of(N, count=100)
+    assert found(optimum, tmp_path).design.values == {"tooth_count": 17}
+    table = store_of(optimum, tmp_path).results()
+    assert len(set(table["tooth_count"].to_pylist())) == len(table) <= 16
