@@ -95,6 +95,12 @@ def _ending(optimum: Optimum, history: History, best: Best, near_it: Sensitivity
         show_table("Sobol indices near it", ["variable", "first order [1]", "total [1]"], lines, numeric=(1, 2))
     elif optimum.around is not None:
         console.print("No Sobol indices: near the optimum, some design gives no number.")
+    after = best_of(optimum, history)
+    if after.feasible and after.design.number > optimum.count:
+        console.print(
+            f"A neighbour, design {after.design.number}, is better still: a larger count would find such.",
+            soft_wrap=True,
+        )
     files = [
         store.table_file,
         store.identity_file,

@@ -8,10 +8,12 @@ import numpy as np
 import plotly.graph_objects as go
 import pyarrow as pa
 
+from ..description import Value
 from ..designs.history import History
 from ..designs.optimum_file import Optimum
 from ..designs.search import Best
 from ..designs.sensitivity import Sensitivity
+from ..designs.variation import Axis
 from ..numbers import shown
 from ..results import write_text
 from .page import cards, chart, page, section, table
@@ -42,7 +44,7 @@ def optimum_report(
             f"{'largest' if goal.largest else 'smallest'} {goal.objective.column}",
             _with_unit(value, goal.objective.unit),
         ),
-        *((name, shown(found, name, description, digits=6)) for name, found in best.design.values.items()),
+        *((axis.name, _in_unit(axis, best.design.values[axis.name])) for axis in optimum.axes),
         ("designs", str(len(history.designs))),
     ]
     body = [
@@ -120,6 +122,13 @@ def _set_up(optimum: Optimum, near_it: Sensitivity | None) -> list[list[str]]:
         for name, (low, high) in zip(near_it.names, near_it.limits, strict=True):
             rows.append([f"{name}, near the optimum", f"{low:.6g} to {high:.6g} {units[name]}"])
     return rows
+
+
+def _in_unit(axis: Axis, value: Value) -> str:
+    """A value in the unit of the file."""
+    if axis.values is not None or axis.variable.type != "Real":
+        return shown(value, axis.name, axis.description, digits=6)
+    return _with_unit(axis.low + axis.fraction(float(value)) * (axis.high - axis.low), axis.unit)
 
 
 def _with_unit(value: float | None, unit: str) -> str:

@@ -62,8 +62,11 @@ def engine_for(block: Array) -> Engine:
 def compiled_library() -> ctypes.CDLL | None:
     """The library for this platform, or None: there is none, or the system cannot load it."""
     path = library_path(Path(__file__).with_name("compiled"))
-    if path is None or not path.is_file():
-        return None
+    return load(path) if path is not None and path.is_file() else None
+
+
+def load(path: Path) -> ctypes.CDLL | None:
+    """A library of the engine, or None: the system cannot load it."""
     try:
         library = ctypes.CDLL(str(path))
     except OSError:
