@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from rich.markup import escape
@@ -120,7 +121,10 @@ def _summary(optimum: Optimum, best: Best, near_it: Sensitivity | None) -> dict[
         "design": best.design.number,
         "keeps_constraints": best.feasible,
         "values": dict(best.design.values),
-        "found": {quantity.column: value for quantity, value in pairs},
+        "found": {
+            quantity.column: value if value is not None and math.isfinite(float(value)) else None
+            for quantity, value in pairs
+        },
         "sobol_indices": None
         if near_it is None
         else {

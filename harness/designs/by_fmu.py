@@ -6,14 +6,17 @@ from collections.abc import Sequence
 
 import pandas as pd
 
+from mechanism_fmu.stress import SequenceDamage
+
 from ..description import Value
 from ..errors import FmuError
 from ..fmu import Fmu, discard_message
 from ..impacts import ImpactCollector
 from ..master import run_fixed_step
 from ..slave import Observable
+from ..tooth_damage import damage_of_impacts
 from ..tooth_stress import STRESS_UNITS, tooth_of, with_stress
-from .task import Design, Result, Task, When
+from .task import Design, Quantity, Result, Task, When
 
 NAME = "fmu"
 
@@ -54,10 +57,8 @@ class _Reader:
         for quantity in task.quantities:
             names[quantity.when].append(quantity.name)
         self._names = names
-        wants_stress = any(
-            quantity.name in STRESS_UNITS
-            for quantity in task.quantities
-            if quantity.when in (When.FIRST_IMPACT, When.LARGEST_IMPACT)
+        wants_stress = names[When.ALL_IMPACTS] or any(
+            quantity.when.of_impacts and quantity.name in STRESS_UNITS for quantity in task.quantities
         )
         self._tooth = ("tooth_length", "tooth_apex_angle") if wants_stress else ()
         self._extremes = list(dict.fromkeys(names[When.MAX] + names[When.MIN]))
@@ -99,7 +100,7 @@ def _of_impacts(task: Task, impacts: ImpactCollector, reader: _Reader) -> dict[s
     Raises:
         FmuError: impacts were lost, or the FMU reports a tooth that cannot be.
     """
-    wanted = [q for q in task.quantities if q.when in (When.FIRST_IMPACT, When.LARGEST_IMPACT)]
+    wanted = [quantity for quantity in task.quantities if quantity.when.of_impacts]
     if not wanted:
         return {}
     if impacts.lost:
@@ -111,11 +112,17 @@ def _of_impacts(task: Task, impacts: ImpactCollector, reader: _Reader) -> dict[s
     if table.empty:
         return {quantity.column: None for quantity in wanted}
     tooth = tooth_of(reader.tooth)
+    damage = None
     if tooth is not None:
-        table = with_stress(table, tooth)
-    return {quantity.column: _taken(table[quantity.name], quantity.when) for quantity in wanted}
+        if any(quantity.when is When.ALL_IMPACTS for quantity in wanted):
+            damage = damage_of_impacts(table, tooth, task.material)
+        table = with_stress(table, tooth, task.material.material)
+    return {quantity.column: _taken(table, damage, quantity) for quantity in wanted}
 
 
-def _taken(column: pd.Series, when: When) -> Value:
-    value: Value = (column.iloc[0] if when is When.FIRST_IMPACT else column.max()).item()
+def _taken(table: pd.DataFrame, damage: SequenceDamage | None, quantity: Quantity) -> Value:
+    if quantity.when is When.ALL_IMPACTS:
+        return float(getattr(damage, quantity.name))
+    column = table[quantity.name]
+    value: Value = (column.iloc[0] if quantity.when is When.FIRST_IMPACT else column.max()).item()
     return value

@@ -15,6 +15,8 @@ from .toml_file import TomlFile
 
 #: Merits of designs that miss a limit lie between this and twice this; of those that give no number, above.
 _MISSED = 1e30
+#: What is larger counts as this: a number of runs to failure may be infinite.
+_LARGEST = 1e29
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,7 @@ class Goal:
             return 4.0 * _MISSED
         if violation > 0.0:
             return _MISSED * (1.0 + violation / (1.0 + violation))
-        return -value if self.largest else value
+        return min(max(-value if self.largest else value, -_LARGEST), _LARGEST)
 
 
 def _values(result: Result, task: Task) -> dict[str, float]:

@@ -60,6 +60,7 @@ def identity(
                 "start": task.grid.start,
                 "stop": task.grid.stop,
                 "step": task.grid.step,
+                "material": task.material.name,
                 "input": None if task.inputs is None else _signals(task),
             },
             "set": dict(sorted(task.fixed.items())),

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..description import Description
 from .goal import Goal, read_goal, with_goal
-from .plan import fixed_values, grid
+from .plan import course, fixed_values
 from .quantities import recorded
 from .task import Task
 from .toml_file import TomlFile
@@ -97,8 +97,8 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
     title = file.data.get("title", file.path.stem)
     if not isinstance(title, str):
         file.wrong(("title",), "must be a text in quotes")
-    times, inputs = grid(file, description)
-    fixed = fixed_values(file, description, inputs)
+    running = course(file, description)
+    fixed = fixed_values(file, description, running.inputs)
     section = file.section("optimise", why='write [optimise] and below it e.g. minimise = "largest_impact.stress_max"')
     for name in ("minimise", "maximise"):
         section.take(name)
@@ -107,7 +107,7 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
     seed = section.whole("seed", least=0)
     section.done()
     goal = read_goal(file, description) if section.given else None
-    free = tuple(axes(file, description, inputs, list(fixed), grid=False))
+    free = tuple(axes(file, description, running.inputs, list(fixed), grid=False))
     smooth = all(axis.values is None and axis.variable.type == "Real" for axis in free)
     if method == CONTINUOUS and not smooth:
         section.wrong("method", f"'{CONTINUOUS}' is for Real variables with from and to; with others, take '{MIXED}'")
@@ -116,10 +116,10 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
         file.wrong(("sensitivity",), "compares variables with from and to, of which there must be two or more")
     quantities = recorded(file.section("record", needed=False), description)
     file.check()
-    assert times is not None  # otherwise there were mistakes
+    assert running.grid is not None  # otherwise there were mistakes
     assert goal is not None
     assert count is not None
-    task = Task(times, fixed, inputs, with_goal(quantities, goal))
+    task = Task(running.grid, fixed, running.inputs, with_goal(quantities, goal), running.material)
     return Optimum(str(title), task, free, goal, method or (CONTINUOUS if smooth else MIXED), count, seed or 0, around)
 
 

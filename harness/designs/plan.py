@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from mechanism_fmu.stress import STEEL_CARD, MaterialCard, material_card
+
 from ..assignments import parse_value, settable_variable
 from ..clock import TimeGrid, seconds
 from ..description import Description, Value, Variable
@@ -39,28 +41,45 @@ def source(file: TomlFile) -> Source:
     return Source(None if path is None else file.path.parent / path, model)
 
 
-def grid(file: TomlFile, description: Description) -> tuple[TimeGrid | None, InputSignals | None]:
-    """The table [run]; None where it is wrong."""
+@dataclass(frozen=True)
+class Course:
+    """How each design runs.
+
+    Attributes:
+        grid: communication points; None if the file is wrong there.
+        inputs: signals that drive inputs; None without a table.
+        material: of the tooth that impacts strike.
+    """
+
+    grid: TimeGrid | None
+    inputs: InputSignals | None
+    material: MaterialCard
+
+
+def course(file: TomlFile, description: Description) -> Course:
+    """The table [run]."""
     section = file.section("run", needed=False)
     stop_time = _time(section, "stop_time", description.stop_time, description)
     step = _time(section, "step", description.step, description)
-    input_file = section.text("input")
+    input_file, material = section.text("input"), section.text("material")
     section.done()
+    card, times, inputs = STEEL_CARD, None, None
+    if material is not None:
+        try:
+            card = material_card(material)
+        except ValueError as error:
+            section.wrong("material", str(error))
     if stop_time is None or step is None:
-        return None, None
+        return Course(None, None, card)
+    key = "stop_time"
     try:
         times = TimeGrid.of(stop_time, step)
+        if input_file is not None:
+            key = "input"
+            inputs = read_inputs(file.path.parent / input_file, description, seconds(times.start), seconds(times.stop))
     except UsageError as error:
-        section.wrong("stop_time", str(error))
-        return None, None
-    if input_file is None:
-        return times, None
-    try:
-        path = file.path.parent / input_file
-        return times, read_inputs(path, description, seconds(times.start), seconds(times.stop))
-    except UsageError as error:
-        section.wrong("input", str(error))
-        return times, None
+        section.wrong(key, str(error))
+    return Course(times, inputs, card)
 
 
 def fixed_values(file: TomlFile, description: Description, inputs: InputSignals | None) -> dict[str, Value]:

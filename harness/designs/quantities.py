@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from ..description import Description, Variable, hint_at
 from ..impacts import ImpactCollector
+from ..tooth_damage import DAMAGE_UNITS
 from ..tooth_stress import STRESS_UNITS
 from .task import Quantity, When
 from .toml_file import Section
@@ -61,29 +62,33 @@ def column(text: str, description: Description) -> Quantity:
 
 def _variables(when: When, description: Description) -> Mapping[str, Variable]:
     """What can be had at this time, by name."""
-    if when in (When.FIRST_IMPACT, When.LARGEST_IMPACT):
+    if when.of_impacts:
         fields = ImpactCollector(description).fields
-        return {**fields, **_stresses(description, fields)}
+        if when is When.ALL_IMPACTS:
+            return _stresses(description, fields, DAMAGE_UNITS)
+        return {**fields, **_stresses(description, fields, STRESS_UNITS)}
     causalities = ("parameter", "calculatedParameter") if when is When.PARAMETER else ("input", "output")
     return {variable.name: variable for variable in description.of(*causalities) if variable.type in _NUMBERS}
 
 
-def _stresses(description: Description, fields: Mapping[str, Variable]) -> dict[str, Variable]:
-    """The stress of an impact, if the FMU describes a tooth and tells the velocity that strikes it."""
+def _stresses(
+    description: Description, fields: Mapping[str, Variable], units: Mapping[str, str]
+) -> dict[str, Variable]:
+    """What impacts do to a tooth, if the FMU describes a tooth and tells the velocity that strikes it."""
     if "velocity" not in fields or not set(_TOOTH) <= set(description.variables):
         return {}
     return {
         name: Variable(name, reference=-1, type="Real", causality="local", unit="" if unit == "1" else unit)
-        for name, unit in STRESS_UNITS.items()
+        for name, unit in units.items()
     }
 
 
 def _objection(when: When, name: str, description: Description, variables: Mapping[str, Variable]) -> str:
-    if when in (When.FIRST_IMPACT, When.LARGEST_IMPACT):
-        if name in STRESS_UNITS and variables:
-            return f"{description.model} gives no '{name}': it describes no tooth ({', '.join(_TOOTH)})."
-        if not variables:
+    if when.of_impacts:
+        if not ImpactCollector(description).fields:
             return f"{description.model} reports no impacts, so there is no '{name}' of one."
+        if name in (DAMAGE_UNITS if when is When.ALL_IMPACTS else STRESS_UNITS) or not variables:
+            return f"{description.model} gives no '{name}': it describes no tooth ({', '.join(_TOOTH)})."
         return f"an impact has no '{name}'.{_way_out(name, variables)}"
     if name in description.variables:
         variable = description.variable(name)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..description import Description
 from . import sampling
-from .plan import fixed_values, grid
+from .plan import course, fixed_values
 from .quantities import recorded
 from .task import Design, Task
 from .toml_file import TomlFile
@@ -46,8 +46,8 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
     title = file.data.get("title", file.path.stem)
     if not isinstance(title, str):
         file.wrong(("title",), "must be a text in quotes")
-    times, inputs = grid(file, description)
-    fixed = fixed_values(file, description, inputs)
+    running = course(file, description)
+    fixed = fixed_values(file, description, running.inputs)
     section = file.section("sweep", why='write [sweep] and below it method = "latin_hypercube" and count = 64')
     method = section.choice("method", (_GRID, *sampling.METHODS), needed='write e.g. method = "latin_hypercube"')
     by_grid = method == _GRID
@@ -59,13 +59,19 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
             if name in section.table:
                 section.wrong(name, "does not go with a grid, which has every value with every other")
     section.done()
-    varied = axes(file, description, inputs, list(fixed), grid=by_grid if method else None)
+    varied = axes(file, description, running.inputs, list(fixed), grid=by_grid if method else None)
     record = file.section("record", why='write [record] and below it e.g. end = ["wheel_angle"]')
     quantities = recorded(record, description)
     if record.given and not record.table:
         file.wrong(("record",), 'is empty; write what to keep of each design, as in end = ["wheel_angle"]')
     file.check()
-    assert times is not None  # otherwise there were mistakes
+    assert running.grid is not None  # otherwise there were mistakes
     assert method is not None
     designs = sampling.grid(varied) if by_grid else sampling.sampled(varied, method, count or 1, seed or 0)
-    return Sweep(str(title), Task(times, fixed, inputs, tuple(quantities)), tuple(varied), method, designs)
+    return Sweep(
+        str(title),
+        Task(running.grid, fixed, running.inputs, tuple(quantities), running.material),
+        tuple(varied),
+        method,
+        designs,
+    )

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
+from mechanism_fmu.stress import STEEL_CARD, MaterialCard
+
 from ..clock import TimeGrid
 from ..description import Value
 from ..inputs import InputSignals
@@ -19,7 +21,13 @@ class When(StrEnum):
     MIN = "min"
     FIRST_IMPACT = "first_impact"
     LARGEST_IMPACT = "largest_impact"
+    ALL_IMPACTS = "all_impacts"
     PARAMETER = "parameter"
+
+    @property
+    def of_impacts(self) -> bool:
+        """Whether it is about impacts."""
+        return self in (When.FIRST_IMPACT, When.LARGEST_IMPACT, When.ALL_IMPACTS)
 
     @property
     def meaning(self) -> str:
@@ -33,6 +41,7 @@ _MEANINGS = {
     When.MIN: "the smallest at all communication points",
     When.FIRST_IMPACT: "of the first impact",
     When.LARGEST_IMPACT: "the largest of all impacts",
+    When.ALL_IMPACTS: "of all impacts together, on a tooth that still rings from those before",
     When.PARAMETER: "after the initialization",
 }
 
@@ -70,12 +79,14 @@ class Task:
         fixed: start values that all designs share, in the units of the variables.
         inputs: signals that drive inputs; None leaves them at their start values.
         quantities: what is kept.
+        material: of the tooth that impacts strike.
     """
 
     grid: TimeGrid
     fixed: Mapping[str, Value]
     inputs: InputSignals | None
     quantities: tuple[Quantity, ...]
+    material: MaterialCard = STEEL_CARD
 
 
 @dataclass(frozen=True)

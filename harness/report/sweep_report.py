@@ -200,6 +200,7 @@ def run_rows(task: Task, description: Description) -> list[list[str]]:
     return [
         ["FMU", f"{description.model} {description.guid}, made by {description.generation_tool}"],
         ["mechanism_fmu", __version__],
+        ["material", f"{task.material.name}: {task.material.text}"],
         ["run", f"{seconds(grid.stop):g} s in communication steps of {seconds(grid.step):g} s"],
         *([name, shown(value, name, description)] for name, value in task.fixed.items()),
         *([quantity.column, quantity.when.meaning] for quantity in task.quantities),

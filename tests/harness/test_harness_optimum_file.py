@@ -85,7 +85,7 @@ MISTAKES = {
         '"end.wheel_angle"',
         '"wheel_angle"',
         "5: optimise.minimise: 'wheel_angle' is no quantity; write when and what, as in \"end.wheel_angle\"; when "
-        "is one of end, max, min, first_impact, largest_impact, parameter",
+        "is one of end, max, min, first_impact, largest_impact, all_impacts, parameter",
     ),
     "unknown goal": (
         '"end.wheel_angle"',

@@ -158,7 +158,7 @@ MISTAKES = {
     "unknown time of a quantity": (
         "first_impact =",
         "first_impacts =",
-        "34: record.first_impacts: is not known. Did you mean first_impact or largest_impact?",
+        "34: record.first_impacts: is not known. Did you mean first_impact or largest_impact or all_impacts?",
     ),
     "output to set": (
         "guided = false",
@@ -322,6 +322,16 @@ MISTAKES = {
         '"500 ms"',
         "0",
         "7: run.stop_time: The stop time 0 s must be later than the start time 0 s.",
+    ),
+    "unknown material": (
+        "step = 0.1",
+        'step = 0.1\nmaterial = "oak"',
+        "9: run.material: there is no material 'oak'; there are steel, S355, C45E, 42CrMo4, SAE1015, SAE4142, AISI4340",
+    ),
+    "damage without a tooth": (
+        'first_impact = ["time"]',
+        'all_impacts = ["damage"]',
+        "34: record.all_impacts: Fake gives no 'damage': it describes no tooth (tooth_length, tooth_apex_angle)",
     ),
     "no table of inputs": (
         "step = 0.1",
