@@ -6,9 +6,11 @@ import math
 from dataclasses import asdict
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
 import pandas as pd
 
-from mechanism_fmu.stress import MaterialCard, SequenceDamage, WedgeTooth, material_card, sequence_damage
+from mechanism_fmu.stress import MaterialCard, Ringing, SequenceDamage, WedgeTooth, material_card, sequence_damage
 
 from .errors import UsageError
 
@@ -54,14 +56,30 @@ def card_of(name: str) -> MaterialCard:
 def damage_of_impacts(impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard) -> SequenceDamage | None:
     """What all impacts of a run do to one tooth; None without an impact.
 
-    All of them count for one tooth: v_I comes from the wheel's speed, which all its teeth share. Impacts of several
-    contacts at one instant are one change of that speed, so that the largest counts. See docs/decisions/014.
+    All of them count for one tooth: v_I comes from the wheel's speed, which all its teeth share. See
+    docs/decisions/014.
     """
     if impacts.empty:
         return None
+    return sequence_damage(tooth, card.material, card.strength, *_jolts(impacts))
+
+
+def stress_history(
+    impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard, position: float
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Bending stress [Pa] at x / length = `position`, as its extremes, and their times [s]; at least one impact."""
+    swings = list(Ringing(tooth, card.material, *_jolts(impacts)).swings(position * tooth.length))
+    return np.array([swing.time for swing in swings]), np.array([swing.stress for swing in swings])
+
+
+def _jolts(impacts: pd.DataFrame) -> tuple[pd.Series[float], pd.Series[float]]:
+    """Times and v_I of a table of impacts, ascending.
+
+    Impacts of several contacts at one instant are one change of the wheel's speed: the largest counts.
+    """
     by_size = impacts.assign(size=impacts["velocity"].abs()).sort_values(["time", "size"], kind="stable")
-    struck = by_size.drop_duplicates("time", keep="last")
-    return sequence_damage(tooth, card.material, card.strength, struck["time"], struck["velocity"])
+    jolts = by_size.drop_duplicates("time", keep="last")
+    return jolts["time"], jolts["velocity"]
 
 
 def damage_summary(damage: SequenceDamage, card: MaterialCard) -> dict[str, Any]:
@@ -90,6 +108,8 @@ def damage_note(damage: SequenceDamage) -> str:
         f"All impacts on one tooth that still rings from those before, at x/l = {damage.position:.4f}; two Ritz modes, "
         "rainflow cycles, Goodman, Miner; smooth specimens, no notch at the root (docs/stress.md)."
     )
+    if damage.impacts > 1:
+        note += " An upper bound where the wheel already turns when it is struck."
     if damage.yield_safety < 1:
         note += " The stress is beyond the yield strength: a tooth yields there, and these numbers no longer hold."
     return note

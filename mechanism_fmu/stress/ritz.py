@@ -54,7 +54,7 @@ def natural_modes(
     Source: Pennestrì, Valentini, Vita, eqs (9), (11), (12).
     """
     motions = rigid_motions(root, tip)
-    advice = "12 give the first five modes of most beams to nine digits; each rigid motion takes one"
+    advice = "12 give the first three modes of most beams to ten digits; each rigid motion takes one"
     require_within("number of Ritz terms", terms, 1 + len(motions), _MOST_TERMS, "", advice)
     basis = admissible(terms, root, tip)
     polynomials = norms(len(basis) - 1)[:, None] * basis

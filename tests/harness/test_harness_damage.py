@@ -18,9 +18,10 @@ from harness.description import Variable
 from harness.ending import show_ending
 from harness.errors import UsageError
 from harness.experiment import Experiment, Run, perform
+from harness.fmu import open_fmu
 from harness.report.run_report import run_report
 from harness.results import write_run
-from harness.tooth_damage import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row
+from harness.tooth_damage import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row, stress_history
 from mechanism_fmu.stress import CARDS, STEEL, STEEL_CARD, WedgeTooth, maximum_stress, ritz_modes, sequence_damage
 
 TOOTH = WedgeTooth(length=0.033, apex_angle=0.61)
@@ -56,6 +57,16 @@ def test_damage_of_a_run_is_that_of_its_impacts() -> None:
     assert run.damage.stress > run.impacts["stress_max"][:2].max()
 
 
+def test_base_case_of_the_paper(ratchet_fmu: Path) -> None:
+    with open_fmu(ratchet_fmu) as fmu:
+        run = perform(fmu, Experiment(1.2, 0.1))
+    assert run.damage is not None
+    assert run.damage.stress == pytest.approx(15547.0, abs=0.5)  # the table of the paper's cases, in whole pascals
+    assert run.damage.position == pytest.approx(0.3956, abs=1e-4)
+    assert run.damage.yield_safety == pytest.approx(235e6 / 15547.0, rel=1e-4)
+    assert run.damage.time == pytest.approx(0.9399211769, abs=1e-5)
+
+
 def test_one_impact_has_the_stress_of_the_table() -> None:
     run = run_of([0.5])
     assert run.damage is not None
@@ -76,6 +87,16 @@ def test_contacts_struck_at_one_instant_are_one_impact() -> None:
     table = pd.DataFrame({"time": [0.2, 0.5, 0.5, 0.5], "velocity": [1.0, 0.5, -0.7, 0.7 * (1 - 1e-9)]})
     found = damage_of_impacts(table, TOOTH, STEEL_CARD)
     assert found == sequence_damage(TOOTH, STEEL, STEEL_CARD.strength, [0.2, 0.5], [1.0, -0.7])
+
+
+def test_history_begins_with_the_first_impact_and_holds_the_largest_stress() -> None:
+    run = run_of([0.3, 0.7])
+    assert run.damage is not None
+    time, stress = stress_history(run.impacts, TOOTH, STEEL_CARD, run.damage.position)
+    assert (time[0], stress[0], stress[-1]) == (0.3, 0.0, 0.0)
+    assert np.all(np.diff(time) >= 0)
+    assert np.abs(stress).max() == run.damage.stress
+    assert "bending stress [Pa]" in run_report(run)
 
 
 def test_run_without_tooth_or_impact_has_no_damage(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
