@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..description import Description
@@ -60,7 +60,7 @@ def identity(
                 "start": task.grid.start,
                 "stop": task.grid.stop,
                 "step": task.grid.step,
-                "material": task.material.name,
+                "material": asdict(task.material.material) | asdict(task.material.strength),
                 "input": None if task.inputs is None else _signals(task),
             },
             "set": dict(sorted(task.fixed.items())),
