@@ -42,9 +42,14 @@ class Engine(NamedTuple):
     read_output_rates: Callable[[], None]
 
 
-def engine_for(block: Array) -> Engine:
-    """The engine for an instance's block, float64 of shape (words,), which must live as long."""
-    library = compiled_library()
+def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
+    """The engine for an instance's block, float64 of shape (words,), which must live as long.
+
+    Args:
+        block: of the instance.
+        library: what `load_library` has given; None for the library that lies here, if one does.
+    """
+    library = library or compiled_library()
     if library is not None:
         address, words = block.ctypes.data, len(block)
         functions: list[Any] = [getattr(library, f"engine_{name}") for name in Engine._fields]
@@ -62,8 +67,11 @@ def engine_for(block: Array) -> Engine:
 def compiled_library() -> ctypes.CDLL | None:
     """The library for this platform, or None: there is none, or the system cannot load it."""
     path = library_path(Path(__file__).with_name("compiled"))
-    if path is None or not path.is_file():
-        return None
+    return None if path is None or not path.is_file() else load_library(path)
+
+
+def load_library(path: Path) -> ctypes.CDLL | None:
+    """The engine's library in a file, or None: the system cannot load it."""
     try:
         library = ctypes.CDLL(str(path))
     except OSError:
