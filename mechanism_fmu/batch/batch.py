@@ -141,6 +141,11 @@ class Batch:
         return prepared(self.model)
 
     @cached_property
+    def _same(self) -> dict[frozenset[str], dict[int, float]]:
+        """What the designs have in common that vary the same parameters (see `Numbers`)."""
+        return {}
+
+    @cached_property
     def _engine(self) -> CDLL | None:
         given = load_many(self.library)
         return load_many(library_here(self.report)) if given is None else given
@@ -149,7 +154,8 @@ class Batch:
         """The job with the tables of its designs, and those of them that are refused."""
         ready, count = self._prepared, len(job.status)
         refused = out_of_limits(self.model, ready.mechanism.inputs, columns)
-        numbers = Numbers(ready.traced, {p.name: columns.get(p.name, p.start) for p in self.model.parameters})
+        values = {p.name: columns.get(p.name, p.start) for p in self.model.parameters}
+        numbers = Numbers(ready.traced, values, self._same.setdefault(frozenset(columns), {}))
         refused = impossible(ready.traced, numbers, ready.entries, count) | refused
         words = {ready.inputs[name]: column for name, column in columns.items() if name in ready.inputs}
         words |= dict(zip((e.word for e in ready.entries), numbers.of(e.value for e in ready.entries), strict=True))

@@ -13,7 +13,7 @@ from ..model.symbol import Symbol
 from ..model.trace import Trace
 
 Array = np.ndarray[Any, np.dtype[Any]]
-#: A number of each design, shape (designs,), or one of all.
+#: A number of each design, shape (designs,), or one for all, a float.
 Column = Any
 
 
@@ -55,12 +55,16 @@ class Numbers:
     Args:
         traced: the calculation.
         values: of all parameters by name, each a column or one number.
+        same: results that are the same for all designs, by the number of their operation; more are added. To be shared
+            by calculations that vary the same parameters and give the others the same values.
     """
 
-    def __init__(self, traced: Trace, values: Mapping[str, Column]) -> None:
+    def __init__(self, traced: Trace, values: Mapping[str, Column], same: dict[int, float]) -> None:
         self._traced = traced
-        self._given = [np.asarray(values[parameter.name], float) for parameter in traced.model.parameters]
-        self._known: dict[int, Column] = {}
+        given = (values[parameter.name] for parameter in traced.model.parameters)
+        self._given = [column if np.ndim(column) else float(column) for column in given]
+        self._known: dict[int, Column] = dict(same)
+        self._same = same
 
     def of(self, wanted: Iterable[Number]) -> list[Column]:
         """Recorded numbers, in their order; what does not exist is NaN or infinite, and nothing fails."""
@@ -68,13 +72,17 @@ class Numbers:
         with np.errstate(all="ignore"):
             for number in self._traced.needed(wanted):
                 if number not in self._known:
-                    self._known[number] = self._calculated(number)
-        return [self._known[x.number] if isinstance(x, Symbol) else np.float64(x) for x in wanted]
+                    self._known[number] = found = self._calculated(number)
+                    if isinstance(found, float):
+                        self._same[number] = found
+        return [self._known[x.number] if isinstance(x, Symbol) else float(x) for x in wanted]
 
     def _calculated(self, number: int) -> Column:
         operation = self._traced.operations[number]
         if operation.name == "parameter":
             return self._given[int(operation.value)]
         if operation.name == "constant":
-            return np.float64(operation.value)
-        return _APPLY[operation.name](*(self._known[i] for i in operation.operands))
+            return operation.value
+        operands = [self._known[i] for i in operation.operands]
+        found = _APPLY[operation.name](*operands)
+        return found if any(isinstance(x, np.ndarray) for x in operands) else float(found)

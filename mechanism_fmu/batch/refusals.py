@@ -66,7 +66,7 @@ def impossible(traced: Trace, numbers: Numbers, entries: Sequence[Entry], design
 def _found(findings: Sequence[Finding], numbers: Numbers, designs: int) -> Refusals:
     said: dict[int, list[str]] = {}
     for finding, applies in zip(findings, numbers.of(f.applies for f in findings), strict=True):
-        concerned = np.flatnonzero(_spread(applies, designs) > 0).tolist()
+        concerned = _where(np.greater(applies, 0.0), designs)
         if concerned:
             columns = [_spread(column, designs) for column in numbers.of(finding.numbers)]
             for design in concerned:
@@ -78,9 +78,16 @@ def _found(findings: Sequence[Finding], numbers: Numbers, designs: int) -> Refus
 def _not_finite(numbers: Numbers, entries: Sequence[Entry], designs: int) -> Refusals:
     refused: Refusals = {}
     for entry, column in zip(entries, numbers.of(entry.value for entry in entries), strict=True):
-        for design in np.flatnonzero(~np.isfinite(_spread(column, designs))).tolist():
+        for design in _where(~np.isfinite(column), designs):
             refused.setdefault(design, f"The parameters make {entry.label} a number that is not finite; change them.")
     return refused
+
+
+def _where(holds: Column, designs: int) -> Sequence[int]:
+    """The designs for which something holds, which may be the same for all."""
+    if np.ndim(holds):
+        return np.flatnonzero(holds).tolist()
+    return range(designs) if holds else ()
 
 
 def _spread(column: Column, designs: int) -> Array:

@@ -38,7 +38,7 @@ def alone(model, values):
 def test_tables_are_those_of_each_design_alone(name, data):
     ready, model = READY[name], READY[name].traced.model
     designs = data.draw(st.lists(near_defaults(model) | within_limits(model), min_size=1, max_size=3))
-    numbers = Numbers(ready.traced, columns(model, designs))
+    numbers = Numbers(ready.traced, columns(model, designs), {})
     values = [np.broadcast_to(column, (len(designs),)) for column in numbers.of(e.value for e in ready.entries)]
     refused = impossible(ready.traced, numbers, ready.entries, len(designs))
     for k, design in enumerate(designs):
@@ -57,7 +57,7 @@ def test_tables_are_those_of_each_design_alone(name, data):
 def test_what_no_design_varies_is_calculated_once(name):
     ready, model = READY[name], READY[name].traced.model
     varied = {p.name: p.start for p in model.parameters} | {"restitution": np.array([0.0, 0.5, 1.0])}
-    found = Numbers(ready.traced, varied).of(e.value for e in ready.entries)
+    found = Numbers(ready.traced, varied, {}).of(e.value for e in ready.entries)
     assert 0 < sum(np.ndim(column) for column in found) < len(found) / 4
 
 
