@@ -10,11 +10,14 @@ from hypothesis import settings
 import models
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
+from tests import compiled_engine
 from tests.once import once
 
 # How long an example takes says nothing while other tests run beside it.
 settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
+
+compiled_engine.use_it()
 
 # What is printed is the same whatever terminal the tests have; a console reads these when it is made.
 os.environ.update(COLUMNS="200", LINES="50")

@@ -47,7 +47,7 @@ def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
 
     Args:
         block: of the instance.
-        library: what `load_library` has given; None for the library that lies here, if one does.
+        library: what `load` has given; None for the library that lies here, if one does.
     """
     library = library or compiled_library()
     if library is not None:
@@ -67,11 +67,11 @@ def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
 def compiled_library() -> ctypes.CDLL | None:
     """The library for this platform, or None: there is none, or the system cannot load it."""
     path = library_path(Path(__file__).with_name("compiled"))
-    return None if path is None or not path.is_file() else load_library(path)
+    return load(path) if path is not None and path.is_file() else None
 
 
-def load_library(path: Path) -> ctypes.CDLL | None:
-    """The engine's library in a file, or None: the system cannot load it."""
+def load(path: Path) -> ctypes.CDLL | None:
+    """A library of the engine, or None: the system cannot load it."""
     try:
         library = ctypes.CDLL(str(path))
     except OSError:

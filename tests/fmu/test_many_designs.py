@@ -195,6 +195,25 @@ def test_order_threads_and_company_change_no_bit(cams):
         np.testing.assert_array_equal(column[-1:], last[name])
 
 
+@pytest.mark.parametrize("until_impact", [False, True])
+def test_without_a_library_designs_go_one_by_one_with_the_same_bits(cams, monkeypatch, until_impact):
+    """As they do just in time; a compiled engine spares the tests that compilation where it lies ready."""
+    monkeypatch.setattr("mechanism_fmu.batch.batch.library_here", lambda _report: None)
+    designs = {
+        "unilateral": np.ones(6),
+        "restitution": np.array([0.0, 0.2, 0.4, 0.6, 0.8, 2.0]),
+        "cam_speed_start": np.full(6, 50.0),
+    }
+    times = (np.arange(11) / 40).tolist()
+    how = {"signals": {"drive_speed": np.linspace(40.0, 60.0, 10)}, "impacts": 12, "extremes": True}
+    found = Batch(cams.model).run(designs, times, threads=3, until_impact=until_impact, **how)
+    one_call = cams.run(designs, times, until_impact=until_impact, **how)
+    assert (found.compiled, one_call.compiled) == ("just in time", "ahead of time")
+    assert np.nansum(found.impacts["closing_speed"]) > 0
+    for name, column in found.table().items():
+        np.testing.assert_array_equal(column, one_call.table()[name], name)
+
+
 def test_communication_points_change_no_bit_but_show_more_extremes(ratchets):
     designs = {"tooth_count": [10.0, 15.0]}
     few = ratchets.run(designs, [0.0, 1.3], ["wheel_speed", "pawl_speed"], extremes=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ... import codes
-from ...tolerances import GAP_NOISE
+from ...tolerances import GAP_NOISE, RESTS_BELOW
 from ..block.layout import Array
 from ..block.motion import course
 from ..block.parts import contacts
@@ -14,12 +14,15 @@ from .guards import gap
 
 @jit
 def release(block: Array, struck: int) -> None:
-    """Contacts that touched at the step's start have come off by y_end, but for the one that strikes there."""
+    """Contacts that touched at the step's start have come off by y_end, but for the one that strikes there.
+
+    One that is open and comes back has been off, however low the hop: it strikes where its gap closes, not before.
+    """
     keep_small()
     table = contacts(block)
     place_bodies(block, course(block).y_end)
     for c in range(table.mode.shape[0]):
         if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
-            distance, _ = gap(block, c)
-            if distance > GAP_NOISE:
+            distance, rate = gap(block, c)
+            if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
                 table.touching[c] = 0

@@ -53,6 +53,11 @@ class Engine:
     objects: dict[str, Path]
     headers: Path
 
+    @property
+    def complete(self) -> bool:
+        """Whether all files are there; the header comes last."""
+        return all(path.is_file() for path in (*self.objects.values(), self.headers / "engine.h"))
+
 
 def compiled_engine(report: Report = silently) -> Engine:
     """The engine's object files and header; compiled now if need be, in one or two minutes.
@@ -65,19 +70,28 @@ def compiled_engine(report: Report = silently) -> Engine:
     Raises:
         MechanismError: the compilation failed, with what it printed.
     """
-    folder = cache_directory() / "mechanism_fmu" / f"native_{_digest()}"
-    objects = {target.name: folder / f"{target.name}.o" for target in TARGETS}
-    wanted = [*objects.values(), folder / "engine.h"]  # the header comes last
-    if not all(path.is_file() for path in wanted):
+    engine = _engine()
+    if not engine.complete:
+        folder = engine.headers
         folder.mkdir(parents=True, exist_ok=True)
         with alone(folder, lambda: report("waiting for another process that does it", 0.0)):
-            if not all(path.is_file() for path in wanted):
+            if not engine.complete:
                 _emit(folder, report)
                 # Always in the same place, so that the compiler of the C files finds again what it has compiled.
                 temporary = folder / f".engine.h.{os.getpid()}"
                 temporary.write_text(engine_header(), encoding="ascii")
-                os.replace(temporary, wanted[-1])
-    return Engine(objects, folder)
+                os.replace(temporary, folder / "engine.h")
+    return engine
+
+
+def engine_is_compiled() -> bool:
+    """Whether `compiled_engine` has its files already."""
+    return _engine().complete
+
+
+def _engine() -> Engine:
+    folder = cache_directory() / "mechanism_fmu" / f"native_{_digest()}"
+    return Engine({target.name: folder / f"{target.name}.o" for target in TARGETS}, folder)
 
 
 def _emit(folder: Path, report: Report) -> None:
