@@ -18,9 +18,9 @@ from ..model import MechanismError, Model
 from .job import Job
 from .library import load_many
 from .numbers import Array, Numbers
-from .origin import model_of_fmu
+from .origin import NoBatchError, model_of_fmu
 from .prepared import Prepared, prepared
-from .refusals import Refusals, impossible, out_of_limits
+from .refusals import Refusals, impossible, out_of_limits, said_of
 from .result import BatchResult
 from .workers import Progress, nobody, run_job
 
@@ -53,7 +53,12 @@ class Batch:
         Raises:
             NoBatchError: not with the numbers of this FMU; the message says why.
         """
-        return cls(*model_of_fmu(path))
+        batch = cls(*model_of_fmu(path))
+        try:
+            batch._prepared  # noqa: B018  (what cannot be traced is better told now)
+        except MechanismError as error:
+            raise NoBatchError(f"Only the FMU itself can run its designs: {error}") from error
+        return batch
 
     @property
     def compiled(self) -> str:
@@ -111,15 +116,19 @@ class Batch:
         )
         threads = max(1, min(threads or _processors(), count))
         failures: Refusals = {}
+        warnings: Refusals = {}
         for first in range(0, count, _CHUNK):
             here = slice(first, min(first + _CHUNK, count))
 
             def so_far(done: int, _all: int, first: int = first) -> None:
                 progress(first + done, count)
 
-            part, refused = self._tables(job.part(here), {name: column[here] for name, column in columns.items()})
+            part, refused, warned = self._tables(
+                job.part(here), {name: column[here] for name, column in columns.items()}
+            )
             refused |= run_job(part, self._prepared.mechanism, self._engine, threads, so_far)
             failures |= {first + design: text for design, text in refused.items()}
+            warnings |= {first + design: text for design, text in warned.items() if design not in refused}
         job.forget_values(list(failures))
         names = list(enumerate(wanted))
         return BatchResult(
@@ -132,6 +141,7 @@ class Batch:
             reached=job.reached,
             pulled=job.pulled,
             failures=tuple(failures.get(design, "") for design in range(count)),
+            warnings=tuple(warnings.get(design, "") for design in range(count)),
             compiled=self.compiled,
             threads=threads,
         )
@@ -150,8 +160,8 @@ class Batch:
         given = load_many(self.library)
         return load_many(library_here(self.report)) if given is None else given
 
-    def _tables(self, job: Job, columns: Mapping[str, Array]) -> tuple[Job, Refusals]:
-        """The job with the tables of its designs, and those of them that are refused."""
+    def _tables(self, job: Job, columns: Mapping[str, Array]) -> tuple[Job, Refusals, Refusals]:
+        """The job with the tables of its designs, those of them that are refused, and what the others are warned of."""
         ready, count = self._prepared, len(job.status)
         refused = out_of_limits(self.model, ready.mechanism.inputs, columns)
         values = {p.name: columns.get(p.name, p.start) for p in self.model.parameters}
@@ -173,6 +183,7 @@ class Batch:
                 varied_value=np.array(list(varied.values())).T.copy() if varied else np.empty((count, 0)),
             ),
             refused,
+            said_of(ready.traced.warnings, numbers, count),
         )
 
     def _columns(self, designs: Mapping[str, ArrayLike]) -> dict[str, Array]:

@@ -57,7 +57,10 @@ def model_of_fmu(path: Path) -> tuple[Model, Path | None]:
             f"The model of '{path}' cannot be unpacked ({error}); set the environment variable MECHANISM_FMU_CACHE to "
             "a folder that can be written."
         ) from error
-    model: Model = _imported(folder / "models", f"{_LIBRARY.name}.{package}", module).MODEL
+    try:
+        model: Model = _imported(folder / "models", f"{_LIBRARY.name}.{package}", module).MODEL
+    except ImportError as error:
+        raise NoBatchError(f"The model of '{path}' cannot be imported here: {error}.") from error
     return model, folder / library if library in files else None
 
 

@@ -59,11 +59,12 @@ def impossible(traced: Trace, numbers: Numbers, entries: Sequence[Entry], design
         entries: the tables' words that depend on a parameter.
         designs: how many there are.
     """
-    objected = _found(traced.objections, numbers, designs)
-    return _not_finite(numbers, entries, designs) | _found(traced.problems, numbers, designs) | objected
+    objected = said_of(traced.objections, numbers, designs)
+    return _not_finite(numbers, entries, designs) | said_of(traced.problems, numbers, designs) | objected
 
 
-def _found(findings: Sequence[Finding], numbers: Numbers, designs: int) -> Refusals:
+def said_of(findings: Sequence[Finding], numbers: Numbers, designs: int) -> Refusals:
+    """What findings say of designs, a text for each that any applies to."""
     said: dict[int, list[str]] = {}
     for finding, applies in zip(findings, numbers.of(f.applies for f in findings), strict=True):
         concerned = _where(np.greater(applies, 0.0), designs)

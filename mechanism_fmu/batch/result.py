@@ -24,6 +24,7 @@ class BatchResult:
         reached: time reached [s]; of a failed design the last good instant, NaN if it did not start.
         pulled: first time [s] at which a guided contact pulled where a real one would open; infinite: never.
         failures: why a design failed, in the FMU's words; "" of those that did not.
+        warnings: what the FMU's log says of a design that starts; "" of those that it says nothing of.
         compiled: how the engine was compiled: "ahead of time" or "just in time".
         threads: how many ran them.
     """
@@ -37,6 +38,7 @@ class BatchResult:
     reached: Array
     pulled: Array
     failures: tuple[str, ...]
+    warnings: tuple[str, ...]
     compiled: str
     threads: int
 
@@ -44,7 +46,7 @@ class BatchResult:
         """All columns under the names of the FMU's variables, for `pandas.DataFrame`.
 
         Designs and outputs as they are called, extremes as `<output>.least` and `<output>.greatest`, impacts as
-        `impacts[k].<field>`, and `impacts`, `time_reached` [s], `pulls_from` [s] and `failure`.
+        `impacts[k].<field>`, and `impacts`, `time_reached` [s], `pulls_from` [s], `failure` and `warning`.
         """
         kept = {
             f"impacts[{k + 1}].{name}": column[:, k]
@@ -61,4 +63,5 @@ class BatchResult:
             "time_reached": self.reached,
             "pulls_from": self.pulled,
             "failure": np.array(self.failures, object),
+            "warning": np.array(self.warnings, object),
         }

@@ -1,6 +1,7 @@
 """Many designs in one call: the bits of the FMU, design by design."""
 
 import math
+import zlib
 from itertools import pairwise
 from pathlib import Path
 
@@ -282,20 +283,48 @@ def test_an_fmu_of_another_engine_has_no_fast_path(ratchet_fmu, tmp_path):
         Batch.of_fmu(tmp_path / "Ratchet.fmu")
 
 
-def test_the_model_is_the_one_in_the_fmu(ratchet_fmu, tmp_path):
-    """Not the one of the same name that lies here."""
+def rewritten(ratchet_fmu: Path, folder: Path, name: str, old: bytes, new: bytes) -> Path:
+    """A ratchet with a change in a file of its model."""
     entries = read_entries(ratchet_fmu)
     package = next(name for name in entries if name.endswith("/models/ratchet/parameters.py")).split("/")[1]
+    other = f"mechanism_fmu_{zlib.crc32(new):012x}"
     changed = {
-        name.replace(package, "mechanism_fmu_000000000000"): data.replace(
-            package.encode(), b"mechanism_fmu_000000000000"
-        )
-        for name, data in entries.items()
+        name.replace(package, other): data.replace(package.encode(), other.encode()) for name, data in entries.items()
     }
-    name = "resources/mechanism_fmu_000000000000/models/ratchet/parameters.py"
-    changed[name] = changed[name].replace(b"5.6264", b"9.0")
-    write_archive(changed, tmp_path / "Ratchet.fmu")
-    found = Batch.of_fmu(tmp_path / "Ratchet.fmu").run({"friction": [0.0]}, [0.0, 1.0], ["impact_time"])
+    name = f"resources/{other}/models/ratchet/{name}"
+    assert old in changed[name]
+    changed[name] = changed[name].replace(old, new)
+    write_archive(changed, folder / "Ratchet.fmu")
+    return folder / "Ratchet.fmu"
+
+
+def test_the_model_is_the_one_in_the_fmu(ratchet_fmu, ratchets, tmp_path):
+    """Not the one of the same name that lies here."""
+    other = Batch.of_fmu(rewritten(ratchet_fmu, tmp_path, "parameters.py", b"5.6264", b"9.0"))
+    found = other.run({"friction": [0.0]}, [0.0, 1.0], ["impact_time"])
     assert found.compiled == "ahead of time"
-    heavier = Batch.of_fmu(ratchet_fmu).run({"wheel_mass": [9.0]}, [0.0, 1.0], ["impact_time"])
+    heavier = ratchets.run({"wheel_mass": [9.0]}, [0.0, 1.0], ["impact_time"])
     assert found.values["impact_time"].tolist() == heavier.values["impact_time"].tolist()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (b"MODEL = Model(", b"import no_such_package\nMODEL = Model(", "cannot be imported here: No module named"),
+        (b"    mechanism=mechanism,", b"    mechanism=lambda v: mechanism(v) if v.guided > 0 else None,", "traced"),
+    ],
+)
+def test_a_model_that_cannot_be_used_is_told(ratchet_fmu, tmp_path, old, new, message):
+    with pytest.raises(NoBatchError, match=message):
+        Batch.of_fmu(rewritten(ratchet_fmu, tmp_path, "model.py", old, new))
+
+
+def test_warnings_are_those_of_the_fmu_at_its_start(ratchet, ratchets):
+    designs = {"pawl_angle_start": [0.0, 3.0, 0.0, 0.0], "tooth_count": [10.0, 10.0, 25.0, 2.0]}
+    found = ratchets.run(designs, [0.0, 0.01], [])
+    assert found.warnings[1].startswith("pawl_angle_start is not used by the guided pawl")
+    for k in range(3):
+        with Instance(ratchet) as one:
+            one.begin(start_values(ratchet, designs, k))
+            assert found.warnings[k] == " ".join(m.text for m in one.log if m.category == "logStatusWarning")
+    assert found.warnings[0] == found.warnings[3] == ""
