@@ -121,6 +121,12 @@ def run(
             "interpolated linearly, constant within a step.",
         ),
     ] = None,
+    material: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME", help="Steel of the tooth: steel, S355, C45E, 42CrMo4, SAE1015, SAE4142 or AISI4340."
+        ),
+    ] = "steel",
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.")] = Path(
         "result"
     ),
@@ -137,6 +143,8 @@ def run(
 
         mechanism-fmu run build/Ratchet.fmu --input torque.csv
 
+        mechanism-fmu run build/Ratchet.fmu --material 42CrMo4
+
     Ctrl-C ends the run early and keeps what was recorded.
 
     Exit code: 0 all well, 1 the run or a verdict failed, 2 wrong use, 130 interrupted.
@@ -145,7 +153,7 @@ def run(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_fmu(fmu, settings or [], stop_time, step, input_file, output))
+        raise typer.Exit(run_fmu(fmu, settings or [], stop_time, step, input_file, material, output))
 
 
 @main.command()

@@ -28,6 +28,7 @@ from .terminal import (
     show_warning,
     show_wide_table,
 )
+from .tooth_damage import card_of
 
 #: The base case of the paper is the FMU's default; the pawl strikes at 0.94 s and swings back at 4.9 s.
 _DEMO = Experiment(stop_time=6.0, step=1e-3)
@@ -81,12 +82,14 @@ def run_fmu(
     stop_time: float | None,
     step: float | None,
     input_file: Path | None,
+    material: str,
     folder: Path,
 ) -> int:
     """Run an FMU and write what comes of it."""
+    card = card_of(material)
     with open_fmu(path) as fmu:
         values = start_values(settings, fmu.description)
-        experiment = Experiment(*default_times(fmu.description, stop_time, step), values, input_file)
+        experiment = Experiment(*default_times(fmu.description, stop_time, step), values, input_file, card)
         prepare_folder(folder)
         try:
             run = _performed(fmu, experiment)

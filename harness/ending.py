@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from rich.markup import escape
+
 from .checks import Check, all_passed
 from .experiment import Run
 from .master import Ending
@@ -12,6 +14,7 @@ from .messages import Status
 from .numbers import shown
 from .results import final_values
 from .terminal import FAILED, INTERRUPTED, console, show_checks, show_error, show_files, show_table
+from .tooth_damage import HEADINGS, damage_note, damage_row
 
 #: Columns of the impacts that fit a terminal, with their headings; the file has all.
 _IMPACT_COLUMNS = {
@@ -29,6 +32,7 @@ def show_ending(run: Run, files: Sequence[Path], more_checks: Sequence[Check] = 
     """Show how a run ended, and return the exit code."""
     _show_final_values(run)
     _show_impacts(run)
+    _show_damage(run)
     checks = [*run.checks, *more_checks]
     show_checks(checks)
     show_files(files)
@@ -68,3 +72,11 @@ def _show_impacts(run: Run) -> None:
     show_table(title, headings, rows, numeric=range(len(columns)))
     if run.tooth is None:
         console.print("[dim]No stress: the FMU does not describe a tooth (tooth_length, tooth_apex_angle).[/]")
+
+
+def _show_damage(run: Run) -> None:
+    if run.damage is None:
+        return
+    row = damage_row(run.damage, run.experiment.material)
+    show_table("Fatigue of the tooth", HEADINGS, [row], numeric=range(1, len(HEADINGS)))
+    console.print(f"[dim]{escape(damage_note(run.damage))}[/]", soft_wrap=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from mechanism_fmu.stress import WedgeTooth
+from mechanism_fmu.stress import STEEL_CARD, MaterialCard, SequenceDamage, WedgeTooth
 
 from .checks import Check, run_checks
 from .clock import TimeGrid, seconds
@@ -27,6 +27,7 @@ from .messages import LogMessage
 from .observers import Observer
 from .recorder import Recorder, recorded_variables
 from .slave import Observable
+from .tooth_damage import DAMAGE_UNITS, damage_of_impacts
 from .tooth_stress import STRESS_UNITS, tooth_of, with_stress
 
 
@@ -39,12 +40,14 @@ class Experiment:
         step: communication step [s].
         start_values: of inputs and parameters by name, in the units of the variables.
         input_file: table of input signals (`inputs.read_inputs`); None leaves inputs at their start values.
+        material: of the tooth that impacts strike.
     """
 
     stop_time: float
     step: float
     start_values: Mapping[str, Value] = field(default_factory=dict)
     input_file: Path | None = None
+    material: MaterialCard = STEEL_CARD
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,7 @@ class Run:
         parameters: parameters and calculated parameters after the initialization.
         messages: everything the FMU said.
         tooth: what the impacts strike; None when the FMU does not describe one.
-        units: by name, for "results", "impacts", "events" and "parameters" each ("1" when dimensionless).
+        units: by name, for "results", "impacts", "events", "fatigue" and "parameters" each ("1": dimensionless).
         checks: verdicts.
         wall_time: of the simulation [s].
         drawing: how the mechanism is drawn.
@@ -70,6 +73,7 @@ class Run:
         events_lost: events that the FMU could not report.
         tells_events: whether the FMU reports events at all.
         logic: the modes and transitions that the FMU tells.
+        damage: what all impacts together do to the tooth; None without a tooth or an impact.
     """
 
     fmu: Path
@@ -90,6 +94,7 @@ class Run:
     events_lost: int = 0
     tells_events: bool = False
     logic: LogicFile = field(default_factory=LogicFile)
+    damage: SequenceDamage | None = None
 
 
 class _ParameterReader:
@@ -145,7 +150,10 @@ def perform(
         wall_time = time.perf_counter() - began
         messages = tuple(slave.messages)
     tooth, objections = _struck_tooth(reader.values) if "velocity" in collector.fields else (None, [])
-    impacts = collector.table() if tooth is None else with_stress(collector.table(), tooth)
+    impacts, damage = collector.table(), None
+    if tooth is not None:
+        damage = damage_of_impacts(impacts, tooth, experiment.material)
+        impacts = with_stress(impacts, tooth, experiment.material.material)
     results = recorder.table()
     return Run(
         fmu=fmu.path,
@@ -166,6 +174,7 @@ def perform(
         events_lost=event_collector.lost,
         tells_events=event_collector.tells,
         logic=logic,
+        damage=damage,
     )
 
 
@@ -199,5 +208,6 @@ def _units(
         "results": {"time": "s"} | {v.name: v.unit or "1" for v in recorded_variables(description)},
         "impacts": {name: impact_units[name] for name in impact_columns},
         "events": dict(EVENT_UNITS),
+        "fatigue": dict(DAMAGE_UNITS),
         "parameters": {v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter")},
     }

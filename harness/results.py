@@ -17,6 +17,7 @@ from mechanism_fmu import __version__
 from .description import Value
 from .errors import UsageError
 from .experiment import Run
+from .tooth_damage import damage_summary
 
 
 def prepare_folder(folder: Path) -> None:
@@ -99,6 +100,7 @@ def summary(run: Run) -> dict[str, Any]:
             "step": experiment.step,
             "start_values": dict(experiment.start_values),
             "input_file": None if experiment.input_file is None else str(experiment.input_file),
+            "material": experiment.material.name,
         },
         "ending": outcome.ending.value,
         "error": None if outcome.error is None else str(outcome.error),
@@ -109,6 +111,7 @@ def summary(run: Run) -> dict[str, Any]:
         "parameters": dict(run.parameters),
         "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost},
         "events": {"collected": len(run.events), "lost": run.events_lost},
+        "fatigue": None if run.damage is None else damage_summary(run.damage, experiment.material),
         "units": run.units,
         "checks": [asdict(check) for check in run.checks],
         "messages": [asdict(m) | {"status": m.status.name.lower()} for m in run.messages],

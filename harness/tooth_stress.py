@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from mechanism_fmu.stress import STEEL, MaximumStress, WedgeTooth, bending_stress, maximum_stress
+from mechanism_fmu.stress import STEEL, Material, MaximumStress, WedgeTooth, bending_stress, maximum_stress
 
 from .description import Value
 from .errors import FmuError
@@ -18,7 +18,7 @@ from .errors import FmuError
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
 
 _TIMES = 600
-_PLACES = 201
+_PLACES = 101
 #: The shown time span reaches this many times the delay of the maximum.
 _SPAN = 12.0
 
@@ -40,12 +40,12 @@ def tooth_of(parameters: Mapping[str, Value]) -> WedgeTooth | None:
         raise FmuError(f"The FMU's tooth_length and tooth_apex_angle describe no tooth: {error}") from error
 
 
-def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth) -> pd.DataFrame:
-    """The table of impacts with the largest bending stress of steel after each.
+def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth, material: Material = STEEL) -> pd.DataFrame:
+    """The table of impacts with the largest bending stress after each.
 
     Adds `stress_max` [Pa], `stress_position` (x / length, from the root) and `stress_delay` [s] after the impact.
     """
-    found = [maximum_stress(tooth, STEEL, abs(velocity)) for velocity in impacts["velocity"]]
+    found = [maximum_stress(tooth, material, abs(velocity)) for velocity in impacts["velocity"]]
     return impacts.assign(
         stress_max=[maximum.stress for maximum in found],
         stress_position=[maximum.position for maximum in found],
@@ -74,19 +74,41 @@ class StressField:
     maximum: MaximumStress
 
 
-def stress_field(tooth: WedgeTooth, velocity: float) -> StressField:
-    """Bending stress of a steel tooth along its length and in time, after an impact with `velocity` [m/s]."""
+def stress_field(tooth: WedgeTooth, velocity: float, material: Material = STEEL) -> StressField:
+    """Bending stress of a tooth along its length and in time, after an impact with `velocity` [m/s]."""
     speed = abs(velocity)
-    maximum = maximum_stress(tooth, STEEL, speed)
-    position = np.linspace(0.0, 1.0, _PLACES)
+    maximum = maximum_stress(tooth, material, speed)
+    position, along = stress_along(tooth, velocity, material)
     delay = np.linspace(0.0, _SPAN * maximum.time, _TIMES)
     place = maximum.position * tooth.length
-    sign = float(np.sign(bending_stress(tooth, STEEL, speed, [place], [maximum.time])[0, 0]))
+    sign = float(np.sign(bending_stress(tooth, material, speed, [place], [maximum.time])[0, 0]))
     return StressField(
         position=position,
         delay=delay,
-        stress=sign * bending_stress(tooth, STEEL, speed, position * tooth.length, delay),
-        along=sign * bending_stress(tooth, STEEL, speed, position * tooth.length, [maximum.time])[:, 0],
-        in_time=sign * bending_stress(tooth, STEEL, speed, [place], delay)[0],
+        stress=sign * bending_stress(tooth, material, speed, position * tooth.length, delay),
+        along=along,
+        in_time=sign * bending_stress(tooth, material, speed, [place], delay)[0],
         maximum=maximum,
     )
+
+
+def stress_along(
+    tooth: WedgeTooth, velocity: float, material: Material = STEEL
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Bending stress of a tooth along its length, at the instant of the largest one after an impact.
+
+    Args:
+        tooth: what is struck.
+        velocity: of the impact [m/s].
+        material: of the tooth.
+
+    Returns:
+        x / length from the root, and the stress there [Pa], signed so that the largest one is positive;
+        shape (places,) each.
+    """
+    speed = abs(velocity)
+    maximum = maximum_stress(tooth, material, speed)
+    position = np.linspace(0.0, 1.0, _PLACES)
+    place = maximum.position * tooth.length
+    stress = bending_stress(tooth, material, speed, [place, *(position * tooth.length)], [maximum.time])[:, 0]
+    return position, np.sign(stress[0]) * stress[1:]

@@ -13,6 +13,7 @@ from ..numbers import engineering, shown
 from ..results import write_text
 from ..tooth_stress import stress_field
 from .animation import animation
+from .fatigue import fatigue_section
 from .logic import events_section, modes_section
 from .modes import contacts
 from .motion import motion_chart
@@ -37,7 +38,8 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    body += [animation(run), _motion(run), _stress(run), _impacts(run), modes_section(run), events_section(run)]
+    body += [animation(run), _motion(run), _stress(run), fatigue_section(run), _impacts(run)]
+    body += [modes_section(run), events_section(run)]
     body += [_parameters(run), _messages(run)]
     return page(description.model, subtitle, [part for part in body if part])
 
@@ -78,8 +80,8 @@ def _stress(run: Run) -> str:
     note = (
         f"The impact with the largest stress: t = {worst['time']:.9g} s, "
         f"v_I = {engineering(float(worst['velocity']), 'm/s')};"
-        f" wedge of length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad, steel,"
-        " two Ritz modes."
+        f" wedge of length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad,"
+        f" {run.experiment.material.name}, two Ritz modes."
     )
     if len(run.impacts) > 1:
         note += (
@@ -87,7 +89,9 @@ def _stress(run: Run) -> str:
             "rest: for later impacts on a wheel that already turns it is an upper bound, not the jump of the speed."
         )
     return section(
-        "Bending stress in the tooth", chart(stress_chart(stress_field(run.tooth, worst["velocity"]))), note=note
+        "Bending stress in the tooth",
+        chart(stress_chart(stress_field(run.tooth, worst["velocity"], run.experiment.material.material))),
+        note=note,
     )
 
 

@@ -6,12 +6,13 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from .beam import Beam
 from .checks import require_impact_velocity, require_within
 from .field import BendingField
 from .material import Material
-from .modes import BeamMode, ritz_modes
+from .modes import ritz_modes
+from .natural_mode import Mode
 from .search import largest_stress
-from .tooth import WedgeTooth
 
 #: With less damping there are thousands of nearly equal swings to compare, and with none there is no largest one.
 _LEAST_DAMPING = 1e-4
@@ -25,7 +26,8 @@ class MaximumStress:
         stress: |sigma_b| of the outer fibre [Pa].
         position: xi = x / length [-], 0 at the root, 1 at the tip.
         time: since the impact [s].
-        coefficient: C = stress / (v_I sqrt(rho E)) [-]; it depends only on the damping ratio and the modes' scaling.
+        coefficient: C = stress / (v_I sqrt(rho E)) [-]; for beams of one shape it depends only on the damping ratio,
+            the number of modes and their scaling.
     """
 
     stress: float
@@ -35,7 +37,7 @@ class MaximumStress:
 
 
 def maximum_stress(
-    tooth: WedgeTooth, material: Material, impact_velocity: float, modes: tuple[BeamMode, ...] | None = None
+    tooth: Beam, material: Material, impact_velocity: float, modes: tuple[Mode, ...] | None = None
 ) -> MaximumStress:
     """Largest |sigma_b| of `bending_stress` over length and time: 1e-10 relative, its position to 1e-5.
 
@@ -60,9 +62,7 @@ def maximum_stress(
 
 
 @lru_cache(maxsize=1024)
-def _maximum_at_unit_velocity(
-    tooth: WedgeTooth, material: Material, modes: tuple[BeamMode, ...] | None
-) -> MaximumStress:
+def _maximum_at_unit_velocity(tooth: Beam, material: Material, modes: tuple[Mode, ...] | None) -> MaximumStress:
     advice = "with less, the largest stress comes after very many swings or never"
     require_within("damping ratio", material.damping_ratio, _LEAST_DAMPING, 1.0, "", advice)
     field = BendingField(tooth, material, ritz_modes(tooth, material) if modes is None else modes)

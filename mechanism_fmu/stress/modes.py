@@ -7,14 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import polynomial
-from numpy.polynomial.legendre import leggauss
-from scipy.linalg import eigh
 
+from .beam import Beam
 from .checks import FloatArray, require_within
 from .material import Material
-from .tooth import WedgeTooth
+from .natural_mode import NaturalMode
+from .powers import legendre_of_powers, powers_of_legendre
+from .ritz import natural_modes
+from .scaling import ModeScaling
 
-#: Powers of xi beyond this many make the two matrices of eq (12) too ill-conditioned for double precision.
+#: Powers of xi tell little with more of them: each further one costs a digit.
 _MOST_TERMS = 10
 
 
@@ -42,36 +44,41 @@ class BeamMode:
         ascending = (0.0, 0.0, *self.coefficients)
         return np.asarray(polynomial.polyval(xi, polynomial.polyder(ascending, derivative)))
 
+    def legendre_series(self) -> FloatArray:
+        """Coefficients of the shape over the Legendre polynomials of s = 2 xi - 1 [-]."""
+        return legendre_of_powers(len(self.coefficients) + 1) @ [0.0, 0.0, *self.coefficients]
 
-def ritz_modes(tooth: WedgeTooth, material: Material, terms: int = 2) -> tuple[BeamMode, ...]:
-    """Modes of `tooth` from the deflection a_1 xi^2 + a_2 xi^3 + ..., the slowest first, scaled to a_1 = 1.
 
-    Solves eq (12), the stationary values of V - Lambda^2 T, as a generalised symmetric eigenproblem. The integrals
-    over the length are exact: the integrands are polynomials and the Gauss–Legendre rule has enough points. Why
-    a_1 = 1: docs/decisions/003-mode-scaling.md.
+def ritz_modes(
+    tooth: Beam,
+    material: Material,
+    terms: int = 2,
+    scaling: ModeScaling = ModeScaling.FIRST_COEFFICIENT,
+) -> tuple[BeamMode, ...]:
+    """Modes of a cantilever from the deflection a_1 xi^2 + a_2 xi^3 + ..., the slowest first: the paper's.
+
+    They are those of `natural_modes` for the same number of terms, written in powers of xi; why a_1 = 1, and what the
+    other scaling means: docs/decisions/003-mode-scaling.md.
 
     Args:
         tooth: the beam.
         material: what it is made of; its damping plays no part.
         terms: number of terms and of modes, 1 to 10. The paper has 2; with more, each frequency falls towards the
             exact one (the first is 7e-4 too high with 2 terms), but the last modes of any number are poor.
+        scaling: of the shapes; a_1 = 1 unless given.
 
     Raises:
-        ValueError: when `terms` is outside its limits.
+        ValueError: when `terms` is outside its limits, or the cross section is not positive.
 
     Source: Pennestrì, Valentini, Vita, eqs (9), (11), (12), (15).
     """
     require_within("number of Ritz terms", terms, 1, _MOST_TERMS, "", "the paper has 2")
-    # The longest integrand, A u^2, has degree 2 terms + 3; a rule of n points is exact to degree 2 n - 1.
-    nodes, weights = leggauss(terms + 2)
-    xi = (nodes + 1) / 2
-    x = xi * tooth.length
-    dx = weights * tooth.length / 2
-    powers = np.arange(2, terms + 2)
-    shapes = xi[:, None] ** powers
-    curvatures = powers * (powers - 1) * xi[:, None] ** (powers - 2) / tooth.length**2
-    mass = material.density * shapes.T @ (shapes * (dx * tooth.area(x))[:, None])
-    stiffness = material.youngs_modulus * curvatures.T @ (curvatures * (dx * tooth.second_moment(x))[:, None])
-    _, vectors = eigh(stiffness, mass)
-    scaled = (vectors / vectors[0]).T
-    return tuple(BeamMode(tuple(a.tolist()), float(a @ mass @ a), float(a @ stiffness @ a)) for a in scaled)
+    modes = natural_modes(tooth, material, terms, scaling=scaling)
+    return tuple(BeamMode(_powers(mode, scaling), mode.mass, mode.stiffness) for mode in modes)
+
+
+def _powers(mode: NaturalMode, scaling: ModeScaling) -> tuple[float, ...]:
+    """Coefficients a_1, a_2, ... of a mode of a beam that is clamped at its root."""
+    a = (powers_of_legendre(len(mode.series) - 1) @ mode.series)[2:]
+    rounding = a[0] if scaling is ModeScaling.FIRST_COEFFICIENT else 1.0  # a[0] is 1, nearly
+    return tuple((a / rounding).tolist())

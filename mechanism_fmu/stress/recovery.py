@@ -7,39 +7,40 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from .beam import Beam
 from .checks import FloatArray, require_all_within, require_impact_velocity
 from .field import BendingField
 from .material import Material
-from .modes import BeamMode, ritz_modes
-from .tooth import WedgeTooth
+from .modes import ritz_modes
+from .natural_mode import Mode
 
 #: Latest time [s] since the impact; it only keeps the phase of the fastest tooth finite.
 _LATEST_TIME = 1e9
 
 
 def bending_moment(
-    tooth: WedgeTooth,
+    tooth: Beam,
     material: Material,
     impact_velocity: float,
     x: npt.ArrayLike,
     t: npt.ArrayLike,
-    modes: Sequence[BeamMode] | None = None,
+    modes: Sequence[Mode] | None = None,
 ) -> FloatArray:
     """Bending moment M_b = -E I_n w'' [N m], of shape (len(x), len(t)).
 
     Arguments, errors and source are those of `bending_stress`.
     """
-    places, times = _checked(tooth, impact_velocity, x, t)
+    places, times = checked(tooth, impact_velocity, x, t)
     return impact_velocity * _field(tooth, material, modes).moment(places, times)
 
 
 def bending_stress(
-    tooth: WedgeTooth,
+    tooth: Beam,
     material: Material,
     impact_velocity: float,
     x: npt.ArrayLike,
     t: npt.ArrayLike,
-    modes: Sequence[BeamMode] | None = None,
+    modes: Sequence[Mode] | None = None,
 ) -> FloatArray:
     """Bending stress sigma_b = M_b / W_b of the outer fibre [Pa], of shape (len(x), len(t)).
 
@@ -58,17 +59,15 @@ def bending_stress(
 
     Source: Pennestrì, Valentini, Vita, eqs (13), (16).
     """
-    places, times = _checked(tooth, impact_velocity, x, t)
+    places, times = checked(tooth, impact_velocity, x, t)
     return impact_velocity * _field(tooth, material, modes).stress(places, times)
 
 
-def _field(tooth: WedgeTooth, material: Material, modes: Sequence[BeamMode] | None) -> BendingField:
+def _field(tooth: Beam, material: Material, modes: Sequence[Mode] | None) -> BendingField:
     return BendingField(tooth, material, ritz_modes(tooth, material) if modes is None else modes)
 
 
-def _checked(
-    tooth: WedgeTooth, impact_velocity: float, x: npt.ArrayLike, t: npt.ArrayLike
-) -> tuple[FloatArray, FloatArray]:
+def checked(tooth: Beam, impact_velocity: float, x: npt.ArrayLike, t: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Places and times as one-dimensional arrays, after refusing what cannot be right."""
     places = np.atleast_1d(np.asarray(x, dtype=np.float64))
     times = np.atleast_1d(np.asarray(t, dtype=np.float64))

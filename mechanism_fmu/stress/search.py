@@ -12,8 +12,9 @@ from scipy.optimize import minimize
 from .checks import FloatArray
 from .field import BendingField
 
-#: Cells of the grid along the tooth, and in a period of the fastest mode.
+#: Cells of the grid along the tooth, at least so many for each mode, and in a period of the fastest mode.
 _CELLS_OF_LENGTH = 32
+_CELLS_OF_MODE = 4
 _CELLS_OF_PERIOD = 64
 
 #: A local maximum lies less than this fraction above the highest grid point beside it (1e-3 for the paper's modes).
@@ -40,8 +41,9 @@ def largest_stress(field: BendingField) -> StressPoint:
 
     Every local maximum that the grid cannot tell from the largest is located, and the largest of them is taken.
     """
-    cell = (field.length / _CELLS_OF_LENGTH, 2 * math.pi / _CELLS_OF_PERIOD / float(field.frequencies.max()))
-    x = np.linspace(0.0, field.length, _CELLS_OF_LENGTH + 1)
+    cells = max(_CELLS_OF_LENGTH, _CELLS_OF_MODE * len(field.frequencies))
+    cell = (field.length / cells, 2 * math.pi / _CELLS_OF_PERIOD / float(field.frequencies.max()))
+    x = np.linspace(0.0, field.length, cells + 1)
     last = math.ceil(_horizon(field, x, cell[1]) / cell[1])
     t = np.linspace(0.0, last * cell[1], last + 1)
     stress = np.abs(field.stress(x, t))
@@ -75,7 +77,7 @@ def _locate(field: BendingField, cell: tuple[float, float], i: int, j: int) -> S
 
     start = np.array([i, j], dtype=np.float64)
     scale = stress_around(start)[1, 1]
-    bounds = [(max(i - _REACH, 0), min(i + _REACH, _CELLS_OF_LENGTH)), (max(j - _REACH, 0), j + _REACH)]
+    bounds = [(max(i - _REACH, 0), min(i + _REACH, round(field.length / cell[0]))), (max(j - _REACH, 0), j + _REACH)]
     # TNC, and no scaling by it: cells are the right unit, and its small problem starts no threads of a BLAS.
     options = {"ftol": 1e-15, "gtol": 1e-9, "xtol": 1e-7, "scale": np.ones(2), "offset": np.zeros(2)}
     found = minimize(descent, start, jac=True, method="TNC", bounds=bounds, options=options)

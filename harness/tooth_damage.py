@@ -1,0 +1,119 @@
+"""From the impacts of a run to the damage that all of them together do to the tooth."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from mechanism_fmu.stress import MaterialCard, Ringing, SequenceDamage, WedgeTooth, material_card, sequence_damage
+
+from .errors import UsageError
+
+#: Units of the numbers of a `SequenceDamage`.
+DAMAGE_UNITS = {
+    "stress": "Pa",
+    "time": "s",
+    "position": "1",
+    "impacts": "1",
+    "cycles": "1",
+    "damage": "1",
+    "repeats_to_failure": "1",
+    "yield_safety": "1",
+    "fatigue_safety": "1",
+}
+
+HEADINGS = (
+    "material",
+    "sigma_max [Pa]",
+    "cycles [1]",
+    "damage [1]",
+    "runs to\nfailure [1]",
+    "safety:\nyield [1]",
+    "safety:\nfatigue [1]",
+)
+
+#: Beyond this, a number of runs only says that there is no end.
+_COUNTABLE = 1e12
+
+
+def card_of(name: str) -> MaterialCard:
+    """The material card with this name.
+
+    Raises:
+        UsageError: there is none.
+    """
+    try:
+        return material_card(name)
+    except ValueError as error:
+        raise UsageError(f"--material: {error}") from None
+
+
+def damage_of_impacts(impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard) -> SequenceDamage | None:
+    """What all impacts of a run do to one tooth; None without an impact.
+
+    All of them count for one tooth: v_I comes from the wheel's speed, which all its teeth share. See
+    docs/decisions/014.
+    """
+    if impacts.empty:
+        return None
+    return sequence_damage(tooth, card.material, card.strength, *_jolts(impacts))
+
+
+def stress_history(
+    impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard, position: float
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Bending stress [Pa] at x / length = `position`, as its extremes, and their times [s]; at least one impact."""
+    swings = list(Ringing(tooth, card.material, *_jolts(impacts)).swings(position * tooth.length))
+    return np.array([swing.time for swing in swings]), np.array([swing.stress for swing in swings])
+
+
+def _jolts(impacts: pd.DataFrame) -> tuple[pd.Series[float], pd.Series[float]]:
+    """Times and v_I of a table of impacts, ascending.
+
+    Impacts of several contacts at one instant are one change of the wheel's speed: the largest counts.
+    """
+    by_size = impacts.assign(size=impacts["velocity"].abs()).sort_values(["time", "size"], kind="stable")
+    jolts = by_size.drop_duplicates("time", keep="last")
+    return jolts["time"], jolts["velocity"]
+
+
+def damage_summary(damage: SequenceDamage, card: MaterialCard) -> dict[str, Any]:
+    """Damage and the numbers it rests on, ready for JSON; what is infinite is null."""
+    numbers = {name: value if math.isfinite(value) else None for name, value in asdict(damage).items()}
+    material = {"name": card.name, "text": card.text, "sources": list(card.sources)}
+    return numbers | {"material": material | asdict(card.material) | asdict(card.strength)}
+
+
+def damage_row(damage: SequenceDamage, card: MaterialCard) -> list[str]:
+    """The cells below `HEADINGS`."""
+    return [
+        card.name,
+        f"{damage.stress:.5g}",
+        f"{damage.cycles:g}",
+        f"{damage.damage:.3g}",
+        _count(damage.repeats_to_failure),
+        _count(damage.yield_safety),
+        _count(damage.fatigue_safety),
+    ]
+
+
+def damage_note(damage: SequenceDamage) -> str:
+    """What the numbers stand for, and whether they may be believed."""
+    note = (
+        f"All impacts on one tooth that still rings from those before, at x/l = {damage.position:.4f}; two Ritz modes, "
+        "rainflow cycles, Goodman, Miner; smooth specimens, no notch at the root (docs/stress.md)."
+    )
+    if damage.impacts > 1:
+        note += " An upper bound where the wheel already turns when it is struck."
+    if damage.yield_safety < 1:
+        note += " The stress is beyond the yield strength: a tooth yields there, and these numbers no longer hold."
+    return note
+
+
+def _count(value: float) -> str:
+    return f"{value:.3g}" if value <= _COUNTABLE else f"> {_COUNTABLE:g}"

@@ -1,0 +1,191 @@
+"""Stress at one place of a tooth that is struck again while it still rings."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from .beam import Beam
+from .checks import FloatArray, require_all_within, require_within
+from .field import BendingField
+from .material import Material
+from .modes import ritz_modes
+from .natural_mode import Mode
+
+ComplexArray = npt.NDArray[np.complex128]
+
+#: Points of a period of the fastest mode at which the slope of the stress is looked at. Two extremes between two of
+#: them would be missed; they would differ by next to nothing.
+_POINTS_OF_PERIOD = 24
+
+#: Ringing is followed until no swing exceeds this part of what the fastest impact alone can cause.
+RESOLUTION = 1e-2
+
+#: Steps of a regula falsi that bring an extreme from a cell of the grid to rounding.
+_REFINEMENTS = 8
+
+#: As of `maximum_stress`: with less damping the ringing hardly ends.
+_LEAST_DAMPING = 1e-4
+
+_LATEST_TIME, _FASTEST = 1e12, 1e6
+
+
+class Swing(NamedTuple):
+    """An extreme of the stress, or its value at an impact: time [s] and stress [Pa]."""
+
+    time: float
+    stress: float
+
+
+class Ringing:
+    """Modes of a tooth that a sequence of impacts excites, by exact superposition.
+
+    Each mode is one complex amplitude, eta(t) = Im(c exp(p t)) with p = -zeta Lambda + i Lambda_d. It swings freely
+    between impacts, c becoming c exp(p dt); an impact adds v / Lambda_d, since it changes eta' by v and eta not at all.
+    So a mode carries eta and eta' from impact to impact, and however many there were, they cost one number.
+
+    Args:
+        tooth: the beam.
+        material: what it is made of; its damping ratio must be 1e-4 or more.
+        times: of the impacts [s], ascending, equal ones allowed; shape (n,), n >= 1.
+        velocities: v_I of each impact [m/s], with sign; shape (n,).
+        modes: the modes that take part; without them the two of `ritz_modes`, as in the paper.
+
+    Raises:
+        ValueError: when there is no impact, times and velocities do not belong together, do not ascend or are not
+            finite, damping is too small, or `modes` is empty.
+
+    Source: Pennestrì, Valentini, Vita, eqs (10), (13), (16), superposed.
+    """
+
+    def __init__(
+        self,
+        tooth: Beam,
+        material: Material,
+        times: npt.ArrayLike,
+        velocities: npt.ArrayLike,
+        modes: Sequence[Mode] | None = None,
+    ) -> None:
+        self.times, self.velocities = _checked(times, velocities)
+        advice = "with less, an impact is heard for thousands of swings"
+        require_within("damping ratio", material.damping_ratio, _LEAST_DAMPING, 1.0, "", advice)
+        self.length = tooth.length
+        self._field = BendingField(tooth, material, ritz_modes(tooth, material) if modes is None else modes)
+        decay = material.damping_ratio * self._field.frequencies
+        self._damped: FloatArray = self._field.frequencies * math.sqrt(1 - material.damping_ratio**2)
+        self._poles: ComplexArray = -decay + 1j * self._damped
+
+    def stress(self, x: npt.ArrayLike, t: npt.ArrayLike) -> FloatArray:
+        """Bending stress [Pa] at places x [m] and times t [s], of shape (len(x), len(t)); zero before the first impact.
+
+        Raises:
+            ValueError: when a place is off the tooth, or a time is not a number.
+        """
+        places = self._places(x)
+        instants = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        require_all_within("time", instants, -_LATEST_TIME, _LATEST_TIME, "s", "give times of the run")
+        amplitudes = np.array([amplitude for _, amplitude in self._impacts()])
+        last = np.searchsorted(self.times, instants, side="right") - 1
+        since = np.where(last >= 0, instants - self.times[last], 0.0)
+        response = (amplitudes[last] * np.exp(np.multiply.outer(since, self._poles))).imag
+        return np.asarray(self._field.modal_stress(places) @ np.where(last[:, None] >= 0, response, 0.0).T)
+
+    def swings(self, x: float) -> Iterator[Swing]:
+        """Stress at the place x [m]: at each impact, and at each of its extremes until the ringing is over.
+
+        The extremes are refined to rounding, and between two swings the stress goes one way. The memory it takes does
+        not grow with the number of impacts.
+
+        Raises:
+            ValueError: when the place is off the tooth.
+        """
+        weights = self._field.modal_stress(self._places(x))[0]
+        loudest = float(np.abs(self.velocities).max())
+        silence = RESOLUTION * loudest * float(np.sum(np.abs(weights) / self._damped))
+        ends = itertools.chain(self.times[1:], [math.inf])
+        for (time, amplitude), end in zip(self._impacts(), ends, strict=True):
+            modal = weights * amplitude
+            yield Swing(time, float(modal.imag.sum()))
+            for delay, stress in self._extremes(modal, end - time, silence):
+                yield Swing(time + delay, stress)
+        yield Swing(time + self._over(modal, silence), 0.0)
+
+    def _impacts(self) -> Iterator[tuple[float, ComplexArray]]:
+        """Time of each impact and amplitudes of the modes just after it."""
+        amplitude = np.zeros(len(self._poles), dtype=np.complex128)
+        before = self.times[0]
+        for time, velocity in zip(self.times, self.velocities, strict=True):
+            amplitude = amplitude * np.exp(self._poles * (time - before)) + velocity / self._damped
+            before = time
+            yield float(time), amplitude
+
+    def _over(self, modal: ComplexArray, silence: float) -> float:
+        """Time after which the sum of the amplitudes `modal` [Pa] stays below `silence` [Pa]."""
+        loudness = float(np.abs(modal).sum())
+        return math.log(loudness / silence) / float(-self._poles.real.max()) if loudness > silence > 0 else 0.0
+
+    def _extremes(self, modal: ComplexArray, until: float, silence: float) -> Iterator[tuple[float, float]]:
+        """Delay [s] and value [Pa] of the extremes between an impact and the next, `until` [s] later.
+
+        The slope of the stress changes its sign between two points of a grid; there its root is refined by the Illinois
+        method, all of them at once.
+        """
+        until = min(until, self._over(modal, silence))
+        step = 2 * math.pi / float(self._damped.max()) / _POINTS_OF_PERIOD
+        grid = np.linspace(0.0, until, math.ceil(until / step) + 1)
+        slopes = modal * self._poles
+
+        def slope(t: FloatArray) -> FloatArray:
+            return self._sum(slopes, t)
+
+        values = slope(grid)
+        changes = np.flatnonzero((values[:-1] > 0) != (values[1:] > 0))
+        a, b, at_a, at_b = grid[changes], grid[changes + 1], values[changes], values[changes + 1]
+        for _ in range(_REFINEMENTS):
+            rise = at_b - at_a
+            middle = b - at_b * (b - a) / np.where(rise == 0.0, 1.0, rise)
+            value = slope(middle)
+            crossed = value * at_b < 0
+            a, at_a = np.where(crossed, b, a), np.where(crossed, at_b, at_a / 2)
+            b, at_b = middle, value
+        yield from zip(b.tolist(), self._sum(modal, b).tolist(), strict=True)
+
+    def _sum(self, amplitudes: ComplexArray, t: FloatArray) -> FloatArray:
+        """Sum over the modes of Im(amplitude exp(p t)), in the shape of `t`."""
+        # One mode at a time: a product of matrices this small waits longer for the threads of a BLAS than it works.
+        whole = np.zeros_like(t)
+        for amplitude, pole in zip(amplitudes, self._poles, strict=True):
+            phase = pole.imag * t
+            whole += np.exp(pole.real * t) * (amplitude.real * np.sin(phase) + amplitude.imag * np.cos(phase))
+        return whole
+
+    def _places(self, x: npt.ArrayLike) -> FloatArray:
+        places = np.atleast_1d(np.asarray(x, dtype=np.float64))
+        require_all_within("place", places, 0.0, self.length, "m", "x runs from the root to the tip of the tooth")
+        return places
+
+
+def _checked(times: npt.ArrayLike, velocities: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Times and velocities as arrays, after refusing what cannot be right."""
+    instants = np.atleast_1d(np.asarray(times, dtype=np.float64))
+    jumps = np.atleast_1d(np.asarray(velocities, dtype=np.float64))
+    if instants.ndim != 1 or instants.shape != jumps.shape or not len(instants):
+        raise ValueError(
+            f"{instants.size} times and {jumps.size} velocities are no sequence of impacts: give one velocity for each "
+            "time, at least one."
+        )
+    require_all_within("time of an impact", instants, -_LATEST_TIME, _LATEST_TIME, "s", "give times of the run")
+    require_all_within("impact velocity", jumps, -_FASTEST, _FASTEST, "m/s", "give v_I of each impact, with sign")
+    backwards = np.flatnonzero(np.diff(instants) < 0)
+    if backwards.size:
+        i = int(backwards[0])
+        raise ValueError(
+            f"impact {i + 2} at {instants[i + 1]:g} s comes before impact {i + 1} at {instants[i]:g} s: "
+            "sort them by time."
+        )
+    return instants, jumps
