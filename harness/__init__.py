@@ -15,6 +15,7 @@ Where to find what:
 - several FMUs as one machine: `coupling`, `bonds` (the energy that a coupling makes)
 - meaning: `tooth_stress`, `checks` (verdicts), `paper` (its claims), `study` and `wheels`, `cycle` (indexing),
   `validate`
+- many designs: `designs` (the file, one design, many of them, the best), `sweep_command`, `optimise_command`
 - for people: `assignments` (name=value unit), `numbers`, `results` (files), `report`, `cli`, `commands`, `ending`,
   `terminal`, `interrupt`
 

@@ -195,6 +195,107 @@ def modes(
 
 
 @main.command()
+def sweep(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE.toml", help="What to vary and what to keep.", show_default=False)
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
+    ] = None,
+) -> None:
+    """Run many designs: a grid, random ones, a Latin hypercube or Sobol points.
+
+    A small FILE.toml:
+
+        [fmu]
+        model = "ratchet"
+
+        [run]
+        stop_time = "1.2 s"
+
+        [sweep]
+        method = "grid"
+
+        [vary.tooth_count]
+        values = [10, 15, 20, 25]
+
+        [record]
+        first_impact = ["time", "stress_max"]
+
+    Results are kept as they come: whenever the command ends, by Ctrl-C, a power cut or at midnight, the same command
+    goes on where it stopped. The table results.parquet is for pandas, report.html for people. See docs/sweeps.md.
+
+    Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.
+    """
+    from .sweep_command import run_sweep
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_sweep(file, output, workers, scheduler))
+
+
+@main.command()
+def optimise(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE.toml", help="What is free and what is sought.", show_default=False)
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
+    ] = None,
+) -> None:
+    """Find the best design: variables with bounds, an objective, constraints.
+
+    A small FILE.toml:
+
+        [fmu]
+        model = "ratchet"
+
+        [run]
+        stop_time = "1.2 s"
+
+        [optimise]
+        minimise = "first_impact.stress_max"
+        count = 120
+
+        [vary.tooth_count]
+        from = 10
+        to = 25
+
+        [constraint."parameter.tooth_length"]
+        at_least = 6
+        unit = "mm"
+
+    The same file finds the same design on every machine, and the same command goes on after an interruption. The files
+    are those of a sweep, and optimum.json. See docs/optimum-design.md.
+
+    Exit code: 0 all well, 1 no design keeps all constraints, 2 wrong use, 130 interrupted.
+    """
+    from .optimise_command import run_optimise
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_optimise(file, output, workers, scheduler))
+
+
+@main.command()
 def validate(fmu: FmuPath) -> None:
     """Check an FMU: the file, its default values, a run, saving and restoring of its state, reset.
 

@@ -35,7 +35,19 @@ def fmi1_fmu(tmp_path: Path) -> Path:
     return path
 
 
-COMMANDS = [[], ["build"], ["demo"], ["modes"], ["new"], ["run"], ["study"], ["study", "ratchet"], ["validate"]]
+COMMANDS = [
+    [],
+    ["build"],
+    ["demo"],
+    ["modes"],
+    ["new"],
+    ["optimise"],
+    ["run"],
+    ["study"],
+    ["study", "ratchet"],
+    ["sweep"],
+    ["validate"],
+]
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
@@ -106,6 +118,7 @@ def test_help_does_not_wait_for_the_libraries() -> None:
         "numpy",
         "pandas",
         "plotly",
+        "pyarrow",
         "pydantic",
         "pythonfmu",
         "scipy",

@@ -1,0 +1,15 @@
+"""Many designs of one mechanism: sweeps and optima, each from one TOML file.
+
+Internal: they serve the commands `sweep` and `optimise`. In the order in which a design passes them:
+
+- the file: `toml_file` (tables, keys, lines, mistakes), `plan` ([fmu], [run], [set]), `quantities` ([record]),
+  `variation` ([vary.*]), `sampling` (the list of designs), `sweep_file` (all of it)
+- one design: `task` (what is done with each), `by_fmu` (a run), `ways` (which ways there are)
+- many: `workers` (processes), `cluster` (Dask), `store` (files that survive everything)
+- `sweep`: all of it together
+
+For an optimum, besides: `optimum_file`, `goal` (objective and constraints), `history` (what was asked for is not run
+again), `search`, `sensitivity`.
+"""
+
+__all__: list[str] = []

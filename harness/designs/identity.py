@@ -1,0 +1,88 @@
+"""What makes two runs of a file the same."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from ..description import Description
+from .task import Design, Task
+from .variation import Axis
+
+
+@dataclass(frozen=True)
+class Identity:
+    """Everything on which results depend, by topic, as JSON.
+
+    Comments, titles and the order of tables in the file are no part of it.
+
+    Attributes:
+        topics: names of the file's tables, with what they mean once they are read.
+    """
+
+    topics: Mapping[str, Any]
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of it all."""
+        return _digest(self.topics)
+
+    def changed(self, other: Mapping[str, Any]) -> list[str]:
+        """The topics that differ."""
+        names = dict.fromkeys([*self.topics, *other])
+        return [name for name in names if self.topics.get(name) != other.get(name)]
+
+
+def identity(
+    description: Description,
+    task: Task,
+    axes: Sequence[Axis],
+    how: tuple[str, Mapping[str, Any]],
+    designs: Sequence[Design] = (),
+) -> Identity:
+    """The identity of a list of designs.
+
+    Args:
+        description: of the FMU; its GUID says which it is.
+        task: of every design.
+        axes: what is varied.
+        how: designs are found: name of the table, and what is in it.
+        designs: the list, if it is known from the beginning. It is part of the identity, because another version of
+            scipy might make another list of the same file.
+    """
+    return Identity(
+        {
+            "fmu": {"model": description.model, "guid": description.guid},
+            "run": {
+                "start": task.grid.start,
+                "stop": task.grid.stop,
+                "step": task.grid.step,
+                "material": asdict(task.material.material) | asdict(task.material.strength),
+                "input": None if task.inputs is None else _signals(task),
+            },
+            "set": dict(sorted(task.fixed.items())),
+            "vary": {
+                axis.name: {
+                    "unit": axis.unit,
+                    "limits": None if axis.values is not None else [axis.low, axis.high],
+                    "values": None if axis.values is None else list(axis.values),
+                }
+                for axis in axes
+            },
+            "record": [quantity.column for quantity in task.quantities],
+            how[0]: dict(how[1]) | {"designs": _digest([list(design.values.values()) for design in designs])},
+        }
+    )
+
+
+def _signals(task: Task) -> str:
+    assert task.inputs is not None
+    names = [variable.name for variable in task.inputs.variables]
+    return _digest([names, task.inputs.times.tolist(), task.inputs.values.tolist()])
+
+
+def _digest(data: Any) -> str:
+    return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()

@@ -1,0 +1,138 @@
+"""What all designs of a file share: the FMU, the run, the fixed values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from mechanism_fmu.stress import STEEL_CARD, MaterialCard, material_card
+
+from ..assignments import parse_value, settable_variable
+from ..clock import TimeGrid, seconds
+from ..description import Description, Value, Variable
+from ..errors import UsageError
+from ..inputs import InputSignals, read_inputs
+from .toml_file import Section, TomlFile
+
+#: Times of a file are parsed like variables.
+_TIME = Variable("time", reference=-1, type="Real", causality="parameter", unit="s", minimum=0.0)
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where the FMU comes from: a file, or a ready-made model that is built. One of both."""
+
+    path: Path | None = None
+    model: str | None = None
+
+
+def source(file: TomlFile) -> Source:
+    """The table [fmu].
+
+    Raises:
+        UsageError: the file does not say; without the FMU nothing else can be checked.
+    """
+    section = file.section("fmu", why='write [fmu] and below it file = "Ratchet.fmu", or model = "ratchet"')
+    path, model = section.text("file"), section.text("model")
+    if section.given and not file.mistakes and (path is None) == (model is None):
+        section.wrong("file", 'either file = "Ratchet.fmu" or model = "ratchet" must be given, and not both')
+    section.done()
+    file.check()
+    return Source(None if path is None else file.path.parent / path, model)
+
+
+@dataclass(frozen=True)
+class Course:
+    """How each design runs.
+
+    Attributes:
+        grid: communication points; None if the file is wrong there.
+        inputs: signals that drive inputs; None without a table.
+        material: of the tooth that impacts strike.
+    """
+
+    grid: TimeGrid | None
+    inputs: InputSignals | None
+    material: MaterialCard
+
+
+def course(file: TomlFile, description: Description) -> Course:
+    """The table [run]."""
+    section = file.section("run", needed=False)
+    stop_time = _time(section, "stop_time", description.stop_time, description)
+    step = _time(section, "step", description.step, description)
+    input_file, material = section.text("input"), section.text("material")
+    section.done()
+    card, times, inputs = STEEL_CARD, None, None
+    if material is not None:
+        try:
+            card = material_card(material)
+        except ValueError as error:
+            section.wrong("material", str(error))
+    if stop_time is None or step is None:
+        return Course(None, None, card)
+    key = "stop_time"
+    try:
+        times = TimeGrid.of(stop_time, step)
+        if input_file is not None:
+            key = "input"
+            inputs = read_inputs(file.path.parent / input_file, description, seconds(times.start), seconds(times.stop))
+    except UsageError as error:
+        section.wrong(key, str(error))
+    return Course(times, inputs, card)
+
+
+def fixed_values(file: TomlFile, description: Description, inputs: InputSignals | None) -> dict[str, Value]:
+    """The table [set]: values by name, in the units of the variables."""
+    section = file.section("set", needed=False)
+    values = {}
+    for name in section.table:
+        variable = settable(section, name, name, description, inputs)
+        if variable is None:
+            continue
+        value = parsed(section, name, as_text(section.table[name]), variable, description)
+        if value is not None:
+            values[name] = value
+    return values
+
+
+def settable(
+    section: Section, key: str, name: str, description: Description, inputs: InputSignals | None
+) -> Variable | None:
+    """The variable `name`, which a file sets at `key`; None when it cannot be set there."""
+    try:
+        variable = settable_variable(name, description)
+    except UsageError as error:
+        section.wrong(key, str(error))
+        return None
+    if inputs is not None and variable in inputs.variables:
+        section.wrong(key, f"'{name}' is in the table of inputs, too (run.input); give it in one place.")
+        return None
+    return variable
+
+
+def parsed(section: Section, key: str, text: str, variable: Variable, description: Description) -> Value | None:
+    """The value that `text` gives to `variable`; None when it cannot, which is noted at the key."""
+    try:
+        return parse_value(text, variable, description)
+    except UsageError as error:
+        section.wrong(key, str(error))
+        return None
+
+
+def as_text(value: object) -> str:
+    """A value of TOML as it would be written behind --set."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return value if isinstance(value, str) else repr(value)
+
+
+def _time(section: Section, name: str, default: float | None, description: Description) -> float | None:
+    given = section.take(name)
+    if given is None:
+        if default is None:
+            section.file.wrong((*section.key, name), f"is missing; {description.model} has no default for it")
+        return default
+    named = Variable(name, _TIME.reference, _TIME.type, _TIME.causality, unit="s", minimum=0.0)
+    value = parsed(section, name, as_text(given), named, description)
+    return None if value is None else float(value)

@@ -1,0 +1,105 @@
+"""The quantities that a file asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..description import Description, Variable, hint_at
+from ..impacts import ImpactCollector
+from ..tooth_damage import DAMAGE_UNITS
+from ..tooth_stress import STRESS_UNITS
+from .task import Quantity, When
+from .toml_file import Section
+
+_NUMBERS = ("Real", "Integer", "Boolean")
+_TOOTH = ("tooth_length", "tooth_apex_angle")
+
+
+class UnknownQuantityError(ValueError):
+    """A quantity that cannot be had; the message says which can."""
+
+
+def recorded(section: Section, description: Description) -> list[Quantity]:
+    """The quantities of the table [record]: for each `When` a list of names."""
+    found = []
+    for when in When:
+        for name in section.texts(when):
+            try:
+                found.append(quantity(when, name, description))
+            except UnknownQuantityError as error:
+                section.wrong(when, str(error))
+    section.done()
+    return found
+
+
+def quantity(when: When, name: str, description: Description) -> Quantity:
+    """The quantity with this name.
+
+    Raises:
+        UnknownQuantityError: there is none.
+    """
+    variables = _variables(when, description)
+    if name in variables:
+        variable = variables[name]
+        return Quantity(when, name, variable.type, variable.unit, variable.display_unit)
+    raise UnknownQuantityError(_objection(when, name, description, variables))
+
+
+def column(text: str, description: Description) -> Quantity:
+    """The quantity of a column, as "largest_impact.stress_max".
+
+    Raises:
+        UnknownQuantityError: there is none.
+    """
+    when, _, name = text.partition(".")
+    if when not in list(When) or not name:
+        raise UnknownQuantityError(
+            f"'{text}' is no quantity; write when and what, as in \"end.wheel_angle\"; "
+            f"when is one of {', '.join(When)}.{hint_at(when, list(When))}"
+        )
+    return quantity(When(when), name, description)
+
+
+def _variables(when: When, description: Description) -> Mapping[str, Variable]:
+    """What can be had at this time, by name."""
+    if when.of_impacts:
+        fields = ImpactCollector(description).fields
+        if when is When.ALL_IMPACTS:
+            return _stresses(description, fields, DAMAGE_UNITS)
+        return {**fields, **_stresses(description, fields, STRESS_UNITS)}
+    causalities = ("parameter", "calculatedParameter") if when is When.PARAMETER else ("input", "output")
+    return {variable.name: variable for variable in description.of(*causalities) if variable.type in _NUMBERS}
+
+
+def _stresses(
+    description: Description, fields: Mapping[str, Variable], units: Mapping[str, str]
+) -> dict[str, Variable]:
+    """What impacts do to a tooth, if the FMU describes a tooth and tells the velocity that strikes it."""
+    if "velocity" not in fields or not set(_TOOTH) <= set(description.variables):
+        return {}
+    return {
+        name: Variable(name, reference=-1, type="Real", causality="local", unit="" if unit == "1" else unit)
+        for name, unit in units.items()
+    }
+
+
+def _objection(when: When, name: str, description: Description, variables: Mapping[str, Variable]) -> str:
+    if when.of_impacts:
+        if not ImpactCollector(description).fields:
+            return f"{description.model} reports no impacts, so there is no '{name}' of one."
+        if name in (DAMAGE_UNITS if when is When.ALL_IMPACTS else STRESS_UNITS) or not variables:
+            return f"{description.model} gives no '{name}': it describes no tooth ({', '.join(_TOOTH)})."
+        return f"an impact has no '{name}'.{_way_out(name, variables)}"
+    if name in description.variables:
+        variable = description.variable(name)
+        why = "a text" if variable.type == "String" else f"a variable of causality {variable.causality}"
+        others = [w for w in When if name in _variables(w, description)]
+        hint = f" Write it at {' or '.join(others)}." if others else ""
+        return f"'{name}' is {why}, which cannot be had {when.meaning}.{hint}"
+    known = "parameter" if when is When.PARAMETER else "input or output"
+    return f"{description.model} has no {known} '{name}'.{_way_out(name, variables)}"
+
+
+def _way_out(name: str, variables: Mapping[str, Variable]) -> str:
+    plain = [known for known in variables if "[" not in known]
+    return hint_at(name, variables) or f" There are: {', '.join(plain)}."

@@ -1,0 +1,178 @@
+"""How better designs are found. Every search asks for the same designs each time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy import optimize
+
+from ..description import Value
+from ..errors import UsageError
+from .history import EnoughError, History
+from .optimum_file import CONTINUOUS, Optimum
+from .task import Design, Result
+from .variation import Axis
+
+#: Members of a generation for each variable.
+_MEMBERS = 8
+#: Candidates that are run before the next are thought of. Not the number of processors: it would decide what is found.
+_TOGETHER = 8
+#: Part of all designs that the search at large may have; the rest refines what it found.
+_AT_LARGE = 0.75
+#: First and last size of the simplex that refines, as a part of each range.
+_FIRST, _LAST = 0.05, 1e-7
+
+
+@dataclass(frozen=True)
+class Best:
+    """The best design of a search.
+
+    Attributes:
+        design: it is.
+        result: of it.
+        feasible: whether it keeps all limits.
+    """
+
+    design: Design
+    result: Result
+    feasible: bool
+
+
+def search(optimum: Optimum, history: History) -> Best:
+    """Look for the best design.
+
+    Raises:
+        UsageError: a library is missing, or the disk refuses.
+        InterruptedSearchError: somebody wants it to end.
+    """
+    real = [axis for axis in optimum.axes if axis.values is None and axis.variable.type == "Real"]
+    at_large = max(1, round(_AT_LARGE * optimum.count)) if real else optimum.count
+    history.limit = at_large
+    _until_enough(
+        lambda: _differential_evolution(optimum, history) if optimum.method == CONTINUOUS else _tpe(optimum, history)
+    )
+    history.limit = optimum.count
+    if real:
+        _until_enough(lambda: _nelder_mead(optimum, history, real))
+    return best_of(optimum, history)
+
+
+def best_of(optimum: Optimum, history: History) -> Best:
+    """The best design so far, of equally good ones the first."""
+    merits = [optimum.goal.merit(result, optimum.task) for result in history.results]
+    place = int(np.argmin(merits))
+    result = history.results[place]
+    return Best(history.designs[place], result, optimum.goal.violation(result, optimum.task) == 0.0)
+
+
+def _until_enough(look: Callable[[], object]) -> None:
+    try:
+        look()
+    except EnoughError:
+        return
+
+
+def _merits(optimum: Optimum, history: History, candidates: Sequence[dict[str, Value]]) -> npt.NDArray[np.float64]:
+    """Merits of all candidates.
+
+    Raises:
+        EnoughError: some of them are more than there may be.
+    """
+    results = history.results_of(candidates)
+    if len(results) < len(candidates):
+        raise EnoughError
+    return np.array([optimum.goal.merit(result, optimum.task) for result in results])
+
+
+def _differential_evolution(optimum: Optimum, history: History) -> None:
+    """R. Storn, K. Price, J. Global Optimization 11 (1997): it compares merits, and nothing else."""
+
+    def merits(fractions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        return _merits(optimum, history, [_at(optimum.axes, point) for point in np.atleast_2d(fractions.T)])
+
+    optimize.differential_evolution(
+        merits,
+        [(0.0, 1.0)] * len(optimum.axes),
+        popsize=_MEMBERS,
+        maxiter=optimum.count,
+        rng=np.random.default_rng(optimum.seed),
+        polish=False,
+        updating="deferred",
+        vectorized=True,
+    )
+
+
+def _nelder_mead(optimum: Optimum, history: History, real: Sequence[Axis]) -> None:
+    """Refine the Real variables of the best design; it compares merits, and nothing else."""
+    best = best_of(optimum, history).design.values
+    start = np.array([axis.fraction(float(best[axis.name])) for axis in real])
+    simplex = np.vstack([start, *(_moved(start, k) for k in range(len(real)))])
+
+    def merit(fractions: npt.NDArray[np.float64]) -> float:
+        return float(_merits(optimum, history, [dict(best) | _at(real, fractions)])[0])
+
+    optimize.minimize(
+        merit,
+        start,
+        method="Nelder-Mead",
+        bounds=[(0.0, 1.0)] * len(real),
+        options={"initial_simplex": simplex, "xatol": _LAST, "fatol": np.inf, "maxfev": 10 * optimum.count},
+    )
+
+
+def _moved(start: npt.NDArray[np.float64], k: int) -> npt.NDArray[np.float64]:
+    corner = start.copy()
+    corner[k] += _FIRST if start[k] < 0.5 else -_FIRST
+    return corner
+
+
+def _tpe(optimum: Optimum, history: History) -> None:
+    """J. Bergstra et al., NIPS 24 (2011), by optuna: for whole numbers and lists, too."""
+    optuna = _optuna()
+    ranges = {axis.name: _distribution(optuna, axis) for axis in optimum.axes}
+    study = optuna.create_study(sampler=optuna.samplers.TPESampler(seed=optimum.seed))
+    while True:
+        trials = [study.ask(ranges) for _ in range(_TOGETHER)]
+        candidates = [{axis.name: _chosen(axis, trial.params[axis.name]) for axis in optimum.axes} for trial in trials]
+        results = history.results_of(candidates)
+        for trial, result in zip(trials, results, strict=False):
+            violation, value = (look(result, optimum.task) for look in (optimum.goal.violation, optimum.goal.value))
+            if violation is None or value is None:
+                study.tell(trial, state=optuna.trial.TrialState.FAIL)
+            else:
+                trial.set_constraint("violation", violation)
+                study.tell(trial, -value if optimum.goal.largest else value)
+
+
+def _optuna() -> Any:
+    try:
+        import optuna
+    except ImportError:
+        raise UsageError(
+            "Whole numbers and lists of values need optuna, which is not installed: "
+            'python -m pip install "mechanism_fmu[optimise]"'
+        ) from None
+    optuna.logging.set_verbosity(optuna.logging.WARNING)
+    return optuna
+
+
+def _distribution(optuna: Any, axis: Axis) -> Any:
+    if axis.values is not None:
+        return optuna.distributions.CategoricalDistribution(range(len(axis.values)))
+    if axis.variable.type == "Integer":
+        return optuna.distributions.IntDistribution(int(axis.low), int(axis.high))
+    return optuna.distributions.FloatDistribution(axis.low, axis.high)
+
+
+def _chosen(axis: Axis, choice: Any) -> Value:
+    if axis.values is not None:
+        return axis.values[int(choice)]
+    return int(choice) if axis.variable.type == "Integer" else axis.real(float(choice))
+
+
+def _at(axes: Sequence[Axis], fractions: npt.NDArray[np.float64]) -> dict[str, Value]:
+    return {axis.name: axis.at(float(x)) for axis, x in zip(axes, fractions, strict=True)}

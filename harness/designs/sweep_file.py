@@ -1,0 +1,77 @@
+"""The file of a sweep, checked as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..description import Description
+from . import sampling
+from .plan import course, fixed_values
+from .quantities import recorded
+from .task import Design, Task
+from .toml_file import TomlFile
+from .variation import Axis, axes
+
+_GRID = "grid"
+TABLES = ("title", "fmu", "run", "set", "sweep", "vary", "record")
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What a file asks for.
+
+    Attributes:
+        title: for people.
+        task: what is done with each design.
+        axes: what is varied.
+        method: how designs are chosen.
+        designs: all of them.
+    """
+
+    title: str
+    task: Task
+    axes: tuple[Axis, ...]
+    method: str
+    designs: Sequence[Design]
+
+
+def read_sweep(file: TomlFile, description: Description) -> Sweep:
+    """The sweep of a file for an FMU.
+
+    Raises:
+        UsageError: mistakes in the file, all of them.
+    """
+    file.only_tables(TABLES)
+    title = file.data.get("title", file.path.stem)
+    if not isinstance(title, str):
+        file.wrong(("title",), "must be a text in quotes")
+    running = course(file, description)
+    fixed = fixed_values(file, description, running.inputs)
+    section = file.section("sweep", why='write [sweep] and below it method = "latin_hypercube" and count = 64')
+    method = section.choice("method", (_GRID, *sampling.METHODS), needed='write e.g. method = "latin_hypercube"')
+    by_grid = method == _GRID
+    wants_count = "write how many designs there shall be, as in count = 64" if method and not by_grid else ""
+    count = section.whole("count", least=1, needed=wants_count)
+    seed = section.whole("seed", least=0)
+    if by_grid:
+        for name in ("count", "seed"):
+            if name in section.table:
+                section.wrong(name, "does not go with a grid, which has every value with every other")
+    section.done()
+    varied = axes(file, description, running.inputs, list(fixed), grid=by_grid if method else None)
+    record = file.section("record", why='write [record] and below it e.g. end = ["wheel_angle"]')
+    quantities = recorded(record, description)
+    if record.given and not record.table:
+        file.wrong(("record",), 'is empty; write what to keep of each design, as in end = ["wheel_angle"]')
+    file.check()
+    assert running.grid is not None  # otherwise there were mistakes
+    assert method is not None
+    designs = sampling.grid(varied) if by_grid else sampling.sampled(varied, method, count or 1, seed or 0)
+    return Sweep(
+        str(title),
+        Task(running.grid, fixed, running.inputs, tuple(quantities), running.material),
+        tuple(varied),
+        method,
+        designs,
+    )

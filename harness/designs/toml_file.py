@@ -1,0 +1,208 @@
+"""TOML files whose mistakes are told all at once, each with its line."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..description import hint_at
+from ..errors import UsageError
+
+#: Where something stands in a file: names of tables, then of the key.
+Key = tuple[str, ...]
+
+_TABLE = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]\s*(#.*)?")
+_ASSIGNMENT = re.compile(r"""\s*((?:[\w.\s-]|"[^"]*"|'[^']*')+?)\s*=""")
+_NAME = re.compile(r"""\s*(?:"([^"]*)"|'([^']*)'|([\w-]+))\s*(?:\.|$)""")
+
+
+@dataclass
+class TomlFile:
+    """A file that is being read, with the mistakes found in it so far.
+
+    Attributes:
+        path: of the file.
+        data: what is in it.
+        mistakes: what is wrong, in the order in which it was found: key and sentence.
+    """
+
+    path: Path
+    data: Mapping[str, Any]
+    mistakes: list[tuple[Key, str]] = field(default_factory=list)
+    _lines: Mapping[Key, int] = field(default_factory=dict)
+
+    @classmethod
+    def read(cls, path: Path) -> TomlFile:
+        """Read the file `path`.
+
+        Raises:
+            UsageError: it cannot be read, or is no TOML.
+        """
+        try:
+            text = path.read_text(encoding="utf-8-sig")
+        except FileNotFoundError:
+            raise UsageError(f"There is no file '{path}'.") from None
+        except (OSError, UnicodeDecodeError) as error:
+            raise UsageError(f"'{path}' cannot be read: {error}.") from error
+        try:
+            data = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise UsageError(f'{path}: this is no TOML: {error}. Texts stand in quotes, as in unit = "deg".') from None
+        return cls(path, data, _lines=_lines_of(text))
+
+    def wrong(self, key: Key, text: str) -> None:
+        """Note a mistake; the same one only once."""
+        text = text if text.endswith((".", "?")) else f"{text}."
+        if (key, text) not in self.mistakes:
+            self.mistakes.append((key, text))
+
+    def section(self, *key: str, needed: bool = True, why: str = "") -> Section:
+        """The table at `key`, empty when there is none; that is a mistake if it is needed, `why` says what for."""
+        table: Any = self.data
+        for name in key:
+            table = table.get(name) if isinstance(table, Mapping) else None
+        given = table is not None
+        if needed and not given:
+            self.wrong(key, f"the table [{'.'.join(key)}] is missing; {why}")
+        if given and not isinstance(table, Mapping):
+            self.wrong(key, f"must be a table [{'.'.join(key)}], not {_shown(table)}")
+        return Section(self, key, table if isinstance(table, Mapping) else {}, given)
+
+    def only_tables(self, known: Sequence[str]) -> None:
+        """Object to everything at the top of the file that is not among the `known` names."""
+        for name in self.data:
+            if name not in known:
+                self.wrong((name,), f"is not known.{_hint(name, known)}")
+
+    def place(self, key: Key) -> str:
+        """Where the user finds `key`: file, line if it is in the file, and name."""
+        for length in range(len(key), 0, -1):
+            if key[:length] in self._lines:
+                return f"{self.path}:{self._lines[key[:length]]}: {'.'.join(key)}"
+        return f"{self.path}: {'.'.join(key)}"
+
+    def check(self) -> None:
+        """Tell all mistakes.
+
+        Raises:
+            UsageError: there are some.
+        """
+        if not self.mistakes:
+            return
+        ordered = sorted(self.mistakes, key=lambda mistake: self._line(mistake[0]))
+        told = [f"{self.place(key)}: {text}" for key, text in ordered]
+        number = "a mistake" if len(told) == 1 else f"{len(told)} mistakes"
+        raise UsageError("\n".join([f"{self.path.name} has {number}; nothing was run.", *told]))
+
+    def _line(self, key: Key) -> int:
+        found = (self._lines[key[:length]] for length in range(len(key), 0, -1) if key[:length] in self._lines)
+        return next(found, 0)
+
+
+@dataclass
+class Section:
+    """One table of a file; what has not been taken from it in the end is not known.
+
+    Attributes:
+        file: it stands in.
+        key: of the table.
+        table: what is in it.
+        given: whether the file has it at all.
+    """
+
+    file: TomlFile
+    key: Key
+    table: Mapping[str, Any]
+    given: bool = True
+    _known: list[str] = field(default_factory=list)
+
+    def wrong(self, name: str, text: str) -> None:
+        """Note a mistake at a key of this table."""
+        self.file.wrong((*self.key, name), text)
+
+    def take(self, name: str, *, needed: str = "") -> Any:
+        """What stands at a key, None when nothing does; `needed` says what to write there if it must not miss."""
+        self._known.append(name)
+        if name not in self.table and needed and self.given:
+            self.wrong(name, f"is missing; {needed}")
+        return self.table.get(name)
+
+    def text(self, name: str, *, needed: str = "") -> str | None:
+        """A text."""
+        value = self.take(name, needed=needed)
+        if value is None or isinstance(value, str):
+            return value
+        self._refused(name, value, "a text in quotes")
+        return None
+
+    def whole(self, name: str, *, least: int, needed: str = "") -> int | None:
+        """A whole number that is not less than `least`."""
+        value = self.take(name, needed=needed)
+        if value is None or (isinstance(value, int) and not isinstance(value, bool) and value >= least):
+            return value
+        self._refused(name, value, f"a whole number, {least} or more")
+        return None
+
+    def choice(self, name: str, among: Sequence[str], *, needed: str = "") -> str | None:
+        """One of several texts."""
+        value = self.take(name, needed=needed)
+        if isinstance(value, str) and value in among:
+            return value
+        if value is not None:
+            self._refused(name, value, f"one of {', '.join(among)}", hint_at(str(value), among))
+        return None
+
+    def texts(self, name: str) -> list[str]:
+        """A list of texts, each there once."""
+        value = self.take(name)
+        if value is None:
+            return []
+        if not isinstance(value, list) or not all(isinstance(entry, str) for entry in value):
+            self._refused(name, value, 'a list of texts, as in ["a", "b"]')
+            return []
+        for entry in value:
+            if value.count(entry) > 1:
+                self.wrong(name, f"'{entry}' is there twice; once is enough")
+        return list(dict.fromkeys(value))
+
+    def done(self) -> None:
+        """Object to every key that nobody has taken."""
+        for name in self.table:
+            if name not in self._known:
+                self.wrong(name, f"is not known.{_hint(name, self._known)}")
+
+    def _refused(self, name: str, value: object, wanted: str, hint: str = "") -> None:
+        self.wrong(name, f"is {_shown(value)}, but must be {wanted}.{hint}")
+
+
+def _hint(name: str, known: Sequence[str]) -> str:
+    return hint_at(name, known) or f" There are: {', '.join(known)}."
+
+
+def _shown(value: object) -> str:
+    """A value as TOML has it, as far as a message needs it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"'{value}'" if isinstance(value, str) else f"{value}"
+
+
+def _lines_of(text: str) -> dict[Key, int]:
+    """The line of each table and key. What stands in an inline table or a text of several lines is not looked for."""
+    lines: dict[Key, int] = {}
+    table: Key = ()
+    for number, line in enumerate(text.splitlines(), start=1):
+        heading, assignment = _TABLE.fullmatch(line), _ASSIGNMENT.match(line)
+        if heading is not None:
+            table = _names(heading[1])
+            lines.setdefault(table, number)
+        elif assignment is not None:
+            lines.setdefault((*table, *_names(assignment[1])), number)
+    return lines
+
+
+def _names(dotted: str) -> Key:
+    return tuple("".join(match.groups(default="")) for match in _NAME.finditer(dotted))

@@ -1,0 +1,202 @@
+"""What is varied, and between which limits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..description import Description, Value, Variable
+from ..inputs import InputSignals
+from ..units import UnitMismatchError
+from .plan import as_text, parsed, settable
+from .toml_file import Section, TomlFile
+
+#: Columns of the results that no variable may have the name of.
+RESERVED = ("design", "way", "status", "message", "warnings")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One variable that is varied.
+
+    Attributes:
+        variable: it is.
+        unit: of what the file says, and of charts; "" when it has none.
+        low, high: limits in `unit`; both belong to it.
+        values: the only values there are, in the unit of the variable; None when there are limits instead.
+        grid: the values of a grid, in the unit of the variable.
+        description: of the FMU.
+    """
+
+    variable: Variable
+    unit: str
+    low: float
+    high: float
+    values: tuple[Value, ...] | None
+    grid: tuple[Value, ...]
+    description: Description
+
+    @property
+    def name(self) -> str:
+        """Of the variable."""
+        return self.variable.name
+
+    def at(self, fraction: float) -> Value:
+        """The value at a fraction in [0, 1) of the way; whole numbers and values of a list are all equally wide."""
+        if self.values is not None:
+            return self.values[min(int(fraction * len(self.values)), len(self.values) - 1)]
+        if self.variable.type == "Integer":
+            low, high = int(self.low), int(self.high)
+            return min(low + int(fraction * (high - low + 1)), high)
+        return self.real(self.low + fraction * (self.high - self.low))
+
+    def real(self, number: float) -> float:
+        """A number in `unit`, kept within the limits, in the unit of the variable."""
+        within = min(max(number, self.low), self.high)
+        return _converted(within, self.unit, self.variable, self.description)
+
+    def fraction(self, value: float) -> float:
+        """Where a value in the unit of the variable lies between the limits, in [0, 1]."""
+        low, high = self.real(self.low), self.real(self.high)
+        return min(max((value - low) / (high - low), 0.0), 1.0)
+
+
+def axes(
+    file: TomlFile, description: Description, inputs: InputSignals | None, fixed: Sequence[str], *, grid: bool | None
+) -> list[Axis]:
+    """The tables [vary.NAME]; in a grid, each says how many values there are (None: not known)."""
+    section = file.section("vary", why="write [vary.NAME] for each variable, with from and to, or values")
+    if section.given and not section.table:
+        file.wrong(("vary",), "is empty; write [vary.NAME] for each variable, with from and to, or values")
+    found = []
+    for name in section.table:
+        axis = _axis(file.section("vary", name), name, description, inputs, fixed, grid=grid)
+        if axis is not None:
+            found.append(axis)
+    return found
+
+
+def _axis(
+    section: Section,
+    name: str,
+    description: Description,
+    inputs: InputSignals | None,
+    fixed: Sequence[str],
+    *,
+    grid: bool | None,
+) -> Axis | None:
+    said = len(section.file.mistakes)
+    low, high, values = section.take("from"), section.take("to"), section.take("values")
+    unit, steps = section.text("unit"), section.whole("steps", least=2)
+    section.done()
+    variable = _variable(section, name, description, inputs, fixed)
+    if variable is None:
+        return None
+    by_values = values is not None
+    if by_values and not (low is high is steps is None):
+        section.wrong("values", "stands beside from, to or steps; give either values, or from and to")
+    if not by_values:
+        _check_limits_given(section, variable, low, high, steps, grid=grid)
+    if unit is not None and not _unit_fits(section, unit, variable, description):
+        return None
+    if len(section.file.mistakes) > said:
+        return None
+    shown = unit or variable.unit
+    if by_values:
+        listed = _listed(section, values, unit, variable, description)
+        return None if listed is None else Axis(variable, shown, 0.0, 0.0, listed, listed, description)
+    limits = [_limit(section, key, given, unit, variable, description) for key, given in (("from", low), ("to", high))]
+    if None in limits:
+        return None
+    if low >= high:
+        section.wrong("from", f"= {low} is not below to = {high}; exchange them, or give different limits")
+        return None
+    axis = Axis(variable, shown, float(low), float(high), None, (), description)
+    return Axis(variable, shown, float(low), float(high), None, _grid(axis, steps) if grid else (), description)
+
+
+def _variable(
+    section: Section, name: str, description: Description, inputs: InputSignals | None, fixed: Sequence[str]
+) -> Variable | None:
+    parent = Section(section.file, section.key[:-1], {})
+    variable = settable(parent, name, name, description, inputs)
+    if name in fixed:
+        parent.wrong(name, f"'{name}' is fixed in [set] and varied here; give it in one place")
+    if name in RESERVED:
+        parent.wrong(name, "cannot be varied: the table of results has a column of its own with that name")
+    return variable
+
+
+def _check_limits_given(
+    section: Section, variable: Variable, low: object, high: object, steps: int | None, *, grid: bool | None
+) -> None:
+    if variable.type in ("Boolean", "String"):
+        section.wrong("values", f"is missing; {variable.name} is {variable.type}, so its values must be listed")
+        return
+    for key, given in (("from", low), ("to", high)):
+        if given is None:
+            section.wrong(key, "is missing; give from and to, or values")
+    if steps is not None and grid is False:
+        section.wrong("steps", 'goes with a grid only: [sweep] method = "grid"')
+    if steps is not None and variable.type == "Integer":
+        section.wrong("steps", "goes with Real variables; of whole numbers a grid takes all, or those listed in values")
+    if grid and steps is None and variable.type == "Real" and "steps" not in section.table:
+        section.wrong("steps", "is missing; a grid needs to know how many values to take, both ends among them")
+
+
+def _unit_fits(section: Section, unit: str, variable: Variable, description: Description) -> bool:
+    if not variable.unit:
+        section.wrong("unit", f"'{unit}': {variable.name} has no unit; leave it out")
+        return False
+    try:
+        description.units.convert(1.0, unit, variable.unit)
+    except UnitMismatchError as mismatch:
+        section.wrong("unit", f"{mismatch}.")
+        return False
+    return True
+
+
+def _limit(
+    section: Section, key: str, given: object, unit: str | None, variable: Variable, description: Description
+) -> Value | None:
+    if isinstance(given, str | bool):
+        text = as_text(given)
+        section.wrong(key, f"is '{text}', but must be a number; its unit has a key of its own, as in unit = \"deg\"")
+        return None
+    return parsed(section, key, _with_unit(given, unit), variable, description)
+
+
+def _listed(
+    section: Section, values: object, unit: str | None, variable: Variable, description: Description
+) -> tuple[Value, ...] | None:
+    if not isinstance(values, list) or not values:
+        section.wrong("values", "must be a list, as in values = [10, 15, 20]")
+        return None
+    found: list[Value] = []
+    for given in values:
+        if isinstance(given, str) and variable.type != "String":
+            section.wrong("values", f"has '{given}', which is a text; its unit has a key of its own")
+            continue
+        value = parsed(section, "values", _with_unit(given, unit), variable, description)
+        if value is not None:
+            found.append(value)
+    if len(set(found)) < len(found):
+        section.wrong("values", "has the same value twice; the same design would run twice")
+        return None
+    return tuple(found) if len(found) == len(values) else None
+
+
+def _grid(axis: Axis, steps: int | None) -> tuple[Value, ...]:
+    if axis.variable.type == "Integer":
+        return tuple(range(int(axis.low), int(axis.high) + 1))
+    return tuple(axis.real(float(number)) for number in np.linspace(axis.low, axis.high, steps or 2))
+
+
+def _with_unit(value: object, unit: str | None) -> str:
+    return as_text(value) if unit is None else f"{as_text(value)} {unit}"
+
+
+def _converted(number: float, unit: str, variable: Variable, description: Description) -> float:
+    return description.units.convert(number, unit, variable.unit) if unit else number

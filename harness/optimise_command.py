@@ -1,0 +1,134 @@
+"""What the command `optimise` does."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from rich.markup import escape
+
+from .designs.history import History, InterruptedSearchError
+from .designs.identity import identity
+from .designs.optimum_file import Optimum, read_optimum
+from .designs.plan import source
+from .designs.search import Best, best_of, search
+from .designs.sensitivity import Sensitivity, sensitivity
+from .designs.store import Store
+from .designs.sweep import Progress
+from .designs.toml_file import TomlFile
+from .designs.ways import BY_FMU
+from .fmu import open_fmu
+from .interrupt import interruption
+from .numbers import shown
+from .results import prepare_folder, write_json
+from .sweep_command import DesignsBar, alone_in, crew_of, fmu_file
+from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
+
+
+def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None) -> int:
+    """Look for the best design of a file, go on where it stopped, and write history, optimum and report."""
+    file = TomlFile.read(path)
+    wanted = source(file)
+    folder = Path(path.stem) if folder is None else folder
+    prepare_folder(folder)
+    with alone_in(folder), open_fmu(fmu_file(wanted, folder)) as fmu:
+        optimum = read_optimum(file, fmu.description)
+        known = identity(fmu.description, optimum.task, optimum.axes, optimum.how)
+        store = Store(folder, known, optimum.axes, optimum.task.quantities)
+        what = "largest" if optimum.goal.largest else "smallest"
+        console.print(
+            f"[bold]{escape(optimum.title)}[/]: the {what} {escape(optimum.goal.objective.column)} in up to "
+            f"{optimum.total} designs ({optimum.method})",
+            soft_wrap=True,
+        )
+        asked = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
+        with (
+            crew_of(fmu, optimum.task, BY_FMU, workers, scheduler) as crew,
+            DesignsBar(optimum.total) as bar,
+            interruption(lambda: console.print(asked)) as stop_requested,
+        ):
+            history = History(
+                store, crew, optimum.count, stop_requested, lambda history: bar.show(_progress(history, optimum))
+            )
+            try:
+                best = search(optimum, history)
+                near_it = sensitivity(optimum, best, history)
+            except InterruptedSearchError:
+                return _interrupted(optimum, history, store)
+        return _ending(optimum, history, best, near_it, store)
+
+
+def _progress(history: History, optimum: Optimum) -> Progress:
+    failed = sum(result.failure is not None for result in history.results)
+    done = len(history.results)
+    return Progress(optimum.total, min(history.earlier, done), done, failed)
+
+
+def _interrupted(optimum: Optimum, history: History, store: Store) -> int:
+    so_far = ""
+    if history.results:
+        value = optimum.goal.value(best_of(optimum, history).result, optimum.task)
+        so_far = "" if value is None else f" Best so far: {value:.9g} {optimum.goal.objective.unit or '1'}."
+    console.print(
+        f"[yellow]Interrupted[/]: {len(store.pairs())} designs are kept in {escape(str(store.folder))}.{so_far} "
+        "The same command goes on.",
+        soft_wrap=True,
+    )
+    return INTERRUPTED
+
+
+def _ending(optimum: Optimum, history: History, best: Best, near_it: Sensitivity | None, store: Store) -> int:
+    """Say what was found, write everything, and return the exit code."""
+    from .report.optimum_report import write_optimum_report
+
+    table = store.finish()
+    console.print(f"{len(history.designs)} designs, {min(history.earlier, len(history.designs))} of them there before.")
+    description = optimum.axes[0].description
+    values = best.design.values.items()
+    rows = [[name, shown(value, name, description), "free"] for name, value in values]
+    for quantity, value in zip(optimum.task.quantities, best.result.values, strict=True):
+        role = "objective" if quantity == optimum.goal.objective else "found"
+        rows.append([quantity.column, "none" if value is None else f"{value:.9g} {quantity.unit}".strip(), role])
+    show_table(f"Best design: number {best.design.number}", ["quantity", "value", ""], rows)
+    if near_it is not None:
+        indices = zip(near_it.names, near_it.first, near_it.total, strict=True)
+        lines = [[name, f"{first:.3f}", f"{total:.3f}"] for name, first, total in indices]
+        show_table("Sobol indices near it", ["variable", "first order [1]", "total [1]"], lines, numeric=(1, 2))
+    elif optimum.around is not None:
+        console.print("No Sobol indices: near the optimum, some design gives no number.")
+    after = best_of(optimum, history)
+    if after.feasible and after.design.number > optimum.count:
+        console.print(
+            f"A neighbour, design {after.design.number}, is better still: a larger count would find such.",
+            soft_wrap=True,
+        )
+    files = [
+        store.table_file,
+        store.identity_file,
+        write_json(store.folder / "optimum.json", _summary(optimum, best, near_it)),
+        write_optimum_report(optimum, best, near_it, history, table, store.folder / "report.html"),
+    ]
+    show_files(files)
+    if not best.feasible:
+        show_error("No design keeps all constraints; the one shown misses them least. Give it more freedom.")
+        return FAILED
+    return 0
+
+
+def _summary(optimum: Optimum, best: Best, near_it: Sensitivity | None) -> dict[str, object]:
+    pairs = zip(optimum.task.quantities, best.result.values, strict=True)
+    return {
+        "design": best.design.number,
+        "keeps_constraints": best.feasible,
+        "values": dict(best.design.values),
+        "found": {
+            quantity.column: value if value is not None and math.isfinite(float(value)) else None
+            for quantity, value in pairs
+        },
+        "sobol_indices": None
+        if near_it is None
+        else {
+            name: {"first_order": float(first), "total": float(total)}
+            for name, first, total in zip(near_it.names, near_it.first, near_it.total, strict=True)
+        },
+    }

@@ -1,0 +1,101 @@
+"""Sweeps whose designs take a moment and leave a trace, and a process that runs one until it is killed."""
+
+import os
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from fake_slave import fake_description
+
+from harness.clock import TimeGrid
+from harness.designs.identity import identity
+from harness.designs.sampling import sampled
+from harness.designs.store import Store
+from harness.designs.sweep import perform_sweep
+from harness.designs.sweep_file import Sweep
+from harness.designs.task import Design, Quantity, Result, Task, When
+from harness.designs.variation import Axis
+from harness.designs.ways import Way
+from harness.designs.workers import Work, here
+
+SQUARE = Quantity(When.END, "square", "Real", "m2")
+#: Designs with these numbers fail, and crash the process.
+FAILING, DEADLY = 7, 11
+
+
+@dataclass(frozen=True)
+class Place:
+    """All that these ways need of an FMU: a folder that may go, in one that stays."""
+
+    folder: Path
+
+
+def axis(name: str = "restitution", low: float = 0.0, high: float = 1.0, unit: str = "") -> Axis:
+    description = fake_description()
+    return Axis(description.variables[name], unit, low, high, None, (), description)
+
+
+def cheap_sweep(count: int, method: str = "sobol", seed: int = 1) -> Sweep:
+    axes = (axis(),)
+    task = Task(TimeGrid.of(1.0, 0.1), {}, None, (SQUARE,))
+    return Sweep("Cheap", task, axes, method, sampled(axes, method, count, seed))
+
+
+def store_of(sweep: Sweep, folder: Path) -> Store:
+    known = identity(fake_description(), sweep.task, sweep.axes, ("sweep", {"method": sweep.method}), sweep.designs)
+    return Store(folder, known, sweep.axes, sweep.task.quantities)
+
+
+def _square(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
+    results = []
+    for design in designs:
+        with open(fmu.folder.parent / "trace", "a") as file:
+            file.write(f"{design.number}\n")
+        time.sleep(1e-3)
+        x = float(design.values["restitution"])
+        results.append(Result(design.number, "cheap", (x * x,)))
+    return results
+
+
+def _troubled(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
+    for design in designs:
+        if design.number == DEADLY:
+            os._exit(3)
+    return [
+        Result.failed(design, "cheap", task, "the pawl has left the wheel.") if design.number == FAILING else result
+        for design, result in zip(designs, _square(fmu, task, designs), strict=True)
+    ]
+
+
+def _far(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
+    """A valley whose floor is at restitution 0.3, drive_torque -0.2 and 17 teeth; every 40th design fails."""
+    results = []
+    for design in designs:
+        x, y = float(design.values.get("restitution", 0.3)), float(design.values.get("drive_torque", -0.2))
+        n = int(design.values.get("tooth_count", 17))
+        far = (x - 0.3) ** 2 + 4.0 * (y + 0.2) ** 2 + 0.01 * (n - 17) ** 2
+        results.append(
+            Result.failed(design, "cheap", task, "the pawl has left the wheel.")
+            if design.number % 40 == 0
+            else Result(design.number, "cheap", (far, x + y))
+        )
+    return results
+
+
+CHEAP = Way("cheap", _square)  # type: ignore[arg-type]
+TROUBLED = Way("cheap", _troubled)  # type: ignore[arg-type]
+VALLEY = Way("cheap", _far)  # type: ignore[arg-type]
+
+
+def work_of(sweep: Sweep, folder: Path, way: Way = CHEAP) -> Work:
+    place = folder / f"fmu{os.getpid()}"
+    place.mkdir(parents=True, exist_ok=True)
+    return Work(Place(place), sweep.task, way)  # type: ignore[arg-type]
+
+
+def run_cheap(count: int, folder: Path) -> None:
+    """Run what is left of a sweep in a folder, in this process."""
+    sweep = cheap_sweep(count)
+    perform_sweep(sweep, store_of(sweep, folder), partial(here, work_of(sweep, folder)), lambda progress: None)

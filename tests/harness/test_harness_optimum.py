@@ -1,0 +1,164 @@
+"""Optima of problems whose answer is known, found the same way each time, also after an interruption."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from cheap_designs import VALLEY, Place, axis
+from fake_slave import fake_description
+
+from harness.clock import TimeGrid
+from harness.designs.goal import Constraint, Goal
+from harness.designs.history import History, InterruptedSearchError
+from harness.designs.identity import identity
+from harness.designs.optimum_file import CONTINUOUS, MIXED, Around, Optimum
+from harness.designs.search import Best, search
+from harness.designs.sensitivity import sensitivity
+from harness.designs.store import Store
+from harness.designs.task import Design, Quantity, Result, Task, When
+from harness.designs.variation import Axis
+from harness.designs.workers import Work, here
+from harness.errors import UsageError
+from harness.master import never
+from harness.report.optimum_report import optimum_report
+
+FAR, SUM = Quantity(When.END, "far", "Real", "m2"), Quantity(When.END, "sum", "Real", "")
+TASK = Task(TimeGrid.of(1.0, 0.1), {}, None, (FAR, SUM))
+X, Y, N = axis(), axis("drive_torque", -1.0, 1.0, "N.m"), axis("tooth_count", 10, 25)
+
+
+def optimum_of(
+    *axes: Axis, count: int = 400, largest: bool = False, sums: tuple[float | None, float | None] = (None, None)
+) -> Optimum:
+    constraints = () if sums == (None, None) else (Constraint(SUM, *sums),)
+    method = MIXED if N in axes else CONTINUOUS
+    return Optimum("Valley", TASK, axes, Goal(FAR, largest, constraints), method, count, 1, None)
+
+
+def store_of(optimum: Optimum, folder: Path) -> Store:
+    known = identity(fake_description(), optimum.task, optimum.axes, optimum.how)
+    return Store(folder, known, optimum.axes, optimum.task.quantities)
+
+
+def history_of(optimum: Optimum, folder: Path, stop_requested: Callable[[], bool] = never) -> History:
+    crew = partial(here, Work(Place(folder), optimum.task, VALLEY))  # type: ignore[arg-type]
+    return History(store_of(optimum, folder), crew, optimum.count, stop_requested, lambda history: None)
+
+
+def found(optimum: Optimum, folder: Path) -> Best:
+    return search(optimum, history_of(optimum, folder))
+
+
+def test_the_bottom_of_a_valley(tmp_path: Path) -> None:
+    best = found(optimum_of(X, Y), tmp_path)
+    assert best.feasible
+    assert best.design.values == pytest.approx({"restitution": 0.3, "drive_torque": -0.2}, abs=1e-5)
+
+
+def test_the_lowest_place_on_a_fence(tmp_path: Path) -> None:
+    """x + y >= 1: by Lagrange, x - 0.3 = 4 (y + 0.2) = 0.72."""
+    best = found(optimum_of(X, Y, sums=(1.0, None)), tmp_path)
+    assert best.feasible
+    assert best.result.values[1] >= 1.0
+    assert best.result.values[0] == pytest.approx(0.648, rel=1e-2)
+
+
+def test_the_highest_corner(tmp_path: Path) -> None:
+    best = found(optimum_of(X, Y, largest=True), tmp_path)
+    assert best.design.values == pytest.approx({"restitution": 1.0, "drive_torque": 1.0}, abs=1e-5)
+
+
+def test_whole_numbers_and_a_list(tmp_path: Path) -> None:
+    listed = replace(X, values=(0.0, 0.25, 0.75))
+    best = found(optimum_of(N, Y, listed, count=300), tmp_path)
+    assert best.design.values["tooth_count"] == 17
+    assert best.design.values["restitution"] == 0.25
+    assert best.design.values["drive_torque"] == pytest.approx(-0.2, abs=1e-4)
+
+
+def test_a_goal_that_cannot_be_reached_gives_the_nearest(tmp_path: Path) -> None:
+    best = found(optimum_of(X, Y, sums=(3.0, None)), tmp_path)
+    assert not best.feasible
+    assert best.result.values[1] == pytest.approx(2.0, abs=1e-4)
+
+
+@pytest.mark.parametrize("axes", [(X, Y), (X, N)], ids=["continuous", "mixed"])
+def test_a_search_that_was_interrupted_finds_what_an_undisturbed_one_finds(
+    axes: tuple[Axis, ...], tmp_path: Path
+) -> None:
+    optimum = optimum_of(*axes, count=90, sums=(None, 1.2))
+    for patience in (1, 17, 40):
+        asked = iter([False] * patience + [True] * 1000)
+        with pytest.raises(InterruptedSearchError):
+            search(optimum, history_of(optimum, tmp_path / "interrupted", lambda asked=asked: next(asked)))
+    for name in ("interrupted", "undisturbed"):
+        found(optimum, tmp_path / name)
+        store_of(optimum, tmp_path / name).finish()
+    results = [tmp_path / name / "results.parquet" for name in ("interrupted", "undisturbed")]
+    assert results[0].read_bytes() == results[1].read_bytes()
+    assert len(pd.read_parquet(results[0])) <= 90
+
+
+def test_a_history_of_another_search_is_refused(tmp_path: Path) -> None:
+    optimum = optimum_of(X, Y, count=20)
+    store_of(optimum, tmp_path).append(
+        [(Design(1, {"restitution": 0.1, "drive_torque": 0.1}), Result(1, "cheap", (1.0, 0.2)))]
+    )
+    with pytest.raises(UsageError, match="other versions of scipy or optuna"):
+        found(optimum, tmp_path)
+
+
+def test_designs_that_fail_come_last() -> None:
+    goal = Goal(FAR, False, (Constraint(SUM, None, 1.0),))
+    good, far, missed, missed_by_more = (
+        Result(1, "cheap", v) for v in ((1.0, 1.0), (9e9, 1.0), (0.0, 1.1), (0.0, 1e9))
+    )
+    failed = Result.failed(Design(1, {}), "cheap", TASK, "why")
+    merits = [goal.merit(result, TASK) for result in (good, far, missed, missed_by_more, failed)]
+    assert merits == sorted(merits)
+    assert len(set(merits)) == 5
+
+
+def test_sobol_indices_of_a_sum_of_squares(tmp_path: Path) -> None:
+    """Uniform near the floor: the variance of k u^2 with |u| <= a is k^2 a^4 4/45, of each variable by itself."""
+    optimum = replace(optimum_of(X, Y, count=200), around=Around(128, 0.1))
+    history = history_of(optimum, tmp_path)
+    history._crew = partial(here, Work(Place(tmp_path), optimum.task, replace(VALLEY, run=_smooth)))  # type: ignore[arg-type]
+    best = search(optimum, history)
+    found = sensitivity(optimum, best, history)
+    assert found is not None
+    variances = np.array([1.0 * 0.05**4, 16.0 * 0.1**4]) * 4.0 / 45.0
+    np.testing.assert_allclose(found.first, variances / variances.sum(), atol=0.04)
+    np.testing.assert_allclose(found.total, variances / variances.sum(), atol=0.04)
+    assert found.spread == pytest.approx(math.sqrt(variances.sum()), rel=0.05)
+    assert found.limits[1] == pytest.approx((-0.3, -0.1), abs=1e-4)
+    page = optimum_report(optimum, best, found, history, store_of(optimum, tmp_path).finish())
+    for heading in ("Search", "Sensitivity", "Constraints", "All designs"):
+        assert f"<h2>{heading}</h2>" in page
+
+
+def _smooth(fmu: Place, task: Task, designs: list[Design]) -> list[Result]:
+    """The valley without failures."""
+    return [
+        replace(result, number=design.number)
+        for design in designs
+        for result in VALLEY.run(fmu, task, [replace(design, number=1)])  # type: ignore[arg-type]
+    ]
+
+
+def test_near_an_optimum_that_fails_there_are_no_indices(tmp_path: Path) -> None:
+    optimum = replace(optimum_of(X, Y, count=60), around=Around(64, 0.1))
+    history = history_of(optimum, tmp_path)
+    assert sensitivity(optimum, search(optimum, history), history) is None
+
+
+def test_nothing_is_asked_for_twice_and_a_small_space_is_soon_exhausted(tmp_path: Path) -> None:
+    optimum = optimum_of(N, count=100)
+    assert found(optimum, tmp_path).design.values == {"tooth_count": 17}
+    table = store_of(optimum, tmp_path).results()
+    assert len(set(table["tooth_count"].to_pylist())) == len(table) <= 16

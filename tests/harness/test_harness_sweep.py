@@ -1,0 +1,169 @@
+"""A sweep as a whole: designs, results on the disk, and what happens when it is killed."""
+
+import multiprocessing
+import os
+import signal
+import time
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+from cheap_designs import DEADLY, FAILING, TROUBLED, axis, cheap_sweep, run_cheap, store_of, work_of
+from fake_slave import fake_description
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.stats import qmc
+
+from harness.designs import sampling
+from harness.designs.store import failures
+from harness.designs.sweep import Progress, perform_sweep
+from harness.designs.task import Result
+from harness.designs.workers import Processes, here
+from harness.errors import UsageError
+
+
+@given(st.sampled_from(sorted(sampling.METHODS)), st.integers(1, 40), st.integers(0, 10))
+def test_a_list_of_designs_is_the_same_each_time_and_within_its_limits(method: str, count: int, seed: int) -> None:
+    axes = [axis(), axis("tooth_count", 10, 25), axis("tooth_slope_angle", 85, 105, "deg")]
+    designs = sampling.sampled(axes, method, count, seed)
+    assert designs == sampling.sampled(axes, method, count, seed)
+    assert [design.number for design in designs] == list(range(1, count + 1))
+    for design in designs:
+        assert 0.0 <= design.values["restitution"] < 1.0
+        assert design.values["tooth_count"] in range(10, 26)
+        assert np.radians(85) <= design.values["tooth_slope_angle"] <= np.radians(105)
+
+
+def test_a_latin_hypercube_has_one_design_in_each_row_and_column() -> None:
+    designs = sampling.sampled([axis(), axis("tooth_count", 10, 25)], "latin_hypercube", 16, 5)
+    assert sorted(int(16 * design.values["restitution"]) for design in designs) == list(range(16))
+    assert sorted(design.values["tooth_count"] for design in designs) == list(range(10, 26))
+
+
+def test_sobol_points_are_more_even_than_random_ones() -> None:
+    def unevenness(method: str) -> float:
+        return qmc.discrepancy(sampling.METHODS[method](256, 2, 1))
+
+    assert unevenness("sobol") < 0.1 * unevenness("random")
+
+
+def test_whole_numbers_are_all_equally_likely() -> None:
+    designs = sampling.sampled([axis("tooth_count", 10, 25)], "sobol", 1024, 3)
+    counts = np.bincount([int(design.values["tooth_count"]) for design in designs])
+    assert list(counts[10:]) == [64] * 16
+
+
+def test_results_are_a_table_with_units_that_pandas_opens(tmp_path: Path) -> None:
+    run_cheap(20, tmp_path)
+    table = pd.read_parquet(tmp_path / "results.parquet")
+    assert list(table.columns) == ["design", "restitution", "end.square", "way", "status", "message", "warnings"]
+    assert list(table["design"]) == list(range(1, 21))
+    np.testing.assert_array_equal(table["end.square"], table["restitution"] ** 2)
+    assert set(table["way"]) == {"cheap"}
+    assert set(table["status"]) == {"ok"}
+    assert pq.read_schema(tmp_path / "results.parquet").field("end.square").metadata == {b"unit": b"m2"}
+    assert not (tmp_path / "parts").exists()
+
+
+def test_a_complete_sweep_runs_nothing_again(tmp_path: Path) -> None:
+    run_cheap(20, tmp_path)
+    before = (tmp_path / "results.parquet").read_bytes()
+    run_cheap(20, tmp_path)
+    assert (tmp_path / "results.parquet").read_bytes() == before
+    assert len((tmp_path / "trace").read_text().split()) == 20
+
+
+def test_a_sweep_that_was_asked_to_stop_goes_on_later(tmp_path: Path) -> None:
+    sweep = cheap_sweep(20)
+    store, asked = store_of(sweep, tmp_path), iter([False] * 5 + [True])
+    progress, table = perform_sweep(sweep, store, partial(here, work_of(sweep, tmp_path)), print, lambda: next(asked))
+    assert progress == Progress(total=20, earlier=0, done=5, failed=0)
+    assert table["design"].to_pylist() == [1, 2, 3, 4, 5]
+    assert len(pd.read_parquet(tmp_path / "parts")) == 5  # what there is can be looked at
+    run_cheap(20, tmp_path)
+    assert sorted(map(int, (tmp_path / "trace").read_text().split())) == list(range(1, 21))
+
+
+@pytest.mark.parametrize(("count", "seed", "method"), [(21, 1, "sobol"), (20, 2, "sobol"), (20, 1, "random")])
+def test_a_folder_of_other_designs_is_refused(count: int, seed: int, method: str, tmp_path: Path) -> None:
+    store_of(cheap_sweep(20), tmp_path)
+    with pytest.raises(UsageError, match=r"holds results of another file or FMU: \[sweep\] differ .* -o"):
+        store_of(cheap_sweep(count, method, seed), tmp_path)
+
+
+def test_a_folder_whose_owner_nobody_knows_is_refused(tmp_path: Path) -> None:
+    run_cheap(3, tmp_path)
+    (tmp_path / "identity.json").write_text("{")
+    with pytest.raises(UsageError, match="cannot be read"):
+        store_of(cheap_sweep(3), tmp_path)
+    (tmp_path / "identity.json").unlink()
+    with pytest.raises(UsageError, match=r"has results, but no identity\.json"):
+        store_of(cheap_sweep(3), tmp_path)
+
+
+def test_a_broken_part_is_told_with_the_way_out(tmp_path: Path) -> None:
+    store = store_of(cheap_sweep(3), tmp_path)
+    (tmp_path / "parts" / "000000001.parquet").write_bytes(b"PAR1")
+    with pytest.raises(UsageError, match="Remove this file, and the same command runs its designs again"):
+        store.results()
+
+
+def test_killed_between_the_table_and_the_removal_of_parts_nothing_is_twice(tmp_path: Path) -> None:
+    sweep = cheap_sweep(3)
+    store = store_of(sweep, tmp_path)
+    pairs = [(design, Result(design.number, "cheap", (1.0,))) for design in sweep.designs]
+    store.append(pairs)
+    store.finish()
+    store = store_of(sweep, tmp_path)
+    store.append(pairs[1:])
+    assert store.finish()["design"].to_pylist() == [1, 2, 3]
+
+
+def test_what_fails_and_what_kills_its_process_is_recorded_and_the_rest_goes_on(tmp_path: Path) -> None:
+    sweep = cheap_sweep(20)
+    with Processes(work_of(sweep, tmp_path, TROUBLED), 2) as processes:
+        progress, table = perform_sweep(sweep, store_of(sweep, tmp_path), processes.run, lambda progress: None)
+    assert progress == Progress(total=20, earlier=0, done=20, failed=2)
+    (failing, why), (deadly, how) = failures(table)
+    assert (failing, why) == (FAILING, "the pawl has left the wheel.")
+    assert deadly == DEADLY
+    assert "ended without a word" in how
+    values = table["end.square"].to_pylist()
+    assert [number for number, value in enumerate(values, start=1) if value is None] == [FAILING, DEADLY]
+
+
+def parts(folder: Path) -> int:
+    """How many designs are kept: in this process, each in a part of its own."""
+    return len(list((folder / "parts").glob("*.parquet")))
+
+
+def test_a_sweep_killed_at_any_moment_gives_what_an_undisturbed_one_gives(tmp_path: Path) -> None:
+    """The slow test of the command does the same with 2,000 designs of a real FMU."""
+    start = multiprocessing.get_context("forkserver")
+    start.set_forkserver_preload(["cheap_designs"])
+    killed, trace = tmp_path / "killed", tmp_path / "killed" / "trace"
+    count, kills = 150, 4
+    for kill in range(1, kills + 1):
+        process = start.Process(target=run_cheap, args=(count, killed))
+        process.start()
+        while parts(killed) < kill * count // (kills + 2):
+            time.sleep(2e-3)
+        assert process.pid is not None
+        os.kill(process.pid, signal.SIGKILL)
+        process.join()
+        assert process.exitcode == -signal.SIGKILL
+        ran = trace.read_text().split()
+        assert parts(killed) <= len(ran) <= parts(killed) + kill  # a design for each kill was on its way
+    run_cheap(count, killed)
+    run_cheap(count, tmp_path / "undisturbed")
+    results = [tmp_path / name / "results.parquet" for name in ("killed", "undisturbed")]
+    assert results[0].read_bytes() == results[1].read_bytes()
+    assert count <= len(trace.read_text().split()) <= count + kills
+
+
+def test_the_folder_says_to_which_fmu_it_belongs(tmp_path: Path) -> None:
+    store_of(cheap_sweep(3), tmp_path)
+    assert fake_description().guid in (tmp_path / "identity.json").read_text()

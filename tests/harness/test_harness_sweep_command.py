@@ -1,0 +1,169 @@
+"""The command `sweep`, on this machine, on a cluster, and killed."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from typer.testing import CliRunner
+
+from harness.cli import main
+
+COMMAND = [sys.executable, "-c", "from harness.cli import main; main()", "sweep"]
+
+CRANKS = """\
+title = "Cranks"
+
+[fmu]
+file = "{fmu}"
+
+[run]
+stop_time = "10 ms"
+step = 0.01
+
+[sweep]
+method = "random"
+count = {count}
+seed = 4
+
+[vary.offset]
+from = 0
+to = {longest}
+unit = "mm"
+
+[record]
+end = ["crank_angle"]
+parameter = ["offset"]
+"""
+
+
+def file_of(folder: Path, fmu: Path, count: int, longest: int = 20) -> Path:
+    path = folder / "cranks.toml"
+    path.write_text(CRANKS.format(fmu=fmu, count=count, longest=longest))
+    return path
+
+
+def invoke(*arguments: str | Path) -> tuple[int, str]:
+    result = CliRunner().invoke(main, ["sweep", *map(str, arguments)])
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    return result.exit_code, " ".join(result.output.split())
+
+
+def test_a_sweep_from_the_file_to_the_report(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    """With offsets that some slides cannot have: these designs fail, and the others do not mind."""
+    out = tmp_path / "out"
+    code, text = invoke(file_of(tmp_path, slider_crank_fmu, 8, longest=2000), "-o", out, "--workers", "1")
+    table = pd.read_parquet(out / "results.parquet")
+    failed = table[table["status"] == "failed"]
+    assert code == 1
+    assert "8 designs, 8 of them run now, 0 there before" in text
+    assert f"Failed designs: {len(failed)}" in text
+    assert 0 < len(failed) < 8
+    assert failed["message"].str.contains("crank").all()
+    assert failed["end.crank_angle"].isna().all()
+    assert table["end.crank_angle"].notna().sum() == 8 - len(failed)
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "<h1>Cranks</h1>" in page
+    assert "offset [mm]" in page
+    assert "<h2>Failed designs</h2>" in page
+    code, text = invoke(file_of(tmp_path, slider_crank_fmu, 8, longest=2000), "-o", out)
+    assert code == 1
+    assert "8 designs, 0 of them run now, 8 there before" in text
+
+
+def test_a_changed_file_is_refused_with_the_way_out(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    assert invoke(file_of(tmp_path, slider_crank_fmu, 1), "-o", tmp_path / "out", "--workers", "1")[0] == 0
+    code, text = invoke(file_of(tmp_path, slider_crank_fmu, 1, longest=21), "-o", tmp_path / "out")
+    assert code == 2
+    assert "[vary], [sweep] differ" in text
+    assert "Choose another folder with -o" in text
+
+
+def test_mistakes_are_wrong_use_and_nothing_is_run(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    path = file_of(tmp_path, slider_crank_fmu, 1)
+    path.write_text(path.read_text().replace("count = 1", "count = 0").replace('"mm"', '"kg"'))
+    code, text = invoke(path, "-o", tmp_path / "out")
+    assert code == 2
+    assert "cranks.toml has 2 mistakes; nothing was run." in text
+    assert "cranks.toml:12: sweep.count: is 0, but must be a whole number, 1 or more." in text
+    assert "cranks.toml:18: vary.offset.unit: unit 'kg' does not measure the same quantity" in text
+
+
+def test_ctrl_c_ends_cleanly_and_the_same_command_goes_on(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    path, out = file_of(tmp_path, slider_crank_fmu, 2000), tmp_path / "out"
+    with subprocess.Popen(
+        [*COMMAND, path, "-o", out, "--workers", "1"], stdout=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        wait_for_parts(out, 3, process)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the workers, too
+        text, _ = process.communicate()
+    assert process.returncode == 130
+    kept = len(pd.read_parquet(out / "parts"))
+    assert f"Interrupted: {kept} of 2000 designs are kept" in " ".join(text.split())
+
+
+def wait_for_parts(out: Path, enough: int, process: "subprocess.Popen[str]") -> None:
+    while len(list((out / "parts").glob("*.parquet"))) < enough and process.poll() is None:
+        time.sleep(5e-3)
+
+
+def test_a_scheduler_that_does_not_answer_is_wrong_use(slider_crank_fmu: Path, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr("harness.designs.cluster._PATIENCE", 0.2)
+    path = file_of(tmp_path, slider_crank_fmu, 1)
+    code, text = invoke(path, "-o", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
+    assert code == 2
+    assert "No scheduler answers at 'tcp://127.0.0.1:9'" in text
+
+
+def test_without_dask_the_extra_is_named(slider_crank_fmu: Path, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    monkeypatch.delitem(sys.modules, "harness.designs.cluster", raising=False)
+    path = file_of(tmp_path, slider_crank_fmu, 1)
+    code, text = invoke(path, "-o", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
+    assert code == 2
+    assert 'python -m pip install "mechanism_fmu[cluster]"' in text
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::ResourceWarning")
+def test_a_cluster_gives_what_this_machine_gives(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    from distributed import LocalCluster
+
+    path = file_of(tmp_path, slider_crank_fmu, 30, longest=2000)
+    address = {"host": "127.0.0.1", "dashboard_address": None}
+    with LocalCluster(n_workers=2, threads_per_worker=2, **address) as cluster:
+        code, text = invoke(path, "-o", tmp_path / "there", "--scheduler", cluster.scheduler_address)
+    assert code == 1
+    assert "30 designs, 30 of them run now" in text
+    assert invoke(path, "-o", tmp_path / "here")[0] == 1
+    there, here = (pd.read_parquet(tmp_path / name / "results.parquet") for name in ("there", "here"))
+    pd.testing.assert_frame_equal(there, here)
+
+
+@pytest.mark.slow
+def test_two_thousand_designs_killed_ten_times(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    """With -9, at any moment: what was kept is never run again, and the table is the undisturbed one's."""
+    path, out = file_of(tmp_path, slider_crank_fmu, 2000), tmp_path / "killed"
+    moments, kept = random.Random(7), 0
+    for _ in range(10):
+        before = {part: part.read_bytes() for part in (out / "parts").glob("*.parquet")}
+        with subprocess.Popen([*COMMAND, path, "-o", out], stdout=subprocess.DEVNULL, text=True) as process:
+            wait_for_parts(out, len(before) + moments.randint(5, 150), process)
+            time.sleep(moments.uniform(0.0, 0.02))
+            os.kill(process.pid, signal.SIGKILL)
+        after = pd.read_parquet(out / "parts")
+        assert process.returncode == -signal.SIGKILL
+        assert len(after) > kept
+        assert after["design"].is_unique
+        assert all(part.read_bytes() == content for part, content in before.items())
+        kept = len(after)
+    assert kept < 2000
+    assert subprocess.run([*COMMAND, path, "-o", out], stdout=subprocess.DEVNULL, check=False).returncode == 0
+    undisturbed = tmp_path / "undisturbed"
+    assert subprocess.run([*COMMAND, path, "-o", undisturbed], stdout=subprocess.DEVNULL, check=False).returncode == 0
+    assert (out / "results.parquet").read_bytes() == (undisturbed / "results.parquet").read_bytes()
