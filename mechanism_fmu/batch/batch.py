@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from ctypes import CDLL
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from ..fmu.native.libraries import library_here
 from ..fmu.native.objects import Report, silently
+from ..fmu.news import pulls
 from ..model import MechanismError, Model
 from .job import Job
 from .library import load_many
@@ -130,6 +132,7 @@ class Batch:
             failures |= {first + design: text for design, text in refused.items()}
             warnings |= {first + design: text for design, text in warned.items() if design not in refused}
         job.forget_values(list(failures))
+        contacts = [contact.name for contact in self._prepared.mechanism.contacts]
         names = list(enumerate(wanted))
         return BatchResult(
             designs=columns,
@@ -139,9 +142,9 @@ class Batch:
             impact_count=job.impact_count,
             impacts={name: job.impacts[:, :, k] for k, name in enumerate(self._prepared.impact_fields)},
             reached=job.reached,
-            pulled=job.pulled,
+            pulled={name: job.pulled[:, c] for c, name in enumerate(contacts)},
             failures=tuple(failures.get(design, "") for design in range(count)),
-            warnings=tuple(warnings.get(design, "") for design in range(count)),
+            warnings=tuple(_warned(warnings.get(k, ""), contacts, job.pulled[k]) for k in range(count)),
             compiled=self.compiled,
             threads=threads,
         )
@@ -223,6 +226,12 @@ class Batch:
             if name not in known:
                 raise MechanismError(f"{self.model.name} has no output {name!r}; it has: {', '.join(known)}.")
         return wanted
+
+
+def _warned(text: str, contacts: Sequence[str], times: Array) -> str:
+    """What is said at the start, and of each contact that has pulled, in the order of time."""
+    pulled = sorted((time, name) for name, time in zip(contacts, times.tolist(), strict=True) if time < math.inf)
+    return " ".join(filter(None, (text, *(pulls(name, time).text for time, name in pulled))))
 
 
 def _points(times: Sequence[float]) -> Array:
