@@ -18,11 +18,10 @@ from . import acceleration, cams, cycle, fmu_step, fmus, impacts, startup, step
 from .c_limit import compare as c_limit
 from .c_limit.library import NoCompilerError
 from .native_surface import compare as native_surface
-from .table import as_json, table, this_machine
+from .table import WIDTH_OF_A_FILE, as_json, table, this_machine
 from .timing import Comparison, DisagreementError
 
 _ROUNDS = 9
-_WIDTH_OF_A_FILE = 120
 
 
 def run(
@@ -36,7 +35,7 @@ def run(
     """
     out, progress = Console(highlight=False), Console(stderr=True, highlight=False)
     if not out.is_terminal:
-        out.width = _WIDTH_OF_A_FILE
+        out.width = WIDTH_OF_A_FILE
     if json_file is not None:
         json_file.parent.mkdir(parents=True, exist_ok=True)
     machine = this_machine()

@@ -14,6 +14,9 @@ from rich.table import Table
 
 from .timing import Comparison
 
+#: Of a table that is printed into a file [characters].
+WIDTH_OF_A_FILE = 120
+
 _PACKAGES = ("numpy", "scipy", "numba", "fmpy", "pythonfmu")
 _UNITS = (("s", 1.0), ("ms", 1e-3), ("us", 1e-6))
 _WHOLE_FROM = 5.0

@@ -24,6 +24,7 @@ from .terminal import (
     show_checks,
     show_error,
     show_files,
+    show_progress,
     show_table,
     show_warning,
     show_wide_table,
@@ -138,30 +139,26 @@ def validate_fmu(path: Path) -> int:
 
 def run_study(folder: Path, path: Path | None) -> int:
     """Run the paper's study and write it."""
+    from .report.paper_figures import paper_figures
+    from .report.static import write_static
     from .report.study_report import write_study_report
     from .study import ratchet_study, write_study
 
     prepare_folder(folder)
     path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
-    with open_fmu(path) as fmu, console.status(f"Loading {path.name} ...") as status:
-        study = ratchet_study(fmu, lambda number, of: status.update(f"{number} of {of} wheels"))
-    rows = [
-        [
-            str(wheel.tooth_count),
-            str(wheel.slope_angle_deg),
-            f"{wheel.impact_time:.10f}",
-            f"{wheel.wheel_speed:.10f}",
-            f"{wheel.impact_velocity:.6e}",
-            f"{wheel.stress_max:.1f}",
-        ]
-        for wheel in study.wheels
-    ]
+    with open_fmu(path) as fmu, show_progress(f"Loading {path.name} ...") as progress:
+        study = ratchet_study(fmu, lambda number, of: progress(f"{number} of {of} wheels", number / of))
+    rows = [wheel.cells() for wheel in study.wheels]
     headings = ["nt", "beta_0 [deg]", "t_I [s]", "omega(t_I+) [rad/s]", "v_I [m/s]", "sigma_max [Pa]"]
     show_table("First impact of each wheel", headings, rows, numeric=range(len(headings)))
     for warning in study.warnings:
         console.print(f"[yellow]Warning[/]: {escape(warning)}", soft_wrap=True)
     show_checks(study.checks)
-    show_files([*write_study(study, folder), write_study_report(study, folder / "study.html")])
+    figures = paper_figures(study)
+    files = write_study(study, folder)
+    for figure in figures:
+        files += write_static(figure.plots, folder / figure.name)
+    show_files([*files, write_study_report(study, figures, folder / "study.html")])
     return 0 if all_passed(study.checks) else FAILED
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -55,8 +56,12 @@ class LogicFile:
         return "+".join(name for bit, name in enumerate(self.contacts) if number >> bit & 1)
 
 
+@lru_cache(maxsize=8)
 def read_logic(folder: Path) -> LogicFile:
-    """The logic in the extracted FMU `folder`; one that cannot be used is an objection and never an error."""
+    """The logic in the extracted FMU `folder`; one that cannot be used is an objection and never an error.
+
+    It is read once for all runs with the FMU: nothing changes in an extracted one.
+    """
     path = folder / "resources" / "logic.json"
     try:
         text = path.read_text(encoding="utf-8")

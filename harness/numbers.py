@@ -30,3 +30,16 @@ def shown(value: Value, name: str, description: Description, digits: int = 9) ->
     text = f"{value:.{digits}g}" if not variable.unit else f"{value:.{digits}g} {variable.unit}"
     displayed = description.units.to_display(value, variable.unit, variable.display_unit)
     return text if displayed is None else f"{text} ({displayed:.6g} {variable.display_unit})"
+
+
+def in_display_unit(value: Value, name: str, description: Description, digits: int = 9) -> tuple[str, str]:
+    """The value of a variable and its unit, for a table: in its display unit when it has one; "1" for none."""
+    if isinstance(value, bool):
+        return "true" if value else "false", ""
+    variable = description.variable(name)
+    if not isinstance(value, float):
+        return str(value), "" if isinstance(value, str) else variable.unit or "1"
+    displayed = description.units.to_display(value, variable.unit, variable.display_unit)
+    if displayed is not None:
+        return f"{displayed:.{digits}g}", variable.display_unit
+    return f"{value:.{digits}g}", variable.unit or "1"

@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TextIO
+from typing import IO, Any, TextIO
 
 import pandas as pd
 
@@ -40,10 +40,19 @@ def write_text(path: Path, write: Callable[[TextIO], object]) -> Path:
     Raises:
         UsageError: the disk refuses.
     """
+    return _whole(path, lambda handle: os.fdopen(handle, "w", encoding="utf-8", newline=""), write)
+
+
+def write_bytes(path: Path, data: bytes) -> Path:
+    """Write a file of bytes, whole or not at all; see `write_text`."""
+    return _whole(path, lambda handle: os.fdopen(handle, "wb"), lambda file: file.write(data))
+
+
+def _whole(path: Path, opened: Callable[[int], IO[Any]], write: Callable[[Any], object]) -> Path:
     try:
         handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
         try:
-            with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
+            with opened(handle) as file:
                 write(file)
             os.chmod(temporary, 0o644)  # mkstemp makes files for the owner only
             os.replace(temporary, path)
@@ -121,6 +130,13 @@ def summary(run: Run) -> dict[str, Any]:
 def final_values(run: Run) -> dict[str, Value]:
     """The recorded variables at the last communication point; none when the run did not start."""
     return {} if run.results.empty else {str(name): column.iloc[-1].item() for name, column in run.results.items()}
+
+
+def settings(run: Run) -> dict[str, Value]:
+    """Parameters, calculated parameters, and inputs at the start of the run, by name."""
+    inputs = [variable.name for variable in run.description.of("input") if variable.name in run.results]
+    first = {} if run.results.empty else {name: run.results[name].iloc[0].item() for name in inputs}
+    return {**run.parameters, **first}
 
 
 def write_with_units(table: pd.DataFrame, units: Mapping[str, str], path: Path) -> Path:

@@ -4,26 +4,31 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import pandas as pd
 
-from mechanism_fmu import __version__
-
 from .checks import Check
+from .description import Description, Value
+from .drawing import read_drawing
 from .errors import FmuError, UsageError
-from .experiment import Experiment, perform
+from .experiment import Experiment, Run, perform
 from .fmu import Fmu
-from .paper import SLOPE_ANGLES_DEG, TOOTH_COUNTS, study_checks
-from .results import write_json, write_text
+from .paper import BASE_CASE, SLOPE_ANGLES_DEG, TOOTH_COUNTS, study_checks
+from .results import settings, write_json, write_with_units
+from .rim import Rim, rim_of
+from .versions import versions
 from .wheels import WHEEL_UNITS, Wheel
 
 #: The first impact comes before 0.96 s in every case.
 _STOP_TIME = 1.2
-#: Impacts are located inside a step, so the step may be large.
-_STEP = 0.01
+#: Impacts are located inside a step, so the step may be large; in the base case one wants to see the motion.
+_STEP, _BASE_CASE_STEP = 0.1, 0.01
+
+_NUMBER = re.compile(r"\d+(\.\d+)?(e[+-]?\d+)?")
 
 _NEEDED = ("tooth_count", "tooth_slope_angle", "tooth_length", "tooth_apex_angle", "impacts[1].velocity")
 
@@ -34,13 +39,21 @@ class Study:
 
     Attributes:
         fmu: path of the FMU file.
+        description: of the FMU.
         wheels: each with its first impact.
-        warnings: what the FMU said, with the wheels it said it about.
+        rims: the shape of each wheel.
+        parameters: also calculated ones, and inputs at the start, by name, with their values for each wheel.
+        base_case: the run of the wheel that Table 2 of the paper belongs to, in fine steps.
+        warnings: what the FMU said, once for all that differ in their numbers only, with the wheels concerned.
         checks: the paper's claims.
     """
 
     fmu: Path
+    description: Description
     wheels: tuple[Wheel, ...]
+    rims: tuple[Rim, ...]
+    parameters: Mapping[str, tuple[Value, ...]]
+    base_case: Run
     warnings: tuple[str, ...]
     checks: tuple[Check, ...]
 
@@ -59,22 +72,51 @@ def ratchet_study(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> Study:
     for name in _NEEDED:
         if name not in fmu.description.variables:
             raise UsageError(f"{fmu.description.model} is no ratchet: it has no variable '{name}'.")
+    drawing = read_drawing(fmu.folder, fmu.description)
     wheels: list[Wheel] = []
-    warnings: dict[str, list[str]] = {}
+    rims: list[Rim] = []
+    runs: list[Run] = []
+    warnings: dict[str, list[tuple[str, Wheel]]] = {}
     cases = list(itertools.product(TOOTH_COUNTS, SLOPE_ANGLES_DEG))
     for count, angle in cases:
-        wheel, said = _first_impact(fmu, count, math.radians(angle))
-        wheels.append(wheel)
-        for text in said:
-            warnings.setdefault(text, []).append(str(wheel))
+        step = _BASE_CASE_STEP if (count, angle) == BASE_CASE else _STEP
+        run = _performed(fmu, step, count, math.radians(angle))
+        rim = rim_of(drawing, run.parameters)
+        if rim is None:
+            raise UsageError(
+                drawing.objection or f"{fmu.description.model} is no ratchet: its drawing has no wheel of known shape."
+            )
+        runs.append(run)
+        rims.append(rim)
+        wheels.append(_first_impact(run))
+        for message in run.messages:
+            if message.needs_attention:
+                warnings.setdefault(_NUMBER.sub("", message.text), []).append((message.text, wheels[-1]))
         on_wheel(len(wheels), len(cases))
-    texts = tuple(f"{text} ({'; '.join(where)})" for text, where in warnings.items())
-    return Study(fmu.path, tuple(wheels), texts, study_checks(wheels))
+    made = [settings(run) for run in runs]
+    return Study(
+        fmu=fmu.path,
+        description=fmu.description,
+        wheels=tuple(wheels),
+        rims=tuple(rims),
+        parameters={name: tuple(case[name] for case in made) for name in made[0]},
+        base_case=runs[cases.index(BASE_CASE)],
+        warnings=tuple(map(_told_once, warnings.values())),
+        checks=study_checks(wheels),
+    )
 
 
-def _first_impact(fmu: Fmu, count: int, angle: float) -> tuple[Wheel, list[str]]:
-    """A wheel with its first impact, and what the FMU warned of."""
-    run = perform(fmu, Experiment(_STOP_TIME, _STEP, {"tooth_count": count, "tooth_slope_angle": angle}))
+def _told_once(said: list[tuple[str, Wheel]]) -> str:
+    """A warning that differs in its numbers only, with the wheels it was said about: the first one's text for all."""
+    first = said[0][0]
+    same = "; ".join(str(wheel) for text, wheel in said if text == first)
+    alike = "; ".join(str(wheel) for text, wheel in said if text != first)
+    return f"{first} ({same}{f'; with other numbers also {alike}' if alike else ''})"
+
+
+def _performed(fmu: Fmu, step: float, count: int, angle: float) -> Run:
+    """The run of one wheel, which has an impact."""
+    run = perform(fmu, Experiment(_STOP_TIME, step, {"tooth_count": count, "tooth_slope_angle": angle}))
     if run.outcome.error is not None:
         raise run.outcome.error
     if run.impacts.empty:
@@ -82,10 +124,14 @@ def _first_impact(fmu: Fmu, count: int, angle: float) -> tuple[Wheel, list[str]]
             f"{fmu.description.model} with tooth_count = {count}, tooth_slope_angle = {angle:.6g} rad has no impact "
             f"until {_STOP_TIME:g} s."
         )
+    return run
+
+
+def _first_impact(run: Run) -> Wheel:
     first = run.impacts.iloc[0]
-    wheel = Wheel(
-        tooth_count=count,
-        tooth_slope_angle=angle,
+    return Wheel(
+        tooth_count=int(run.parameters["tooth_count"]),
+        tooth_slope_angle=float(run.parameters["tooth_slope_angle"]),
         impact_time=float(first["time"]),
         wheel_speed=float(first["wheel_speed"]),
         impact_velocity=float(first["velocity"]),
@@ -95,26 +141,27 @@ def _first_impact(fmu: Fmu, count: int, angle: float) -> tuple[Wheel, list[str]]
         tooth_length=float(run.parameters["tooth_length"]),
         tooth_apex_angle=float(run.parameters["tooth_apex_angle"]),
     )
-    return wheel, [message.text for message in run.messages if message.needs_attention]
 
 
 def write_study(study: Study, folder: Path) -> list[Path]:
-    """Write study.csv (plain names; SI units) and study.json (units, verdicts, warnings).
+    """Write study.csv (a row for each wheel, units in the headings) and study.json (also verdicts, warnings, versions).
+
+    All numbers are in SI units.
 
     Raises:
         UsageError: the disk refuses.
     """
     rows = [asdict(wheel) for wheel in study.wheels]
     summary = {
-        "harness_version": __version__,
-        "fmu": str(study.fmu),
+        "versions": versions(study.fmu, study.description),
         "units": WHEEL_UNITS,
         "wheels": rows,
+        "parameters": study.parameters,
         "checks": [asdict(check) for check in study.checks],
         "warnings": list(study.warnings),
     }
-    table = pd.DataFrame(rows)
+    units = {name: unit for name, unit in WHEEL_UNITS.items() if unit != "1"}
     return [
-        write_text(folder / "study.csv", lambda file: table.to_csv(file, index=False, lineterminator="\n")),
+        write_with_units(pd.DataFrame(rows), units, folder / "study.csv"),
         write_json(folder / "study.json", summary),
     ]

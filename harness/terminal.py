@@ -86,6 +86,22 @@ def show_wide_table(title: str, headings: Sequence[str], rows: Iterable[Sequence
     console.print(table)
 
 
+@contextmanager
+def show_progress(waiting: str) -> Iterator[Callable[[str, float], None]]:
+    """A bar for work in parts, gone when it is done.
+
+    Args:
+        waiting: said until the first part is done.
+
+    Yields:
+        A function to be called after each part, with what to say and the fraction that is done.
+    """
+    columns = TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn()
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(escape(waiting), total=1.0)
+        yield lambda text, done: bar.update(task, description=escape(text), completed=done)
+
+
 class RunDisplay:
     """An observer that says what is going on: a spinner until the first step, a bar when the steps take long."""
 

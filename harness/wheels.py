@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from mechanism_fmu.stress import WedgeTooth
+
 #: Units of the fields of `Wheel`.
 WHEEL_UNITS = {
     "tooth_count": "1",
@@ -52,6 +54,22 @@ class Wheel:
     def slope_angle_deg(self) -> int:
         """beta_0 in whole degrees."""
         return round(math.degrees(self.tooth_slope_angle))
+
+    @property
+    def tooth(self) -> WedgeTooth:
+        """What the pawl strikes."""
+        return WedgeTooth(self.tooth_length, self.tooth_apex_angle)
+
+    def cells(self) -> list[str]:
+        """A row of the printed table: teeth, beta_0 [deg], t_I [s], omega(t_I+) [rad/s], v_I [m/s], sigma_max [Pa]."""
+        return [
+            str(self.tooth_count),
+            str(self.slope_angle_deg),
+            f"{self.impact_time:.10f}",
+            f"{self.wheel_speed:.10f}",
+            f"{self.impact_velocity:.6e}",
+            f"{self.stress_max:.1f}",
+        ]
 
     def __str__(self) -> str:
         return f"nt = {self.tooth_count}, beta_0 = {self.slope_angle_deg} deg"

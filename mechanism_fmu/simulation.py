@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from ctypes import CDLL
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,9 +78,28 @@ class Simulation:
     """
 
     def __init__(self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float] | None = None) -> None:
+        self._take(mechanism, pack(compile_mechanism(mechanism)))
+        if inputs is not None:
+            self.inputs[:] = inputs
+        self.begin(start_time)
+
+    @classmethod
+    def over(cls, mechanism: Mechanism, block: Array, library: CDLL | None = None) -> Simulation:
+        """A simulation of what stands in a block; it has to `begin` yet, and begins anew when the block is rewritten.
+
+        Args:
+            mechanism: of the same structure; only names are taken from it.
+            block: as `engine.block.pack.pack` makes it.
+            library: of the compiled engine; None: as `engine.run.engine_for` finds it.
+        """
+        self = cls.__new__(cls)
+        self._take(mechanism, block, library)
+        return self
+
+    def _take(self, mechanism: Mechanism, block: Array, library: CDLL | None = None) -> None:
         self._mechanism = mechanism
-        self._block = pack(compile_mechanism(mechanism))
-        self._engine = engine_for(self._block)
+        self._block = block
+        self._engine = engine_for(self._block, library)
         self._input_names = [port.name for port in mechanism.inputs]
         self._output_names = [o.name for o in mechanism.outputs] + [c.name for c in mechanism.calculated]
         self.inputs: Array = field_of(self._block, "inputs")
@@ -87,14 +107,29 @@ class Simulation:
         self.state: Array = state_of(self._block)
         self.counters: Array = field_of(self._block, "counters")
         self._clock: Array = field_of(self._block, "clock")
-        if inputs is not None:
-            self.inputs[:] = inputs
-        self._begin(start_time)
 
     @property
     def time(self) -> float:
         """The time reached [s]."""
         return float(self._clock.item(codes.TIME))
+
+    def begin(self, time: float) -> None:
+        """Assemble the mechanism and make it ready at `time` [s]; what is made of a mechanism has begun already.
+
+        Raises:
+            MechanismError: it cannot be assembled.
+        """
+        outcome = self._engine.begin(float(time)) or self._engine.advance(float(time))
+        if outcome == status.OK:
+            return
+        details = {
+            status.NOT_ASSEMBLED: self._residuals,
+            status.START_INSIDE: self._penetration,
+            status.OVERLAP: self._penetration,
+            status.START_RATES: self._contradictions,
+            status.AT_CENTRE: self._profile,
+        }
+        raise MechanismError(status.ADVICE[outcome] + (details[outcome]() if outcome in details else ""))
 
     def advance(self, target: float) -> None:
         """Go on to time `target` [s] with the inputs held.
@@ -215,19 +250,6 @@ class Simulation:
             return ""
         names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
         return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
-
-    def _begin(self, time: float) -> None:
-        outcome = self._engine.begin(float(time)) or self._engine.advance(float(time))
-        if outcome == status.OK:
-            return
-        details = {
-            status.NOT_ASSEMBLED: self._residuals,
-            status.START_INSIDE: self._penetration,
-            status.OVERLAP: self._penetration,
-            status.START_RATES: self._contradictions,
-            status.AT_CENTRE: self._profile,
-        }
-        raise MechanismError(status.ADVICE[outcome] + (details[outcome]() if outcome in details else ""))
 
     def _residuals(self) -> str:
         """What is left of each joint and closed contact at the closest position found."""

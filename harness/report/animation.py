@@ -40,15 +40,15 @@ _SHORTEST, _LONGEST = 2.0, 20.0
 _WHEEL = "#c9d2dc"
 
 
-def animation(run: Run) -> str:
+def animation(run: Run, heading: str = _HEADING) -> str:
     """The section with the animation; "" when the FMU has no drawing, or the run never began."""
     if run.drawing.objection:
-        return section(_HEADING, note=run.drawing.objection)
+        return section(heading, note=run.drawing.objection)
     if not run.drawing.shapes or run.results.empty or not run.parameters:
         return ""
     data = animation_data(run)
     if data is None:
-        return section(_HEADING, note="The motion is not finite, or has no extent: there is nothing to draw.")
+        return section(heading, note="The motion is not finite, or has no extent: there is nothing to draw.")
     script = files("harness.report").joinpath("animation.js").read_text(encoding="utf-8")
     note = "Drawn from the recorded angles and the FMU's parameters."
     if len(run.impacts) > _MOST_IMPACTS:
@@ -56,7 +56,7 @@ def animation(run: Run) -> str:
     # "<" could close the script element
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     parts = [_player(data), f'<script type="application/json">{text}</script>']
-    return section(_HEADING, f'<div class="animation">{"".join(parts)}</div><script>{script}</script>', note=note)
+    return section(heading, f'<div class="animation">{"".join(parts)}</div><script>{script}</script>', note=note)
 
 
 def animation_data(run: Run) -> dict[str, Any] | None:

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import json
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from importlib.resources import files
 from typing import Any
 
 from ..checks import Check
 from .style import CSS
 
+#: Texts in a cell that are longer than this may fold into lines.
+_LONG = 28
+
 
 def page(title: str, subtitle: str, body: Iterable[str]) -> str:
-    """A whole HTML page, with the chart library inside."""
-    from plotly.offline import get_plotlyjs
-
+    """A whole HTML page that needs no network: the chart library is inside."""
+    plotly = files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
+    charts = files("harness.report").joinpath("charts.js").read_text(encoding="utf-8")
     return "\n".join(
         [
             "<!doctype html>",
@@ -21,10 +26,10 @@ def page(title: str, subtitle: str, body: Iterable[str]) -> str:
             '<head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">',
             f"<title>{escape(title)}</title>",
             f"<style>{CSS}</style>",
-            f"<script>{get_plotlyjs()}</script></head>",
+            f"<script>{plotly}</script></head>",
             f"<body><main><header><h1>{escape(title)}</h1><p>{escape(subtitle)}</p></header>",
             *body,
-            "</main></body></html>\n",
+            f"</main><script>{charts}</script></body></html>\n",
         ]
     )
 
@@ -56,11 +61,12 @@ def checks_list(checks: Iterable[Check]) -> str:
 def table(
     headings: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Sequence[int] = (), changed: Sequence[int] = ()
 ) -> str:
-    """A table of texts; `numeric` columns stand right, `changed` rows are marked."""
+    """A table of texts that scrolls inside itself; `numeric` columns stand right, `changed` rows are marked."""
 
     def cell(tag: str, column: int, text: str) -> str:
-        css_class = ' class="number"' if column in numeric else ""
-        return f"<{tag}{css_class}>{escape(text)}</{tag}>"
+        css_class = "number" if column in numeric else "long" if len(text) > _LONG else ""
+        marked = f' class="{css_class}"' if css_class else ""
+        return f"<{tag}{marked}>{escape(text)}</{tag}>"
 
     def line(number: int, row: Sequence[str]) -> str:
         css_class = ' class="changed"' if number in changed else ""
@@ -71,9 +77,30 @@ def table(
     return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>'
 
 
-def chart(figure: Any) -> str:
-    """A plotly figure; the page brings the library."""
-    html: str = figure.to_html(
-        full_html=False, include_plotlyjs=False, config={"displaylogo": False, "responsive": True}
-    )
-    return html
+def quantities(rows: Iterable[tuple[str, str, str, str]], *, changed: Sequence[int] = ()) -> str:
+    """A table of quantities: (name, value, unit, meaning); `changed` rows are marked."""
+    return table(["name", "value", "unit", "meaning"], rows, numeric=[1], changed=changed)
+
+
+def versions_section(versions: Mapping[str, str]) -> str:
+    """What made the result, as of `versions.versions`."""
+    return section("Versions", table(["what", "version"], versions.items()))
+
+
+def chart(figure: Any, narrow: Mapping[str, Any] | None = None) -> str:
+    """A figure of plotly, or a plain {data, layout}; the page brings what draws it.
+
+    Args:
+        figure: as of `interactive.interactive`, or a `plotly.graph_objects.Figure`.
+        narrow: what is different in its layout on a phone's screen.
+    """
+    plain = figure if isinstance(figure, dict) else json.loads(figure.to_json())
+    data = json.dumps(plain | {"narrow": narrow or {}}, separators=(",", ":"), ensure_ascii=False)
+    # "<" could close the script element
+    text = data.replace("<", "\\u003c")
+    return f'<div class="chart"><div class="plot"></div><script type="application/json">{text}</script></div>'
+
+
+def charts(*drawn: str) -> str:
+    """Charts beside each other, as many as the screen is wide enough for."""
+    return f'<div class="charts">{"".join(drawn)}</div>'

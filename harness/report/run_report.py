@@ -9,16 +9,19 @@ from ..checks import Check
 from ..description import Value
 from ..experiment import Run
 from ..master import Ending
-from ..numbers import engineering, shown
-from ..results import write_text
+from ..numbers import engineering, in_display_unit
+from ..results import settings, write_text
 from ..tooth_stress import stress_field
+from ..versions import versions
 from .animation import animation
 from .fatigue import fatigue_section
+from .interactive import interactive
 from .logic import events_section, modes_section
 from .modes import contacts
 from .motion import motion_chart
-from .page import cards, chart, checks_list, page, section, table
-from .stress import stress_chart
+from .page import cards, chart, charts, checks_list, page, quantities, section, table, versions_section
+from .phone import stacked
+from .stress import stress_plots
 
 #: A longer table is in impacts.csv.
 _MOST_IMPACTS = 100
@@ -40,7 +43,7 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
     body += [animation(run), _motion(run), _stress(run), fatigue_section(run), _impacts(run)]
     body += [modes_section(run), events_section(run)]
-    body += [_parameters(run), _messages(run)]
+    body += [_parameters(run), _messages(run), versions_section(versions(run.fmu, run.description))]
     return page(description.model, subtitle, [part for part in body if part])
 
 
@@ -70,7 +73,7 @@ def _motion(run: Run) -> str:
         return ""
     bands = "Bands below the curves show which contacts are active. " if contacts(run) else ""
     note = f"Dotted red lines mark impacts. {bands}Drag to zoom, double-click to return."
-    return section("Motion", chart(figure), note=note)
+    return section("Motion", chart(figure, stacked(figure)), note=note)
 
 
 def _stress(run: Run) -> str:
@@ -88,11 +91,9 @@ def _stress(run: Run) -> str:
             " v_I is the paper's, wheel speed after the impact times tooth length, meant for a wheel that is struck at "
             "rest: for later impacts on a wheel that already turns it is an upper bound, not the jump of the speed."
         )
-    return section(
-        "Bending stress in the tooth",
-        chart(stress_chart(stress_field(run.tooth, worst["velocity"], run.experiment.material.material))),
-        note=note,
-    )
+    plots = stress_plots(stress_field(run.tooth, worst["velocity"], run.experiment.material.material))
+    drawn = charts(*(chart(interactive(plot, height=400)) for plot in plots))
+    return section("Bending stress in the tooth", drawn, note=note)
 
 
 def _impacts(run: Run) -> str:
@@ -118,20 +119,15 @@ def _cell(value: Value) -> str:
 
 
 def _parameters(run: Run) -> str:
-    values = dict(run.parameters)
-    if not run.results.empty:
-        values |= {
-            v.name: run.results[v.name].iloc[0].item() for v in run.description.of("input") if v.name in run.results
-        }
+    values = settings(run)
     rows = []
     for name, value in values.items():
         variable = run.description.variable(name)
         note = "Input, start value: " if variable.causality == "input" else ""
-        text = shown(value, name, run.description).replace(" ", "\u00a0")
-        rows.append([name, text, note + variable.description])
+        rows.append((name, *in_display_unit(value, name, run.description), note + variable.description))
     changed = [i for i, name in enumerate(values) if name in run.experiment.start_values]
     note = "Values set for this run are marked." if changed else "All values are the FMU's defaults."
-    return section("Parameters", table(["name", "value", "meaning"], rows, changed=changed), note=note)
+    return section("Parameters", quantities(rows, changed=changed), note=note)
 
 
 def _messages(run: Run) -> str:

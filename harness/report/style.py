@@ -35,11 +35,14 @@ ul.checks li.good::before {{ content: "✓"; background: #1b7f4b; }}
 ul.checks li.bad::before {{ content: "✕"; background: {IMPACT_COLOUR}; }}
 ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
 .scroll {{ overflow-x: auto; }}
+.charts {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 10px 24px; }}
+.charts > *, .chart, .plot {{ min-width: 0; }}
 table {{ border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }}
 th, td {{ padding: 6px 12px 6px 0; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }}
+td {{ white-space: nowrap; }}
+td.long {{ white-space: normal; min-width: min(24em, 72vw); }}
 th {{ color: var(--soft); font-weight: 600; border-bottom-width: 2px; }}
 td.number, th.number {{ text-align: right; padding-right: 14px; }}
-td.number {{ white-space: nowrap; }}
 th.number {{ vertical-align: bottom; }}
 tr.changed td {{ background: #fff8e6; }}
 code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
@@ -63,6 +66,14 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
 .animation .play {{ min-width: 76px; }}
 .animation .time {{ font-weight: 650; font-variant-numeric: tabular-nums; min-width: 8em; }}
 .animation .struck {{ color: {IMPACT_COLOUR}; font-variant-numeric: tabular-nums; }}
+@media (max-width: 640px) {{
+  main {{ padding: 16px 10px 40px; }}
+  section {{ padding: 14px 12px; }}
+  .cards {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
+  .card b {{ font-size: 18px; }}
+  ul.checks small {{ display: block; margin-left: 0; }}
+  .scroll .statechart {{ max-width: none !important; }}
+}}
 @media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }} }}
 """
 
@@ -70,13 +81,29 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
 #: Margins of a figure whose charts have titles: the tool buttons stand above them.
 WIDE_TOP = {"l": 70, "r": 20, "t": 64, "b": 50}
 
+_AXIS = {
+    "automargin": True,
+    "gridcolor": "#ebf0f8",
+    "linecolor": "#ebf0f8",
+    "zerolinecolor": "#dfe5ea",
+    "zerolinewidth": 2,
+    "title": {"standoff": 12, "font": {"size": 13}},
+}
+
+#: What plotly takes where a figure says nothing else.
+_TEMPLATE = {
+    "layout": {
+        "colorway": COLOURS,
+        "font": {"family": FONT, "size": 13, "color": "#1c2733"},
+        "hoverlabel": {"font": {"family": FONT}},
+        "paper_bgcolor": "#ffffff",
+        "plot_bgcolor": "#ffffff",
+        "xaxis": _AXIS,
+        "yaxis": _AXIS,
+    }
+}
+
 
 def layout(**more: Any) -> dict[str, Any]:
     """Common layout of all figures."""
-    return {
-        "template": "plotly_white",
-        "colorway": COLOURS,
-        "font": {"family": FONT, "size": 13, "color": "#1c2733"},
-        "margin": {"l": 70, "r": 20, "t": 34, "b": 50},
-        "hoverlabel": {"font": {"family": FONT}},
-    } | more
+    return {"template": _TEMPLATE, "margin": {"l": 62, "r": 16, "t": 40, "b": 46}} | more

@@ -42,9 +42,14 @@ class Engine(NamedTuple):
     read_output_rates: Callable[[], None]
 
 
-def engine_for(block: Array) -> Engine:
-    """The engine for an instance's block, float64 of shape (words,), which must live as long."""
-    library = compiled_library()
+def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
+    """The engine for an instance's block, float64 of shape (words,), which must live as long.
+
+    Args:
+        block: of the instance.
+        library: what `load` has given; None for the library that lies here, if one does.
+    """
+    library = library or compiled_library()
     if library is not None:
         address, words = block.ctypes.data, len(block)
         functions: list[Any] = [getattr(library, f"engine_{name}") for name in Engine._fields]

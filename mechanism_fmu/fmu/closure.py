@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -73,8 +73,9 @@ def closure(homes: tuple[Home, ...], modules: tuple[str, ...]) -> Closure:
         source = path.read_text(encoding="utf-8-sig")  # some editors of Windows put a mark in front
         package = module if path.name == "__init__.py" else module.rpartition(".")[0]
         relative = "/".join(filter(None, (*package.split("."), path.name)))
-        found.files[relative] = _with_relative_imports(source, path, package, homes)
-        for imported in _imports(ast.parse(source, str(path))):
+        tree = ast.parse(source, str(path))
+        found.files[relative] = _with_relative_imports(source, tree, path, package, homes)
+        for imported in _imports(tree):
             inside = _inside(imported, package, homes)
             if inside is None:
                 name = imported.module.partition(".")[0]
@@ -96,14 +97,16 @@ class _Import:
     line: int
 
 
-def _imports(node: ast.AST) -> Iterator[_Import]:
-    """Imports of a tree that can run."""
+def _imports(node: ast.AST, run: bool = True) -> Iterator[_Import]:
+    """Imports of a tree; with `run` only those that can run."""
     yield from _imports_of(node)
-    children: Iterable[ast.AST] = ast.iter_child_nodes(node)
-    if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
-        children = node.orelse
-    for child in children:
-        yield from _imports(child)
+    # An import is a statement, and only these parts of a statement hold others.
+    parts: tuple[str, ...] = ("body", "orelse", "finalbody", "handlers", "cases")
+    if run and isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
+        parts = ("orelse",)
+    for part in parts:
+        for child in getattr(node, part, ()):
+            yield from _imports(child, run)
 
 
 def _imports_of(statement: ast.AST) -> Iterator[_Import]:
@@ -138,11 +141,11 @@ def _locate(homes: tuple[Home, ...], module: str) -> Path | None:
     return None
 
 
-def _with_relative_imports(source: str, path: Path, package: str, homes: tuple[Home, ...]) -> str:
+def _with_relative_imports(source: str, tree: ast.Module, path: Path, package: str, homes: tuple[Home, ...]) -> str:
     """The source with absolute imports of the homes written relative: the package travels under another name."""
     lines = source.splitlines(keepends=True)
     to_root = "." * (len(package.split(".")) + 1 if package else 1)
-    for imported in (i for node in ast.walk(ast.parse(source)) for i in _imports_of(node)):
+    for imported in _imports(tree, run=False):
         inside = None if imported.level else _inside(imported, package, homes)
         if inside is None:
             continue

@@ -10,12 +10,16 @@ import pytest
 from typer.testing import CliRunner
 
 from harness.cli import main
+from harness.drawing import Drawing
+from harness.errors import UsageError
 from harness.experiment import Experiment, Run, perform
 from harness.fmu import Fmu, open_fmu
 from harness.master import Ending
 from harness.report.animation import animation, animation_data
-from harness.study import ratchet_study
+from harness.study import Study, ratchet_study
 from harness.validate import validate
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 #: By beta_0 [deg]: t_I [s] and omega just after the impact [rad/s], from two independent implementations.
 IMPACTS = {
@@ -38,6 +42,11 @@ def fmu(ratchet_fmu: Path) -> Fmu:  # type: ignore[misc]
 @pytest.fixture(scope="module")
 def base_case(fmu: Fmu) -> Run:
     return perform(fmu, Experiment(6.0, 1e-3))
+
+
+@pytest.fixture(scope="module")
+def study(fmu: Fmu) -> Study:
+    return ratchet_study(fmu, lambda *_: None)
 
 
 def invoke(*arguments: str | Path) -> tuple[int, str]:
@@ -170,13 +179,62 @@ def test_the_events_of_the_base_case(base_case: Run) -> None:
     assert len(base_case.events) == base_case.results["event_count"].iloc[-1]
 
 
-def test_the_study_command_writes_table_and_charts(ratchet_fmu: Path, tmp_path: Path) -> None:
+def test_the_study_shows_its_base_case_in_motion(study: Study, base_case: Run) -> None:
+    assert study.base_case.impacts["time"][0] == base_case.impacts["time"][0]
+    assert len(study.base_case.results) == 121
+    assert study.parameters["hinge_distance"] == (0.13,) * 20
+    assert study.parameters["drive_torque"] == (1e-3,) * 20
+
+
+def test_a_warning_is_told_once_for_all_wheels(study: Study) -> None:
+    pulls, apex = study.warnings
+    assert pulls.endswith(
+        "(nt = 10, beta_0 = 105 deg; nt = 15, beta_0 = 105 deg; nt = 20, beta_0 = 105 deg; nt = 25, beta_0 = 105 deg)"
+    )
+    assert "0.00536908 m beyond the apex" in apex
+    assert "(nt = 25, beta_0 = 85 deg; with other numbers also nt = 25, beta_0 = 90 deg; nt" in apex
+
+
+def test_an_fmu_without_a_drawn_wheel_is_no_ratchet(fmu: Fmu, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("harness.study.read_drawing", lambda *_: Drawing())
+    with pytest.raises(UsageError, match="its drawing has no wheel"):
+        ratchet_study(fmu, lambda *_: None)
+
+
+def test_teeth_have_the_paper_s_shape(study: Study) -> None:
+    r = 0.1
+    for wheel, rim in zip(study.wheels, study.rims, strict=True):
+        theta, beta = 2 * math.pi / wheel.tooth_count, wheel.tooth_slope_angle
+        slope = 1.115 * 2 * r * math.sin(theta / 2)
+        x, y = rim.tooth()
+        assert x == pytest.approx([0, slope * math.sin(beta), r * math.sin(theta)], abs=1e-15)
+        assert y == pytest.approx([0, -slope * math.cos(beta), r * math.cos(theta) - r], abs=1e-15)
+
+
+def test_the_study_command_writes_table_and_figures(ratchet_fmu: Path, tmp_path: Path) -> None:
     code, text = invoke("study", "ratchet", "--fmu", ratchet_fmu, "-o", tmp_path)
     assert code == 0
-    assert "The maximum stress falls with the number of teeth" in text
-    assert len(pd.read_csv(tmp_path / "study.csv")) == 20
-    assert json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))["units"]["stress_max"] == "Pa"
-    assert "10 teeth" in (tmp_path / "study.html").read_text(encoding="utf-8")
+    described = " ".join((DOCS / "case-studies.md").read_text(encoding="utf-8").split())
+    for said in (
+        text[text.index("First impact") : text.index("Warning")],
+        text[text.index("✓") : text.index("Written")],
+    ):
+        assert said.strip() in described
+    table = pd.read_csv(tmp_path / "study.csv")
+    assert len(table) == 20
+    assert table["impact_time [s]"][1] == pytest.approx(IMPACTS[90][0], rel=1e-7)
+    assert table["wheel_speed [rad/s]"][1] == pytest.approx(IMPACTS[90][1], rel=1e-7)
+    assert table["stress_max [Pa]"][1] == pytest.approx(STRESSES[10, 90], abs=0.5)
+    summary = json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))
+    assert summary["units"]["stress_max"] == "Pa"
+    assert summary["parameters"]["tooth_count"][::5] == [10, 15, 20, 25]
+    assert summary["versions"]["model"] == "Ratchet"
+    page = (tmp_path / "study.html").read_text(encoding="utf-8")
+    for heading in ("Wheel shapes", "Tooth shapes", "Stress along the tooth", "Maximum bending stress"):
+        assert f"<h2>{heading}" in page
+    for name in ("fig08_wheels", "fig09_teeth", "fig10_stress", "fig11_maximum"):
+        assert (tmp_path / f"{name}.svg").read_bytes() == (DOCS / "case-studies" / f"{name}.svg").read_bytes()
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_the_demo_is_one_command(tmp_path: Path) -> None:

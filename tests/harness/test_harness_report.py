@@ -21,14 +21,14 @@ def test_the_report_is_one_page_that_needs_no_network(tmp_path: Path) -> None:
     assert html.startswith("<!doctype html>")
     assert "<script src=" not in html
     assert "<link" not in html
-    for heading in ("Verdicts", "Motion", "Impacts", "Parameters"):
+    for heading in ("Verdicts", "Motion", "Impacts", "Parameters", "Versions"):
         assert f"<h2>{heading}</h2>" in html
     assert "Bending stress" not in html  # the fake has no tooth
 
 
 def test_what_was_set_is_marked() -> None:
     html = run_report(run_of(FakeSlave()))
-    assert '<tr class="changed"><td>tooth_count</td><td>20</td>' in html
+    assert '<tr class="changed"><td>tooth_count</td><td class="number">20</td><td>1</td>' in html
     assert html.count('<tr class="changed">') == 1
 
 

@@ -1,4 +1,4 @@
-"""The engine alone as shared libraries, for FMUs by pythonfmu: they then start without numba and its compilation."""
+"""The engine alone as shared libraries: with them FMUs start without numba, and many designs run in one call."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import os
 import tempfile
 from pathlib import Path
 
+from ...engine.run import library_path
 from ..archive import content_hash
-from .link import link, linked_with, surface
-from .objects import Report, compiled_engine, silently
-from .targets import TARGETS, WRAPPED
+from .link import has_linker, link, linked_with, surface
+from .objects import Engine, Report, compiled_engine, silently
+from .targets import TARGETS, WRAPPED, Target
+
+_SOURCES = ("library.c", "many.c")
 
 
 def engine_libraries(report: Report = silently) -> dict[str, bytes]:
@@ -22,15 +25,34 @@ def engine_libraries(report: Report = silently) -> dict[str, bytes]:
         MechanismError: there is no linker, or the engine cannot be compiled.
     """
     engine = compiled_engine(report)
-    made_from = content_hash(linked_with("library.c"))[:8]
-    found = {}
-    for target in (target for target in TARGETS if target.fmi2 in WRAPPED):
-        path = engine.headers / made_from / f"{target.name}{target.suffix}"
-        if not path.is_file():
-            path.parent.mkdir(exist_ok=True)
-            with tempfile.TemporaryDirectory(dir=path.parent) as temporary:
-                made = Path(temporary, path.name)
-                link(target, [*surface("library.c"), engine.objects[target.name]], [engine.headers], made)
-                os.replace(made, path)
-        found[path.name] = path.read_bytes()
-    return found
+    paths = [_linked(engine, target) for target in TARGETS if target.fmi2 in WRAPPED]
+    return {path.name: path.read_bytes() for path in paths}
+
+
+def library_here(report: Report = silently) -> Path | None:
+    """The library for this platform, in the user's cache; None where there is no linker, or no such platform.
+
+    Args:
+        report: see `compiled_engine`.
+
+    Raises:
+        MechanismError: the engine cannot be compiled.
+    """
+    place = library_path(Path())
+    target = next((t for t in TARGETS if place is not None and f"{t.name}{t.suffix}" == place.name), None)
+    if target is None or not has_linker():
+        return None
+    return _linked(compiled_engine(report), target)
+
+
+def _linked(engine: Engine, target: Target) -> Path:
+    """The library of a platform, linked now if need be."""
+    made_from = content_hash(linked_with(*_SOURCES))[:8]
+    path = engine.headers / made_from / f"{target.name}{target.suffix}"
+    if not path.is_file():
+        path.parent.mkdir(exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=path.parent) as temporary:
+            made = Path(temporary, path.name)
+            link(target, [*surface(*_SOURCES), engine.objects[target.name]], [engine.headers], made)
+            os.replace(made, path)
+    return path

@@ -1,0 +1,1 @@
+"""Many designs: the fast path against MuJoCo's batched rollout, and against solve_ivp in a process pool."""

@@ -1,0 +1,237 @@
+"""A model made ready for many designs."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from ctypes import CDLL
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..fmu.native.libraries import library_here
+from ..fmu.native.objects import Report, silently
+from ..model import MechanismError, Model
+from .job import Job
+from .library import load_many
+from .numbers import Array, Numbers
+from .origin import NoBatchError, model_of_fmu
+from .prepared import Prepared, prepared
+from .refusals import Refusals, impossible, out_of_limits, said_of
+from .result import BatchResult
+from .workers import Progress, nobody, run_job
+
+#: Designs whose tables are in memory at the same time.
+_CHUNK = 4096
+
+
+@dataclass(frozen=True)
+class Batch:
+    """A model made ready for many designs. Make one of a model, or `of_fmu`.
+
+    Where the engine's library is not given, and the extra `native` is installed, it is compiled ahead of time, once for
+    each state of its sources (one or two minutes), and kept in the user's cache directory. Without, it is compiled just
+    in time, in every process.
+
+    Attributes:
+        model: it.
+        library: path of the engine's shared library, or None.
+        report: see `mechanism_fmu.fmu.native.objects.compiled_engine`.
+    """
+
+    model: Model
+    library: Path | None = None
+    report: Report = silently
+
+    @classmethod
+    def of_fmu(cls, path: Path) -> Batch:
+        """The model of an FMU by pythonfmu, from the sources that travel in it, and the engine that does.
+
+        Raises:
+            NoBatchError: not with the numbers of this FMU; the message says why.
+        """
+        batch = cls(*model_of_fmu(path))
+        try:
+            batch._prepared  # noqa: B018  (what cannot be traced is better told now)
+        except MechanismError as error:
+            raise NoBatchError(f"Only the FMU itself can run its designs: {error}") from error
+        return batch
+
+    @property
+    def compiled(self) -> str:
+        """How the engine is compiled: "ahead of time" or "just in time"."""
+        return "just in time" if self._engine is None else "ahead of time"
+
+    def run(
+        self,
+        designs: Mapping[str, ArrayLike],
+        times: Sequence[float],
+        outputs: Iterable[str] | None = None,
+        *,
+        signals: Mapping[str, ArrayLike] | None = None,
+        impacts: int = 1,
+        extremes: bool = False,
+        until_impact: bool = False,
+        threads: int | None = None,
+        progress: Progress = nobody,
+    ) -> BatchResult:
+        """Run designs: the motions that the FMU makes with these start values and communication points.
+
+        A design that fails leaves the others alone, and the result says why it did. Neither the order of the designs
+        nor the number of threads changes a bit.
+
+        Args:
+            designs: columns of parameters and inputs by name, in SI units, of one length. An input holds its value.
+                What is not named has its start value.
+            times: the start, then the end of each communication step [s].
+            outputs: names of the outputs and calculated parameters that are wanted; None: all.
+            signals: values of inputs, held in each communication step, by name; for all designs alike.
+            impacts: how many impacts of each design are kept, from the first.
+            extremes: whether to keep the least and greatest values that the outputs have at the start, at communication
+                points and at the end.
+            until_impact: whether to stop each design right after its first impact.
+            threads: how many; None: as many as this process has processors.
+            progress: told a few times a second how many designs are done, and of how many.
+
+        Raises:
+            MechanismError: a name, a length or a time that cannot be.
+        """
+        columns, points = self._columns(designs), _points(times)
+        count = len(next(iter(columns.values())))
+        driven = self._signals(signals or {}, len(points) - 1)
+        wanted = self._wanted(outputs)
+        job = Job.blank(
+            self._prepared.given,
+            times=points,
+            drivers={self._prepared.inputs[name]: column for name, column in driven.items()},
+            outputs=[self._prepared.outputs[name] for name in wanted],
+            fields=list(self._prepared.impact_fields.values()),
+            designs=count,
+            kept=impacts,
+            extremes=extremes,
+            until_impact=until_impact,
+        )
+        threads = max(1, min(threads or _processors(), count))
+        failures: Refusals = {}
+        warnings: Refusals = {}
+        for first in range(0, count, _CHUNK):
+            here = slice(first, min(first + _CHUNK, count))
+
+            def so_far(done: int, _all: int, first: int = first) -> None:
+                progress(first + done, count)
+
+            part, refused, warned = self._tables(
+                job.part(here), {name: column[here] for name, column in columns.items()}
+            )
+            refused |= run_job(part, self._prepared.mechanism, self._engine, threads, so_far)
+            failures |= {first + design: text for design, text in refused.items()}
+            warnings |= {first + design: text for design, text in warned.items() if design not in refused}
+        job.forget_values(list(failures))
+        names = list(enumerate(wanted))
+        return BatchResult(
+            designs=columns,
+            values={name: job.values[:, k] for k, name in names},
+            least={name: job.least[:, k] for k, name in names if extremes},
+            greatest={name: job.greatest[:, k] for k, name in names if extremes},
+            impact_count=job.impact_count,
+            impacts={name: job.impacts[:, :, k] for k, name in enumerate(self._prepared.impact_fields)},
+            reached=job.reached,
+            pulled=job.pulled,
+            failures=tuple(failures.get(design, "") for design in range(count)),
+            warnings=tuple(warnings.get(design, "") for design in range(count)),
+            compiled=self.compiled,
+            threads=threads,
+        )
+
+    @cached_property
+    def _prepared(self) -> Prepared:
+        return prepared(self.model)
+
+    @cached_property
+    def _same(self) -> dict[frozenset[str], dict[int, float]]:
+        """What the designs have in common that vary the same parameters (see `Numbers`)."""
+        return {}
+
+    @cached_property
+    def _engine(self) -> CDLL | None:
+        given = load_many(self.library)
+        return load_many(library_here(self.report)) if given is None else given
+
+    def _tables(self, job: Job, columns: Mapping[str, Array]) -> tuple[Job, Refusals, Refusals]:
+        """The job with the tables of its designs, those of them that are refused, and what the others are warned of."""
+        ready, count = self._prepared, len(job.status)
+        refused = out_of_limits(self.model, ready.mechanism.inputs, columns)
+        values = {p.name: columns.get(p.name, p.start) for p in self.model.parameters}
+        numbers = Numbers(ready.traced, values, self._same.setdefault(frozenset(columns), {}))
+        refused = impossible(ready.traced, numbers, ready.entries, count) | refused
+        words = {ready.inputs[name]: column for name, column in columns.items() if name in ready.inputs}
+        words |= dict(zip((e.word for e in ready.entries), numbers.of(e.value for e in ready.entries), strict=True))
+        given = job.given.copy()
+        varied = {word: column for word, column in words.items() if np.ndim(column)}
+        for word, value in words.items():
+            if not np.ndim(value):
+                given[word] = value
+        job.status[list(refused)] = -1
+        return (
+            replace(
+                job,
+                given=given,
+                varied_word=np.array(list(varied), np.int64),
+                varied_value=np.array(list(varied.values())).T.copy() if varied else np.empty((count, 0)),
+            ),
+            refused,
+            said_of(ready.traced.warnings, numbers, count),
+        )
+
+    def _columns(self, designs: Mapping[str, ArrayLike]) -> dict[str, Array]:
+        known = {p.name for p in self.model.parameters} | self._prepared.inputs.keys()
+        columns = {name: np.array(column, float) for name, column in dict(designs).items()}
+        for name, column in columns.items():
+            if name not in known:
+                raise MechanismError(
+                    f"{self.model.name} has no parameter or input {name!r}; it has: {', '.join(sorted(known))}."
+                )
+            if column.ndim != 1:
+                raise MechanismError(f"{name} has the shape {column.shape}; give one number for each design.")
+        lengths = {name: len(column) for name, column in columns.items()}
+        if len(set(lengths.values())) != 1:
+            told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+            raise MechanismError(f"All columns must be of one length, but {told or 'there are none'}.")
+        return columns
+
+    def _signals(self, signals: Mapping[str, ArrayLike], steps: int) -> dict[str, Array]:
+        columns = {name: np.array(column, float) for name, column in signals.items()}
+        for name, column in columns.items():
+            if name not in self._prepared.inputs:
+                raise MechanismError(
+                    f"{self.model.name} has no input {name!r}; it has: {', '.join(self._prepared.inputs)}."
+                )
+            if column.shape != (steps,):
+                raise MechanismError(f"Signal {name} has the shape {column.shape}; give {steps} values, one a step.")
+        refused = out_of_limits(self.model, self._prepared.mechanism.inputs, columns)
+        if refused:
+            raise MechanismError(next(iter(refused.values())))
+        return columns
+
+    def _wanted(self, outputs: Iterable[str] | None) -> list[str]:
+        known = self._prepared.outputs
+        wanted = list(known if outputs is None else outputs)
+        for name in wanted:
+            if name not in known:
+                raise MechanismError(f"{self.model.name} has no output {name!r}; it has: {', '.join(known)}.")
+        return wanted
+
+
+def _points(times: Sequence[float]) -> Array:
+    points = np.array(times, float)
+    if points.ndim != 1 or len(points) < 2 or not np.all(np.isfinite(points)) or not np.all(np.diff(points) > 0):
+        raise MechanismError(f"The times {times} must be finite, at least two, and each later than the one before.")
+    return points
+
+
+def _processors() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

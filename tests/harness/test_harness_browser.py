@@ -1,0 +1,138 @@
+"""Reports as a reader has them: in a real browser, on a desk and on a phone."""
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from chromium import PROGRAM, Browser, Page, chromium, opened
+
+from harness.experiment import Experiment, perform
+from harness.fmu import open_fmu
+from harness.report.paper_figures import paper_figures
+from harness.report.run_report import write_report
+from harness.report.study_report import write_study_report
+from harness.study import ratchet_study
+
+pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no chromium is installed (on Debian: apt install chromium)")
+
+PHONE, DESK = 360, 1200
+
+#: Elements that reach beyond the screen, but for what lies in something that scrolls.
+TOO_WIDE = """[...document.body.querySelectorAll("*")].filter(
+    (e) => !e.closest(".scroll *") && e.getBoundingClientRect().right > document.documentElement.clientWidth + 0.5
+).map((e) => e.outerHTML.slice(0, 80))"""
+
+
+@dataclass(frozen=True)
+class Report:
+    """A file, and how many charts it has."""
+
+    path: Path
+    charts: int
+
+    def traces(self) -> list[int]:
+        """The number of curves and bands in each of its charts, without those that hold no point."""
+        held = re.findall(
+            r'<div class="plot"></div><script type="application/json">(.*?)</script>', self.path.read_text()
+        )
+        return [sum(_points(trace["x"]) for trace in json.loads(text)["data"]) for text in held]
+
+
+def _points(x: list[float] | dict[str, str]) -> bool:
+    """Whether there are any: in a list, or as plotly writes arrays."""
+    return bool(x["bdata"] if isinstance(x, dict) else x)
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    with chromium(tmp_path_factory.mktemp("profile")) as browser:
+        yield browser
+
+
+@pytest.fixture(scope="module")
+def reports(ratchet_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Report]:
+    folder = tmp_path_factory.mktemp("reports")
+    with open_fmu(ratchet_fmu) as fmu:
+        run = perform(fmu, Experiment(1.2, 1e-2))
+        study = ratchet_study(fmu, lambda *_: None)
+    figures = paper_figures(study)
+    return {
+        "run": Report(write_report(run, folder / "report.html"), charts=4),
+        "study": Report(write_study_report(study, figures, folder / "study.html"), charts=14),
+    }
+
+
+@pytest.fixture(scope="module", params=[(name, width) for name in ("run", "study") for width in (PHONE, DESK)], ids=str)
+def shown(
+    request: pytest.FixtureRequest, browser: Browser, reports: dict[str, Report]
+) -> Iterator[tuple[Page, Report]]:
+    name, width = request.param
+    with opened(browser, reports[name].path, width) as page:
+        yield page, reports[name]
+
+
+def test_a_report_has_no_error_and_asks_the_network_for_nothing(shown: tuple[Page, Report]) -> None:
+    page, report = shown
+    assert page.errors == []
+    assert page.requests == [report.path.resolve().as_uri()]
+
+
+def test_all_charts_are_there(shown: tuple[Page, Report]) -> None:
+    page, report = shown
+    drawn = page.value('[...document.querySelectorAll(".plot")].map((p) => p.querySelectorAll(".trace").length)')
+    assert drawn == report.traces()
+    assert len(drawn) == report.charts
+
+
+def test_the_mechanism_is_drawn(shown: tuple[Page, Report]) -> None:
+    page, _ = shown
+    assert page.value('document.querySelectorAll(".animation svg polygon").length') == 1  # the wheel
+    assert page.value('document.querySelector(".animation .time").textContent') == "t = 0.000 s"
+
+
+def test_nothing_is_wider_than_the_screen(shown: tuple[Page, Report]) -> None:
+    page, _ = shown
+    assert page.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+    assert page.value("innerWidth") == page.width  # a phone would zoom out
+    assert page.value(TOO_WIDE) == []
+
+
+def test_wide_tables_scroll_inside_themselves(shown: tuple[Page, Report]) -> None:
+    page, _ = shown
+    wide = page.value('[...document.querySelectorAll(".scroll")].filter((e) => e.scrollWidth > e.clientWidth).length')
+    assert (wide >= 2) == (page.width == PHONE)
+
+
+def test_the_mechanism_plays_pauses_and_goes_to_the_impact(browser: Browser, reports: dict[str, Report]) -> None:
+    clock, button = "document.querySelector('.time').textContent", "document.querySelector('.play').textContent"
+    bar = "document.querySelector('.animation svg path').getAttribute('transform')"
+    with opened(browser, reports["run"].path, PHONE) as page:
+        start, place = page.value(clock), page.value(bar)
+        assert start == "t = 0.000 s"
+        page.click(".animation .play")
+        page.wait_until(f"{clock} !== {start!r} && {bar} !== {place!r}")
+        assert page.value(button) == "Pause"
+        page.click(".animation .play")
+        stopped = page.value(clock)
+        frames = "let n = 20; const go = () => n-- ? requestAnimationFrame(go) : done(); go();"
+        page.value(f"new Promise((done) => {{ {frames} }})")
+        assert page.value(clock) == stopped
+        assert page.value(button) == "Play"
+        page.click(".animation .next")
+        page.wait_until("document.querySelector('.struck').textContent === 'impact 1 of 1 at 0.9399212 s'")
+        assert page.value("document.querySelector('.flash').getAttribute('visibility')") == "visible"
+
+
+def test_the_eyes_of_these_tests_are_open(browser: Browser, tmp_path: Path) -> None:
+    page_with_faults = tmp_path / "faults.html"
+    page_with_faults.write_text(
+        '<!doctype html><meta name="viewport" content="width=device-width, initial-scale=1">'
+        '<div style="width: 500px">wide</div><img src="nowhere.png"><script>console.error("bad"); missing();</script>'
+    )
+    with opened(browser, page_with_faults, PHONE) as page:
+        assert len(page.errors) >= 2
+        assert any(address.endswith("nowhere.png") for address in page.requests)
+        assert page.value(TOO_WIDE)
