@@ -243,7 +243,7 @@ def sweep(
         [record]
         first_impact = ["time", "stress_max"]
 
-    Results are kept as they come: whenever the command ends, by Ctrl-C, a power cut or at midnight, the same command
+    Results are kept as they come: whenever the command ends, by Ctrl-C or killed by somebody, the same command
     goes on where it stopped. The table results.parquet is for pandas, report.html for people. See docs/sweeps.md.
 
     Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.

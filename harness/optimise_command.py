@@ -13,7 +13,7 @@ from .designs.optimum_file import Optimum, read_optimum
 from .designs.plan import source
 from .designs.search import Best, best_of, search
 from .designs.sensitivity import Sensitivity, sensitivity
-from .designs.store import Store
+from .designs.store import Store, failures
 from .designs.sweep import Progress
 from .designs.toml_file import TomlFile
 from .fmu import open_fmu
@@ -81,7 +81,9 @@ def _ending(optimum: Optimum, history: History, best: Best, near_it: Sensitivity
     from .report.optimum_report import write_optimum_report
 
     table = store.finish()
-    console.print(f"{len(history.designs)} designs, {min(history.earlier, len(history.designs))} of them there before.")
+    asked, failed = len(history.designs), len(failures(table))
+    told = f", {failed} failed (status and message are in {store.table_file.name})" if failed else ""
+    console.print(f"{asked} designs, {min(history.earlier, asked)} of them there before{told}.", soft_wrap=True)
     description = optimum.axes[0].description
     values = best.design.values.items()
     rows = [[name, shown(value, name, description), "free"] for name, value in values]
