@@ -29,6 +29,8 @@ from .style import COLOURS, WIDE_TOP, layout
 _MOST_ROWS = 500
 #: Height of one row of charts [px].
 _ROW_HEIGHT = 260
+#: Beyond so many dots, SVG is slow.
+_MANY_DOTS = 10_000
 
 
 @dataclass(frozen=True)
@@ -116,11 +118,13 @@ def scatter_chart(varied: Sequence[Column], found: Sequence[Column]) -> go.Figur
         vertical_spacing=min(0.06, 0.5 / rows),
         horizontal_spacing=0.04,
     )
+    # WebGL draws many dots at once, but not in every browser
+    kind = go.Scatter if len(varied[0].values) * rows * len(varied) <= _MANY_DOTS else go.Scattergl
     for i, y in enumerate(found, start=1):
         for k, x in enumerate(varied, start=1):
             marker = {"size": 6, "color": COLOURS[(i - 1) % len(COLOURS)], "opacity": 0.75}
-            dots = go.Scattergl(x=x.values, y=y.values, mode="markers", marker=marker, name=y.name, showlegend=False)
-            figure.add_trace(dots, row=i, col=k)
+            dots = {"x": x.values, "y": y.values, "mode": "markers", "marker": marker, "name": y.name}
+            figure.add_trace(kind(**dots, showlegend=False), row=i, col=k)
         figure.update_yaxes(title_text=_broken(y.heading), exponentformat="SI", row=i, col=1)
     for k, x in enumerate(varied, start=1):
         figure.update_xaxes(title_text=x.heading, row=rows, col=k)
