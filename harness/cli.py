@@ -205,7 +205,9 @@ def sweep(
     ] = None,
     workers: Annotated[
         int | None,
-        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
+        typer.Option(
+            metavar="N", min=1, help="Through the FMU, in so many processes.", show_default="the fastest way there is"
+        ),
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -254,7 +256,9 @@ def optimise(
     ] = None,
     workers: Annotated[
         int | None,
-        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
+        typer.Option(
+            metavar="N", min=1, help="Through the FMU, in so many processes.", show_default="the fastest way there is"
+        ),
     ] = None,
     scheduler: Annotated[
         str | None,
