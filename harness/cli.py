@@ -205,9 +205,7 @@ def sweep(
     ] = None,
     workers: Annotated[
         int | None,
-        typer.Option(
-            metavar="N", min=1, help="Through the FMU, in so many processes.", show_default="the fastest way there is"
-        ),
+        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -256,9 +254,7 @@ def optimise(
     ] = None,
     workers: Annotated[
         int | None,
-        typer.Option(
-            metavar="N", min=1, help="Through the FMU, in so many processes.", show_default="the fastest way there is"
-        ),
+        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
     ] = None,
     scheduler: Annotated[
         str | None,

@@ -11,11 +11,12 @@ from .designs.history import History, InterruptedSearchError
 from .designs.identity import identity
 from .designs.optimum_file import Optimum, read_optimum
 from .designs.plan import source
-from .designs.search import Best, best_of, probe, search
+from .designs.search import Best, best_of, search
 from .designs.sensitivity import Sensitivity, sensitivity
 from .designs.store import Store, failures
 from .designs.sweep import Progress
 from .designs.toml_file import TomlFile
+from .designs.ways import BY_FMU
 from .fmu import open_fmu
 from .interrupt import interruption
 from .numbers import shown
@@ -42,7 +43,7 @@ def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler
         )
         asked = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
         with (
-            crew_of(fmu, optimum.task, [probe(optimum)], workers, scheduler) as crew,
+            crew_of(fmu, optimum.task, BY_FMU, workers, scheduler) as crew,
             DesignsBar(optimum.total) as bar,
             interruption(lambda: console.print(asked)) as stop_requested,
         ):

@@ -19,10 +19,10 @@ from .designs.identity import identity
 from .designs.plan import Source, source
 from .designs.store import Store, failures
 from .designs.sweep_file import Sweep, read_sweep
-from .designs.task import Design, Task
+from .designs.task import Task
 from .designs.toml_file import TomlFile
-from .designs.ways import BY_FMU, fast_way
-from .designs.workers import Crew, Processes, Work, here
+from .designs.ways import BY_FMU, Way
+from .designs.workers import Crew, Processes, Work
 from .errors import UsageError
 from .fmu import Fmu, open_fmu
 from .interrupt import interruption
@@ -44,8 +44,7 @@ def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: s
         how = ("sweep", {"method": sweep.method})
         known = identity(fmu.description, sweep.task, sweep.axes, how, sweep.designs)
         store = Store(folder, known, sweep.axes, sweep.task.quantities)
-        console.print(f"[bold]{escape(sweep.title)}[/]: {len(sweep.designs)} designs ({sweep.method})", soft_wrap=True)
-        with crew_of(fmu, sweep.task, sweep.designs, workers, scheduler) as crew:
+        with crew_of(fmu, sweep.task, BY_FMU, workers, scheduler) as crew:
             progress, table = _performed(sweep, store, crew)
         return _ending(fmu, sweep, store, progress, table)
 
@@ -77,6 +76,7 @@ def fmu_file(wanted: Source, folder: Path) -> Path:
 
 
 def _performed(sweep: Sweep, store: Store, crew: Crew) -> tuple[sweeps.Progress, pa.Table]:
+    console.print(f"[bold]{escape(sweep.title)}[/]: {len(sweep.designs)} designs ({sweep.method})", soft_wrap=True)
     asked = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
     with DesignsBar(len(sweep.designs)) as bar, interruption(lambda: console.print(asked)) as stop_requested:
         return sweeps.perform_sweep(sweep, store, crew, bar.show, stop_requested)
@@ -122,23 +122,14 @@ class DesignsBar:
 
 
 @contextmanager
-def crew_of(
-    fmu: Fmu, task: Task, designs: Sequence[Design], workers: int | None, scheduler: str | None
-) -> Iterator[Crew]:
-    """Those who run the designs: a cluster or so many processes, if the user names them; else the fastest there is.
+def crew_of(fmu: Fmu, task: Task, way: Way, workers: int | None, scheduler: str | None) -> Iterator[Crew]:
+    """Those who run the designs.
 
     Raises:
         UsageError: the cluster cannot be used.
     """
     if scheduler is None:
-        way = fast_way(fmu, task, designs) if workers is None else None
-        if way is not None:
-            console.print("Way: many at once in one compiled call (docs/batch.md).")
-            yield partial(here, Work(fmu, task, way))
-            return
-        count = workers or os.cpu_count() or 1
-        console.print(f"Way: each through the FMU, in {count} process{'es' if count > 1 else ''}.")
-        with Processes(Work(fmu, task, BY_FMU), count) as processes:
+        with Processes(Work(fmu, task, way), workers or os.cpu_count() or 1) as processes:
             yield processes.run
         return
     try:
@@ -150,8 +141,7 @@ def crew_of(
             '--scheduler needs Dask, which is not installed: python -m pip install "mechanism_fmu[cluster]"'
         ) from None
     with connected(scheduler) as client:
-        console.print(f"Way: each through the FMU, on the cluster of {scheduler}.", soft_wrap=True)
-        yield partial(on_cluster, client, fmu.path, task, BY_FMU)
+        yield partial(on_cluster, client, fmu.path, task, way)
 
 
 def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, table: pa.Table) -> int:

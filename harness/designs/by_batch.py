@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from mechanism_fmu.batch import Batch, BatchResult
+from mechanism_fmu.batch import Batch, BatchResult, NoBatchError
+from mechanism_fmu.model import MechanismError
 
 from ..clock import TimeGrid, seconds
 from ..description import Description, Value
@@ -35,7 +36,7 @@ def can_run(fmu: Fmu, task: Task, design: Design) -> bool:
         grid = task.grid
         one_step = TimeGrid(grid.start, min(grid.start + grid.step, grid.stop), grid.step)
         _found(batch, replace(task, grid=one_step), [design], fmu)
-    except ValueError:  # NoBatchError, or a name that is none here
+    except (NoBatchError, MechanismError, ValueError):
         return False
     return True
 

@@ -61,11 +61,6 @@ def search(optimum: Optimum, history: History) -> Best:
     return best_of(optimum, history)
 
 
-def probe(optimum: Optimum) -> Design:
-    """A design like those that the search will ask for."""
-    return Design(1, _at(optimum.axes, np.full(len(optimum.axes), 0.5)))
-
-
 def best_of(optimum: Optimum, history: History) -> Best:
     """The best design so far, of equally good ones the first."""
     merits = [optimum.goal.merit(result, optimum.task) for result in history.results]

@@ -76,18 +76,6 @@ def test_a_sweep_from_the_file_to_the_report(slider_crank_fmu: Path, tmp_path: P
     assert "8 designs, 0 of them run now, 8 there before" in text
 
 
-def test_both_ways_give_the_same_table(slider_crank_fmu: Path, tmp_path: Path) -> None:
-    path = file_of(tmp_path, slider_crank_fmu, 70, longest=2000)
-    code, text = invoke(path, "-o", tmp_path / "batch")
-    assert code == 1
-    assert "Way: many at once in one compiled call" in text
-    assert invoke(path, "-o", tmp_path / "fmu", "--workers", "1")[0] == 1
-    tables = [pd.read_parquet(tmp_path / way / "results.parquet") for way in ("batch", "fmu")]
-    assert [set(table["way"]) for table in tables] == [{"batch"}, {"fmu"}]
-    told = ["way", "message", "warnings"]
-    pd.testing.assert_frame_equal(*(table.drop(columns=told) for table in tables), check_exact=True)
-
-
 def test_a_changed_file_is_refused_with_the_way_out(slider_crank_fmu: Path, tmp_path: Path) -> None:
     assert invoke(file_of(tmp_path, slider_crank_fmu, 1), "-o", tmp_path / "out", "--workers", "1")[0] == 0
     code, text = invoke(file_of(tmp_path, slider_crank_fmu, 1, longest=21), "-o", tmp_path / "out")
@@ -152,7 +140,7 @@ def test_a_cluster_gives_what_this_machine_gives(slider_crank_fmu: Path, tmp_pat
         code, text = invoke(path, "-o", tmp_path / "there", "--scheduler", cluster.scheduler_address)
     assert code == 1
     assert "30 designs, 30 of them run now" in text
-    assert invoke(path, "-o", tmp_path / "here", "--workers", "2")[0] == 1
+    assert invoke(path, "-o", tmp_path / "here")[0] == 1
     there, here = (pd.read_parquet(tmp_path / name / "results.parquet") for name in ("there", "here"))
     pd.testing.assert_frame_equal(there, here)
 
@@ -164,9 +152,7 @@ def test_two_thousand_designs_killed_ten_times(slider_crank_fmu: Path, tmp_path:
     moments, kept = random.Random(7), 0
     for _ in range(10):
         before = {part: part.read_bytes() for part in (out / "parts").glob("*.parquet")}
-        with subprocess.Popen(
-            [*COMMAND, path, "-o", out, "--workers", "2"], stdout=subprocess.DEVNULL, text=True
-        ) as process:
+        with subprocess.Popen([*COMMAND, path, "-o", out], stdout=subprocess.DEVNULL, text=True) as process:
             wait_for_parts(out, len(before) + moments.randint(5, 150), process)
             time.sleep(moments.uniform(0.0, 0.02))
             os.kill(process.pid, signal.SIGKILL)
@@ -177,15 +163,7 @@ def test_two_thousand_designs_killed_ten_times(slider_crank_fmu: Path, tmp_path:
         assert all(part.read_bytes() == content for part, content in before.items())
         kept = len(after)
     assert kept < 2000
-    assert (
-        subprocess.run([*COMMAND, path, "-o", out, "--workers", "2"], stdout=subprocess.DEVNULL, check=False).returncode
-        == 0
-    )
+    assert subprocess.run([*COMMAND, path, "-o", out], stdout=subprocess.DEVNULL, check=False).returncode == 0
     undisturbed = tmp_path / "undisturbed"
-    assert (
-        subprocess.run(
-            [*COMMAND, path, "-o", undisturbed, "--workers", "2"], stdout=subprocess.DEVNULL, check=False
-        ).returncode
-        == 0
-    )
+    assert subprocess.run([*COMMAND, path, "-o", undisturbed], stdout=subprocess.DEVNULL, check=False).returncode == 0
     assert (out / "results.parquet").read_bytes() == (undisturbed / "results.parquet").read_bytes()
