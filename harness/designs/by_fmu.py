@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import pandas as pd
+
+from mechanism_fmu.stress import SequenceDamage
+
 from ..description import Value
 from ..errors import FmuError
 from ..fmu import Fmu, discard_message
 from ..impacts import ImpactCollector
 from ..master import run_fixed_step
 from ..slave import Observable
-from .of_impacts import of_impacts, tooth_parameters
-from .task import Design, Result, Task, When
+from ..tooth_damage import damage_of_impacts
+from ..tooth_stress import STRESS_UNITS, tooth_of, with_stress
+from .task import Design, Quantity, Result, Task, When
 
 NAME = "fmu"
-
-_LOST = "impacts did not fit into the FMU's buffer of one communication step; choose a smaller run.step."
 
 
 def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design]) -> list[Result]:
@@ -37,9 +40,7 @@ def _run(fmu: Fmu, task: Task, design: Design) -> Result:
             said = [message.text.strip() for message in slave.messages if message.needs_attention]
         if outcome.error is not None:
             return Result.failed(design, NAME, task, str(outcome.error))
-        if impacts.lost and any(quantity.when.of_impacts for quantity in task.quantities):
-            return Result.failed(design, NAME, task, f"{impacts.lost} {_LOST}")
-        kept = {**reader.found(), **of_impacts(task, impacts.table(), reader.tooth)}
+        kept = {**reader.found(), **_of_impacts(task, impacts, reader)}
     except FmuError as error:
         return Result.failed(design, NAME, task, str(error))
     except Exception as error:  # whatever a design does, the others are to run
@@ -56,7 +57,10 @@ class _Reader:
         for quantity in task.quantities:
             names[quantity.when].append(quantity.name)
         self._names = names
-        self._tooth = tooth_parameters(task)
+        wants_stress = names[When.ALL_IMPACTS] or any(
+            quantity.when.of_impacts and quantity.name in STRESS_UNITS for quantity in task.quantities
+        )
+        self._tooth = ("tooth_length", "tooth_apex_angle") if wants_stress else ()
         self._extremes = list(dict.fromkeys(names[When.MAX] + names[When.MIN]))
         self._largest: list[Value] = []
         self._smallest: list[Value] = []
@@ -88,3 +92,37 @@ class _Reader:
             When.PARAMETER: dict(zip(self._names[When.PARAMETER], self._parameters, strict=True)),
         }
         return {f"{when}.{name}": value for when, values in groups.items() for name, value in values.items()}
+
+
+def _of_impacts(task: Task, impacts: ImpactCollector, reader: _Reader) -> dict[str, Value | None]:
+    """What is asked of the impacts, by column; None where there was no impact.
+
+    Raises:
+        FmuError: impacts were lost, or the FMU reports a tooth that cannot be.
+    """
+    wanted = [quantity for quantity in task.quantities if quantity.when.of_impacts]
+    if not wanted:
+        return {}
+    if impacts.lost:
+        raise FmuError(
+            f"{impacts.lost} impacts did not fit into the FMU's buffer of one communication step; choose a smaller "
+            "run.step."
+        )
+    table = impacts.table()
+    if table.empty:
+        return {quantity.column: None for quantity in wanted}
+    tooth = tooth_of(reader.tooth)
+    damage = None
+    if tooth is not None:
+        if any(quantity.when is When.ALL_IMPACTS for quantity in wanted):
+            damage = damage_of_impacts(table, tooth, task.material)
+        table = with_stress(table, tooth, task.material.material)
+    return {quantity.column: _taken(table, damage, quantity) for quantity in wanted}
+
+
+def _taken(table: pd.DataFrame, damage: SequenceDamage | None, quantity: Quantity) -> Value:
+    if quantity.when is When.ALL_IMPACTS:
+        return float(getattr(damage, quantity.name))
+    column = table[quantity.name]
+    value: Value = (column.iloc[0] if quantity.when is When.FIRST_IMPACT else column.max()).item()
+    return value

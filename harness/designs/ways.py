@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ..fmu import Fmu
-from . import by_batch, by_fmu
+from . import by_fmu
 from .task import Design, Result, Task
 
 
@@ -26,4 +26,3 @@ class Way:
 
 
 BY_FMU = Way(by_fmu.NAME, by_fmu.run_designs)
-BY_BATCH = Way(by_batch.NAME, by_batch.run_designs, together=64)
