@@ -205,12 +205,24 @@ def sweep(
     ] = None,
     workers: Annotated[
         int | None,
-        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
+        typer.Option(
+            metavar="N",
+            min=1,
+            help="Processes on this machine (threads with --fast).",
+            show_default="one for each processor",
+        ),
     ] = None,
     scheduler: Annotated[
         str | None,
         typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
     ] = None,
+    fast: Annotated[
+        bool,
+        typer.Option(
+            "--fast",
+            help="Hundreds of designs in one compiled call, in threads, without FMI calls; the numbers are the FMU's.",
+        ),
+    ] = False,
 ) -> None:
     """Run many designs: a grid, random ones, a Latin hypercube or Sobol points.
 
@@ -240,7 +252,7 @@ def sweep(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_sweep(file, output, workers, scheduler))
+        raise typer.Exit(run_sweep(file, output, workers, scheduler, fast))
 
 
 @main.command()
@@ -254,12 +266,24 @@ def optimise(
     ] = None,
     workers: Annotated[
         int | None,
-        typer.Option(metavar="N", min=1, help="Processes on this machine.", show_default="one for each processor"),
+        typer.Option(
+            metavar="N",
+            min=1,
+            help="Processes on this machine (threads with --fast).",
+            show_default="one for each processor",
+        ),
     ] = None,
     scheduler: Annotated[
         str | None,
         typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
     ] = None,
+    fast: Annotated[
+        bool,
+        typer.Option(
+            "--fast",
+            help="Hundreds of designs in one compiled call, in threads, without FMI calls; the numbers are the FMU's.",
+        ),
+    ] = False,
 ) -> None:
     """Find the best design: variables with bounds, an objective, constraints.
 
@@ -292,7 +316,7 @@ def optimise(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_optimise(file, output, workers, scheduler))
+        raise typer.Exit(run_optimise(file, output, workers, scheduler, fast))
 
 
 @main.command()

@@ -16,7 +16,6 @@ from .designs.sensitivity import Sensitivity, sensitivity
 from .designs.store import Store, failures
 from .designs.sweep import Progress
 from .designs.toml_file import TomlFile
-from .designs.ways import BY_FMU
 from .fmu import open_fmu
 from .interrupt import interruption
 from .numbers import shown
@@ -25,7 +24,7 @@ from .sweep_command import DesignsBar, alone_in, crew_of, fmu_file
 from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
 
 
-def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None) -> int:
+def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
     """Look for the best design of a file, go on where it stopped, and write history, optimum and report."""
     file = TomlFile.read(path)
     wanted = source(file)
@@ -43,7 +42,7 @@ def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler
         )
         asked = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
         with (
-            crew_of(fmu, optimum.task, BY_FMU, workers, scheduler) as crew,
+            crew_of(fmu, optimum.task, workers, scheduler, fast) as crew,
             DesignsBar(optimum.total) as bar,
             interruption(lambda: console.print(asked)) as stop_requested,
         ):

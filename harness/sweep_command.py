@@ -21,8 +21,8 @@ from .designs.store import Store, failures
 from .designs.sweep_file import Sweep, read_sweep
 from .designs.task import Task
 from .designs.toml_file import TomlFile
-from .designs.ways import BY_FMU, Way
-from .designs.workers import Crew, Processes, Work
+from .designs.ways import BY_FMU, by_batch_in
+from .designs.workers import Crew, Processes, Work, here
 from .errors import UsageError
 from .fmu import Fmu, open_fmu
 from .interrupt import interruption
@@ -33,7 +33,7 @@ from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show
 _MOST_SHOWN = 10
 
 
-def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: str | None) -> int:
+def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
     """Run the designs of a file that are not there yet, keep them as they come, and write table and report."""
     file = TomlFile.read(path)
     wanted = source(file)
@@ -44,7 +44,7 @@ def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: s
         how = ("sweep", {"method": sweep.method})
         known = identity(fmu.description, sweep.task, sweep.axes, how, sweep.designs)
         store = Store(folder, known, sweep.axes, sweep.task.quantities)
-        with crew_of(fmu, sweep.task, BY_FMU, workers, scheduler) as crew:
+        with crew_of(fmu, sweep.task, workers, scheduler, fast) as crew:
             progress, table = _performed(sweep, store, crew)
         return _ending(fmu, sweep, store, progress, table)
 
@@ -122,14 +122,24 @@ class DesignsBar:
 
 
 @contextmanager
-def crew_of(fmu: Fmu, task: Task, way: Way, workers: int | None, scheduler: str | None) -> Iterator[Crew]:
-    """Those who run the designs.
+def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool) -> Iterator[Crew]:
+    """Those who run the designs: processes, a cluster, or (`fast`) threads of this process.
 
     Raises:
-        UsageError: the cluster cannot be used.
+        UsageError: the cluster cannot be used, or the designs of this FMU cannot run in one call.
     """
+    if fast:
+        if scheduler is not None:
+            raise UsageError(
+                "--fast uses the threads of this machine, --scheduler the machines of a cluster; choose one."
+            )
+        from .designs.by_batch import require_batch
+
+        require_batch(fmu.path)
+        yield partial(here, Work(fmu, task, by_batch_in(workers)))
+        return
     if scheduler is None:
-        with Processes(Work(fmu, task, way), workers or os.cpu_count() or 1) as processes:
+        with Processes(Work(fmu, task, BY_FMU), workers or os.cpu_count() or 1) as processes:
             yield processes.run
         return
     try:
@@ -141,7 +151,7 @@ def crew_of(fmu: Fmu, task: Task, way: Way, workers: int | None, scheduler: str 
             '--scheduler needs Dask, which is not installed: python -m pip install "mechanism_fmu[cluster]"'
         ) from None
     with connected(scheduler) as client:
-        yield partial(on_cluster, client, fmu.path, task, way)
+        yield partial(on_cluster, client, fmu.path, task, BY_FMU)
 
 
 def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, table: pa.Table) -> int:

@@ -4,19 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import pandas as pd
-
-from mechanism_fmu.stress import SequenceDamage
-
 from ..description import Value
 from ..errors import FmuError
 from ..fmu import Fmu, discard_message
 from ..impacts import ImpactCollector
 from ..master import run_fixed_step
 from ..slave import Observable
-from ..tooth_damage import damage_of_impacts
-from ..tooth_stress import STRESS_UNITS, tooth_of, with_stress
-from .task import Design, Quantity, Result, Task, When
+from .of_impacts import TOOTH, of_impacts, wants_stress
+from .task import Design, Result, Task, When
 
 NAME = "fmu"
 
@@ -57,10 +52,7 @@ class _Reader:
         for quantity in task.quantities:
             names[quantity.when].append(quantity.name)
         self._names = names
-        wants_stress = names[When.ALL_IMPACTS] or any(
-            quantity.when.of_impacts and quantity.name in STRESS_UNITS for quantity in task.quantities
-        )
-        self._tooth = ("tooth_length", "tooth_apex_angle") if wants_stress else ()
+        self._tooth = TOOTH if wants_stress(task) else ()
         self._extremes = list(dict.fromkeys(names[When.MAX] + names[When.MIN]))
         self._largest: list[Value] = []
         self._smallest: list[Value] = []
@@ -95,34 +87,16 @@ class _Reader:
 
 
 def _of_impacts(task: Task, impacts: ImpactCollector, reader: _Reader) -> dict[str, Value | None]:
-    """What is asked of the impacts, by column; None where there was no impact.
+    """What is asked of the impacts, by column.
 
     Raises:
         FmuError: impacts were lost, or the FMU reports a tooth that cannot be.
     """
-    wanted = [quantity for quantity in task.quantities if quantity.when.of_impacts]
-    if not wanted:
+    if not any(quantity.when.of_impacts for quantity in task.quantities):
         return {}
     if impacts.lost:
         raise FmuError(
             f"{impacts.lost} impacts did not fit into the FMU's buffer of one communication step; choose a smaller "
             "run.step."
         )
-    table = impacts.table()
-    if table.empty:
-        return {quantity.column: None for quantity in wanted}
-    tooth = tooth_of(reader.tooth)
-    damage = None
-    if tooth is not None:
-        if any(quantity.when is When.ALL_IMPACTS for quantity in wanted):
-            damage = damage_of_impacts(table, tooth, task.material)
-        table = with_stress(table, tooth, task.material.material)
-    return {quantity.column: _taken(table, damage, quantity) for quantity in wanted}
-
-
-def _taken(table: pd.DataFrame, damage: SequenceDamage | None, quantity: Quantity) -> Value:
-    if quantity.when is When.ALL_IMPACTS:
-        return float(getattr(damage, quantity.name))
-    column = table[quantity.name]
-    value: Value = (column.iloc[0] if quantity.when is When.FIRST_IMPACT else column.max()).item()
-    return value
+    return of_impacts(task, impacts.table(), reader.tooth)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from ..fmu import Fmu
 from . import by_fmu
@@ -26,3 +27,10 @@ class Way:
 
 
 BY_FMU = Way(by_fmu.NAME, by_fmu.run_designs)
+
+
+def by_batch_in(threads: int | None) -> Way:
+    """The way of many designs in one call, in so many threads; None: as many as there are processors."""
+    from . import by_batch  # the engine's way in, which takes a moment to load
+
+    return Way(by_batch.NAME, partial(by_batch.run_designs, threads=threads), by_batch.TOGETHER)

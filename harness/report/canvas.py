@@ -118,11 +118,8 @@ class Png:
 
     def file(self) -> bytes:
         """The whole file."""
-        from PIL import Image
-
-        size = (self._image.width // _FINENESS, self._image.height // _FINENESS)
         file = io.BytesIO()
-        self._image.resize(size, Image.Resampling.BOX).save(file, format="png", compress_level=4)
+        self._image.reduce(_FINENESS).save(file, format="png")
         return file.getvalue()
 
     def _scaled(self, points: Sequence[Point]) -> list[Point]:

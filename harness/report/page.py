@@ -104,3 +104,8 @@ def chart(figure: Any, narrow: Mapping[str, Any] | None = None) -> str:
 def charts(*drawn: str) -> str:
     """Charts beside each other, as many as the screen is wide enough for."""
     return f'<div class="charts">{"".join(drawn)}</div>'
+
+
+def wide(drawn: str) -> str:
+    """A chart that is no use on a phone's width: there it is wider, and scrolls inside itself."""
+    return f'<div class="scroll"><div class="wide">{drawn}</div></div>'

@@ -36,6 +36,7 @@ ul.checks li.bad::before {{ content: "✕"; background: {IMPACT_COLOUR}; }}
 ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
 .scroll {{ overflow-x: auto; }}
 .charts {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 10px 24px; }}
+.wide {{ min-width: 640px; }}
 .charts > *, .chart, .plot {{ min-width: 0; }}
 table {{ border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }}
 th, td {{ padding: 6px 12px 6px 0; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }}

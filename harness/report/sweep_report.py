@@ -22,7 +22,7 @@ from ..designs.task import Quantity, Task
 from ..designs.variation import Axis
 from ..numbers import shown
 from ..results import write_text
-from .page import cards, chart, page, section, table
+from .page import cards, chart, page, section, table, wide
 from .style import COLOURS, WIDE_TOP, layout
 
 #: More rows make a page slow; the file has all.
@@ -134,10 +134,10 @@ def _charts(varied: Sequence[Column], found: Sequence[Column]) -> list[str]:
     if not varied or not some:
         return ["<p>There is nothing to draw: no design gave a number.</p>"]
     whole = np.isfinite(np.column_stack([column.values for column in (*varied, *some)])).all(axis=1)
-    drawn = [chart(scatter_chart(varied, some))]
+    drawn = [wide(chart(scatter_chart(varied, some)))]
     if whole.any():
         kept = [Column(column.name, column.heading, column.values[whole]) for column in (*varied, *some)]
-        drawn.append(chart(parallel_chart(kept, kept[len(varied)])))
+        drawn.append(wide(chart(parallel_chart(kept, kept[len(varied)]))))
     return drawn
 
 

@@ -3,8 +3,9 @@
 The one way in which the harness may reach the engine (docs/batch.md, docs/decisions/018-batch.md).
 """
 
+from ..model import MechanismError
 from .batch import Batch
 from .origin import NoBatchError
 from .result import BatchResult
 
-__all__ = ["Batch", "BatchResult", "NoBatchError"]
+__all__ = ["Batch", "BatchResult", "MechanismError", "NoBatchError"]

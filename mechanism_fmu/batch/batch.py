@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from ctypes import CDLL
@@ -14,7 +15,9 @@ from numpy.typing import ArrayLike
 
 from ..fmu.native.libraries import library_here
 from ..fmu.native.objects import Report, silently
+from ..fmu.news import pulls
 from ..model import MechanismError, Model
+from .asked import columns_of, outputs_of, points_of, signals_of
 from .job import Job
 from .library import load_many
 from .numbers import Array, Numbers
@@ -99,16 +102,17 @@ class Batch:
         Raises:
             MechanismError: a name, a length or a time that cannot be.
         """
-        columns, points = self._columns(designs), _points(times)
+        ready = self._prepared
+        columns, points = columns_of(ready, designs), points_of(times)
         count = len(next(iter(columns.values())))
-        driven = self._signals(signals or {}, len(points) - 1)
-        wanted = self._wanted(outputs)
+        driven = signals_of(ready, signals or {}, len(points) - 1)
+        wanted = outputs_of(ready, outputs)
         job = Job.blank(
-            self._prepared.given,
+            ready.given,
             times=points,
-            drivers={self._prepared.inputs[name]: column for name, column in driven.items()},
-            outputs=[self._prepared.outputs[name] for name in wanted],
-            fields=list(self._prepared.impact_fields.values()),
+            drivers={ready.inputs[name]: column for name, column in driven.items()},
+            outputs=[ready.outputs[name] for name in wanted],
+            fields=list(ready.impact_fields.values()),
             designs=count,
             kept=impacts,
             extremes=extremes,
@@ -126,10 +130,11 @@ class Batch:
             part, refused, warned = self._tables(
                 job.part(here), {name: column[here] for name, column in columns.items()}
             )
-            refused |= run_job(part, self._prepared.mechanism, self._engine, threads, so_far)
+            refused |= run_job(part, ready.mechanism, self._engine, threads, so_far)
             failures |= {first + design: text for design, text in refused.items()}
             warnings |= {first + design: text for design, text in warned.items() if design not in refused}
         job.forget_values(list(failures))
+        contacts = [contact.name for contact in ready.mechanism.contacts]
         names = list(enumerate(wanted))
         return BatchResult(
             designs=columns,
@@ -137,11 +142,11 @@ class Batch:
             least={name: job.least[:, k] for k, name in names if extremes},
             greatest={name: job.greatest[:, k] for k, name in names if extremes},
             impact_count=job.impact_count,
-            impacts={name: job.impacts[:, :, k] for k, name in enumerate(self._prepared.impact_fields)},
+            impacts={name: job.impacts[:, :, k] for k, name in enumerate(ready.impact_fields)},
             reached=job.reached,
-            pulled=job.pulled,
+            pulled={name: job.pulled[:, c] for c, name in enumerate(contacts)},
             failures=tuple(failures.get(design, "") for design in range(count)),
-            warnings=tuple(warnings.get(design, "") for design in range(count)),
+            warnings=tuple(_warned(warnings.get(k, ""), contacts, job.pulled[k]) for k in range(count)),
             compiled=self.compiled,
             threads=threads,
         )
@@ -186,50 +191,11 @@ class Batch:
             said_of(ready.traced.warnings, numbers, count),
         )
 
-    def _columns(self, designs: Mapping[str, ArrayLike]) -> dict[str, Array]:
-        known = {p.name for p in self.model.parameters} | self._prepared.inputs.keys()
-        columns = {name: np.array(column, float) for name, column in dict(designs).items()}
-        for name, column in columns.items():
-            if name not in known:
-                raise MechanismError(
-                    f"{self.model.name} has no parameter or input {name!r}; it has: {', '.join(sorted(known))}."
-                )
-            if column.ndim != 1:
-                raise MechanismError(f"{name} has the shape {column.shape}; give one number for each design.")
-        lengths = {name: len(column) for name, column in columns.items()}
-        if len(set(lengths.values())) != 1:
-            told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
-            raise MechanismError(f"All columns must be of one length, but {told or 'there are none'}.")
-        return columns
 
-    def _signals(self, signals: Mapping[str, ArrayLike], steps: int) -> dict[str, Array]:
-        columns = {name: np.array(column, float) for name, column in signals.items()}
-        for name, column in columns.items():
-            if name not in self._prepared.inputs:
-                raise MechanismError(
-                    f"{self.model.name} has no input {name!r}; it has: {', '.join(self._prepared.inputs)}."
-                )
-            if column.shape != (steps,):
-                raise MechanismError(f"Signal {name} has the shape {column.shape}; give {steps} values, one a step.")
-        refused = out_of_limits(self.model, self._prepared.mechanism.inputs, columns)
-        if refused:
-            raise MechanismError(next(iter(refused.values())))
-        return columns
-
-    def _wanted(self, outputs: Iterable[str] | None) -> list[str]:
-        known = self._prepared.outputs
-        wanted = list(known if outputs is None else outputs)
-        for name in wanted:
-            if name not in known:
-                raise MechanismError(f"{self.model.name} has no output {name!r}; it has: {', '.join(known)}.")
-        return wanted
-
-
-def _points(times: Sequence[float]) -> Array:
-    points = np.array(times, float)
-    if points.ndim != 1 or len(points) < 2 or not np.all(np.isfinite(points)) or not np.all(np.diff(points) > 0):
-        raise MechanismError(f"The times {times} must be finite, at least two, and each later than the one before.")
-    return points
+def _warned(text: str, contacts: Sequence[str], times: Array) -> str:
+    """What is said at the start, and of each contact that has pulled, in the order of time."""
+    pulled = sorted((time, name) for name, time in zip(contacts, times.tolist(), strict=True) if time < math.inf)
+    return " ".join(filter(None, (text, *(pulls(name, time).text for time, name in pulled))))
 
 
 def _processors() -> int:

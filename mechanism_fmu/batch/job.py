@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..engine.block.layout import sizes_of
 from .numbers import Array
 
 
@@ -29,7 +30,7 @@ class Job:
         least, greatest: likewise, over the start, the ends of steps and the end; with no rows if nobody asks.
         impacts: the first impacts of each design, shape (designs, kept, fields).
         reached: time reached [s], shape (designs,).
-        pulled: when a guided contact first pulled [s], shape (designs,); infinite: never.
+        pulled: when each guided contact first pulled [s], shape (designs, contacts); infinite: never.
         impact_count: shape (designs,).
         status: shape (designs,); those that are not `status.OK` are left out.
         next: number of the design that is taken next, shape (1,).
@@ -97,7 +98,7 @@ class Job:
             greatest=np.full((looked, len(outputs)), np.nan),
             impacts=np.full((designs, kept, len(fields)), np.nan),
             reached=np.full(designs, np.nan),
-            pulled=np.full(designs, np.inf),
+            pulled=np.full((designs, sizes_of(given)["contacts"]), np.inf),
             impact_count=np.zeros(designs, np.int64),
             status=np.zeros(designs, np.int64),
             next=np.zeros(1, np.int64),

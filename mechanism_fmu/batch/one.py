@@ -54,8 +54,7 @@ class OneByOne:
             self._look(design)
             if job.until_impact and job.impact_count[design]:
                 break
-        pulls = self._pull_time[self._pull_time <= simulation.time]
-        job.pulled[design] = pulls.min(initial=math.inf)
+        job.pulled[design] = np.where(self._pull_time <= simulation.time, self._pull_time, math.inf)
         job.values[design] = simulation.read_array()[job.read_output]
 
     def _drive(self, point: int) -> None:

@@ -22,9 +22,10 @@ class BatchResult:
         impacts: the first impacts of each design, by field as in the FMU's `impacts[k].<field>`, shape (designs, kept);
             NaN where there were fewer.
         reached: time reached [s]; of a failed design the last good instant, NaN if it did not start.
-        pulled: first time [s] at which a guided contact pulled where a real one would open; infinite: never.
+        pulled: of each contact, by name, the first time [s] at which it pulled where a real one would open, as a guided
+            one may; infinite: never.
         failures: why a design failed, in the FMU's words; "" of those that did not.
-        warnings: what the FMU's log says of a design that starts; "" of those that it says nothing of.
+        warnings: what the FMU's log warns of, at the start and where contacts pull; "" of those that did well.
         compiled: how the engine was compiled: "ahead of time" or "just in time".
         threads: how many ran them.
     """
@@ -36,7 +37,7 @@ class BatchResult:
     impact_count: Array
     impacts: Mapping[str, Array]
     reached: Array
-    pulled: Array
+    pulled: Mapping[str, Array]
     failures: tuple[str, ...]
     warnings: tuple[str, ...]
     compiled: str
@@ -46,7 +47,8 @@ class BatchResult:
         """All columns under the names of the FMU's variables, for `pandas.DataFrame`.
 
         Designs and outputs as they are called, extremes as `<output>.least` and `<output>.greatest`, impacts as
-        `impacts[k].<field>`, and `impacts`, `time_reached` [s], `pulls_from` [s], `failure` and `warning`.
+        `impacts[k].<field>`, and `impacts`, `time_reached` [s],
+        `<contact>.pulls_from` [s], `failure` and `warning`.
         """
         kept = {
             f"impacts[{k + 1}].{name}": column[:, k]
@@ -61,7 +63,7 @@ class BatchResult:
             "impacts": self.impact_count,
             **kept,
             "time_reached": self.reached,
-            "pulls_from": self.pulled,
+            **{f"{name}.pulls_from": column for name, column in self.pulled.items()},
             "failure": np.array(self.failures, object),
             "warning": np.array(self.warnings, object),
         }

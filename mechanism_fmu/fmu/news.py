@@ -56,7 +56,7 @@ class News:
             for contact, time in simulation.pulling_contacts().items():
                 if contact not in self._pulls:
                     self._pulls.add(contact)
-                    yield _pull(contact, time)
+                    yield pulls(contact, time)
 
 
 def _impacts(simulation: Simulation) -> Iterator[Message]:
@@ -92,7 +92,8 @@ def _mode(closed: tuple[str, ...]) -> str:
     return "+".join(closed) or "all open"
 
 
-def _pull(contact: str, time: float) -> Message:
+def pulls(contact: str, time: float) -> Message:
+    """A guided contact has pulled from a time [s] on."""
     return Message(
         f"From t = {time:.6g} s the guided contact {contact} pulls: it holds the bodies together where a real contact "
         "would open. The motion from here on is the guided model's, as in the paper.",

@@ -135,8 +135,8 @@ def test_the_paper_s_impacts_are_found(ratchets):
     assert found.impacts["time"][:, 0].tolist() == found.reached.tolist()
     assert found.values["wheel_speed"] == pytest.approx([row[-1] for row in TABLE.values()], abs=1e-10)
     assert found.values["impact_count"].tolist() == [1.0] * 5
-    assert found.pulled.tolist()[:4] == [math.inf] * 4
-    assert found.pulled[4] < found.reached[4]
+    assert found.pulled["slope"].tolist()[:4] == [math.inf] * 4
+    assert found.pulled["slope"][4] < found.reached[4]
 
 
 BAD = {
@@ -319,12 +319,17 @@ def test_a_model_that_cannot_be_used_is_told(ratchet_fmu, tmp_path, old, new, me
         Batch.of_fmu(rewritten(ratchet_fmu, tmp_path, "model.py", old, new))
 
 
-def test_warnings_are_those_of_the_fmu_at_its_start(ratchet, ratchets):
-    designs = {"pawl_angle_start": [0.0, 3.0, 0.0, 0.0], "tooth_count": [10.0, 10.0, 25.0, 2.0]}
-    found = ratchets.run(designs, [0.0, 0.01], [])
+def test_warnings_are_those_of_the_fmu(ratchet, ratchets):
+    designs = {
+        "pawl_angle_start": [0.0, 3.0, 3.0, 0.0],
+        "tooth_count": [10.0, 10.0, 25.0, 2.0],
+        "tooth_slope_angle": np.radians([90, 90, 105, 90]),
+    }
+    found = ratchets.run(designs, [0.0, 1.0], [])
+    assert found.warnings[0] == found.warnings[3] == ""
     assert found.warnings[1].startswith("pawl_angle_start is not used by the guided pawl")
+    assert found.warnings[2].count("the guided contact slope pulls") == 1
     for k in range(3):
         with Instance(ratchet) as one:
-            one.begin(start_values(ratchet, designs, k))
+            one.begin(start_values(ratchet, designs, k)).step(1.0)
             assert found.warnings[k] == " ".join(m.text for m in one.log if m.category == "logStatusWarning")
-    assert found.warnings[0] == found.warnings[3] == ""

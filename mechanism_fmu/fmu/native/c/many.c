@@ -90,9 +90,10 @@ static int64_t run(const Job *job, double *block, int64_t design) {
         look(job, block, design);
         if (job->until_impact && impacts) break;
     }
-    for (int64_t c = 0; c < SIZE(block, contacts); c++) {
+    int64_t contacts = SIZE(block, contacts);
+    for (int64_t c = 0; c < contacts; c++) {
         double pulls = FIELD(block, pull_time)[c];
-        if (pulls <= *time && pulls < job->pulled[design]) job->pulled[design] = pulls;
+        if (pulls <= *time) job->pulled[design * contacts + c] = pulls;
     }
     mechanism_read_outputs(block, job->words);
     for (int64_t k = 0; k < job->read; k++)

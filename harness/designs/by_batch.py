@@ -1,0 +1,142 @@
+"""The way of hundreds of designs in one compiled call: the FMU's numbers without its FMI calls."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from mechanism_fmu.batch import Batch, BatchResult, NoBatchError
+
+from ..clock import seconds
+from ..description import Description, Value, Variable
+from ..errors import FmuError, UsageError
+from ..fmu import Fmu
+from ..impacts import ImpactCollector
+from . import by_fmu
+from .of_impacts import TOOTH, of_impacts, wants_stress
+from .task import Design, Quantity, Result, Task, When
+
+NAME = "batch"
+#: So many designs go together, and are kept together when they come: those of about a second.
+TOGETHER = 256
+#: Impacts of a design that are kept; one with more goes through the FMU.
+_MOST_IMPACTS = 512
+
+
+def require_batch(path: Path) -> None:
+    """Refuse an FMU whose designs cannot run in one call.
+
+    Raises:
+        UsageError: why they cannot.
+    """
+    try:
+        _batch(path)
+    except NoBatchError as error:
+        raise UsageError(f"--fast: {error}") from None
+
+
+def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | None = None) -> list[Result]:
+    """Run designs together, in as many threads as there are processors unless told otherwise.
+
+    The numbers are those of `by_fmu`, to the last bit. Impacts that would not fit into the FMU's buffer of one step are
+    not lost here.
+    """
+    driven = task.inputs.variables if task.inputs is not None else ()
+    at_steps = [task.inputs.at(seconds(begin)) for begin, _ in task.grid] if task.inputs is not None else []
+    found = _batch(fmu.path).run(
+        {name: [float({**task.fixed, **design.values}[name]) for design in designs] for name in _set(task, designs)},
+        [seconds(task.grid.start), *(seconds(end) for _, end in task.grid)],
+        [*_outputs(task, fmu.description), *(TOOTH if wants_stress(task) else ())],
+        signals={variable.name: [float(values[variable.name]) for values in at_steps] for variable in driven},
+        impacts=_MOST_IMPACTS if any(quantity.when.of_impacts for quantity in task.quantities) else 0,
+        extremes=any(quantity.when in (When.MAX, When.MIN) for quantity in task.quantities),
+        threads=threads,
+    )
+    return [_result(fmu, task, design, found, place) for place, design in enumerate(designs)]
+
+
+@cache
+def _batch(path: Path) -> Batch:
+    return Batch.of_fmu(path)
+
+
+def _set(task: Task, designs: Sequence[Design]) -> list[str]:
+    """Names of the variables that the task or the designs set."""
+    return list(dict.fromkeys([*task.fixed, *(name for design in designs for name in design.values)]))
+
+
+def _outputs(task: Task, description: Description) -> list[str]:
+    """Names of the outputs and calculated parameters among the quantities; what is set is known without a run."""
+    names = [quantity.name for quantity in task.quantities if not quantity.when.of_impacts]
+    return [name for name in dict.fromkeys(names) if not description.variable(name).settable]
+
+
+def _result(fmu: Fmu, task: Task, design: Design, found: BatchResult, place: int) -> Result:
+    if found.failures[place]:
+        return Result.failed(design, NAME, task, found.failures[place])
+    struck = int(found.impact_count[place])
+    if struck > _MOST_IMPACTS and any(quantity.when.of_impacts for quantity in task.quantities):
+        return by_fmu.run_designs(fmu, task, [design])[0]
+    try:
+        asked = of_impacts(task, _impacts(fmu.description, found, place, struck), _tooth(task, found, place))
+    except FmuError as error:
+        return Result.failed(design, NAME, task, str(error))
+    values = tuple(
+        asked[quantity.column]
+        if quantity.when.of_impacts
+        else _value(fmu.description, task, design, quantity, found, place)
+        for quantity in task.quantities
+    )
+    return Result(design.number, NAME, values, None, found.warnings[place] or None)
+
+
+def _value(
+    description: Description, task: Task, design: Design, quantity: Quantity, found: BatchResult, place: int
+) -> Value:
+    """A quantity that is not about impacts."""
+    variable = description.variable(quantity.name)
+    if variable.settable:
+        return _typed(_of_set(variable, task, design, quantity.when), variable)
+    columns = {When.MAX: found.greatest, When.MIN: found.least}.get(quantity.when, found.values)
+    return _typed(float(columns[quantity.name][place]), variable)
+
+
+def _of_set(variable: Variable, task: Task, design: Design, when: When) -> float:
+    """A parameter, or an input: the value that it has been given."""
+    if task.inputs is not None and variable in task.inputs.variables:
+        values = [float(task.inputs.at(seconds(begin))[variable.name]) for begin, _ in task.grid]
+        return {When.MAX: max, When.MIN: min}.get(when, lambda held: held[-1])(values)
+    given = {**task.fixed, **design.values}.get(variable.name)
+    return float(_started(variable) if given is None else given)
+
+
+def _started(variable: Variable) -> float:
+    text = variable.start or "0"
+    return float(text == "true") if variable.type == "Boolean" else float(text)
+
+
+def _impacts(description: Description, found: BatchResult, place: int, struck: int) -> pd.DataFrame:
+    """The impacts of a design, as `ImpactCollector` gives them."""
+    fields = ImpactCollector(description).fields
+    return pd.DataFrame(
+        {name: _column(found.impacts[name][place, :struck], variable) for name, variable in fields.items()}
+    )
+
+
+def _tooth(task: Task, found: BatchResult, place: int) -> dict[str, Value]:
+    return {name: float(found.values[name][place]) for name in TOOTH} if wants_stress(task) else {}
+
+
+def _column(numbers: npt.NDArray[np.float64], variable: Variable) -> list[Value]:
+    return [_typed(float(number), variable) for number in numbers]
+
+
+def _typed(number: float, variable: Variable) -> Value:
+    if variable.type == "Boolean":
+        return bool(number)
+    return round(number) if variable.type == "Integer" else number

@@ -1,0 +1,80 @@
+"""Designs in one compiled call give the numbers of designs through the FMU, to the last bit."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness.clock import TimeGrid
+from harness.designs import by_batch, by_fmu
+from harness.designs.quantities import column
+from harness.designs.task import Design, Task
+from harness.errors import UsageError
+from harness.fmu import Fmu, open_fmu
+from harness.inputs import InputSignals
+
+COLUMNS = (
+    "end.wheel_angle",
+    "end.slope_active",
+    "end.impact_count",
+    "end.drive_torque",
+    "max.contact_force",
+    "max.drive_torque",
+    "min.kinetic_energy",
+    "first_impact.time",
+    "first_impact.stress_max",
+    "largest_impact.velocity",
+    "largest_impact.stress_max",
+    "parameter.tooth_length",
+    "parameter.tooth_count",
+    "parameter.restitution",
+    "all_impacts.stress",
+    "all_impacts.fatigue_safety",
+)
+DESIGNS = [
+    Design(number, {"tooth_count": count, "tooth_slope_angle": math.radians(angle), "restitution": bounce})
+    for number, (count, angle, bounce) in enumerate([(10, 90, 0.0), (20, 95, 0.5), (2, 95, 0.0), (25, 101.5, 0.2)], 1)
+]
+
+
+def task_of(fmu: Fmu, inputs: InputSignals | None = None) -> Task:
+    quantities = tuple(column(name, fmu.description) for name in COLUMNS)
+    return Task(TimeGrid.of(2.5, 0.03), {"friction": 0.1}, inputs, quantities)
+
+
+def swing(fmu: Fmu) -> InputSignals:
+    times = np.linspace(0.0, 2.5, 26)
+    values = 1e-3 * (1 + 0.5 * np.sin(5 * times))
+    return InputSignals((fmu.description.variable("drive_torque"),), times, values[:, None])
+
+
+@pytest.mark.parametrize("driven", [False, True])
+def test_the_numbers_are_those_of_the_fmu(ratchet_fmu: Path, driven: bool) -> None:
+    with open_fmu(ratchet_fmu) as fmu:
+        task = task_of(fmu, swing(fmu) if driven else None)
+        found = by_batch.run_designs(fmu, task, DESIGNS)
+        expected = by_fmu.run_designs(fmu, task, DESIGNS)
+    for mine, other in zip(found, expected, strict=True):
+        assert (mine.number, mine.way) == (other.number, "batch")
+        assert mine.values == other.values
+        assert [type(value) for value in mine.values] == [type(value) for value in other.values]
+        assert (other.failure or "").endswith(mine.failure or "")  # the FMU says first who speaks
+        assert (mine.failure is None) == (other.failure is None)
+    assert [mine.failure is None for mine in found] == [True, True, False, True]
+    assert "tooth_count = 2" in (found[2].failure or "")
+
+
+def test_without_an_impact_there_is_nothing_of_it(ratchet_fmu: Path) -> None:
+    with open_fmu(ratchet_fmu) as fmu:
+        task = replace(task_of(fmu), grid=TimeGrid.of(0.5, 0.1))
+        (found,) = by_batch.run_designs(fmu, task, DESIGNS[:1])
+        (expected,) = by_fmu.run_designs(fmu, task, DESIGNS[:1])
+    assert found.values == expected.values
+    assert found.values[COLUMNS.index("first_impact.time")] is None
+
+
+def test_a_native_fmu_has_no_such_way_and_says_so(native_ratchet_fmu: Path) -> None:
+    with pytest.raises(UsageError, match=r"--fast: .* holds no Python model"):
+        by_batch.require_batch(native_ratchet_fmu)
