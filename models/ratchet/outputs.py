@@ -46,6 +46,11 @@ OUTPUTS = (
     Output("slope_gap", "slope.gap", "Distance of the pawl's tip from the tooth slope", "m", nominal=0.01),
     whole_output("tooth_index", "teeth.index", "Index of the tooth at which the pawl stands, counted forwards"),
     angle_output("latched_angle", "holding_pawl.latched", "Wheel angle below which the holding pawl holds"),
+    angle_output(
+        "lost_motion",
+        "holding_pawl.gap",
+        "How far the wheel stands beyond the latched angle: what it goes back when the pawl leaves it",
+    ),
     whole_output("clicks", "holding_pawl.clicks", "Teeth that the holding pawl has passed since the start"),
     active_output("slope", "The pawl's tip slides on the tooth slope"),
     active_output("face", "The pawl's tip stands on the tooth face"),

@@ -20,10 +20,13 @@ from mechanism_fmu.model import (
     stiffness_parameter,
     torque_parameter,
 )
-from mechanism_fmu.model.functions import atan2, sqrt
+from mechanism_fmu.model.functions import atan2, cos, sin, sqrt
 
 from .inputs import SHAFT
 from .start import tooth
+
+#: The wheel whose mass is that of Table 2: steel [kg/m3], thickness and radius of the bore [m].
+_DENSITY, _THICKNESS, _BORE = 7850.0, 0.02, 6.5e-3
 
 PARAMETERS = (
     Parameter("tooth_count", 10, "Number of teeth of the wheel (nt)", "1", 3, 1000, "Integer"),
@@ -90,4 +93,32 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
             "deg",
         ),
         *(Calculated(name, length, description, "m") for name, length, description in lengths),
+        *_solid_wheel(values),
+    )
+
+
+def _solid_wheel(values: SimpleNamespace) -> tuple[Calculated, Calculated]:
+    """Mass and inertia of a wheel of one piece: a sum over the triangles from the hinge to slope and face of a tooth.
+
+    Its inertia is rho b A / 6 (p.p + p.q + q.q) for a triangle of area A with the corners 0, p, q.
+    """
+    geometry, r = tooth(values), values.wheel_inner_radius
+    x, y = geometry.apex
+    next_x, next_y = r * cos(geometry.pitch), -r * sin(geometry.pitch)
+    areas, seconds = [], []
+    for (px, py), (qx, qy) in (((r, 0.0), (x, y)), ((x, y), (next_x, next_y))):
+        area = (py * qx - px * qy) / 2  # the teeth follow each other clockwise
+        areas.append(area)
+        seconds.append(area / 6 * (px * px + py * py + px * qx + py * qy + qx * qx + qy * qy))
+    bore = math.pi * _BORE * _BORE
+    each = _DENSITY * _THICKNESS
+    what = "solid steel wheel with these teeth (7850 kg/m3, 0.02 m thick, bore of 6.5 mm radius)"
+    return (
+        Calculated("solid_wheel_mass", each * (values.tooth_count * sum(areas) - bore), f"Mass of a {what}", "kg"),
+        Calculated(
+            "solid_wheel_inertia",
+            each * (values.tooth_count * sum(seconds) - bore * _BORE * _BORE / 2),
+            f"Moment of inertia of a {what}, about its hinge",
+            "kg.m2",
+        ),
     )

@@ -31,6 +31,7 @@ def test_one_tooth_a_stroke(drive, restitution):
             clicks.append(simulation.time)
             latches.append(math.degrees(found["latched_angle"]))
         assert found["wheel_angle"] >= found["latched_angle"] - 1e-9
+        assert found["lost_motion"] == pytest.approx(found["wheel_angle"] - found["latched_angle"], abs=1e-14)
     pitch = 360 / drive.tooth_count
     assert latches == pytest.approx([75 + k * pitch for k in range(5)], abs=1e-12)
     assert [int(time // PERIOD) for time in clicks] == [0, 1, 2, 3]

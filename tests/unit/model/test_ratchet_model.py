@@ -52,6 +52,32 @@ def test_warning_says_by_how_much_the_tip_is_beyond_the_apex():
         assert fragment in warning
 
 
+def test_a_solid_steel_wheel_of_the_base_case_has_the_mass_of_table_2():
+    found = calculated_of(paper_values(10, 90))
+    assert found["solid_wheel_mass"] == pytest.approx(5.6264, abs=5e-5)
+    assert found["solid_wheel_inertia"] == pytest.approx(32.7948e-3, rel=1.5e-4)
+
+
+@pytest.mark.parametrize(("teeth", "angle"), PAPER)
+def test_a_solid_wheel_is_its_outline_without_the_bore(teeth, angle):
+    """Green's theorem over the whole outline, point by point."""
+    found = calculated_of(paper_values(teeth, angle))
+    turns = -np.repeat(np.arange(teeth), 2) * found["tooth_pitch"]
+    corner = np.tile([0.1, found["tooth_apex_radius"]], teeth) * np.exp(
+        1j * (turns + np.tile([0.0, found["tooth_apex_offset"]], teeth))
+    )
+    following = np.roll(corner, -1)
+    cross = -(corner.conj() * following).imag
+    second = cross / 12 * (abs(corner) ** 2 + (corner.conj() * following).real + abs(following) ** 2)
+    bore = 6.5e-3
+    assert found["solid_wheel_mass"] == pytest.approx(157 * (sum(cross) / 2 - math.pi * bore**2), rel=1e-12)
+    assert found["solid_wheel_inertia"] == pytest.approx(157 * (sum(second) - math.pi * bore**4 / 2), rel=1e-12)
+
+
+def calculated_of(values):
+    return {one.name: float(one.value) for one in MODEL.build(values).calculated}
+
+
 def test_flat_teeth_are_refused_with_the_flattest_slope():
     _, message = refused(tooth_count=100, tooth_slope_angle=math.radians(85))
     assert "tooth_slope_angle = 85 deg" in message
