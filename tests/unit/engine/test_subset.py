@@ -17,8 +17,8 @@ def test_whole_numbers_of_seconds_compile_nothing_new(monkeypatch):
 
         return call
 
-    def engine_for(block):
-        return run.Engine(*map(watched, run.Engine._fields, run.engine_for(block)))
+    def engine_for(*block):
+        return run.Engine(*map(watched, run.Engine._fields, run.engine_for(*block)))
 
     monkeypatch.setattr(simulation, "engine_for", engine_for)
     for start, end in ((1.0, 2.0), (1, 2)):
