@@ -21,7 +21,7 @@ from harness.sweep_command import run_sweep
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no chromium is installed (on Debian: apt install chromium)")
 
 PHONE, DESK = 360, 1200
-NAMES = ("run", "study", "sweep", "optimum")
+SCREENS = (*((name, PHONE) for name in ("run", "study", "sweep", "optimum")), ("run", DESK), ("study", DESK))
 
 #: Elements that reach beyond the screen, but for what lies in something that scrolls.
 TOO_WIDE = """[...document.body.querySelectorAll("*")].filter(
@@ -87,7 +87,7 @@ def _designs(command: Callable[..., int], text: str, fmu: Path, folder: Path) ->
     return folder / "report.html"
 
 
-@pytest.fixture(scope="module", params=[(name, width) for name in NAMES for width in (PHONE, DESK)], ids=str)
+@pytest.fixture(scope="module", params=SCREENS, ids=str)
 def shown(
     request: pytest.FixtureRequest, browser: Browser, reports: dict[str, Report]
 ) -> Iterator[tuple[Page, Report]]:

@@ -146,9 +146,9 @@ def test_a_cluster_gives_what_this_machine_gives(slider_crank_fmu: Path, tmp_pat
 
 
 @pytest.mark.slow
-def test_two_thousand_designs_killed_ten_times(slider_crank_fmu: Path, tmp_path: Path) -> None:
+def test_two_thousand_designs_killed_ten_times(native_slider_crank_fmu: Path, tmp_path: Path) -> None:
     """With -9, at any moment: what was kept is never run again, and the table is the undisturbed one's."""
-    path, out = file_of(tmp_path, slider_crank_fmu, 2000), tmp_path / "killed"
+    path, out = file_of(tmp_path, native_slider_crank_fmu, 2000), tmp_path / "killed"
     moments, kept = random.Random(7), 0
     for _ in range(10):
         before = {part: part.read_bytes() for part in (out / "parts").glob("*.parquet")}

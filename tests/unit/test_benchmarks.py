@@ -85,7 +85,6 @@ def engine() -> c_limit.Engine:
 
 
 @needs_compiler
-@pytest.mark.slow
 @pytest.mark.parametrize("drive", c_limit.DRIVES)
 def test_the_hand_written_c_takes_the_same_steps(drive: str, engine: c_limit.Engine, tmp_path: Path) -> None:
     start = engine.save()
@@ -96,7 +95,6 @@ def test_the_hand_written_c_takes_the_same_steps(drive: str, engine: c_limit.Eng
     engine.restore(start)
 
 
-@pytest.mark.slow
 @needs_compiler
 def test_engine_and_hand_written_c_are_timed(tmp_path: Path) -> None:
     found = c_limit.compare(tmp_path, 1)

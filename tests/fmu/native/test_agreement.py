@@ -37,9 +37,7 @@ def test_the_log_has_the_same_lines(both):
     assert any(message.category == "logEvents" for message in found)
 
 
-@pytest.mark.parametrize(
-    "scene", [paper, pytest.param(cycle, marks=pytest.mark.slow)], ids=lambda scene: scene.__name__
-)
+@pytest.mark.parametrize("scene", [paper, cycle], ids=lambda scene: scene.__name__)
 def test_the_engine_compiled_just_in_time_agrees(native_ratchet, scene, monkeypatch):
     """Both FMUs hold the same object code; this one is made in another way, and its tables are by Python."""
     monkeypatch.setattr(run, "compiled_library", lambda: None)
