@@ -57,7 +57,9 @@ def alone_in(folder: Path) -> AbstractContextManager[None]:
 
 
 def fmu_file(wanted: Source, folder: Path) -> Path:
-    """The FMU's file; a model is built into the folder, unless an earlier run has done so.
+    """The FMU's file; a model is built into the folder.
+
+    It is built each time: the same sources give the same GUID, and others another one, which the folder then refuses.
 
     Raises:
         UsageError: there is no such model.
@@ -67,12 +69,12 @@ def fmu_file(wanted: Source, folder: Path) -> Path:
     import build_fmu
 
     place = folder / "fmu"
-    found = sorted(place.glob("*.fmu"))
-    if not found:
-        console.print(f"Building {wanted.model} ...")
-        build_fmu.build(wanted.model, place)
-        found = sorted(place.glob("*.fmu"))
-    return found[0]
+    for earlier in place.glob("*.fmu"):
+        earlier.unlink()
+    console.print(f"Building {wanted.model} ...", markup=False)
+    build_fmu.build(wanted.model, place)
+    (found,) = place.glob("*.fmu")
+    return found
 
 
 def _performed(sweep: Sweep, store: Store, crew: Crew) -> tuple[sweeps.Progress, pa.Table]:

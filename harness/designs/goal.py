@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -85,7 +86,9 @@ class Goal:
 
 def _values(result: Result, task: Task) -> dict[str, float]:
     pairs = zip(task.quantities, result.values, strict=True)
-    return {quantity.column: float(value) for quantity, value in pairs if value is not None}
+    return {
+        quantity.column: float(value) for quantity, value in pairs if value is not None and not math.isnan(float(value))
+    }
 
 
 def read_goal(file: TomlFile, description: Description) -> Goal | None:

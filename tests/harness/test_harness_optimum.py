@@ -54,6 +54,13 @@ def found(optimum: Optimum, folder: Path) -> Best:
     return search(optimum, history_of(optimum, folder))
 
 
+@pytest.mark.parametrize("values", [(math.nan, 0.5), (0.5, math.nan), (None, 0.5)])
+def test_what_is_no_number_is_worse_than_any_design(values: tuple[float | None, float]) -> None:
+    goal = Goal(FAR, False, (Constraint(SUM, None, 1.0),))
+    for other in ((1e20, 0.5), (1.0, 1e20)):
+        assert goal.merit(Result(1, "cheap", values), TASK) > goal.merit(Result(2, "cheap", other), TASK)
+
+
 def test_the_bottom_of_a_valley(tmp_path: Path) -> None:
     best = found(optimum_of(X, Y), tmp_path)
     assert best.feasible

@@ -84,6 +84,20 @@ def test_a_changed_file_is_refused_with_the_way_out(slider_crank_fmu: Path, tmp_
     assert "Choose another folder with -o" in text
 
 
+def test_another_model_in_the_same_file_is_another_fmu(tmp_path: Path) -> None:
+    path, text = tmp_path / "cranks.toml", CRANKS.format(fmu="", count=1, longest=20)
+    path.write_text(text.replace('file = ""', 'model = "slider_crank"'))
+    for _ in range(2):
+        assert invoke(path, "-o", tmp_path / "out", "--fast")[0] == 0
+    path.write_text(
+        'fmu.model = "four_bar"\nrun = { stop_time = "10 ms", step = 0.01 }\nsweep = { method = "random", count = 1 }\n'
+        'vary.crank_length = { values = [0.1] }\nrecord.end = ["crank_angle"]\n'
+    )
+    code, text = invoke(path, "-o", tmp_path / "out", "--fast")
+    assert code == 2
+    assert "holds results of another file or FMU: [fmu]" in text
+
+
 def test_mistakes_are_wrong_use_and_nothing_is_run(slider_crank_fmu: Path, tmp_path: Path) -> None:
     path = file_of(tmp_path, slider_crank_fmu, 1)
     path.write_text(path.read_text().replace("count = 1", "count = 0").replace('"mm"', '"kg"'))
