@@ -21,6 +21,7 @@ from harness.designs.sensitivity import NoIndicesError, sensitivity
 from harness.designs.store import Store
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.variation import Axis
+from harness.designs.ways import Way
 from harness.designs.workers import Work, here
 from harness.errors import UsageError
 from harness.master import never
@@ -44,8 +45,10 @@ def store_of(optimum: Optimum, folder: Path) -> Store:
     return Store(folder, known, optimum.axes, optimum.task.quantities)
 
 
-def history_of(optimum: Optimum, folder: Path, stop_requested: Callable[[], bool] = never) -> History:
-    crew = partial(here, Work(Place(folder), optimum.task, VALLEY))  # type: ignore[arg-type]
+def history_of(
+    optimum: Optimum, folder: Path, stop_requested: Callable[[], bool] = never, way: Way = VALLEY
+) -> History:
+    crew = partial(here, Work(Place(folder), optimum.task, way))  # type: ignore[arg-type]
     return History(store_of(optimum, folder), crew, optimum.count, stop_requested, lambda history: None)
 
 
@@ -171,6 +174,15 @@ def test_near_an_optimum_that_fails_there_are_no_indices(tmp_path: Path) -> None
     history = history_of(optimum, tmp_path)
     best = search(optimum, history)
     with pytest.raises(NoIndicesError, match=r"near the optimum, \d+ of 256 designs give no number"):
+        sensitivity(optimum, best, history)
+
+
+def test_an_objective_that_never_changes_has_no_indices_and_this_is_said(tmp_path: Path) -> None:
+    constant = Way("cheap", lambda fmu, task, designs: [Result(d.number, "cheap", (7.0, 1.0)) for d in designs])
+    optimum = replace(optimum_of(X, Y, count=20), around=Around(4, 0.1))
+    history = history_of(optimum, tmp_path, way=constant)
+    best = search(optimum, history)
+    with pytest.raises(NoIndicesError, match="the objective is 7 everywhere: no variable matters there"):
         sensitivity(optimum, best, history)
 
 
