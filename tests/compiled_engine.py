@@ -1,6 +1,7 @@
 """The engine that the tests run on: the compiled one of FMUs where it lies ready, else one made just in time.
 
-Numbers are the same (tests/fmu/native/test_agreement.py); compiling just in time takes a minute of each process.
+Numbers are the same (tests/fmu/native/test_just_in_time_agrees.py); compiling just in time takes a minute of each
+process.
 """
 
 from __future__ import annotations
@@ -17,11 +18,21 @@ from mechanism_fmu.fmu.native.libraries import engine_libraries
 from mechanism_fmu.fmu.native.objects import engine_is_compiled
 from mechanism_fmu.model import MechanismError
 
+_waits = False
+
+
+def wait_for_it(yes: bool) -> None:
+    """Whether `library` waits until the engine is compiled, because another process is at it."""
+    global _waits
+    if yes != _waits:
+        _waits = yes
+        library.cache_clear()
+
 
 @cache
 def library() -> ctypes.CDLL | None:
     """The library of these very sources for this platform, or None."""
-    if numba.config.DISABLE_JIT or not engine_is_compiled():
+    if numba.config.DISABLE_JIT or not (_waits or engine_is_compiled()):
         return None
     try:
         libraries = engine_libraries()

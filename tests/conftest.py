@@ -3,6 +3,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
@@ -10,7 +11,7 @@ from hypothesis import settings
 import models
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
-from tests import compiled_engine
+from tests import compiled_engine, distribution
 from tests.once import once
 
 # How long an example takes says nothing while other tests run beside it.
@@ -27,16 +28,52 @@ for _name in ("FORCE_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "T
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Files keep the order of their folders: those of FMUs then come when the engine is compiled (see below)."""
+    """Files keep the order that `distribution` gives them, however many tests they have."""
     config.option.loadscopereorder = False
+
+
+def everything_on_several(config: pytest.Config) -> bool:
+    """Whether this process hands out all tests to others."""
+    everything = config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    return everything and not hasattr(config, "workerinput") and bool(config.getoption("numprocesses", None))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node: Any) -> None:
+    """Tell a process that gets tests whether these are all."""
+    node.workerinput["everything"] = everything_on_several(node.config)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """How all tests are handed out."""
+    by_file = everything_on_several(config) and config.getoption("dist") == "loadfile"
+    return distribution.scheduler(config, log) if by_file else None
+
+
+def one_of_several(config: pytest.Config) -> bool:
+    """Whether this process gets some of all tests from another."""
+    return bool(getattr(config, "workerinput", {}).get("everything"))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """The order in which all tests are handed out."""
+    if one_of_several(config):
+        items[:] = distribution.ordered(items)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Wait for the compiled engine, unless this process has to compile just in time anyway."""
+    if one_of_several(item.config):
+        compiled_engine.wait_for_it(not distribution.compiles_just_in_time(item.nodeid))
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtestloop(session: pytest.Session) -> Iterator[object]:
     """Compile the engine of FMUs beside the first tests, when all tests run on several processors."""
-    config = session.config
-    everything = config.args_source is pytest.Config.ArgsSource.TESTPATHS
-    if hasattr(config, "workerinput") or not config.getoption("numprocesses", None) or not everything:
+    if not everything_on_several(session.config):
         return (yield)
     program = "from mechanism_fmu.fmu.native.objects import compiled_engine; compiled_engine()"
     with subprocess.Popen([sys.executable, "-c", program]) as process:

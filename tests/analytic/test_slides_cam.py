@@ -11,6 +11,7 @@ In the rows they are the columns of the contact coordinates: [A_1 g_1, -A_2 g_2]
 
 import cmath
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -22,11 +23,9 @@ from tests.slide_cam import cam_mechanism
 
 THIRD = 2 * math.pi / 3
 W2, W3 = math.sqrt(2), math.sqrt(3)
-EQUATIONS = Equations(cam_mechanism("roller"), 0.0)
-ALPHA_1, ALPHA_2 = (EQUATIONS.coordinates.index(f"pair.alpha_{which}") for which in "ij")
-PHI_1, PHI_2 = (EQUATIONS.coordinates.index(f"{body}.angle") for body in ("cam", "follower"))
-POINT = [EQUATIONS.rows.index(f"pair[{k}]") for k in (1, 2)]
-TANGENCY = EQUATIONS.rows.index("pair[3]")
+#: Where these stand among coordinates and rows.
+(PHI_1, PHI_2), (ALPHA_1, ALPHA_2) = (2, 5), (6, 7)
+POINT, TANGENCY = [-3, -2], -1
 
 #: By hand, at angles on every piece of the cam and at its joins: g_1.
 CAM = [
@@ -49,11 +48,24 @@ ROLLER = [
 ]
 
 
+@cache
+def equations():
+    """Of cam and roller; the first in a process compiles the engine's rows."""
+    return Equations(cam_mechanism("roller"), 0.0)
+
+
+def test_coordinates_and_rows_stand_where_they_are_looked_for():
+    coordinates, rows = equations().coordinates, equations().rows
+    assert [coordinates[k] for k in (PHI_1, PHI_2)] == ["cam.angle", "follower.angle"]
+    assert [coordinates[k] for k in (ALPHA_1, ALPHA_2)] == ["pair.alpha_i", "pair.alpha_j"]
+    assert [rows[k] for k in (*POINT, TANGENCY)] == ["pair[1]", "pair[2]", "pair[3]"]
+
+
 def rows_at(alpha_1, alpha_2, phi_1=0.0, phi_2=0.0):
     """Rows of the mechanism with the cam and the roller turned anywhere; they need not touch for it."""
-    q = EQUATIONS.start.copy()
+    q = equations().start.copy()
     q[[ALPHA_1, ALPHA_2, PHI_1, PHI_2]] = alpha_1, alpha_2, phi_1, phi_2
-    return EQUATIONS.at(q, 0.0)
+    return equations().at(q, 0.0)
 
 
 def tangents(alpha_1, alpha_2, phi_1=0.0, phi_2=0.0):

@@ -2,9 +2,8 @@
 
 import pytest
 
-from mechanism_fmu.engine import run
 from tests.fmu.conformance.host import Instance
-from tests.fmu.native.scenes import InEngine, cycle, paper, steps
+from tests.fmu.native.scenes import cycle, paper, steps
 
 
 @pytest.fixture(scope="module", params=[paper, cycle], ids=lambda scene: scene.__name__)
@@ -35,14 +34,3 @@ def test_the_log_has_the_same_lines(both):
     (_, expected), (_, found) = both
     assert found == expected
     assert any(message.category == "logEvents" for message in found)
-
-
-@pytest.mark.parametrize("scene", [paper, cycle], ids=lambda scene: scene.__name__)
-def test_the_engine_compiled_just_in_time_agrees(native_ratchet, scene, monkeypatch):
-    """Both FMUs hold the same object code; this one is made in another way, and its tables are by Python."""
-    monkeypatch.setattr(run, "compiled_library", lambda: None)
-    expected = steps(scene, InEngine())
-    with Instance(native_ratchet) as one:
-        found = steps(scene, one)
-    for k, (mine, other) in enumerate(zip(found, expected, strict=True)):
-        assert mine == pytest.approx({name: other[name] for name in mine}, rel=1e-12, abs=1e-12), k

@@ -1,5 +1,7 @@
 """The rows of a whole mechanism with its contact coordinates: each part's stand in their place."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from textbook import evaluated_rows
@@ -51,16 +53,19 @@ def rows_of(joints, contacts, alphas):
     return evaluated_rows(block, Q[chosen], QD[chosen], TIME)
 
 
-ALL = rows_of(JOINTS, CONTACTS, range(4))
+@cache
+def all_rows():
+    """Of all parts together; the first in a process compiles the engine's rows."""
+    return rows_of(JOINTS, CONTACTS, range(4))
 
 
 def assert_stands(alone, place, alphas):
     """The rows of one part stand at `place` among all, and have entries in the columns of its own coordinates only."""
     for name in ("phi", "rate", "gamma", "nu"):
-        np.testing.assert_array_equal(getattr(ALL, name)[place], getattr(alone, name), name)
+        np.testing.assert_array_equal(getattr(all_rows(), name)[place], getattr(alone, name), name)
     expected = np.zeros((len(alone.phi), 10))
     expected[:, [*range(6), *(6 + k for k in alphas)]] = alone.jacobian
-    np.testing.assert_array_equal(ALL.jacobian[place], expected)
+    np.testing.assert_array_equal(all_rows().jacobian[place], expected)
 
 
 @pytest.mark.parametrize(("joint", "place"), list(zip(JOINTS, [slice(0, 2), slice(2, 3), slice(3, 5)], strict=True)))
@@ -76,6 +81,6 @@ def test_contacts_follow_open_or_closed_with_columns_for_their_coordinates(name)
 
 
 def test_only_drivers_depend_on_time():
-    assert np.flatnonzero(ALL.nu).tolist() == [2]
+    assert np.flatnonzero(all_rows().nu).tolist() == [2]
     later = evaluated_rows(pack(compile_mechanism(Mechanism(BODIES, JOINTS, contacts=CONTACTS))), Q, QD, TIME + 0.1)
-    assert np.flatnonzero(later.phi - ALL.phi).tolist() == [2]
+    assert np.flatnonzero(later.phi - all_rows().phi).tolist() == [2]
