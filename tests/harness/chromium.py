@@ -163,6 +163,10 @@ def chromium(profile: Path) -> Iterator[Browser]:
             os.close(ours_out)
             os.close(ours_in)
             process.terminate()
+            try:
+                process.wait(_PATIENCE)
+            except subprocess.TimeoutExpired:
+                process.kill()
 
 
 @contextmanager

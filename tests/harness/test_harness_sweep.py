@@ -7,13 +7,14 @@ import time
 import zipfile
 from dataclasses import dataclass
 from functools import partial
+from multiprocessing import forkserver
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from cheap_designs import DEADLY, FAILING, TROUBLED, axis, cheap_sweep, run_cheap, store_of, work_of
+from cheap_designs import DEADLY, FAILING, TROUBLED, axis, cheap_sweep, run_cheap, run_until_killed, store_of, work_of
 from fake_slave import fake_description
 from hypothesis import given
 from hypothesis import strategies as st
@@ -26,6 +27,13 @@ from harness.designs.sweep import Progress, perform_sweep
 from harness.designs.task import Result
 from harness.designs.workers import Processes, here
 from harness.errors import UsageError
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _processes_begin_with_what_they_need() -> None:
+    """All are copies of one that has imported most of it; else each would take seconds for that."""
+    multiprocessing.get_context("forkserver").set_forkserver_preload(["harness.designs.sweep_file", "harness.designs.store"])
+    forkserver.ensure_running()
 
 
 @given(st.sampled_from(sorted(sampling.METHODS)), st.integers(1, 40), st.integers(0, 10))
@@ -152,14 +160,13 @@ def parts(folder: Path) -> int:
 
 def test_a_sweep_killed_at_any_moment_gives_what_an_undisturbed_one_gives(tmp_path: Path) -> None:
     """The slow test of the command does the same with 2,000 designs of a real FMU."""
-    start = multiprocessing.get_context("forkserver")
-    start.set_forkserver_preload(["cheap_designs"])
     killed, trace = tmp_path / "killed", tmp_path / "killed" / "trace"
     count, kills = 150, 4
     for kill in range(1, kills + 1):
-        process = start.Process(target=run_cheap, args=(count, killed))
+        process = multiprocessing.get_context("forkserver").Process(target=run_until_killed, args=(count, killed))
         process.start()
         while parts(killed) < kill * count // (kills + 2):
+            assert process.is_alive()
             time.sleep(2e-3)
         assert process.pid is not None
         os.kill(process.pid, signal.SIGKILL)
