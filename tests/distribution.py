@@ -1,11 +1,13 @@
 """Which process runs which tests, and when, if several run all of them (`--dist loadfile`).
 
-A file is run by one process, as ever. What is new is their order, and that the files that compile parts of the engine
-just in time are one piece: every process that compiles begins from nothing, so two would do the same work.
+A process takes one piece after the other, from the front. A piece is a file, but for those tests that take long each:
+every one is a piece. And the files whose tests compile parts of the engine just in time are one piece together: each
+process that compiles begins from nothing, so that two would do the same work. The order:
 
-    1  that piece, in one process; meanwhile the engine of FMUs is compiled ahead of time, beside (conftest.py)
-    2  in the others what needs no engine
-    3  what needs FMUs or their engine, and waits for it if need be; long files first
+    1  that piece; meanwhile the engine of FMUs is compiled ahead of time, beside (conftest.py)
+    2  what takes longest, or mostly waits: it would otherwise stand alone at the end
+    3  what needs no engine
+    4  what needs FMUs or their engine, and waits for it if need be
 """
 
 from __future__ import annotations
@@ -38,9 +40,15 @@ JUST_IN_TIME = (
     "tests/fmu/native/test_just_in_time_agrees.py",
 )
 #: Whose tests run the engine without saying so by a fixture.
-_ENGINE = ("tests/analytic/", "tests/batch/", "tests/convergence/", "tests/docs/", "tests/fmu/", "tests/unit/engine/")
-#: Long ones, which would otherwise stand alone at the end.
-_LONG = ("tests/harness/test_harness_sweep_command.py",)
+_ENGINE = ("tests/analytic/", "tests/convergence/", "tests/docs/", "tests/fmu/", "tests/unit/engine/")
+#: Tests that are to begin early, and files whose tests are a piece each.
+_LONG = (
+    "tests/harness/test_harness_sweep_command.py::test_two_thousand_designs_killed_ten_times",
+    "tests/fmu/test_just_in_time.py",
+    "tests/test_house.py::test_tool_has_no_complaint[mypy]",
+    "tests/fmu/test_life_cycle.py::test_two_thousand_instances_do_not_grow",
+)
+_EACH = ("tests/fmu/conformance/test_alone.py", *_LONG)
 
 
 def compiles_just_in_time(nodeid: str) -> bool:
@@ -55,11 +63,11 @@ def ordered(items: Iterable[pytest.Item]) -> list[pytest.Item]:
 
     def place(item: pytest.Item) -> tuple[int, int]:
         file = _file(item)
-        just_in_time = [k for k, name in enumerate(JUST_IN_TIME) if file.startswith(name)]
-        if just_in_time:
-            return 1, just_in_time[0]
-        engine = file in with_fmus or file.startswith(_ENGINE)
-        return (3 if engine else 2), int(file not in _LONG)
+        for group, names in enumerate((JUST_IN_TIME, _LONG), start=1):
+            for k, name in enumerate(names):
+                if item.nodeid.startswith(name):
+                    return group, k
+        return 4 if file in with_fmus or file.startswith(_ENGINE) else 3, 0
 
     return sorted(kept, key=place)
 
@@ -69,11 +77,13 @@ def _file(item: pytest.Item) -> str:
 
 
 def scheduler(config: pytest.Config, log: Any) -> Any:
-    """That of `--dist loadfile`, with the one piece."""
+    """That of `--dist loadfile`, with these pieces."""
     from xdist.scheduler import LoadFileScheduling
 
     class Scheduling(LoadFileScheduling):  # type: ignore[misc]
         def _split_scope(self, nodeid: str) -> str:
-            return "just in time" if compiles_just_in_time(nodeid) else str(super()._split_scope(nodeid))
+            if compiles_just_in_time(nodeid):
+                return "just in time"
+            return nodeid if nodeid.startswith(_EACH) else str(super()._split_scope(nodeid))
 
     return Scheduling(config, log)

@@ -32,7 +32,9 @@ from harness.errors import UsageError
 @pytest.fixture(scope="module", autouse=True)
 def _processes_begin_with_what_they_need() -> None:
     """All are copies of one that has imported most of it; else each would take seconds for that."""
-    multiprocessing.get_context("forkserver").set_forkserver_preload(["harness.designs.sweep_file", "harness.designs.store"])
+    multiprocessing.get_context("forkserver").set_forkserver_preload(
+        ["harness.designs.sweep_file", "harness.designs.store"]
+    )
     forkserver.ensure_running()
 
 
