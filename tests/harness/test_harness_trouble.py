@@ -1,14 +1,16 @@
 """FMUs that fail: each in a process of its own, because what is tested is that it survives."""
 
 import json
-import os
 import signal
 import subprocess
 import sys
-import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from nursery import Ended, nursery
+
+Run = Callable[..., Ended]
 
 _RUN = "from harness.cli import main; main()"
 
@@ -22,17 +24,19 @@ def troublesome_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "Troublesome.fmu"
 
 
-def run(fmu: Path, folder: Path, trouble: int, **environment: str) -> tuple[int, str, str]:
-    times = ["--stop-time", "1", "--step", "0.1"]
-    process = subprocess.run(
-        [sys.executable, "-c", _RUN, "run", str(fmu), *times, "--set", f"trouble={trouble}", "-o", str(folder)],
-        capture_output=True,
-        text=True,
-        check=False,
-        env=os.environ | {"COLUMNS": "500"} | environment,
-    )
-    assert "Traceback" not in process.stderr
-    return process.returncode, process.stdout, process.stderr
+@pytest.fixture(scope="module")
+def run(troublesome_fmu: Path) -> Iterator[Run]:
+    """Run it into a folder, with that trouble: code, and what was said."""
+    with nursery(COLUMNS="500") as processes:
+
+        def run(folder: Path, trouble: int, **environment: str) -> Ended:
+            times = ["--stop-time", "1", "--step", "0.1"]
+            arguments = ["run", str(troublesome_fmu), *times, "--set", f"trouble={trouble}", "-o", str(folder)]
+            ended = processes.run(arguments, **environment)
+            assert "Traceback" not in ended.err
+            return ended
+
+        yield run
 
 
 def ending(folder: Path) -> tuple[str, float]:
@@ -40,66 +44,66 @@ def ending(folder: Path) -> tuple[str, float]:
     return summary["ending"], summary["final_time"]
 
 
-def test_a_well_behaved_run(troublesome_fmu: Path, tmp_path: Path) -> None:
-    code, out, err = run(troublesome_fmu, tmp_path, 0)
+def test_a_well_behaved_run(run: Run, tmp_path: Path) -> None:
+    code, out, err = run(tmp_path, 0)
     assert (code, err) == (0, "")
     assert "No impacts." in out
     assert ending(tmp_path) == ("completed", 1.0)
 
 
-def test_a_discarded_step_is_a_failure(troublesome_fmu: Path, tmp_path: Path) -> None:
-    code, _, err = run(troublesome_fmu, tmp_path, 1)
+def test_a_discarded_step_is_a_failure(run: Run, tmp_path: Path) -> None:
+    code, _, err = run(tmp_path, 1)
     assert code == 1
     assert "Troublesome failed at t = 0.5 s (fmi2DoStep, status discard)" in err
     assert "recorded up to 0.5 s of 1 s" in err
     assert ending(tmp_path) == ("failed", 0.5)
 
 
-def test_an_exception_in_a_step_shows_the_fmu_s_own_message(troublesome_fmu: Path, tmp_path: Path) -> None:
-    code, _, err = run(troublesome_fmu, tmp_path, 2)
+def test_an_exception_in_a_step_shows_the_fmu_s_own_message(run: Run, tmp_path: Path) -> None:
+    code, _, err = run(tmp_path, 2)
     assert code == 1
     assert "(fmi2DoStep, status fatal): the pawl has left the wheel." in err
     assert "Fatal py exception" not in err
     assert ending(tmp_path) == ("failed", 0.5)
 
 
-def test_an_exception_without_a_message_still_ends_well(troublesome_fmu: Path, tmp_path: Path) -> None:
-    code, _, err = run(troublesome_fmu, tmp_path, 3)
+def test_an_exception_without_a_message_still_ends_well(run: Run, tmp_path: Path) -> None:
+    code, _, err = run(tmp_path, 3)
     assert code == 1
     assert "failed at t = 0.5 s (fmi2DoStep, status fatal)" in err
     assert ending(tmp_path) == ("failed", 0.5)
 
 
-def test_a_message_is_text_whatever_it_contains(troublesome_fmu: Path, tmp_path: Path) -> None:
-    code, _, err = run(troublesome_fmu, tmp_path, 4)
+def test_a_message_is_text_whatever_it_contains(run: Run, tmp_path: Path) -> None:
+    code, _, err = run(tmp_path, 4)
     assert code == 0
     assert err.count("Warning (Troublesome, t = 0.5 s): loaded to 100%, %s and %n are only text") == 1
 
 
-def test_an_error_that_the_fmu_only_talks_about_is_shown(troublesome_fmu: Path, tmp_path: Path) -> None:
-    code, _, err = run(troublesome_fmu, tmp_path, 6)
+def test_an_error_that_the_fmu_only_talks_about_is_shown(run: Run, tmp_path: Path) -> None:
+    code, _, err = run(tmp_path, 6)
     assert code == 0
     assert "Troublesome said so, but went on at t = 0.4 s: the oil is hot." in err
 
 
-def test_a_failure_at_the_start_writes_nothing(troublesome_fmu: Path, tmp_path: Path) -> None:
-    code, out, err = run(troublesome_fmu, tmp_path, 5)
+def test_a_failure_at_the_start_writes_nothing(run: Run, tmp_path: Path) -> None:
+    code, out, err = run(tmp_path, 5)
     assert code == 1
     assert "failed before the first step (fmi2ExitInitializationMode, status fatal): the crank is too short" in err
     assert out.strip() == ""
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_fmu_that_cannot_be_instantiated(troublesome_fmu: Path, tmp_path: Path) -> None:
-    code, _, err = run(troublesome_fmu, tmp_path, 0, STILLBORN="1")
+def test_an_fmu_that_cannot_be_instantiated(run: Run, tmp_path: Path) -> None:
+    code, _, err = run(tmp_path, 0, STILLBORN="1")
     assert code == 1
     assert "Troublesome failed before the first step (fmi2Instantiate)" in err
 
 
-def test_a_temporary_folder_that_crashes_fmus_is_avoided(troublesome_fmu: Path, tmp_path: Path) -> None:
+def test_a_temporary_folder_that_crashes_fmus_is_avoided(run: Run, tmp_path: Path) -> None:
     hostile = tmp_path / "50% + ä#"
     hostile.mkdir()
-    code, _, _ = run(troublesome_fmu, tmp_path, 0, TMPDIR=str(hostile))
+    code, _, _ = run(tmp_path, 0, TMPDIR=str(hostile))
     assert code == 0
     assert list(hostile.iterdir()) == []
 
@@ -107,19 +111,23 @@ def test_a_temporary_folder_that_crashes_fmus_is_avoided(troublesome_fmu: Path, 
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C cannot be sent to one process there")
 def test_ctrl_c_keeps_what_was_recorded(troublesome_fmu: Path, tmp_path: Path) -> None:
     folder = tmp_path / "results"
-    endless = ["--stop-time", "1e6", "--step", "1e-3", "-o", str(folder)]
-    process = subprocess.Popen(
-        [sys.executable, "-c", _RUN, "run", str(troublesome_fmu), *endless], stdout=subprocess.PIPE, text=True
-    )
-    while not folder.exists():  # it is made just before the run
-        assert process.poll() is None
-        time.sleep(0.05)
-    time.sleep(1.0)
-    process.send_signal(signal.SIGINT)
-    out, _ = process.communicate()
+    long = ["--stop-time", "1e3", "--step", "1e-3", "--set", "trouble=4", "-o", str(folder)]
+    with subprocess.Popen(
+        [sys.executable, "-c", _RUN, "run", str(troublesome_fmu), *long],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stderr is not None
+        try:
+            assert "Warning (Troublesome, t = 0.45" in process.stderr.readline()  # so it runs
+            process.send_signal(signal.SIGINT)
+            out, _ = process.communicate(timeout=120)
+        finally:
+            process.kill()
     assert process.returncode == 130
     assert "the files hold what was recorded up to" in out
     how, reached = ending(folder)
     assert how == "interrupted"
-    assert 0.0 < reached < 1e6
+    assert 0.0 < reached < 1e3
     assert len((folder / "results.csv").read_text().splitlines()) == round(reached / 1e-3) + 2
