@@ -16,10 +16,11 @@ GRID = TimeGrid.of(stop_time=1.0, step=0.3)
 
 
 def test_every_step_begins_where_the_last_one_ended() -> None:
+    """The clock's own test has a million."""
     slave = FakeSlave()
-    outcome = run_fixed_step(slave, TimeGrid.of(stop_time=1000.0, step=1e-3), {})
-    assert (outcome.ending, outcome.final_time, outcome.steps) == (Ending.COMPLETED, 1000.0, 10**6)
-    assert [time for time, _ in slave.calls] == [k / 1000 for k in range(10**6)]
+    outcome = run_fixed_step(slave, TimeGrid.of(stop_time=100.0, step=1e-3), {})
+    assert (outcome.ending, outcome.final_time, outcome.steps) == (Ending.COMPLETED, 100.0, 10**5)
+    assert [time for time, _ in slave.calls] == [k / 1000 for k in range(10**5)]
     assert slave.log == ["initialize", "terminate"]
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from mechanism_fmu.model import (
     GROUND,
@@ -76,37 +77,37 @@ def test_a_point_on_a_stop_is_struck_by_every_lobe_and_never_gets_inside(lobes, 
     assert simulation.read()["impact_count"] >= strokes
 
 
-def test_free_bodies_with_lobes_strike_each_other_and_never_overlap():
+@pytest.mark.parametrize("start", [1, 2, *(pytest.param(k, marks=pytest.mark.slow) for k in (3, 4))])
+def test_free_bodies_with_lobes_strike_each_other_and_never_overlap(start):
     """The distance of both outlines, by brute force, is the gap; energy only falls by what an impact takes."""
     profile = star(3, 0.16)
     pair = CamFollower("pair", "one", profile, "follower", profile, unilateral=True, closed=False)
-    generator = np.random.default_rng(5)
+    generator = np.random.default_rng([5, start])
     alphas = np.linspace(0.0, 2 * math.pi, 1500)
-    for _ in range(4):
-        turns = generator.uniform(-20, 20, 2)
-        mechanism = Mechanism(
-            bodies=(
-                Body("one", 1.0, 1e-3, (0.0, 0.0, generator.uniform(0, 6)), (0.0, 0.0, turns[0])),
-                Body("follower", 1.0, 1e-3, (0.5, 0.01, generator.uniform(0, 6)), (-1.0, 0.0, turns[1])),
-            ),
-            contacts=(replace(pair, restitution=0.5),),
-            outputs=(*OUTPUTS, Output("kinetic", "energy.kinetic", "", "J"), Output("lost", "energy.lost", "", "J")),
-        )
-        simulation = Simulation(mechanism)
-        energy = simulation.read()["kinetic"]
-        for k in range(1, 81):
-            simulation.advance(0.01 * k)
-            found = simulation.read()
-            q = simulation.field("y_at")  # where the outputs were read
-            outlines = []
-            for x, y, phi in (q[0:3], q[3:6]):
-                rho = radius(3, 0.16, alphas)
-                outlines.append((x + 1j * y) + rho * np.exp(1j * (alphas + phi)))
-            distance = np.abs(outlines[0][:, None] - outlines[1][None, ::5]).min()
-            if found["gap"] > 1e-3:
-                assert found["gap"] == pytest.approx(distance, abs=2e-4)
-            assert found["kinetic"] + found["lost"] == pytest.approx(energy, rel=1e-7)
-        assert found["impact_count"] >= 1
+    turns = generator.uniform(-20, 20, 2)
+    mechanism = Mechanism(
+        bodies=(
+            Body("one", 1.0, 1e-3, (0.0, 0.0, generator.uniform(0, 6)), (0.0, 0.0, turns[0])),
+            Body("follower", 1.0, 1e-3, (0.5, 0.01, generator.uniform(0, 6)), (-1.0, 0.0, turns[1])),
+        ),
+        contacts=(replace(pair, restitution=0.5),),
+        outputs=(*OUTPUTS, Output("kinetic", "energy.kinetic", "", "J"), Output("lost", "energy.lost", "", "J")),
+    )
+    simulation = Simulation(mechanism)
+    energy = simulation.read()["kinetic"]
+    for k in range(1, 81):
+        simulation.advance(0.01 * k)
+        found = simulation.read()
+        q = simulation.field("y_at")  # where the outputs were read
+        outlines = []
+        for x, y, phi in (q[0:3], q[3:6]):
+            rho = radius(3, 0.16, alphas)
+            outlines.append(np.column_stack([x + rho * np.cos(alphas + phi), y + rho * np.sin(alphas + phi)]))
+        distance = cKDTree(outlines[0]).query(outlines[1][::5])[0].min()
+        if found["gap"] > 1e-3:
+            assert found["gap"] == pytest.approx(distance, abs=2e-4)
+        assert found["kinetic"] + found["lost"] == pytest.approx(energy, rel=1e-7)
+    assert found["impact_count"] >= 1
 
 
 def test_a_disabled_pair_changes_nothing():
