@@ -16,11 +16,11 @@ from .designs.sensitivity import Sensitivity, sensitivity
 from .designs.store import Store, failures
 from .designs.sweep import Progress
 from .designs.toml_file import TomlFile
-from .fmu import open_fmu
+from .fmu import Fmu, open_fmu
 from .interrupt import interruption
 from .numbers import shown
 from .results import prepare_folder, write_json
-from .sweep_command import DesignsBar, alone_in, crew_of, fmu_file
+from .sweep_command import DesignsBar, alone_in, crew_of, fmu_file, seen_again
 from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
 
 
@@ -54,7 +54,7 @@ def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler
                 near_it = sensitivity(optimum, best, history)
             except InterruptedSearchError:
                 return _interrupted(optimum, history, store)
-        return _ending(optimum, history, best, near_it, store)
+        return _ending(fmu, optimum, history, best, near_it, store)
 
 
 def _progress(history: History, optimum: Optimum) -> Progress:
@@ -76,9 +76,9 @@ def _interrupted(optimum: Optimum, history: History, store: Store) -> int:
     return INTERRUPTED
 
 
-def _ending(optimum: Optimum, history: History, best: Best, near_it: Sensitivity | None, store: Store) -> int:
+def _ending(fmu: Fmu, optimum: Optimum, history: History, best: Best, near_it: Sensitivity | None, store: Store) -> int:
     """Say what was found, write everything, and return the exit code."""
-    from .report.optimum_report import write_optimum_report
+    from .report.optimum_report import Found, write_optimum_report
 
     table = store.finish()
     asked, failed = len(history.designs), len(failures(table))
@@ -103,11 +103,13 @@ def _ending(optimum: Optimum, history: History, best: Best, near_it: Sensitivity
             f"A neighbour, design {after.design.number}, is better still: a larger count would find such.",
             soft_wrap=True,
         )
+    which = "the best" if best.feasible else "the one that misses the constraints least"
+    seen = seen_again(fmu, optimum.task, best.design if best.result.failure is None else None, which)
     files = [
         store.table_file,
         store.identity_file,
         write_json(store.folder / "optimum.json", _summary(optimum, best, near_it)),
-        write_optimum_report(optimum, best, near_it, history, table, store.folder / "report.html"),
+        write_optimum_report(optimum, Found(best, near_it, history, table, seen), fmu, store.folder / "report.html"),
     ]
     show_files(files)
     if not best.feasible:

@@ -14,12 +14,14 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from mechanism_fmu.fmu.native.alone import alone
 
+from .clock import seconds
 from .designs import sweep as sweeps
 from .designs.identity import identity
+from .designs.in_motion import InMotion, design_with_largest, in_motion
 from .designs.plan import Source, source
 from .designs.store import Store, failures
 from .designs.sweep_file import Sweep, read_sweep
-from .designs.task import Task
+from .designs.task import Design, Task
 from .designs.toml_file import TomlFile
 from .designs.ways import BY_FMU, by_batch_in
 from .designs.workers import Crew, Processes, Work, here
@@ -27,7 +29,7 @@ from .errors import UsageError
 from .fmu import Fmu, open_fmu
 from .interrupt import interruption
 from .results import prepare_folder
-from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
+from .terminal import FAILED, INTERRUPTED, RunDisplay, console, show_error, show_files, show_table, show_wide_table
 
 #: Failed designs that fit a terminal; the file has all.
 _MOST_SHOWN = 10
@@ -170,11 +172,18 @@ def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, tab
     new = progress.total - progress.earlier
     console.print(f"{progress.total} designs, {new} of them run now, {progress.earlier} there before.")
     _show_ranges(sweep, table)
-    report = write_sweep_report(sweep, fmu.description, table, store.folder / "report.html")
+    seen = seen_again(fmu, sweep.task, *design_with_largest(sweep.task.quantities[0], sweep.designs, table))
+    report = write_sweep_report(sweep, fmu, table, seen, store.folder / "report.html")
     failed = failures(table)
     show_files([store.table_file, store.identity_file, report])
     show_failures(failed)
     return FAILED if failed else 0
+
+
+def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:
+    """A design in motion for a report (`in_motion`), with a sign of life while it runs."""
+    with RunDisplay(seconds(task.grid.stop), "Running a design once more, to be seen in the report ...") as display:
+        return in_motion(fmu, task, design, which, [display])
 
 
 def _show_ranges(sweep: Sweep, table: pa.Table) -> None:

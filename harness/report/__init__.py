@@ -1,7 +1,7 @@
 """Reports: one HTML file each, that needs no network, and figures as files.
 
 Internal: `run_report`, `study_report`, `sweep_report` and `optimum_report` serve the commands. What every report is
-made of: a `page.page` of `page.section`s with `page.table`, `page.quantities`, `page.checks_list`,
+made of: a `page.page` of `page.section`s with `page.table`, `page.checks_list`,
 `page.versions_section`, and `page.charts`. A chart is a `plot.Plot`: `interactive.interactive` draws it on the page,
 `static.write_static` into SVG and PNG files.
 """

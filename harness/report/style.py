@@ -22,11 +22,12 @@ header p {{ margin: 4px 0 0; color: var(--soft); overflow-wrap: anywhere; }}
 section {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 18px 20px;
   margin-top: 18px; }}
 h2 {{ margin: 0 0 4px; font-size: 18px; }}
-section > p {{ margin: 0 0 10px; color: var(--soft); }}
+section > p {{ margin: 0 0 10px; color: var(--soft); overflow-wrap: anywhere; }}
 .cards {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 14px; margin-top: 18px; }}
 .card {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 12px 16px; }}
-.card b {{ display: block; font-size: 22px; font-weight: 650; letter-spacing: -0.01em; white-space: nowrap; }}
-.card span {{ color: var(--soft); font-size: 13px; }}
+.card b {{ display: block; font-size: 22px; font-weight: 650; letter-spacing: -0.01em;
+  overflow-wrap: anywhere; }}
+.card span {{ color: var(--soft); font-size: 13px; overflow-wrap: anywhere; }}
 ul.checks {{ list-style: none; margin: 0; padding: 0; }}
 ul.checks li {{ padding: 5px 0 5px 30px; position: relative; }}
 ul.checks li::before {{ position: absolute; left: 0; width: 20px; height: 20px; border-radius: 50%; color: #fff;
@@ -35,6 +36,8 @@ ul.checks li.good::before {{ content: "✓"; background: #1b7f4b; }}
 ul.checks li.bad::before {{ content: "✕"; background: {IMPACT_COLOUR}; }}
 ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
 .scroll {{ overflow-x: auto; }}
+.tall {{ max-height: min(70vh, 620px); overflow-y: auto; }}
+.tall th {{ position: sticky; top: 0; background: #fff; }}
 .charts {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 10px 24px; }}
 .wide {{ min-width: 640px; }}
 .charts > *, .chart, .plot {{ min-width: 0; }}
