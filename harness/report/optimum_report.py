@@ -22,7 +22,7 @@ from ..results import write_text
 from ..versions import versions
 from .in_motion import animation_of_design
 from .inputs import inputs_section
-from .page import cards, chart, page, section, table, versions_section
+from .page import cards, chart, facts, page, section, table, versions_section
 from .parameters import parameters_of_designs
 from .style import COLOURS, layout
 from .sweep_report import designs_table, limits, results_charts, run_rows
@@ -87,7 +87,7 @@ def optimum_report(optimum: Optimum, found: Found, fmu: Fmu) -> str:
     body += [
         section("Designs", *results_charts(optimum.axes, optimum.task, description, results)),
         section("All designs", designs_table(optimum.axes, optimum.task, description, results)),
-        section("What was run", table(["what", "value"], _set_up(optimum, near_it))),
+        section("What was run", facts("value", _set_up(optimum, near_it))),
         inputs_section(optimum.task.inputs, description),
         _parameters(optimum, best, description),
         versions_section(versions(fmu.path, description)),

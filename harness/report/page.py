@@ -86,9 +86,14 @@ def table(
     return f'<div class="{scroll}"><table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>'
 
 
+def facts(heading: str, rows: Iterable[Sequence[str]]) -> str:
+    """A table of what there is and a text about each, under `heading`, that folds on a phone."""
+    return f'<div class="facts">{table(["what", heading], rows)}</div>'
+
+
 def versions_section(versions: Mapping[str, str]) -> str:
     """What made the result, as of `versions.versions`."""
-    return section("Versions", table(["what", "version"], versions.items()))
+    return section("Versions", facts("version", versions.items()))
 
 
 def chart(figure: Any, narrow: Mapping[str, Any] | None = None) -> str:

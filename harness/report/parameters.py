@@ -48,7 +48,9 @@ def parameters_section(rows: Iterable[Row], note: str) -> str:
     lines = [(row.variable.name, row.value, row.unit, row.origin, _meaning(row)) for row in kept]
     marked = [place for place, row in enumerate(kept) if row.marked]
     headings = ["name", "value", "unit", "origin", "meaning"]
-    return section("Parameters", table(headings, lines, numeric=[1], changed=marked), note=note)
+    # on a phone, the meaning stands below the rest
+    drawn = f'<div class="parameters">{table(headings, lines, numeric=[1], changed=marked)}</div>'
+    return section("Parameters", drawn, note=note)
 
 
 def parameters_of_designs(

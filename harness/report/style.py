@@ -73,12 +73,26 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
 @media (max-width: 640px) {{
   main {{ padding: 16px 10px 40px; }}
   section {{ padding: 14px 12px; }}
+  .parameters table, .parameters tbody {{ display: block; }}
+  .parameters thead {{ display: none; }}
+  .parameters tr {{ display: grid; grid-template: "name value unit" "meaning meaning origin" / auto 1fr auto;
+    gap: 0 6px; padding: 6px 0; border-bottom: 1px solid var(--line); }}
+  .parameters tr.changed {{ background: #fff8e6; }}
+  .parameters td, .facts td {{ white-space: normal; overflow-wrap: anywhere; }}
+  .parameters td, .parameters td.number {{ border: 0; padding: 0; }}
+  .parameters td.long, .facts td.long {{ min-width: 0; }}
+  .facts td:first-child {{ width: 40%; }}
+  .parameters td:nth-child(3) {{ grid-area: unit; }}
+  .parameters td:nth-child(4) {{ grid-area: origin; text-align: right; }}
+  .parameters td:nth-child(5) {{ grid-area: meaning; }}
+  .parameters td:nth-child(n + 4) {{ font-size: 13px; color: var(--soft); }}
   .cards {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
   .card b {{ font-size: 18px; }}
   ul.checks small {{ display: block; margin-left: 0; }}
   .scroll .statechart {{ max-width: none !important; }}
 }}
-@media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }} }}
+@media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }}
+  .tall {{ max-height: none; }} }}
 """
 
 

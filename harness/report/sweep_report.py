@@ -25,7 +25,7 @@ from ..results import write_text
 from ..versions import versions
 from .in_motion import animation_of_design
 from .inputs import inputs_section
-from .page import cards, chart, page, section, table, versions_section, wide
+from .page import cards, chart, facts, page, section, table, versions_section, wide
 from .parameters import Origin, parameters_of_designs
 from .style import COLOURS, WIDE_TOP, layout
 
@@ -83,7 +83,7 @@ def sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | Non
     varied = {axis.name: (*limits(axis), Origin.VARIED) for axis in sweep.axes}
     note = "What was set for all designs, or varied between limits, is marked; the rest are the FMU's defaults."
     body += [
-        section("What was run", table(["what", "value"], run_rows(sweep.task))),
+        section("What was run", facts("value", run_rows(sweep.task))),
         inputs_section(sweep.task.inputs, description),
         parameters_of_designs(sweep.task, description, varied, note),
         versions_section(versions(fmu.path, description)),
