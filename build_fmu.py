@@ -6,9 +6,12 @@ import time
 from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 # Everything else is imported where it is used: --help must not wait for numba.
 
@@ -50,10 +53,26 @@ def build(
     (`python -m pip install ziglang==0.17.0`). The first build compiles the engine, which takes a minute or two;
     the same sources always give the same GUID.
     """
-    from rich.console import Console
-
     import models
-    from mechanism_fmu.fmu.native.link import INSTALL, has_linker
+
+    if show_list:
+        for name in models.available():
+            typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
+        return
+    began = time.perf_counter()
+    path = built(model or "", output, flavour, fmi)
+    seconds = time.perf_counter() - began
+    typer.echo(f"{path}  {path.stat().st_size / 1e3:.0f} kB  GUID {_guid(path)}  {seconds:.1f} s")
+    advise(flavour)
+
+
+def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: int = 2) -> Path:
+    """Build the FMU of a model as `build` does, and return its file; what is to be said goes to stderr.
+
+    Raises:
+        typer.Exit: it cannot be built; the reason has been said.
+    """
+    import models
     from mechanism_fmu.fmu.native.package import build_native_fmu
     from mechanism_fmu.fmu.own.find import WrongUseError, looks_like_a_file
     from mechanism_fmu.fmu.own.mistakes import explained_in_fmu
@@ -61,12 +80,8 @@ def build(
     from mechanism_fmu.fmu.package import build_fmu
     from mechanism_fmu.model import MechanismError
 
-    if show_list:
-        for name in models.available():
-            typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
-        return
-    messages = Console(stderr=True, highlight=False, soft_wrap=True)
-    if model is None or not (model in models.available() or looks_like_a_file(model)):
+    messages = _messages()
+    if not (model in models.available() or looks_like_a_file(model)):
         asked = f"There is no model {model!r}" if model else "Say which model to build"
         names = ", ".join(models.available())
         example = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
@@ -76,7 +91,6 @@ def build(
     if fmi == 3 and flavour is not Flavour.NATIVE:
         messages.print("FMI 3.0 comes in the native flavour only; add --flavour native.", style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR)
-    began = time.perf_counter()
     try:
         with messages.status(f"Building the FMU of {model} ...") as status, ExitStack() as explanations:
 
@@ -98,15 +112,26 @@ def build(
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
-    seconds = time.perf_counter() - began
-    typer.echo(f"{path}  {path.stat().st_size / 1e3:.0f} kB  GUID {_guid(path)}  {seconds:.1f} s")
+    return path
+
+
+def advise(flavour: Flavour) -> None:
+    """Say what an FMU of this flavour, built here, could have more of."""
+    from mechanism_fmu.fmu.native.link import INSTALL, has_linker
+
     if flavour is Flavour.PYTHONFMU and not has_linker():
-        messages.print(
+        _messages().print(
             "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "
             "numba, and its first start takes 15 to 30 s. For a fast one, install it and build again: " + INSTALL,
             style="yellow",
             markup=False,
         )
+
+
+def _messages() -> Console:
+    from rich.console import Console
+
+    return Console(stderr=True, highlight=False, soft_wrap=True)
 
 
 def _guid(path: Path) -> str:

@@ -40,6 +40,32 @@ main = typer.Typer(
 
 FmuPath = Annotated[Path, typer.Argument(metavar="FMU", help="FMU file, e.g. build/Ratchet.fmu", show_default=False)]
 
+#: What commands with many designs share.
+DesignsFolder = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        metavar="N",
+        min=1,
+        help="Processes on this machine (threads with --fast).",
+        show_default="one for each processor",
+    ),
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
+]
+Fast = Annotated[
+    bool,
+    typer.Option(
+        "--fast",
+        help="Hundreds of designs in one compiled call, in threads, without FMI calls; the numbers are the FMU's.",
+    ),
+]
+
 
 def _show_version(wanted: bool) -> None:
     if wanted:
@@ -199,30 +225,10 @@ def sweep(
     file: Annotated[
         Path, typer.Argument(metavar="FILE.toml", help="What to vary and what to keep.", show_default=False)
     ],
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
-    ] = None,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            min=1,
-            help="Processes on this machine (threads with --fast).",
-            show_default="one for each processor",
-        ),
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
-    ] = None,
-    fast: Annotated[
-        bool,
-        typer.Option(
-            "--fast",
-            help="Hundreds of designs in one compiled call, in threads, without FMI calls; the numbers are the FMU's.",
-        ),
-    ] = False,
+    output: DesignsFolder = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    fast: Fast = False,
 ) -> None:
     """Run many designs: a grid, random ones, a Latin hypercube or Sobol points.
 
@@ -260,30 +266,10 @@ def optimise(
     file: Annotated[
         Path, typer.Argument(metavar="FILE.toml", help="What is free and what is sought.", show_default=False)
     ],
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
-    ] = None,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            min=1,
-            help="Processes on this machine (threads with --fast).",
-            show_default="one for each processor",
-        ),
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
-    ] = None,
-    fast: Annotated[
-        bool,
-        typer.Option(
-            "--fast",
-            help="Hundreds of designs in one compiled call, in threads, without FMI calls; the numbers are the FMU's.",
-        ),
-    ] = False,
+    output: DesignsFolder = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    fast: Fast = False,
 ) -> None:
     """Find the best design: variables with bounds, an objective, constraints.
 

@@ -8,53 +8,55 @@ from pathlib import Path
 from rich.markup import escape
 
 from .designs.history import History, InterruptedSearchError
-from .designs.identity import identity
+from .designs.identity import contents, identity
 from .designs.optimum_file import Optimum, read_optimum
-from .designs.plan import source
 from .designs.search import Best, best_of, search
-from .designs.sensitivity import Sensitivity, sensitivity
+from .designs.sensitivity import NoIndicesError, Sensitivity, sensitivity
 from .designs.store import Store, failures
 from .designs.sweep import Progress
-from .designs.toml_file import TomlFile
-from .fmu import Fmu, open_fmu
+from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
+from .fmu import Fmu
 from .interrupt import interruption
 from .numbers import shown
-from .results import prepare_folder, write_json
-from .sweep_command import DesignsBar, alone_in, crew_of, fmu_file, seen_again
+from .results import write_json
 from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
 
 
 def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
     """Look for the best design of a file, go on where it stopped, and write history, optimum and report."""
-    file = TomlFile.read(path)
-    wanted = source(file)
-    folder = Path(path.stem) if folder is None else folder
-    prepare_folder(folder)
-    with alone_in(folder), open_fmu(fmu_file(wanted, folder)) as fmu:
+    with prepared(path, folder) as (file, fmu, folder):
         optimum = read_optimum(file, fmu.description)
-        known = identity(fmu.description, optimum.task, optimum.axes, optimum.how)
+        known = identity(contents(fmu), optimum.task, optimum.axes, optimum.how)
         store = Store(folder, known, optimum.axes, optimum.task.quantities)
+        keep_built(fmu, file, folder)
         what = "largest" if optimum.goal.largest else "smallest"
         console.print(
             f"[bold]{escape(optimum.title)}[/]: the {what} {escape(optimum.goal.objective.column)} in up to "
             f"{optimum.total} designs ({optimum.method})",
             soft_wrap=True,
         )
-        asked = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
         with (
             crew_of(fmu, optimum.task, workers, scheduler, fast) as crew,
             DesignsBar(optimum.total) as bar,
-            interruption(lambda: console.print(asked)) as stop_requested,
+            interruption(lambda: console.print(ENDING)) as stop_requested,
         ):
             history = History(
                 store, crew, optimum.count, stop_requested, lambda history: bar.show(_progress(history, optimum))
             )
             try:
                 best = search(optimum, history)
-                near_it = sensitivity(optimum, best, history)
+                near_it = _sensitivity(optimum, best, history)
             except InterruptedSearchError:
                 return _interrupted(optimum, history, store)
         return _ending(fmu, optimum, history, best, near_it, store)
+
+
+def _sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity | None:
+    try:
+        return sensitivity(optimum, best, history)
+    except NoIndicesError as error:
+        console.print(f"No Sobol indices: {error}.", markup=False)
+        return None
 
 
 def _progress(history: History, optimum: Optimum) -> Progress:
@@ -95,8 +97,6 @@ def _ending(fmu: Fmu, optimum: Optimum, history: History, best: Best, near_it: S
         indices = zip(near_it.names, near_it.first, near_it.total, strict=True)
         lines = [[name, f"{first:.3f}", f"{total:.3f}"] for name, first, total in indices]
         show_table("Sobol indices near it", ["variable", "first order [1]", "total [1]"], lines, numeric=(1, 2))
-    elif optimum.around is not None:
-        console.print("No Sobol indices: near the optimum, some design gives no number.")
     after = best_of(optimum, history)
     if after.feasible and after.design.number > optimum.count:
         console.print(

@@ -2,34 +2,22 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
-from functools import partial
+from collections.abc import Sequence
 from pathlib import Path
 
 import pyarrow as pa
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from mechanism_fmu.fmu.native.alone import alone
-
-from .clock import seconds
 from .designs import sweep as sweeps
-from .designs.identity import identity
-from .designs.in_motion import InMotion, design_with_largest, in_motion
-from .designs.plan import Source, source
+from .designs.identity import contents, identity
+from .designs.in_motion import design_with_largest
 from .designs.store import Store, failures
 from .designs.sweep_file import Sweep, read_sweep
-from .designs.task import Design, Task
-from .designs.toml_file import TomlFile
-from .designs.ways import BY_FMU, by_batch_in
-from .designs.workers import Crew, Processes, Work, here
-from .errors import UsageError
-from .fmu import Fmu, open_fmu
+from .designs.workers import Crew
+from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
+from .fmu import Fmu
 from .interrupt import interruption
-from .results import prepare_folder
-from .terminal import FAILED, INTERRUPTED, RunDisplay, console, show_error, show_files, show_table, show_wide_table
+from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
 
 #: Failed designs that fit a terminal; the file has all.
 _MOST_SHOWN = 10
@@ -37,125 +25,21 @@ _MOST_SHOWN = 10
 
 def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
     """Run the designs of a file that are not there yet, keep them as they come, and write table and report."""
-    file = TomlFile.read(path)
-    wanted = source(file)
-    folder = Path(path.stem) if folder is None else folder
-    prepare_folder(folder)
-    with alone_in(folder), open_fmu(fmu_file(wanted, folder)) as fmu:
+    with prepared(path, folder) as (file, fmu, folder):
         sweep = read_sweep(file, fmu.description)
         how = ("sweep", {"method": sweep.method})
-        known = identity(fmu.description, sweep.task, sweep.axes, how, sweep.designs)
+        known = identity(contents(fmu), sweep.task, sweep.axes, how, sweep.designs)
         store = Store(folder, known, sweep.axes, sweep.task.quantities)
+        keep_built(fmu, file, folder)
         with crew_of(fmu, sweep.task, workers, scheduler, fast) as crew:
             progress, table = _performed(sweep, store, crew)
         return _ending(fmu, sweep, store, progress, table)
 
 
-def alone_in(folder: Path) -> AbstractContextManager[None]:
-    """Wait until no other command works in a folder."""
-    return alone(
-        folder, lambda: console.print(f"Another command is at work in {folder}: waiting for it.", markup=False)
-    )
-
-
-def fmu_file(wanted: Source, folder: Path) -> Path:
-    """The FMU's file; a model is built into the folder.
-
-    It is built each time: the same sources give the same GUID, and others another one, which the folder then refuses.
-
-    Raises:
-        UsageError: there is no such model.
-    """
-    if wanted.path is not None:
-        return wanted.path
-    import build_fmu
-
-    place = folder / "fmu"
-    for earlier in place.glob("*.fmu"):
-        earlier.unlink()
-    console.print(f"Building {wanted.model} ...", markup=False)
-    build_fmu.build(wanted.model, place)
-    (found,) = place.glob("*.fmu")
-    return found
-
-
 def _performed(sweep: Sweep, store: Store, crew: Crew) -> tuple[sweeps.Progress, pa.Table]:
     console.print(f"[bold]{escape(sweep.title)}[/]: {len(sweep.designs)} designs ({sweep.method})", soft_wrap=True)
-    asked = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
-    with DesignsBar(len(sweep.designs)) as bar, interruption(lambda: console.print(asked)) as stop_requested:
+    with DesignsBar(len(sweep.designs)) as bar, interruption(lambda: console.print(ENDING)) as stop_requested:
         return sweeps.perform_sweep(sweep, store, crew, bar.show, stop_requested)
-
-
-class DesignsBar:
-    """A bar for many designs, with rate and time left."""
-
-    def __init__(self, total: int) -> None:
-        self._bar = Progress(
-            MofNCompleteColumn(),
-            BarColumn(),
-            TextColumn("{task.fields[rate]}"),
-            TimeElapsedColumn(),
-            TextColumn("left:"),
-            TimeRemainingColumn(),
-            TextColumn("[red]{task.fields[failed]}[/]"),
-            console=console,
-            transient=True,
-            disable=not console.is_terminal,
-        )
-        self._task = self._bar.add_task("", total=total, rate="", failed="")
-        self._earlier = 0
-
-    def __enter__(self) -> DesignsBar:
-        self._bar.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.stop()
-
-    def show(self, progress: sweeps.Progress) -> None:
-        """Move the bar."""
-        task = self._bar.tasks[0]
-        seconds = task.elapsed or 0.0
-        new = progress.done - progress.earlier
-        self._bar.update(
-            self._task,
-            completed=progress.done,
-            rate=f"{new / seconds:.3g} designs/s" if new and seconds > 0.0 else "",
-            failed=f"{progress.failed} failed" if progress.failed else "",
-        )
-
-
-@contextmanager
-def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool) -> Iterator[Crew]:
-    """Those who run the designs: processes, a cluster, or (`fast`) threads of this process.
-
-    Raises:
-        UsageError: the cluster cannot be used, or the designs of this FMU cannot run in one call.
-    """
-    if fast:
-        if scheduler is not None:
-            raise UsageError(
-                "--fast uses the threads of this machine, --scheduler the machines of a cluster; choose one."
-            )
-        from .designs.by_batch import require_batch
-
-        require_batch(fmu.path)
-        yield partial(here, Work(fmu, task, by_batch_in(workers)))
-        return
-    if scheduler is None:
-        with Processes(Work(fmu, task, BY_FMU), workers or os.cpu_count() or 1) as processes:
-            yield processes.run
-        return
-    try:
-        from .designs.cluster import connected, on_cluster
-    except ModuleNotFoundError as error:
-        if error.name != "distributed":
-            raise
-        raise UsageError(
-            '--scheduler needs Dask, which is not installed: python -m pip install "mechanism_fmu[cluster]"'
-        ) from None
-    with connected(scheduler) as client:
-        yield partial(on_cluster, client, fmu.path, task, BY_FMU)
 
 
 def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, table: pa.Table) -> int:
@@ -178,12 +62,6 @@ def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, tab
     show_files([store.table_file, store.identity_file, report])
     show_failures(failed)
     return FAILED if failed else 0
-
-
-def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:
-    """A design in motion for a report (`in_motion`), with a sign of life while it runs."""
-    with RunDisplay(seconds(task.grid.stop), "Running a design once more, to be seen in the report ...") as display:
-        return in_motion(fmu, task, design, which, [display])
 
 
 def _show_ranges(sweep: Sweep, table: pa.Table) -> None:

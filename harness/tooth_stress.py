@@ -14,6 +14,9 @@ from mechanism_fmu.stress import STEEL, Material, MaximumStress, WedgeTooth, ben
 from .description import Value
 from .errors import FmuError
 
+#: The calculated parameters by which an FMU describes a tooth.
+TOOTH = ("tooth_length", "tooth_apex_angle")
+
 #: Units of the columns that `with_stress` adds to the table of impacts.
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
 
@@ -31,7 +34,7 @@ def tooth_of(parameters: Mapping[str, Value]) -> WedgeTooth | None:
     Raises:
         FmuError: the FMU reports a tooth that cannot be.
     """
-    length, apex_angle = parameters.get("tooth_length"), parameters.get("tooth_apex_angle")
+    length, apex_angle = (parameters.get(name) for name in TOOTH)
     if length is None or apex_angle is None:
         return None
     try:

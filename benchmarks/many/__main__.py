@@ -25,7 +25,7 @@ from .sweep import processes
 #: The paper's experiment, and just beyond its impact [s].
 _LONG, _SHORT = 6.0, 1.2
 _LEAST_MUJOCO, _LEAST_PLAIN = 15.0, 100.0
-_DESIGNS, _FEW = 64, 16
+_DESIGNS, _FEW = 256, 16
 _ROUNDS = 9
 
 

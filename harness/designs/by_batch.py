@@ -10,19 +10,20 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from mechanism_fmu.batch import Batch, BatchResult, NoBatchError
+from mechanism_fmu.batch import Batch, BatchResult, MechanismError, NoBatchError
 
 from ..clock import seconds
 from ..description import Description, Value, Variable
 from ..errors import FmuError, UsageError
 from ..fmu import Fmu
 from ..impacts import ImpactCollector
+from ..tooth_stress import TOOTH
 from . import by_fmu
-from .of_impacts import TOOTH, of_impacts, wants_stress
+from .of_impacts import of_impacts, wants_stress
 from .task import Design, Quantity, Result, Task, When
 
 NAME = "batch"
-#: So many designs go together, and are kept together when they come: those of about a second.
+#: So many designs go together at most, and are kept together when they come.
 TOGETHER = 256
 #: Impacts of a design that are kept; one with more goes through the FMU.
 _MOST_IMPACTS = 512
@@ -46,9 +47,17 @@ def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | 
     The numbers are those of `by_fmu`, to the last bit. Impacts that would not fit into the FMU's buffer of one step are
     not lost here.
     """
+    try:
+        found = _found(fmu, task, designs, threads)
+    except MechanismError as error:  # what all of them share: a value of the input table out of its limits
+        return [Result.failed(design, NAME, task, str(error)) for design in designs]
+    return [_result(fmu, task, design, found, place) for place, design in enumerate(designs)]
+
+
+def _found(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | None) -> BatchResult:
     driven = task.inputs.variables if task.inputs is not None else ()
     at_steps = [task.inputs.at(seconds(begin)) for begin, _ in task.grid] if task.inputs is not None else []
-    found = _batch(fmu.path).run(
+    return _batch(fmu.path).run(
         {name: [float({**task.fixed, **design.values}[name]) for design in designs] for name in _set(task, designs)},
         [seconds(task.grid.start), *(seconds(end) for _, end in task.grid)],
         [*_outputs(task, fmu.description), *(TOOTH if wants_stress(task) else ())],
@@ -57,7 +66,6 @@ def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | 
         extremes=any(quantity.when in (When.MAX, When.MIN) for quantity in task.quantities),
         threads=threads,
     )
-    return [_result(fmu, task, design, found, place) for place, design in enumerate(designs)]
 
 
 @cache
@@ -86,6 +94,8 @@ def _result(fmu: Fmu, task: Task, design: Design, found: BatchResult, place: int
         asked = of_impacts(task, _impacts(fmu.description, found, place, struck), _tooth(task, found, place))
     except FmuError as error:
         return Result.failed(design, NAME, task, str(error))
+    except Exception as error:  # as by_fmu: the others are to run
+        return Result.failed(design, NAME, task, f"{type(error).__name__}: {error}")
     values = tuple(
         asked[quantity.column]
         if quantity.when.of_impacts

@@ -10,7 +10,8 @@ from ..fmu import Fmu, discard_message
 from ..impacts import ImpactCollector
 from ..master import run_fixed_step
 from ..slave import Observable
-from .of_impacts import TOOTH, of_impacts, wants_stress
+from ..tooth_stress import TOOTH
+from .of_impacts import of_impacts, wants_stress
 from .task import Design, Result, Task, When
 
 NAME = "fmu"

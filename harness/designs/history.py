@@ -49,13 +49,17 @@ class History:
         """Begin, with what a store has of earlier runs."""
         self.designs: list[Design] = []
         self.results: list[Result] = []
-        self.limit = limit
         self._seen: dict[_Values, Result] = {}
-        self._idle = 0
+        self.allow(limit)
         self._kept = store.pairs()
         self.earlier = len(self._kept)
         self._store, self._crew = store, crew
         self._stop_requested, self._on_progress = stop_requested, on_progress
+
+    def allow(self, limit: int) -> None:
+        """Begin a part of the search, which may go on to so many designs in all."""
+        self.limit = limit
+        self._idle = 0
 
     def results_of(self, candidates: Sequence[Mapping[str, Value]]) -> list[Result]:
         """Results of designs, in their order; those behind the first that exceeds the limit are left out.

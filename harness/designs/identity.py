@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
+import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ..description import Description
+from mechanism_fmu import __version__
+
+from ..fmu import Fmu
 from .task import Design, Task
 from .variation import Axis
+
+_DATE = re.compile(rb'generationDateAndTime="[^"]*"')
 
 
 @dataclass(frozen=True)
@@ -37,7 +43,7 @@ class Identity:
 
 
 def identity(
-    description: Description,
+    fmu: Mapping[str, str],
     task: Task,
     axes: Sequence[Axis],
     how: tuple[str, Mapping[str, Any]],
@@ -46,7 +52,7 @@ def identity(
     """The identity of a list of designs.
 
     Args:
-        description: of the FMU; its GUID says which it is.
+        fmu: what `contents` says of it.
         task: of every design.
         axes: what is varied.
         how: designs are found: name of the table, and what is in it.
@@ -55,7 +61,8 @@ def identity(
     """
     return Identity(
         {
-            "fmu": {"model": description.model, "guid": description.guid},
+            "fmu": dict(fmu),
+            "mechanism_fmu": __version__,  # the stresses are the harness's own
             "run": {
                 "start": task.grid.start,
                 "stop": task.grid.stop,
@@ -76,6 +83,21 @@ def identity(
             how[0]: dict(how[1]) | {"designs": _digest([list(design.values.values()) for design in designs])},
         }
     )
+
+
+def contents(fmu: Fmu) -> dict[str, str]:
+    """What tells an FMU from another: its model, its GUID, and SHA-256 of all that is in it but the date of its making.
+
+    Whoever edits an FMU seldom gives it another GUID.
+    """
+    found = hashlib.sha256()
+    with zipfile.ZipFile(fmu.path) as archive:
+        for name in sorted(archive.namelist()):
+            content = archive.read(name)
+            if name == "modelDescription.xml":
+                content = _DATE.sub(b"", content)
+            found.update(name.encode() + hashlib.sha256(content).digest())
+    return {"model": fmu.description.model, "guid": fmu.description.guid, "sha256": found.hexdigest()}
 
 
 def _signals(task: Task) -> str:

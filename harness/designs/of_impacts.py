@@ -6,15 +6,13 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from mechanism_fmu.stress import SequenceDamage
-
 from ..description import Value
 from ..tooth_damage import damage_of_impacts
 from ..tooth_stress import STRESS_UNITS, tooth_of, with_stress
-from .task import Quantity, Task, When
+from .task import Task, When
 
-#: The calculated parameters that describe a tooth.
-TOOTH = ("tooth_length", "tooth_apex_angle")
+#: What tells the largest impact, the first of them that the FMU reports: v_I decides the stress.
+_SIZES = ("velocity", "closing_speed", "impulse")
 
 
 def wants_stress(task: Task) -> bool:
@@ -45,12 +43,16 @@ def of_impacts(task: Task, table: pd.DataFrame, tooth_values: Mapping[str, Value
         if any(quantity.when is When.ALL_IMPACTS for quantity in wanted):
             damage = damage_of_impacts(table, tooth, task.material)
         table = with_stress(table, tooth, task.material.material)
-    return {quantity.column: _taken(table, damage, quantity) for quantity in wanted}
+    rows = {When.FIRST_IMPACT: 0, When.LARGEST_IMPACT: _largest(table)}
+    return {
+        quantity.column: float(getattr(damage, quantity.name))
+        if quantity.when is When.ALL_IMPACTS
+        else table[quantity.name].iloc[rows[quantity.when]].item()
+        for quantity in wanted
+    }
 
 
-def _taken(table: pd.DataFrame, damage: SequenceDamage | None, quantity: Quantity) -> Value:
-    if quantity.when is When.ALL_IMPACTS:
-        return float(getattr(damage, quantity.name))
-    column = table[quantity.name]
-    value: Value = (column.iloc[0] if quantity.when is When.FIRST_IMPACT else column.max()).item()
-    return value
+def _largest(table: pd.DataFrame) -> int:
+    """Where the largest impact stands; of equal ones the first."""
+    size = next((name for name in _SIZES if name in table), None)
+    return 0 if size is None else int(table[size].abs().to_numpy().argmax())

@@ -8,9 +8,9 @@ from typing import Any
 
 from ..description import Description
 from .goal import Goal, read_goal, with_goal
-from .plan import course, fixed_values
+from .plan import shared
 from .quantities import recorded
-from .task import Task
+from .task import MOST_DESIGNS, Task
 from .toml_file import TomlFile
 from .variation import Axis, axes
 
@@ -93,17 +93,14 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
     Raises:
         UsageError: mistakes in the file, all of them.
     """
-    file.only_tables(TABLES)
-    title = file.data.get("title", file.path.stem)
-    if not isinstance(title, str):
-        file.wrong(("title",), "must be a text in quotes")
-    running = course(file, description)
-    fixed = fixed_values(file, description, running.inputs)
+    title, running, fixed = shared(file, TABLES, description)
     section = file.section("optimise", why='write [optimise] and below it e.g. minimise = "largest_impact.stress_max"')
     for name in ("minimise", "maximise"):
         section.take(name)
     method = section.choice("method", (CONTINUOUS, MIXED))
-    count = section.whole("count", least=1, needed="write how many designs may be run, as in count = 200")
+    count = section.whole(
+        "count", least=1, most=MOST_DESIGNS, needed="write how many designs may be run, as in count = 200"
+    )
     seed = section.whole("seed", least=0)
     section.done()
     goal = read_goal(file, description) if section.given else None
@@ -120,12 +117,12 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
     assert goal is not None
     assert count is not None
     task = Task(running.grid, fixed, running.inputs, with_goal(quantities, goal), running.material)
-    return Optimum(str(title), task, free, goal, method or (CONTINUOUS if smooth else MIXED), count, seed or 0, around)
+    return Optimum(title, task, free, goal, method or (CONTINUOUS if smooth else MIXED), count, seed or 0, around)
 
 
 def _around(file: TomlFile) -> Around | None:
     section = file.section("sensitivity", needed=False)
-    count = section.whole("count", least=2, needed="write a power of 2, as in count = 64")
+    count = section.whole("count", least=2, most=MOST_DESIGNS, needed="write a power of 2, as in count = 64")
     width = section.take("width")
     section.done()
     if count is not None and count & (count - 1):

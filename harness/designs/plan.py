@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from mechanism_fmu.stress import STEEL_CARD, MaterialCard, material_card
 
 from ..assignments import parse_value, settable_variable
-from ..clock import TimeGrid, seconds
+from ..clock import SECOND, TimeGrid, seconds
 from ..description import Description, Value, Variable
 from ..errors import UsageError
 from ..inputs import InputSignals, read_inputs
@@ -20,10 +21,10 @@ _TIME = Variable("time", reference=-1, type="Real", causality="parameter", unit=
 
 @dataclass(frozen=True)
 class Source:
-    """Where the FMU comes from: a file, or a ready-made model that is built. One of both."""
+    """Where the FMU comes from: a file, or (path is None) a ready-made model that is built."""
 
     path: Path | None = None
-    model: str | None = None
+    model: str = ""
 
 
 def source(file: TomlFile) -> Source:
@@ -38,7 +39,17 @@ def source(file: TomlFile) -> Source:
         section.wrong("file", 'either file = "Ratchet.fmu" or model = "ratchet" must be given, and not both')
     section.done()
     file.check()
-    return Source(None if path is None else file.path.parent / path, model)
+    return Source(None if path is None else file.path.parent / path, model or "")
+
+
+def shared(file: TomlFile, tables: Sequence[str], description: Description) -> tuple[str, Course, dict[str, Value]]:
+    """What a sweep and an optimum have in common: the title, [run] and [set]; nothing else than `tables` is known."""
+    file.only_tables(tables)
+    title = file.data.get("title", file.path.stem)
+    if not isinstance(title, str):
+        file.wrong(("title",), "must be a text in quotes")
+    running = course(file, description)
+    return str(title), running, fixed_values(file, description, running.inputs)
 
 
 @dataclass(frozen=True)
@@ -71,7 +82,7 @@ def course(file: TomlFile, description: Description) -> Course:
             section.wrong("material", str(error))
     if stop_time is None or step is None:
         return Course(None, None, card)
-    key = "stop_time"
+    key = "step" if round(step * SECOND) == 0 else "stop_time"
     try:
         times = TimeGrid.of(stop_time, step)
         if input_file is not None:

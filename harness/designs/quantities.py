@@ -7,12 +7,11 @@ from collections.abc import Mapping
 from ..description import Description, Variable, hint_at
 from ..impacts import ImpactCollector
 from ..tooth_damage import DAMAGE_UNITS
-from ..tooth_stress import STRESS_UNITS
+from ..tooth_stress import STRESS_UNITS, TOOTH
 from .task import Quantity, When
 from .toml_file import Section
 
 _NUMBERS = ("Real", "Integer", "Boolean")
-_TOOTH = ("tooth_length", "tooth_apex_angle")
 
 
 class UnknownQuantityError(ValueError):
@@ -75,7 +74,7 @@ def _stresses(
     description: Description, fields: Mapping[str, Variable], units: Mapping[str, str]
 ) -> dict[str, Variable]:
     """What impacts do to a tooth, if the FMU describes a tooth and tells the velocity that strikes it."""
-    if "velocity" not in fields or not set(_TOOTH) <= set(description.variables):
+    if "velocity" not in fields or not set(TOOTH) <= set(description.variables):
         return {}
     return {
         name: Variable(name, reference=-1, type="Real", causality="local", unit="" if unit == "1" else unit)
@@ -88,7 +87,7 @@ def _objection(when: When, name: str, description: Description, variables: Mappi
         if not ImpactCollector(description).fields:
             return f"{description.model} reports no impacts, so there is no '{name}' of one."
         if name in (DAMAGE_UNITS if when is When.ALL_IMPACTS else STRESS_UNITS) or not variables:
-            return f"{description.model} gives no '{name}': it describes no tooth ({', '.join(_TOOTH)})."
+            return f"{description.model} gives no '{name}': it describes no tooth ({', '.join(TOOTH)})."
         return f"an impact has no '{name}'.{_way_out(name, variables)}"
     if name in description.variables:
         variable = description.variable(name)

@@ -51,11 +51,11 @@ def search(optimum: Optimum, history: History) -> Best:
     """
     real = [axis for axis in optimum.axes if axis.values is None and axis.variable.type == "Real"]
     at_large = max(1, round(_AT_LARGE * optimum.count)) if real else optimum.count
-    history.limit = at_large
+    history.allow(at_large)
     _until_enough(
         lambda: _differential_evolution(optimum, history) if optimum.method == CONTINUOUS else _tpe(optimum, history)
     )
-    history.limit = optimum.count
+    history.allow(optimum.count)
     if real:
         _until_enough(lambda: _nelder_mead(optimum, history, real))
     return best_of(optimum, history)

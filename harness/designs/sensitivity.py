@@ -38,20 +38,25 @@ class Sensitivity:
     limits: tuple[tuple[float, float], ...]
 
 
+class NoIndicesError(ValueError):
+    """There are no Sobol indices; the message says why."""
+
+
 def sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity | None:
-    """The sensitivity of the optimum; None when nothing is asked for, or some neighbour gives no number.
+    """The sensitivity of the optimum; None when nothing is asked for.
 
     By (variables + 2) count designs (A. Saltelli et al., Comput. Phys. Commun. 181 (2010)). Whole numbers are those
     next to the optimum's; variables with a list of values keep theirs.
 
     Raises:
+        NoIndicesError: some neighbour gives no number, or all of them the same.
         InterruptedSearchError: somebody wants it to end.
     """
     around = optimum.around
     free = near(optimum.axes)
     if around is None:
         return None
-    history.limit = len(history.designs) + around.designs(len(free))
+    history.allow(len(history.designs) + around.designs(len(free)))
     vicinity = [_vicinity(axis, best.design.values[axis.name], around.width) for axis in free]
     seen: list[float] = []
 
@@ -69,8 +74,11 @@ def sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity |
             dists=[stats.uniform()] * len(free),
             rng=np.random.default_rng(optimum.seed),
         )
-    if not np.all(np.isfinite([*seen, *found.first_order])):
-        return None
+    missing = int(np.sum(~np.isfinite(seen)))
+    if missing:
+        raise NoIndicesError(f"near the optimum, {missing} of {len(seen)} designs give no number")
+    if min(seen) == max(seen):
+        raise NoIndicesError(f"near the optimum, the objective is {seen[0]:.9g} everywhere: no variable matters there")
     return Sensitivity(
         names=tuple(axis.name for axis in free),
         first=np.asarray(found.first_order),

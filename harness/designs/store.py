@@ -24,7 +24,7 @@ from mechanism_fmu import __version__
 
 from ..description import Value, Variable
 from ..errors import UsageError
-from ..results import write_json
+from ..results import prepare_folder, write_json
 from .identity import Identity
 from .task import Design, Quantity, Result
 from .variation import RESERVED, Axis
@@ -128,18 +128,17 @@ class Store:
             changed = identity.changed(found)
             if changed:
                 raise UsageError(
-                    f"The folder '{self.folder}' holds results of another file or FMU: "
+                    f"The folder '{self.folder}' holds results of another file, FMU or version: "
                     f"{', '.join(f'[{name}]' for name in changed)} differ from '{self.identity_file}'. "
                     f"Choose another folder with -o, undo the change to go on, or remove '{self.folder}' to begin anew."
                 )
         elif self.table_file.exists() or self._parts.exists():
             raise UsageError(f"'{self.folder}' has results, but no {self.identity_file.name}; choose another folder.")
-        try:
-            self._parts.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise UsageError(f"The folder '{self._parts}' cannot be made: {error}.") from error
+        prepare_folder(self.folder)
+        # The identity comes first: whatever lies beside it belongs to it.
         if not self.identity_file.exists():
             write_json(self.identity_file, {"harness_version": __version__, "identity": dict(identity.topics)})
+        prepare_folder(self._parts)
 
     def _row(self, design: Design, result: Result) -> dict[str, Value | None]:
         columns = [quantity.column for quantity in self._quantities]

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..description import Description
 from . import sampling
-from .plan import course, fixed_values
+from .plan import shared
 from .quantities import recorded
-from .task import Design, Task
+from .task import MOST_DESIGNS, Design, Task
 from .toml_file import TomlFile
 from .variation import Axis, axes
 
@@ -42,17 +43,12 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
     Raises:
         UsageError: mistakes in the file, all of them.
     """
-    file.only_tables(TABLES)
-    title = file.data.get("title", file.path.stem)
-    if not isinstance(title, str):
-        file.wrong(("title",), "must be a text in quotes")
-    running = course(file, description)
-    fixed = fixed_values(file, description, running.inputs)
+    title, running, fixed = shared(file, TABLES, description)
     section = file.section("sweep", why='write [sweep] and below it method = "latin_hypercube" and count = 64')
     method = section.choice("method", (_GRID, *sampling.METHODS), needed='write e.g. method = "latin_hypercube"')
     by_grid = method == _GRID
     wants_count = "write how many designs there shall be, as in count = 64" if method and not by_grid else ""
-    count = section.whole("count", least=1, needed=wants_count)
+    count = section.whole("count", least=1, most=MOST_DESIGNS, needed=wants_count)
     seed = section.whole("seed", least=0)
     if by_grid:
         for name in ("count", "seed"):
@@ -60,6 +56,10 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
                 section.wrong(name, "does not go with a grid, which has every value with every other")
     section.done()
     varied = axes(file, description, running.inputs, list(fixed), grid=by_grid if method else None)
+    if by_grid and (together := math.prod(len(axis.grid) for axis in varied)) > MOST_DESIGNS:
+        section.wrong(
+            "method", f"= '{_GRID}' makes {together:,} designs, more than {MOST_DESIGNS:,}; take fewer values"
+        )
     record = file.section("record", why='write [record] and below it e.g. end = ["wheel_angle"]')
     quantities = recorded(record, description)
     if record.given and not record.table:
@@ -69,7 +69,7 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
     assert method is not None
     designs = sampling.grid(varied) if by_grid else sampling.sampled(varied, method, count or 1, seed or 0)
     return Sweep(
-        str(title),
+        title,
         Task(running.grid, fixed, running.inputs, tuple(quantities), running.material),
         tuple(varied),
         method,

@@ -12,6 +12,9 @@ from ..clock import TimeGrid
 from ..description import Value
 from ..inputs import InputSignals
 
+#: More than these nobody waits for, and no table shows.
+MOST_DESIGNS = 1_000_000
+
 
 class When(StrEnum):
     """At which time of a run a quantity is taken."""
@@ -40,7 +43,7 @@ _MEANINGS = {
     When.MAX: "the largest at all communication points",
     When.MIN: "the smallest at all communication points",
     When.FIRST_IMPACT: "of the first impact",
-    When.LARGEST_IMPACT: "the largest of all impacts",
+    When.LARGEST_IMPACT: "of the impact with the largest velocity",
     When.ALL_IMPACTS: "of all impacts together, on a tooth that still rings from those before",
     When.PARAMETER: "after the initialization",
 }

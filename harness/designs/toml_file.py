@@ -139,13 +139,18 @@ class Section:
         self._refused(name, value, "a text in quotes")
         return None
 
-    def whole(self, name: str, *, least: int, needed: str = "") -> int | None:
-        """A whole number that is not less than `least`."""
+    def whole(self, name: str, *, least: int, most: int | None = None, needed: str = "") -> int | None:
+        """A whole number from `least` to `most`."""
         value = self.take(name, needed=needed)
-        if value is None or (isinstance(value, int) and not isinstance(value, bool) and value >= least):
-            return value
-        self._refused(name, value, f"a whole number, {least} or more")
-        return None
+        if value is None:
+            return None
+        if not isinstance(value, int) or isinstance(value, bool) or value < least:
+            self._refused(name, value, f"a whole number, {least} or more")
+            return None
+        if most is not None and value > most:
+            self._refused(name, value, f"{most:,} or less")
+            return None
+        return value
 
     def choice(self, name: str, among: Sequence[str], *, needed: str = "") -> str | None:
         """One of several texts."""

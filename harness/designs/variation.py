@@ -11,6 +11,7 @@ from ..description import Description, Value, Variable
 from ..inputs import InputSignals
 from ..units import UnitMismatchError
 from .plan import as_text, parsed, settable
+from .task import MOST_DESIGNS
 from .toml_file import Section, TomlFile
 
 #: Columns of the results that no variable may have the name of.
@@ -89,7 +90,7 @@ def _axis(
 ) -> Axis | None:
     said = len(section.file.mistakes)
     low, high, values = section.take("from"), section.take("to"), section.take("values")
-    unit, steps = section.text("unit"), section.whole("steps", least=2)
+    unit, steps = section.text("unit"), section.whole("steps", least=2, most=MOST_DESIGNS)
     section.done()
     variable = _variable(section, name, description, inputs, fixed)
     if variable is None:
@@ -112,6 +113,9 @@ def _axis(
         return None
     if low >= high:
         section.wrong("from", f"= {low} is not below to = {high}; exchange them, or give different limits")
+        return None
+    if grid and variable.type == "Integer" and high - low >= MOST_DESIGNS:
+        section.wrong("to", f"= {high} makes {high - low + 1:,} values, more than {MOST_DESIGNS:,} designs; list some")
         return None
     axis = Axis(variable, shown, float(low), float(high), None, (), description)
     return Axis(variable, shown, float(low), float(high), None, _grid(axis, steps) if grid else (), description)

@@ -188,14 +188,14 @@ class Batch:
                 varied_value=np.array(list(varied.values())).T.copy() if varied else np.empty((count, 0)),
             ),
             refused,
-            said_of(ready.traced.warnings, numbers, count),
+            said_of(ready.traced.warnings, numbers, count, between="\n"),
         )
 
 
 def _warned(text: str, contacts: Sequence[str], times: Array) -> str:
-    """What is said at the start, and of each contact that has pulled, in the order of time."""
+    """What is said at the start, and of each contact that has pulled, in the order of time; a line each."""
     pulled = sorted((time, name) for name, time in zip(contacts, times.tolist(), strict=True) if time < math.inf)
-    return " ".join(filter(None, (text, *(pulls(name, time).text for time, name in pulled))))
+    return "\n".join(filter(None, (text, *(pulls(name, time).text for time, name in pulled))))
 
 
 def _processors() -> int:

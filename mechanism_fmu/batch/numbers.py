@@ -70,11 +70,10 @@ class Numbers:
         """Recorded numbers, in their order; what does not exist is NaN or infinite, and nothing fails."""
         wanted = list(wanted)
         with np.errstate(all="ignore"):
-            for number in self._traced.needed(wanted):
-                if number not in self._known:
-                    self._known[number] = found = self._calculated(number)
-                    if isinstance(found, float):
-                        self._same[number] = found
+            for number in self._traced.needed(wanted, self._known):
+                self._known[number] = found = self._calculated(number)
+                if isinstance(found, float):
+                    self._same[number] = found
         return [self._known[x.number] if isinstance(x, Symbol) else float(x) for x in wanted]
 
     def _calculated(self, number: int) -> Column:

@@ -63,8 +63,8 @@ def impossible(traced: Trace, numbers: Numbers, entries: Sequence[Entry], design
     return _not_finite(numbers, entries, designs) | said_of(traced.problems, numbers, designs) | objected
 
 
-def said_of(findings: Sequence[Finding], numbers: Numbers, designs: int) -> Refusals:
-    """What findings say of designs, a text for each that any applies to."""
+def said_of(findings: Sequence[Finding], numbers: Numbers, designs: int, between: str = " ") -> Refusals:
+    """What findings say of designs, a text for each that any applies to, with `between` its parts."""
     said: dict[int, list[str]] = {}
     for finding, applies in zip(findings, numbers.of(f.applies for f in findings), strict=True):
         concerned = _where(np.greater(applies, 0.0), designs)
@@ -73,12 +73,15 @@ def said_of(findings: Sequence[Finding], numbers: Numbers, designs: int) -> Refu
             for design in concerned:
                 shown = finding.text.format(*(float(column[design]) for column in columns))
                 said.setdefault(design, []).append(shown)
-    return {design: " ".join(texts) for design, texts in said.items()}
+    return {design: between.join(texts) for design, texts in said.items()}
 
 
 def _not_finite(numbers: Numbers, entries: Sequence[Entry], designs: int) -> Refusals:
     refused: Refusals = {}
-    for entry, column in zip(entries, numbers.of(entry.value for entry in entries), strict=True):
+    columns = numbers.of(entry.value for entry in entries)
+    if np.all(np.isfinite(np.concatenate([np.atleast_1d(column) for column in columns] or [np.empty(0)]))):
+        return refused
+    for entry, column in zip(entries, columns, strict=True):
         for design in _where(~np.isfinite(column), designs):
             refused.setdefault(design, f"The parameters make {entry.label} a number that is not finite; change them.")
     return refused

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import traceback
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -77,12 +77,17 @@ class Trace:
         }
         return replace(self.tables, **plain)
 
-    def needed(self, numbers: Iterable[Number]) -> list[int]:
-        """The operations, in order, on which numbers depend; plain numbers depend on none."""
-        needed = {x.number for x in numbers if isinstance(x, Symbol)}
-        for number in range(len(self.operations) - 1, -1, -1):
+    def needed(self, numbers: Iterable[Number], known: Collection[int] = ()) -> list[int]:
+        """The operations, in order, on which numbers depend; plain numbers depend on none.
+
+        Args:
+            numbers: recorded ones.
+            known: operations whose results are there already; what only these depend on is left out, as they are.
+        """
+        needed = {x.number for x in numbers if isinstance(x, Symbol) and x.number not in known}
+        for number in range(max(needed, default=-1), -1, -1):
             if number in needed:
-                needed.update(self.operations[number].operands)
+                needed.update(operand for operand in self.operations[number].operands if operand not in known)
         return sorted(needed)
 
     def numbers(self, wanted: Iterable[Number], values: SimpleNamespace) -> list[float]:

@@ -332,4 +332,4 @@ def test_warnings_are_those_of_the_fmu(ratchet, ratchets):
     for k in range(3):
         with Instance(ratchet) as one:
             one.begin(start_values(ratchet, designs, k)).step(1.0)
-            assert found.warnings[k] == " ".join(m.text for m in one.log if m.category == "logStatusWarning")
+            assert found.warnings[k] == "\n".join(m.text for m in one.log if m.category == "logStatusWarning")

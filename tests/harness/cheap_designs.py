@@ -44,7 +44,7 @@ def cheap_sweep(count: int, method: str = "sobol", seed: int = 1) -> Sweep:
 
 
 def store_of(sweep: Sweep, folder: Path) -> Store:
-    known = identity(fake_description(), sweep.task, sweep.axes, ("sweep", {"method": sweep.method}), sweep.designs)
+    known = identity({"model": "Cheap"}, sweep.task, sweep.axes, ("sweep", {"method": sweep.method}), sweep.designs)
     return Store(folder, known, sweep.axes, sweep.task.quantities)
 
 

@@ -78,3 +78,42 @@ def test_without_an_impact_there_is_nothing_of_it(ratchet_fmu: Path) -> None:
 def test_a_native_fmu_has_no_such_way_and_says_so(native_ratchet_fmu: Path) -> None:
     with pytest.raises(UsageError, match=r"--fast: .* holds no Python model"):
         by_batch.require_batch(native_ratchet_fmu)
+
+
+def test_an_input_out_of_its_limits_fails_the_designs_and_not_the_command(ratchet_fmu: Path) -> None:
+    with open_fmu(ratchet_fmu) as fmu:
+        drive = fmu.description.variable("drive_torque")
+        inputs = InputSignals((drive,), np.array([0.0, 2.5]), np.array([[1e9], [1e9]]))
+        found = by_batch.run_designs(fmu, task_of(fmu, inputs), DESIGNS[:2])
+    assert all("drive_torque" in (one.failure or "") for one in found)
+
+
+def test_a_design_with_more_impacts_than_are_kept_goes_through_the_fmu(ratchet_fmu: Path, monkeypatch) -> None:
+    monkeypatch.setattr(by_batch, "_MOST_IMPACTS", 2)
+    with open_fmu(ratchet_fmu) as fmu:
+        once, often = by_batch.run_designs(fmu, task_of(fmu), DESIGNS[:2])
+        (expected,) = by_fmu.run_designs(fmu, task_of(fmu), DESIGNS[1:2])
+    assert once.way == "batch"
+    assert often == expected
+    assert often.way == "fmu"
+
+
+def test_more_impacts_in_a_step_than_an_fmu_can_tell_are_all_there(ratchet_fmu: Path) -> None:
+    bouncing = [Design(1, {"restitution": 0.8})]
+    with open_fmu(ratchet_fmu) as fmu:
+        small, large = (replace(task_of(fmu), fixed={}, grid=TimeGrid.of(8.0, step)) for step in (0.5, 8.0))
+        (refused,) = by_fmu.run_designs(fmu, large, bouncing)
+        (found,) = by_batch.run_designs(fmu, large, bouncing)
+        (expected,) = by_fmu.run_designs(fmu, small, bouncing)
+    assert "impacts did not fit" in (refused.failure or "")
+    of_impacts = [k for k, name in enumerate(COLUMNS) if "impact" in name]
+    assert found.values[COLUMNS.index("end.impact_count")] > 8
+    assert [found.values[k] for k in of_impacts] == pytest.approx([expected.values[k] for k in of_impacts], rel=1e-4)
+
+
+def test_warnings_are_those_of_the_fmu_a_line_each(ratchet_fmu: Path) -> None:
+    warned = [Design(1, {"pawl_angle_start": 0.1, "tooth_count": 25, "tooth_slope_angle": math.radians(85)})]
+    with open_fmu(ratchet_fmu) as fmu:
+        (found,), (expected,) = (way.run_designs(fmu, task_of(fmu), warned) for way in (by_batch, by_fmu))
+    assert found.warnings == expected.warnings
+    assert len((found.warnings or "").splitlines()) == 2

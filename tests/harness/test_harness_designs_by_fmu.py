@@ -4,11 +4,13 @@ import math
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from fake_slave import FakeFmu, FakeSlave
 
 from harness.clock import TimeGrid
 from harness.designs.by_fmu import run_designs
+from harness.designs.of_impacts import of_impacts
 from harness.designs.quantities import column
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.errors import FmuError
@@ -40,7 +42,14 @@ def test_quantities_are_taken_at_their_times() -> None:
     lowest = Quantity(When.MIN, "wheel_angle", "Real", "rad")
     pitch = Quantity(When.PARAMETER, "tooth_pitch", "Real", "rad")
     result = result_of(FakeSlave(impacts=[0.25, 0.75]), VELOCITY, highest, TIME, lowest, WHEEL, pitch)
-    assert result.values == (-0.5, 1.0, 0.25, 0.0, 1.0, 0)
+    assert result.values == (-1.5, 1.0, 0.25, 0.0, 1.0, 0)
+
+
+def test_the_largest_impact_is_one_of_them_with_all_that_is_known_of_it() -> None:
+    """Not each field's own maximum: the time is that of the impact with the largest |velocity|."""
+    fields = [Quantity(When.LARGEST_IMPACT, name, "Real", "") for name in ("time", "velocity")]
+    table = pd.DataFrame({"time": [0.1, 0.2, 0.3], "velocity": [-0.5, -2.0, 1.0]})
+    assert of_impacts(task_of(*fields), table, {}) == {"largest_impact.time": 0.2, "largest_impact.velocity": -2.0}
 
 
 def test_without_an_impact_there_is_nothing_of_it() -> None:

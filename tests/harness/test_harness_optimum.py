@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from cheap_designs import VALLEY, Place, axis
-from fake_slave import FakeFmu, FakeSlave, fake_description
+from fake_slave import FakeFmu, FakeSlave
 
 from harness.clock import TimeGrid
 from harness.designs.goal import Constraint, Goal
@@ -18,10 +18,11 @@ from harness.designs.history import History, InterruptedSearchError
 from harness.designs.identity import identity
 from harness.designs.optimum_file import CONTINUOUS, MIXED, Around, Optimum
 from harness.designs.search import Best, search
-from harness.designs.sensitivity import sensitivity
+from harness.designs.sensitivity import NoIndicesError, sensitivity
 from harness.designs.store import Store
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.variation import Axis
+from harness.designs.ways import Way
 from harness.designs.workers import Work, here
 from harness.errors import UsageError
 from harness.master import never
@@ -41,12 +42,14 @@ def optimum_of(
 
 
 def store_of(optimum: Optimum, folder: Path) -> Store:
-    known = identity(fake_description(), optimum.task, optimum.axes, optimum.how)
+    known = identity({"model": "Fake"}, optimum.task, optimum.axes, optimum.how)
     return Store(folder, known, optimum.axes, optimum.task.quantities)
 
 
-def history_of(optimum: Optimum, folder: Path, stop_requested: Callable[[], bool] = never) -> History:
-    crew = partial(here, Work(Place(folder), optimum.task, VALLEY))  # type: ignore[arg-type]
+def history_of(
+    optimum: Optimum, folder: Path, stop_requested: Callable[[], bool] = never, way: Way = VALLEY
+) -> History:
+    crew = partial(here, Work(Place(folder), optimum.task, way))  # type: ignore[arg-type]
     return History(store_of(optimum, folder), crew, optimum.count, stop_requested, lambda history: None)
 
 
@@ -59,6 +62,15 @@ def test_what_is_no_number_is_worse_than_any_design(values: tuple[float | None, 
     goal = Goal(FAR, False, (Constraint(SUM, None, 1.0),))
     for other in ((1e20, 0.5), (1.0, 1e20)):
         assert goal.merit(Result(1, "cheap", values), TASK) > goal.merit(Result(2, "cheap", other), TASK)
+
+
+def test_a_space_that_is_known_whole_still_has_a_sensitivity(tmp_path: Path) -> None:
+    optimum = replace(optimum_of(N, axis("gear", 1, 3), count=300), around=Around(4, 0.1))
+    history = history_of(optimum, tmp_path)
+    best = search(optimum, history)
+    assert len(history.designs) <= 48
+    assert sensitivity(optimum, best, history) is not None
+    assert best.design.values["tooth_count"] == 17
 
 
 def test_the_bottom_of_a_valley(tmp_path: Path) -> None:
@@ -162,7 +174,18 @@ def _smooth(fmu: Place, task: Task, designs: list[Design]) -> list[Result]:
 def test_near_an_optimum_that_fails_there_are_no_indices(tmp_path: Path) -> None:
     optimum = replace(optimum_of(X, Y, count=60), around=Around(64, 0.1))
     history = history_of(optimum, tmp_path)
-    assert sensitivity(optimum, search(optimum, history), history) is None
+    best = search(optimum, history)
+    with pytest.raises(NoIndicesError, match=r"near the optimum, \d+ of 256 designs give no number"):
+        sensitivity(optimum, best, history)
+
+
+def test_an_objective_that_never_changes_has_no_indices_and_this_is_said(tmp_path: Path) -> None:
+    constant = Way("cheap", lambda fmu, task, designs: [Result(d.number, "cheap", (7.0, 1.0)) for d in designs])
+    optimum = replace(optimum_of(X, Y, count=20), around=Around(4, 0.1))
+    history = history_of(optimum, tmp_path, way=constant)
+    best = search(optimum, history)
+    with pytest.raises(NoIndicesError, match="the objective is 7 everywhere: no variable matters there"):
+        sensitivity(optimum, best, history)
 
 
 def test_nothing_is_asked_for_twice_and_a_small_space_is_soon_exhausted(tmp_path: Path) -> None:

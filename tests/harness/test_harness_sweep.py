@@ -4,6 +4,8 @@ import multiprocessing
 import os
 import signal
 import time
+import zipfile
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -18,6 +20,7 @@ from hypothesis import strategies as st
 from scipy.stats import qmc
 
 from harness.designs import sampling
+from harness.designs.identity import contents
 from harness.designs.store import failures
 from harness.designs.sweep import Progress, perform_sweep
 from harness.designs.task import Result
@@ -90,7 +93,7 @@ def test_a_sweep_that_was_asked_to_stop_goes_on_later(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("count", "seed", "method"), [(21, 1, "sobol"), (20, 2, "sobol"), (20, 1, "random")])
 def test_a_folder_of_other_designs_is_refused(count: int, seed: int, method: str, tmp_path: Path) -> None:
     store_of(cheap_sweep(20), tmp_path)
-    with pytest.raises(UsageError, match=r"holds results of another file or FMU: \[sweep\] differ .* -o"):
+    with pytest.raises(UsageError, match=r"holds results of another file, FMU or version: \[sweep\] differ .* -o"):
         store_of(cheap_sweep(count, method, seed), tmp_path)
 
 
@@ -102,6 +105,13 @@ def test_a_folder_whose_owner_nobody_knows_is_refused(tmp_path: Path) -> None:
     (tmp_path / "identity.json").unlink()
     with pytest.raises(UsageError, match=r"has results, but no identity\.json"):
         store_of(cheap_sweep(3), tmp_path)
+
+
+def test_a_folder_that_was_claimed_and_no_more_is_taken_up(tmp_path: Path) -> None:
+    store_of(cheap_sweep(3), tmp_path)
+    (tmp_path / "parts").rmdir()
+    run_cheap(3, tmp_path)
+    assert len(pd.read_parquet(tmp_path / "results.parquet")) == 3
 
 
 def test_a_broken_part_is_told_with_the_way_out(tmp_path: Path) -> None:
@@ -164,6 +174,25 @@ def test_a_sweep_killed_at_any_moment_gives_what_an_undisturbed_one_gives(tmp_pa
     assert count <= len(trace.read_text().split()) <= count + kills
 
 
-def test_the_folder_says_to_which_fmu_it_belongs(tmp_path: Path) -> None:
-    store_of(cheap_sweep(3), tmp_path)
-    assert fake_description().guid in (tmp_path / "identity.json").read_text()
+@dataclass(frozen=True)
+class File:
+    """What `contents` needs of an FMU."""
+
+    path: Path
+    description = fake_description()
+
+
+def test_an_edited_fmu_is_another_one_and_one_made_again_is_not(tmp_path: Path) -> None:
+    """Nobody who edits a start value thinks of the GUID."""
+    texts = {
+        name: f'<fmiModelDescription guid="x" generationDateAndTime="{date}" start="{start}"/>'
+        for name, date, start in [("first", 2025, 1), ("again", 2026, 1), ("edited", 2025, 2)]
+    }
+    found = {}
+    for name, text in texts.items():
+        with zipfile.ZipFile(tmp_path / name, "w") as archive:
+            archive.writestr("modelDescription.xml", text)
+        found[name] = contents(File(tmp_path / name))  # type: ignore[arg-type]
+    assert found["first"] == found["again"]
+    assert found["first"]["sha256"] != found["edited"]["sha256"]
+    assert found["first"]["guid"] == found["edited"]["guid"] == fake_description().guid

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pandas as pd
+import pyarrow.parquet as pq
 import pytest
 from typer.testing import CliRunner
 
@@ -96,7 +97,26 @@ def test_another_model_in_the_same_file_is_another_fmu(tmp_path: Path) -> None:
     )
     code, text = invoke(path, "-o", tmp_path / "out", "--fast")
     assert code == 2
-    assert "holds results of another file or FMU: [fmu]" in text
+    assert "holds results of another file, FMU or version: [fmu]" in text
+
+
+def test_two_ways_at_once_are_wrong_use(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    path = file_of(tmp_path, slider_crank_fmu, 1)
+    code, text = invoke(path, "-o", tmp_path / "out", "--fast", "--scheduler", "tcp://127.0.0.1:9")
+    assert code == 2
+    assert "--fast uses the threads of this machine" in text
+
+
+def test_what_was_begun_one_way_is_finished_the_other(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    path, out = file_of(tmp_path, slider_crank_fmu, 8, longest=2000), tmp_path / "out"
+    assert invoke(path, "-o", out, "--workers", "1")[0] == 1
+    whole = pq.read_table(out / "results.parquet")
+    pq.write_table(whole.slice(0, 3), out / "results.parquet")
+    code, text = invoke(path, "-o", out, "--fast")
+    assert (code, "8 designs, 5 of them run now, 3 there before" in text) == (1, True)
+    mixed = pq.read_table(out / "results.parquet")
+    assert mixed["way"].to_pylist() == ["fmu"] * 3 + ["batch"] * 5
+    assert mixed.drop(["way", "message"]).equals(whole.drop(["way", "message"]))
 
 
 def test_mistakes_are_wrong_use_and_nothing_is_run(slider_crank_fmu: Path, tmp_path: Path) -> None:
@@ -181,4 +201,18 @@ def test_two_thousand_designs_killed_ten_times(native_slider_crank_fmu: Path, tm
     assert subprocess.run([*COMMAND, path, "-o", out], stdout=subprocess.DEVNULL, check=False).returncode == 0
     undisturbed = tmp_path / "undisturbed"
     assert subprocess.run([*COMMAND, path, "-o", undisturbed], stdout=subprocess.DEVNULL, check=False).returncode == 0
+    assert (out / "results.parquet").read_bytes() == (undisturbed / "results.parquet").read_bytes()
+
+
+@pytest.mark.slow
+def test_the_fast_way_killed_goes_on_where_it_was(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    path, out, undisturbed = file_of(tmp_path, slider_crank_fmu, 20_000), tmp_path / "killed", tmp_path / "undisturbed"
+    with subprocess.Popen([*COMMAND, path, "-o", out, "--fast"], stdout=subprocess.DEVNULL, text=True) as process:
+        wait_for_parts(out, 12, process)
+        os.kill(process.pid, signal.SIGKILL)
+    kept = len(pd.read_parquet(out / "parts"))
+    assert 12 <= kept < 20_000
+    code, text = invoke(path, "-o", out, "--fast")
+    assert (code, f"{kept} there before" in text) == (0, True)
+    assert invoke(path, "-o", undisturbed, "--fast")[0] == 0
     assert (out / "results.parquet").read_bytes() == (undisturbed / "results.parquet").read_bytes()

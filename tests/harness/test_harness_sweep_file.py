@@ -242,6 +242,11 @@ MISTAKES = {
         "count = 0",
         "16: sweep.count: is 0, but must be a whole number, 1 or more",
     ),
+    "more than anybody waits for": (
+        "count = 8",
+        "count = 1_000_001",
+        "16: sweep.count: is 1000001, but must be 1,000,000 or less",
+    ),
     "count of true": (
         "count = 8",
         "count = true",

@@ -1,0 +1,169 @@
+"""What `sweep` and `optimise` share: the folder, the FMU, who runs the designs, the bar, and the design to be seen."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial
+from pathlib import Path
+
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from mechanism_fmu.fmu.native.alone import alone
+
+from .clock import seconds
+from .designs import sweep as sweeps
+from .designs.in_motion import InMotion, in_motion
+from .designs.plan import Source, source
+from .designs.task import Design, Task
+from .designs.toml_file import TomlFile
+from .designs.ways import BY_FMU, by_batch_in
+from .designs.workers import Crew, Processes, Work, here
+from .errors import UsageError
+from .fmu import Fmu, open_fmu
+from .results import prepare_folder
+from .terminal import RunDisplay, console
+from .workspace import temporary_folder
+
+#: What is said when somebody presses Ctrl-C.
+ENDING = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
+
+
+@contextmanager
+def prepared(path: Path, folder: Path | None) -> Iterator[tuple[TomlFile, Fmu, Path]]:
+    """The file of a command, its FMU, and the folder of its results, in which no other command is at work.
+
+    Raises:
+        UsageError: the file says no FMU, there is none, or the folder cannot be used.
+    """
+    file = TomlFile.read(path)
+    wanted = source(file)
+    folder = Path(path.stem) if folder is None else folder
+    prepare_folder(folder)
+    with _alone_in(folder), _fmu_file(wanted) as found, open_fmu(found) as fmu:
+        yield file, fmu, folder
+
+
+def keep_built(fmu: Fmu, file: TomlFile, folder: Path) -> None:
+    """Leave the FMU of a ready-made model beside its results, once these are known to be its own.
+
+    Raises:
+        UsageError: the disk refuses.
+    """
+    if source(file).path is not None:
+        return
+    place = folder / "fmu"
+    try:
+        place.mkdir(exist_ok=True)
+        shutil.copyfile(fmu.path, place / f".{fmu.path.name}")
+        os.replace(place / f".{fmu.path.name}", place / fmu.path.name)
+    except OSError as error:
+        raise UsageError(f"'{place / fmu.path.name}' cannot be written: {error}.") from error
+
+
+def _alone_in(folder: Path) -> AbstractContextManager[None]:
+    """Wait until no other command works in a folder."""
+    return alone(
+        folder, lambda: console.print(f"Another command is at work in {folder}: waiting for it.", markup=False)
+    )
+
+
+@contextmanager
+def _fmu_file(wanted: Source) -> Iterator[Path]:
+    """The FMU's file; that of a model is built each time, into a folder that goes.
+
+    The same sources give the same GUID, and others another one, which a folder with results then refuses.
+
+    Raises:
+        typer.Exit: it cannot be built; the reason has been said.
+    """
+    if wanted.path is not None:
+        yield wanted.path
+        return
+    import build_fmu
+
+    with temporary_folder() as place:
+        console.print(f"Building {wanted.model} ...", markup=False)
+        found = build_fmu.built(wanted.model, place)
+        build_fmu.advise(build_fmu.Flavour.PYTHONFMU)
+        yield found
+
+
+class DesignsBar:
+    """A bar for many designs, with rate and time left."""
+
+    def __init__(self, total: int) -> None:
+        self._bar = Progress(
+            MofNCompleteColumn(),
+            BarColumn(),
+            TextColumn("{task.fields[rate]}"),
+            TimeElapsedColumn(),
+            TextColumn("left:"),
+            TimeRemainingColumn(),
+            TextColumn("[red]{task.fields[failed]}[/]"),
+            console=console,
+            transient=True,
+            disable=not console.is_terminal,
+        )
+        self._task = self._bar.add_task("", total=total, rate="", failed="")
+        self._earlier = 0
+
+    def __enter__(self) -> DesignsBar:
+        self._bar.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+    def show(self, progress: sweeps.Progress) -> None:
+        """Move the bar."""
+        task = self._bar.tasks[0]
+        seconds = task.elapsed or 0.0
+        new = progress.done - progress.earlier
+        self._bar.update(
+            self._task,
+            completed=progress.done,
+            rate=f"{new / seconds:.3g} designs/s" if new and seconds > 0.0 else "",
+            failed=f"{progress.failed} failed" if progress.failed else "",
+        )
+
+
+@contextmanager
+def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool) -> Iterator[Crew]:
+    """Those who run the designs: processes, a cluster, or (`fast`) threads of this process.
+
+    Raises:
+        UsageError: the cluster cannot be used, or the designs of this FMU cannot run in one call.
+    """
+    if fast:
+        if scheduler is not None:
+            raise UsageError(
+                "--fast uses the threads of this machine, --scheduler the machines of a cluster; choose one."
+            )
+        from .designs.by_batch import require_batch
+
+        require_batch(fmu.path)
+        yield partial(here, Work(fmu, task, by_batch_in(workers)))
+        return
+    if scheduler is None:
+        with Processes(Work(fmu, task, BY_FMU), workers or os.cpu_count() or 1) as processes:
+            yield processes.run
+        return
+    try:
+        from .designs.cluster import connected, on_cluster
+    except ModuleNotFoundError as error:
+        if error.name != "distributed":
+            raise
+        raise UsageError(
+            '--scheduler needs Dask, which is not installed: python -m pip install "mechanism_fmu[cluster]"'
+        ) from None
+    with connected(scheduler) as client:
+        yield partial(on_cluster, client, fmu.path, task, BY_FMU)
+
+
+def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:
+    """A design in motion for a report (`in_motion`), with a sign of life while it runs."""
+    with RunDisplay(seconds(task.grid.stop), "Running a design once more, to be seen in the report ...") as display:
+        return in_motion(fmu, task, design, which, [display])
