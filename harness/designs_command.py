@@ -23,6 +23,7 @@ from .designs.ways import BY_FMU, by_batch_in
 from .designs.workers import Crew, Processes, Work, here
 from .errors import UsageError
 from .fmu import Fmu, open_fmu
+from .interrupt import interruption
 from .results import prepare_folder
 from .terminal import RunDisplay, console
 from .workspace import temporary_folder
@@ -164,6 +165,10 @@ def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fa
 
 
 def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:
-    """A design in motion for a report (`in_motion`), with a sign of life while it runs."""
-    with RunDisplay(seconds(task.grid.stop), "Running a design once more, to be seen in the report ...") as display:
-        return in_motion(fmu, task, design, which, [display])
+    """A design in motion for a report (`in_motion`), with a sign of life while it runs; Ctrl-C ends it."""
+    running = "Running a design once more, to be seen in the report ..."
+    with (
+        RunDisplay(seconds(task.grid.stop), running) as display,
+        interruption(lambda: console.print("The report will show it up to here.")) as stop_requested,
+    ):
+        return in_motion(fmu, task, design, which, [display], stop_requested)

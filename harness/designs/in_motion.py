@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import pyarrow as pa
@@ -13,6 +13,7 @@ from ..description import Value
 from ..drawing import read_drawing
 from ..experiment import Experiment, Run, perform
 from ..fmu import Fmu
+from ..master import Ending, never
 from ..numbers import shown
 from ..observers import Observer
 from .task import Design, Quantity, Task
@@ -36,7 +37,12 @@ class InMotion:
 
 
 def in_motion(
-    fmu: Fmu, task: Task, design: Design | None, which: str, observers: Sequence[Observer] = ()
+    fmu: Fmu,
+    task: Task,
+    design: Design | None,
+    which: str,
+    observers: Sequence[Observer] = (),
+    stop_requested: Callable[[], bool] = never,
 ) -> InMotion | None:
     """Run a design once more, with everything recorded; None when the FMU has no drawing.
 
@@ -48,6 +54,7 @@ def in_motion(
         design: with a result; None when there is no such design.
         which: design this is among all, for people.
         observers: look on.
+        stop_requested: asked before each step; what there is then is shown.
     """
     drawing = read_drawing(fmu.folder, fmu.description)
     if not drawing.shapes:
@@ -59,12 +66,13 @@ def in_motion(
     step = _step(task)
     experiment = Experiment(seconds(task.grid.stop), step, {**task.fixed, **design.values}, material=task.material)
     try:
-        run = perform(fmu, experiment, observers=observers, inputs=task.inputs)
+        run = perform(fmu, experiment, observers=observers, stop_requested=stop_requested, inputs=task.inputs)
     except Exception as error:  # a picture is not worth a report
         return InMotion(f"{told} It failed when it was run once more, to be seen here: {error}")
     if run.outcome.error is not None:
         return InMotion(f"{told} It failed when it was run once more, to be seen here: {run.outcome.error}", run)
-    return InMotion(f"{told} It was run once more, to be seen here, in steps of {step:g} s.", run)
+    stopped = "" if run.outcome.ending is Ending.COMPLETED else f", and stopped at {run.outcome.final_time:g} s"
+    return InMotion(f"{told} It was run once more, to be seen here, in steps of {step:g} s{stopped}.", run)
 
 
 def design_with_largest(quantity: Quantity, designs: Sequence[Design], results: pa.Table) -> tuple[Design | None, str]:

@@ -92,6 +92,15 @@ def test_a_failure_is_told_and_what_there_is_of_the_motion_is_shown(tmp_path: Pa
     assert 'class="play"' in html
 
 
+def test_a_run_that_takes_too_long_can_be_stopped_and_is_shown_up_to_there(tmp_path: Path) -> None:
+    asked = iter([False] * 30 + [True])
+    fmu = fmu_of(FakeSlave(), tmp_path)
+    found = in_motion(fmu, TASK, DESIGN, "the best", stop_requested=lambda: next(asked))  # type: ignore[arg-type]
+    assert found is not None
+    assert "in steps of 0.005 s, and stopped at 0.15 s." in found.told
+    assert 'class="play"' in animation_of_design(found)
+
+
 @pytest.mark.parametrize("error", [FmuError("cannot be assembled"), MemoryError("full")])
 def test_a_design_that_does_not_even_begin_leaves_a_report(error: Exception, tmp_path: Path) -> None:
     class Broken(FakeSlave):
