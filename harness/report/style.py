@@ -36,7 +36,10 @@ ul.checks li.good::before {{ content: "✓"; background: #1b7f4b; }}
 ul.checks li.bad::before {{ content: "✕"; background: {IMPACT_COLOUR}; }}
 ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
 .scroll {{ overflow-x: auto; }}
-.tall {{ max-height: min(70vh, 620px); overflow-y: auto; }}
+/* a shadow at the lower edge says that there is more; at the end, what moves with the rows covers it */
+.tall {{ max-height: min(70vh, 620px); overflow-y: auto; background:
+  linear-gradient(#fff0, #fff 60%) bottom / 100% 40px no-repeat local,
+  linear-gradient(#1c273300, #1c273338) bottom / 100% 16px no-repeat scroll; }}
 .tall th {{ position: sticky; top: 0; background: #fff; }}
 .charts {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 10px 24px; }}
 .wide {{ min-width: 640px; }}
