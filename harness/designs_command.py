@@ -1,4 +1,4 @@
-"""What the commands `sweep` and `optimise` share: the folder, the FMU, who runs the designs, and the bar."""
+"""What `sweep` and `optimise` share: the folder, the FMU, who runs the designs, the bar, and the design to be seen."""
 
 from __future__ import annotations
 
@@ -13,16 +13,19 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from mechanism_fmu.fmu.native.alone import alone
 
+from .clock import seconds
 from .designs import sweep as sweeps
+from .designs.in_motion import InMotion, in_motion
 from .designs.plan import Source, source
-from .designs.task import Task
+from .designs.task import Design, Task
 from .designs.toml_file import TomlFile
 from .designs.ways import BY_FMU, by_batch_in
 from .designs.workers import Crew, Processes, Work, here
 from .errors import UsageError
 from .fmu import Fmu, open_fmu
+from .interrupt import interruption
 from .results import prepare_folder
-from .terminal import console
+from .terminal import RunDisplay, console
 from .workspace import temporary_folder
 
 #: What is said when somebody presses Ctrl-C.
@@ -159,3 +162,13 @@ def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fa
         ) from None
     with connected(scheduler) as client:
         yield partial(on_cluster, client, fmu.path, task, BY_FMU)
+
+
+def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:
+    """A design in motion for a report (`in_motion`), with a sign of life while it runs; Ctrl-C ends it."""
+    running = "Running a design once more, to be seen in the report ..."
+    with (
+        RunDisplay(seconds(task.grid.stop), running) as display,
+        interruption(lambda: console.print("The report will show it up to here.")) as stop_requested,
+    ):
+        return in_motion(fmu, task, design, which, [display], stop_requested)

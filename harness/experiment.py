@@ -20,7 +20,7 @@ from .events import UNITS as EVENT_UNITS
 from .events import EventCollector
 from .fmu import Fmu, MessageHandler, discard_message
 from .impacts import ImpactCollector
-from .inputs import check_no_overlap, read_inputs
+from .inputs import InputSignals, check_no_overlap, read_inputs
 from .logic import LogicFile, read_logic
 from .master import Outcome, never, run_fixed_step
 from .messages import LogMessage
@@ -74,6 +74,7 @@ class Run:
         tells_events: whether the FMU reports events at all.
         logic: the modes and transitions that the FMU tells.
         damage: what all impacts together do to the tooth; None without a tooth or an impact.
+        inputs: the signals that drove inputs; None when there were none.
     """
 
     fmu: Path
@@ -95,6 +96,7 @@ class Run:
     tells_events: bool = False
     logic: LogicFile = field(default_factory=LogicFile)
     damage: SequenceDamage | None = None
+    inputs: InputSignals | None = None
 
 
 class _ParameterReader:
@@ -118,19 +120,21 @@ def perform(
     on_message: MessageHandler = discard_message,
     observers: Sequence[Observer] = (),
     stop_requested: Callable[[], bool] = never,
+    inputs: InputSignals | None = None,
 ) -> Run:
     """Perform an experiment with a new instance of `fmu`.
 
-    An FMU that fails on the way gives a run whose outcome says so, with everything up to there.
+    An FMU that fails on the way gives a run whose outcome says so, with everything up to there. `inputs` are signals
+    that have been read before, for an experiment that names no file.
 
     Raises:
         UsageError: a setting that cannot be used.
         FmuError: the FMU cannot even be instantiated.
     """
     grid = TimeGrid.of(experiment.stop_time, experiment.step)
-    inputs = None
     if experiment.input_file is not None:
         inputs = read_inputs(experiment.input_file, fmu.description, seconds(grid.start), seconds(grid.stop))
+    if inputs is not None:
         check_no_overlap(inputs, experiment.start_values)
     recorder = Recorder(recorded_variables(fmu.description))
     collector = ImpactCollector(fmu.description)
@@ -175,6 +179,7 @@ def perform(
         tells_events=event_collector.tells,
         logic=logic,
         damage=damage,
+        inputs=inputs,
     )
 
 

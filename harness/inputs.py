@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import hashlib
+import io
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -30,11 +32,15 @@ class InputSignals:
         variables: the inputs, one a column.
         times: of the rows [s], strictly increasing, shape (rows,).
         values: in the units of the variables, shape (rows, columns).
+        file: name of the table they come from; "" for none.
+        digest: SHA-256 of that file, in hexadecimal.
     """
 
     variables: tuple[Variable, ...]
     times: npt.NDArray[np.float64]
     values: npt.NDArray[np.float64]
+    file: str = ""
+    digest: str = ""
 
     def at(self, time: float) -> dict[str, Value]:
         """Values at `time` [s]: Real inputs interpolated linearly, others from the last row that is not later."""
@@ -58,7 +64,8 @@ def read_inputs(path: Path, description: Description, start_time: float, stop_ti
     Raises:
         UsageError: the file, a heading, a cell or the time column cannot be used; the message names the line.
     """
-    header, rows = _read_csv(path)
+    data = _bytes(path)
+    header, rows = _read_csv(data, path)
     names, units = _headings(header, path)
     variables = [_input_variable(name, description, path) for name in names[1:]]
     time_axis = Variable("time", reference=-1, type="Real", causality="independent", unit="s")
@@ -66,19 +73,31 @@ def read_inputs(path: Path, description: Description, start_time: float, stop_ti
         _column(_cells(rows, i, path), variable, unit, description, path)
         for i, (variable, unit) in enumerate(zip([time_axis, *variables], units, strict=True))
     ]
-    signals = InputSignals(tuple(variables), columns[0], np.column_stack(columns[1:]))
+    signals = InputSignals(
+        tuple(variables), columns[0], np.column_stack(columns[1:]), path.name, hashlib.sha256(data).hexdigest()
+    )
     _check_times(signals.times, start_time, stop_time, path)
     return signals
 
 
-def _read_csv(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise _unreadable(path, error) from error
+
+
+def _unreadable(path: Path, error: Exception) -> UsageError:
+    return UsageError(f"The input file '{path}' cannot be read: {error}.")
+
+
+def _read_csv(data: bytes, path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Heading cells, and (line number, cells) of every row that is not empty."""
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
-            lines = [(reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise UsageError(f"The input file '{path}' cannot be read: {error}.") from error
+        reader = csv.reader(io.StringIO(data.decode("utf-8-sig"), newline=""))
+        lines = [(reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise _unreadable(path, error) from error
     if len(lines) < 2:
         raise UsageError(f"{path}: needs a line of headings (time, then inputs) and at least one row of values.")
     header = lines[0][1]

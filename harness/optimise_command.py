@@ -14,7 +14,8 @@ from .designs.search import Best, best_of, search
 from .designs.sensitivity import NoIndicesError, Sensitivity, sensitivity
 from .designs.store import Store, failures
 from .designs.sweep import Progress
-from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared
+from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
+from .fmu import Fmu
 from .interrupt import interruption
 from .numbers import shown
 from .results import write_json
@@ -47,7 +48,7 @@ def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler
                 near_it = _sensitivity(optimum, best, history)
             except InterruptedSearchError:
                 return _interrupted(optimum, history, store)
-        return _ending(optimum, history, best, near_it, store)
+        return _ending(fmu, optimum, history, best, near_it, store)
 
 
 def _sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity | None:
@@ -77,9 +78,9 @@ def _interrupted(optimum: Optimum, history: History, store: Store) -> int:
     return INTERRUPTED
 
 
-def _ending(optimum: Optimum, history: History, best: Best, near_it: Sensitivity | None, store: Store) -> int:
+def _ending(fmu: Fmu, optimum: Optimum, history: History, best: Best, near_it: Sensitivity | None, store: Store) -> int:
     """Say what was found, write everything, and return the exit code."""
-    from .report.optimum_report import write_optimum_report
+    from .report.optimum_report import Found, write_optimum_report
 
     table = store.finish()
     asked, failed = len(history.designs), len(failures(table))
@@ -102,11 +103,13 @@ def _ending(optimum: Optimum, history: History, best: Best, near_it: Sensitivity
             f"A neighbour, design {after.design.number}, is better still: a larger count would find such.",
             soft_wrap=True,
         )
+    which = "the best" if best.feasible else "the one that misses the constraints least"
+    seen = seen_again(fmu, optimum.task, best.design if best.result.failure is None else None, which)
     files = [
         store.table_file,
         store.identity_file,
         write_json(store.folder / "optimum.json", _summary(optimum, best, near_it)),
-        write_optimum_report(optimum, best, near_it, history, table, store.folder / "report.html"),
+        write_optimum_report(optimum, Found(best, near_it, history, table, seen), fmu, store.folder / "report.html"),
     ]
     show_files(files)
     if not best.feasible:

@@ -10,10 +10,11 @@ from rich.markup import escape
 
 from .designs import sweep as sweeps
 from .designs.identity import contents, identity
+from .designs.in_motion import design_with_largest
 from .designs.store import Store, failures
 from .designs.sweep_file import Sweep, read_sweep
 from .designs.workers import Crew
-from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared
+from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
 from .fmu import Fmu
 from .interrupt import interruption
 from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
@@ -55,7 +56,8 @@ def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, tab
     new = progress.total - progress.earlier
     console.print(f"{progress.total} designs, {new} of them run now, {progress.earlier} there before.")
     _show_ranges(sweep, table)
-    report = write_sweep_report(sweep, fmu.description, table, store.folder / "report.html")
+    seen = seen_again(fmu, sweep.task, *design_with_largest(sweep.task.quantities[0], sweep.designs, table))
+    report = write_sweep_report(sweep, fmu, table, seen, store.folder / "report.html")
     failed = failures(table)
     show_files([store.table_file, store.identity_file, report])
     show_failures(failed)

@@ -10,8 +10,12 @@ from mechanism_fmu import __version__
 
 from .description import Description
 
-#: Packages that numbers and pictures come from.
-_PACKAGES = ("numpy", "scipy", "pandas", "fmpy", "plotly", "pillow")
+#: Packages that numbers, tables and pictures come from: the engine and the FMU, stresses, designs, files, charts.
+_PACKAGES = (
+    *("numpy", "numba", "llvmlite", "pythonfmu", "fmpy"),
+    *("scipy", "rainflow", "optuna", "distributed", "dask"),
+    *("pandas", "pyarrow", "plotly", "pillow"),
+)
 
 
 def versions(fmu: Path, description: Description) -> dict[str, str]:

@@ -19,7 +19,8 @@ from .scene import Scene, bounds, names_of
 from .style import COLOURS, IMPACT_COLOUR
 from .thin import FloatArray, frame_rows, strongest
 
-_HEADING = "Mechanism"
+#: Of the section.
+HEADING = "Mechanism"
 
 #: A smooth motion needs no more frames, and the report stays small.
 _MOST_FRAMES = 2000
@@ -40,8 +41,11 @@ _SHORTEST, _LONGEST = 2.0, 20.0
 _WHEEL = "#c9d2dc"
 
 
-def animation(run: Run, heading: str = _HEADING) -> str:
-    """The section with the animation; "" when the FMU has no drawing, or the run never began."""
+def animation(run: Run, heading: str = HEADING, about: str = "") -> str:
+    """The section with the animation; "" when the FMU has no drawing, or the run never began.
+
+    `about` is what else there is to say.
+    """
     if run.drawing.objection:
         return section(heading, note=run.drawing.objection)
     if not run.drawing.shapes or run.results.empty or not run.parameters:
@@ -50,7 +54,7 @@ def animation(run: Run, heading: str = _HEADING) -> str:
     if data is None:
         return section(heading, note="The motion is not finite, or has no extent: there is nothing to draw.")
     script = files("harness.report").joinpath("animation.js").read_text(encoding="utf-8")
-    note = "Drawn from the recorded angles and the FMU's parameters."
+    note = f"{about} Drawn from the recorded angles and the FMU's parameters.".strip()
     if len(run.impacts) > _MOST_IMPACTS:
         note += f" Of {len(run.impacts)} impacts the {_MOST_IMPACTS} strongest flash."
     # "<" could close the script element

@@ -2,54 +2,77 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import plotly.graph_objects as go
 import pyarrow as pa
 
-from ..description import Value
+from ..description import Description, Value
 from ..designs.history import History
+from ..designs.in_motion import InMotion
 from ..designs.optimum_file import Optimum
 from ..designs.search import Best
 from ..designs.sensitivity import Sensitivity
 from ..designs.variation import Axis
-from ..numbers import shown
+from ..fmu import Fmu
+from ..numbers import in_display_unit
 from ..results import write_text
-from .page import cards, chart, page, section, table
+from ..versions import versions
+from .in_motion import animation_of_design
+from .inputs import inputs_section
+from .page import cards, chart, facts, page, section, table, versions_section
+from .parameters import parameters_of_designs
 from .style import COLOURS, layout
-from .sweep_report import designs_table, range_of, results_charts, run_rows
+from .sweep_report import designs_table, limits, results_charts, run_rows
 
 
-def write_optimum_report(
-    optimum: Optimum, best: Best, near_it: Sensitivity | None, history: History, results: pa.Table, path: Path
-) -> Path:
+@dataclass(frozen=True)
+class Found:
+    """What came of a search.
+
+    Attributes:
+        best: design.
+        near_it: how much each variable matters there; None when nobody knows.
+        history: of the search.
+        results: of all designs, as `Store.finish` gives them.
+        seen: the best design in motion.
+    """
+
+    best: Best
+    near_it: Sensitivity | None
+    history: History
+    results: pa.Table
+    seen: InMotion | None
+
+
+def write_optimum_report(optimum: Optimum, found: Found, fmu: Fmu, path: Path) -> Path:
     """Write the report of an optimum as one file that works offline.
 
     Raises:
         UsageError: the disk refuses.
     """
-    html = optimum_report(optimum, best, near_it, history, results)
-    return write_text(path, lambda file: file.write(html))
+    return write_text(path, lambda file: file.write(optimum_report(optimum, found, fmu)))
 
 
-def optimum_report(
-    optimum: Optimum, best: Best, near_it: Sensitivity | None, history: History, results: pa.Table
-) -> str:
+def optimum_report(optimum: Optimum, found: Found, fmu: Fmu) -> str:
     """The report as HTML."""
-    goal, description = optimum.goal, optimum.axes[0].description
+    goal, description = optimum.goal, fmu.description
+    best, near_it, history, results = found.best, found.near_it, found.history, found.results
     value = goal.value(best.result, optimum.task)
     figures = [
         (
             f"{'largest' if goal.largest else 'smallest'} {goal.objective.column}",
             _with_unit(value, goal.objective.unit),
         ),
-        *((axis.name, _in_unit(axis, best.design.values[axis.name])) for axis in optimum.axes),
+        *((axis.name, _card(*_in_unit(axis, best.design.values[axis.name]))) for axis in optimum.axes),
         ("designs", str(len(history.designs))),
     ]
     body = [
         cards(figures),
         section("Constraints", _constraints(optimum, best)),
+        animation_of_design(found.seen),
         section(
             "Search", chart(history_chart(optimum, history)), note="Dots are designs, the line is the best so far."
         ),
@@ -64,9 +87,13 @@ def optimum_report(
     body += [
         section("Designs", *results_charts(optimum.axes, optimum.task, description, results)),
         section("All designs", designs_table(optimum.axes, optimum.task, description, results)),
-        section("What was run", table(["what", "value"], _set_up(optimum, near_it))),
+        section("What was run", facts("value", _set_up(optimum, near_it))),
+        inputs_section(optimum.task.inputs, description),
+        _parameters(optimum, best, description),
+        versions_section(versions(fmu.path, description)),
     ]
-    return page(optimum.title, f"{description.model}  ·  {optimum.method}, seed {optimum.seed}", body)
+    subtitle = f"{description.model}  ·  {optimum.method}, seed {optimum.seed}"
+    return page(optimum.title, subtitle, [part for part in body if part])
 
 
 def history_chart(optimum: Optimum, history: History) -> go.Figure:
@@ -104,19 +131,21 @@ def _constraints(optimum: Optimum, best: Best) -> str:
     pairs = dict(zip(optimum.task.quantities, best.result.values, strict=True))
     rows = []
     for constraint in optimum.goal.constraints:
-        unit, value = constraint.quantity.unit, pairs[constraint.quantity]
-        limits = [_with_unit(limit, unit) for limit in (constraint.at_least, constraint.at_most)]
+        value = pairs[constraint.quantity]
+        numbers = [_cell(number) for number in (constraint.at_least, constraint.at_most, value)]
         kept = value is not None and constraint.violation(float(value)) == 0.0
-        found = _with_unit(None if value is None else float(value), unit)
-        rows.append([constraint.quantity.column, *limits, found, "yes" if kept else "no"])
+        rows.append([constraint.quantity.column, constraint.quantity.unit or "1", *numbers, "yes" if kept else "no"])
     if not rows:
         return "<p>None.</p>"
-    return table(["quantity", "at least", "at most", "best design", "kept"], rows, numeric=(1, 2, 3))
+    return table(["quantity", "unit", "at least", "at most", "best design", "kept"], rows, numeric=(2, 3, 4))
+
+
+def _cell(value: Value | None) -> str:
+    return "none" if value is None else f"{float(value):.6g}"
 
 
 def _set_up(optimum: Optimum, near_it: Sensitivity | None) -> list[list[str]]:
-    rows = run_rows(optimum.task, optimum.axes[0].description)
-    rows += [[f"{axis.name}, free", range_of(axis)] for axis in optimum.axes]
+    rows = run_rows(optimum.task)
     if near_it is not None:
         units = {axis.name: axis.unit for axis in optimum.axes}
         for name, (low, high) in zip(near_it.names, near_it.limits, strict=True):
@@ -124,11 +153,27 @@ def _set_up(optimum: Optimum, near_it: Sensitivity | None) -> list[list[str]]:
     return rows
 
 
-def _in_unit(axis: Axis, value: Value) -> str:
-    """A value in the unit of the file."""
+def _parameters(optimum: Optimum, best: Best, description: Description) -> str:
+    free = {}
+    for axis in optimum.axes:
+        value, unit = _in_unit(axis, best.design.values[axis.name])
+        free[axis.name] = (value, unit, f"free: {limits(axis)[0]}")
+    note = (
+        "What was set for all designs, or was free between limits, is marked; what was free has the value of the best "
+        "design. The rest are the FMU's defaults."
+    )
+    return parameters_of_designs(optimum.task, description, free, note)
+
+
+def _in_unit(axis: Axis, value: Value) -> tuple[str, str]:
+    """A value in the unit of the file, and this unit."""
     if axis.values is not None or axis.variable.type != "Real":
-        return shown(value, axis.name, axis.description, digits=6)
-    return _with_unit(axis.low + axis.fraction(float(value)) * (axis.high - axis.low), axis.unit)
+        return in_display_unit(value, axis.name, axis.description, digits=6)
+    return f"{axis.low + axis.fraction(float(value)) * (axis.high - axis.low):.6g}", axis.unit or "1"
+
+
+def _card(value: str, unit: str) -> str:
+    return value if unit == "1" else f"{value} {unit}".strip()
 
 
 def _with_unit(value: float | None, unit: str) -> str:

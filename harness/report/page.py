@@ -59,9 +59,17 @@ def checks_list(checks: Iterable[Check]) -> str:
 
 
 def table(
-    headings: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Sequence[int] = (), changed: Sequence[int] = ()
+    headings: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    *,
+    numeric: Sequence[int] = (),
+    changed: Sequence[int] = (),
+    long: bool = False,
 ) -> str:
-    """A table of texts that scrolls inside itself; `numeric` columns stand right, `changed` rows are marked."""
+    """A table of texts that scrolls inside itself; `numeric` columns stand right, `changed` rows are marked.
+
+    A `long` one is no higher than most of the screen, and its headings stay in sight.
+    """
 
     def cell(tag: str, column: int, text: str) -> str:
         css_class = "number" if column in numeric else "long" if len(text) > _LONG else ""
@@ -74,17 +82,18 @@ def table(
 
     head = "".join(cell("th", i, heading) for i, heading in enumerate(headings))
     lines = "".join(line(number, row) for number, row in enumerate(rows))
-    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>'
+    scroll = "scroll tall" if long else "scroll"
+    return f'<div class="{scroll}"><table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>'
 
 
-def quantities(rows: Iterable[tuple[str, str, str, str]], *, changed: Sequence[int] = ()) -> str:
-    """A table of quantities: (name, value, unit, meaning); `changed` rows are marked."""
-    return table(["name", "value", "unit", "meaning"], rows, numeric=[1], changed=changed)
+def facts(heading: str, rows: Iterable[Sequence[str]]) -> str:
+    """A table of what there is and a text about each, under `heading`, that folds on a phone."""
+    return f'<div class="facts">{table(["what", heading], rows)}</div>'
 
 
 def versions_section(versions: Mapping[str, str]) -> str:
     """What made the result, as of `versions.versions`."""
-    return section("Versions", table(["what", "version"], versions.items()))
+    return section("Versions", facts("version", versions.items()))
 
 
 def chart(figure: Any, narrow: Mapping[str, Any] | None = None) -> str:

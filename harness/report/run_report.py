@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..checks import Check
-from ..description import Value
+from ..description import Value, Variable
 from ..experiment import Run
 from ..master import Ending
 from ..numbers import engineering, in_display_unit
@@ -15,11 +15,13 @@ from ..tooth_stress import stress_field
 from ..versions import versions
 from .animation import animation
 from .fatigue import fatigue_section
+from .inputs import table_told
 from .interactive import interactive
 from .logic import events_section, modes_section
 from .modes import contacts
 from .motion import motion_chart
-from .page import cards, chart, charts, checks_list, page, quantities, section, table, versions_section
+from .page import cards, chart, charts, checks_list, page, section, table, versions_section
+from .parameters import Origin, Row, parameters_section
 from .phone import stacked
 from .stress import stress_plots
 
@@ -119,15 +121,25 @@ def _cell(value: Value) -> str:
 
 
 def _parameters(run: Run) -> str:
-    values = settings(run)
     rows = []
-    for name, value in values.items():
+    for name, value in settings(run).items():
         variable = run.description.variable(name)
-        note = "Input, start value: " if variable.causality == "input" else ""
-        rows.append((name, *in_display_unit(value, name, run.description), note + variable.description))
-    changed = [i for i, name in enumerate(values) if name in run.experiment.start_values]
-    note = "Values set for this run are marked." if changed else "All values are the FMU's defaults."
-    return section("Parameters", quantities(rows, changed=changed), note=note)
+        shown = in_display_unit(value, name, run.description)
+        rows.append(Row(variable, *shown, _origin(variable, run), marked=name in run.experiment.start_values))
+    note = "Values set for this run are marked."
+    if not any(row.marked for row in rows):
+        note = "All values are the FMU's defaults."
+    if run.inputs is not None:
+        note += f" Inputs of the table are shown with their first values. {table_told(run.inputs)}"
+    return parameters_section(rows, note)
+
+
+def _origin(variable: Variable, run: Run) -> Origin:
+    if run.inputs is not None and variable in run.inputs.variables:
+        return Origin.TABLE
+    if variable.causality == "calculatedParameter":
+        return Origin.CALCULATED
+    return Origin.SET if variable.name in run.experiment.start_values else Origin.DEFAULT
 
 
 def _messages(run: Run) -> str:

@@ -6,8 +6,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..description import Value
-from ..numbers import engineering, in_display_unit
+from ..numbers import engineering
 from ..paper import BASE_CASE
 from ..results import write_text
 from ..study import Study
@@ -15,8 +14,9 @@ from ..versions import versions
 from ..wheels import Wheel
 from .animation import animation
 from .interactive import interactive
-from .page import cards, chart, charts, checks_list, page, quantities, section, table, versions_section
+from .page import cards, chart, charts, checks_list, page, section, table, versions_section
 from .paper_figures import PaperFigure
+from .parameters import Origin, Row, parameters_section, range_shown
 
 
 def write_study_report(study: Study, figures: Sequence[PaperFigure], path: Path) -> Path:
@@ -78,21 +78,15 @@ def _wheels_table(wheels: Sequence[Wheel]) -> str:
 
 
 def _parameters(study: Study) -> str:
-    rows, varied = [], []
-    for number, (name, values) in enumerate(study.parameters.items()):
-        if len(set(values)) > 1:
-            varied.append(number)
-        text, unit = _range(name, values, study)
-        rows.append((name, text, unit, study.description.variable(name).description))
+    rows = []
+    for name, values in study.parameters.items():
+        variable = study.description.variable(name)
+        differs = len(set(values)) > 1
+        origin = Origin.VARIED if differs else Origin.DEFAULT
+        if variable.causality == "calculatedParameter":
+            origin = Origin.CALCULATED
+        rows.append(Row(variable, *range_shown(values, name, study.description), origin, marked=differs))
     note = (
         "The FMU's defaults, but for those that are marked, which differ from wheel to wheel: the least … the largest."
     )
-    return section("Parameters", quantities(rows, changed=varied), note=note)
-
-
-def _range(name: str, values: Sequence[Value], study: Study) -> tuple[str, str]:
-    if isinstance(values[0], str) or len(set(values)) == 1:
-        return in_display_unit(values[0], name, study.description)
-    low, unit = in_display_unit(min(values), name, study.description, digits=6)
-    high, _ = in_display_unit(max(values), name, study.description, digits=6)
-    return f"{low} … {high}", unit
+    return parameters_section(rows, note)

@@ -22,11 +22,12 @@ header p {{ margin: 4px 0 0; color: var(--soft); overflow-wrap: anywhere; }}
 section {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 18px 20px;
   margin-top: 18px; }}
 h2 {{ margin: 0 0 4px; font-size: 18px; }}
-section > p {{ margin: 0 0 10px; color: var(--soft); }}
+section > p {{ margin: 0 0 10px; color: var(--soft); overflow-wrap: anywhere; }}
 .cards {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 14px; margin-top: 18px; }}
 .card {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 12px 16px; }}
-.card b {{ display: block; font-size: 22px; font-weight: 650; letter-spacing: -0.01em; white-space: nowrap; }}
-.card span {{ color: var(--soft); font-size: 13px; }}
+.card b {{ display: block; font-size: 22px; font-weight: 650; letter-spacing: -0.01em;
+  overflow-wrap: anywhere; }}
+.card span {{ color: var(--soft); font-size: 13px; overflow-wrap: anywhere; }}
 ul.checks {{ list-style: none; margin: 0; padding: 0; }}
 ul.checks li {{ padding: 5px 0 5px 30px; position: relative; }}
 ul.checks li::before {{ position: absolute; left: 0; width: 20px; height: 20px; border-radius: 50%; color: #fff;
@@ -35,6 +36,11 @@ ul.checks li.good::before {{ content: "✓"; background: #1b7f4b; }}
 ul.checks li.bad::before {{ content: "✕"; background: {IMPACT_COLOUR}; }}
 ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
 .scroll {{ overflow-x: auto; }}
+/* a shadow at the lower edge says that there is more; at the end, what moves with the rows covers it */
+.tall {{ max-height: min(70vh, 620px); overflow-y: auto; background:
+  linear-gradient(#fff0, #fff 60%) bottom / 100% 40px no-repeat local,
+  linear-gradient(#1c273300, #1c273338) bottom / 100% 16px no-repeat scroll; }}
+.tall th {{ position: sticky; top: 0; background: #fff; }}
 .charts {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 10px 24px; }}
 .wide {{ min-width: 640px; }}
 .charts > *, .chart, .plot {{ min-width: 0; }}
@@ -70,12 +76,26 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
 @media (max-width: 640px) {{
   main {{ padding: 16px 10px 40px; }}
   section {{ padding: 14px 12px; }}
+  .parameters table, .parameters tbody {{ display: block; }}
+  .parameters thead {{ display: none; }}
+  .parameters tr {{ display: grid; grid-template: "name value unit" "meaning meaning origin" / auto 1fr auto;
+    gap: 0 6px; padding: 6px 0; border-bottom: 1px solid var(--line); }}
+  .parameters tr.changed {{ background: #fff8e6; }}
+  .parameters td, .facts td {{ white-space: normal; overflow-wrap: anywhere; }}
+  .parameters td, .parameters td.number {{ border: 0; padding: 0; }}
+  .parameters td.long, .facts td.long {{ min-width: 0; }}
+  .facts td:first-child {{ width: 40%; }}
+  .parameters td:nth-child(3) {{ grid-area: unit; }}
+  .parameters td:nth-child(4) {{ grid-area: origin; text-align: right; }}
+  .parameters td:nth-child(5) {{ grid-area: meaning; }}
+  .parameters td:nth-child(n + 4) {{ font-size: 13px; color: var(--soft); }}
   .cards {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
   .card b {{ font-size: 18px; }}
   ul.checks small {{ display: block; margin-left: 0; }}
   .scroll .statechart {{ max-width: none !important; }}
 }}
-@media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }} }}
+@media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }}
+  .tall {{ max-height: none; }} }}
 """
 
 

@@ -12,17 +12,21 @@ import plotly.graph_objects as go
 import pyarrow as pa
 from plotly.subplots import make_subplots
 
-from mechanism_fmu import __version__
-
 from ..clock import seconds
 from ..description import Description
+from ..designs.in_motion import InMotion
 from ..designs.store import failures
 from ..designs.sweep_file import Sweep
 from ..designs.task import Quantity, Task
 from ..designs.variation import Axis
-from ..numbers import shown
+from ..fmu import Fmu
+from ..numbers import in_display_unit
 from ..results import write_text
-from .page import cards, chart, page, section, table, wide
+from ..versions import versions
+from .in_motion import animation_of_design
+from .inputs import inputs_section
+from .page import cards, chart, facts, page, section, table, versions_section, wide
+from .parameters import Origin, parameters_of_designs
 from .style import COLOURS, WIDE_TOP, layout
 
 #: More rows make a page slow; the file has all.
@@ -48,17 +52,18 @@ class Column:
     values: npt.NDArray[np.float64]
 
 
-def write_sweep_report(sweep: Sweep, description: Description, results: pa.Table, path: Path) -> Path:
+def write_sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | None, path: Path) -> Path:
     """Write the report of a sweep as one file that works offline.
 
     Raises:
         UsageError: the disk refuses.
     """
-    return write_text(path, lambda file: file.write(sweep_report(sweep, description, results)))
+    return write_text(path, lambda file: file.write(sweep_report(sweep, fmu, results, seen)))
 
 
-def sweep_report(sweep: Sweep, description: Description, results: pa.Table) -> str:
-    """The report as HTML."""
+def sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | None) -> str:
+    """The report as HTML; `seen` is the design that is shown in motion."""
+    description = fmu.description
     failed = failures(results)
     figures = [
         ("designs", str(len(results))),
@@ -69,14 +74,22 @@ def sweep_report(sweep: Sweep, description: Description, results: pa.Table) -> s
     body = [
         cards(figures),
         section("Results", *charts, note="Each dot is one design. Drag over an axis to zoom."),
+        animation_of_design(seen),
         section("Designs", designs_table(sweep.axes, sweep.task, description, results), note=_rows_note(results)),
     ]
     if failed:
         rows = [[str(number), message] for number, message in failed[:_MOST_ROWS]]
         body.append(section("Failed designs", table(["design", "message"], rows, numeric=[0]), css_class="banner"))
-    varied = [[f"{axis.name}, varied", range_of(axis)] for axis in sweep.axes]
-    body.append(section("What was run", table(["what", "value"], run_rows(sweep.task, description) + varied)))
-    return page(sweep.title, f"{description.model}  ·  {len(results)} designs, {sweep.method}", body)
+    varied = {axis.name: (*limits(axis), Origin.VARIED) for axis in sweep.axes}
+    note = "What was set for all designs, or varied between limits, is marked; the rest are the FMU's defaults."
+    body += [
+        section("What was run", facts("value", run_rows(sweep.task))),
+        inputs_section(sweep.task.inputs, description),
+        parameters_of_designs(sweep.task, description, varied, note),
+        versions_section(versions(fmu.path, description)),
+    ]
+    subtitle = f"{description.model}  ·  {len(results)} designs, {sweep.method}"
+    return page(sweep.title, subtitle, [part for part in body if part])
 
 
 def results_charts(axes: Sequence[Axis], task: Task, description: Description, results: pa.Table) -> list[str]:
@@ -100,10 +113,13 @@ def _columns(
 
 def parallel_chart(columns: Sequence[Column], colour: Column) -> go.Figure:
     """Each design a line across all columns, coloured by one of them."""
-    dimensions = [{"label": column.heading, "values": column.values} for column in columns]
-    line = {"color": colour.values, "colorscale": "Viridis", "colorbar": {"title": {"text": _broken(colour.heading)}}}
-    figure = go.Figure(go.Parcoords(dimensions=dimensions, line=line, labelangle=-20, rangefont={"size": 10}))
-    figure.update_layout(layout(height=480, margin={"l": 80, "r": 60, "t": 130, "b": 30}))
+    # below, and a line further down; above, their lines would hide the ends of the ranges
+    dimensions = [{"label": f"<br>{_broken(column.heading)}", "values": column.values} for column in columns]
+    title = {"text": _broken(colour.heading), "font": {"size": 12}}
+    line = {"color": colour.values, "colorscale": "Viridis", "colorbar": {"title": title}}
+    labels = {"labelside": "bottom", "labelfont": {"size": 12}}
+    figure = go.Figure(go.Parcoords(dimensions=dimensions, line=line, rangefont={"size": 10}, **labels))
+    figure.update_layout(layout(height=460, margin={"l": 80, "r": 60, "t": 60, "b": 100}))
     return figure
 
 
@@ -184,7 +200,7 @@ def _table(varied: Sequence[Column], found: Sequence[Column], results: pa.Table)
     ]
     failed = [row for row in range(len(rows)) if status[row] != "ok"]
     headings = ["design", *(column.heading for column in columns), "status"]
-    return table(headings, rows, numeric=range(len(columns) + 1), changed=failed)
+    return table(headings, rows, numeric=range(len(columns) + 1), changed=failed, long=True)
 
 
 def _cell(number: float) -> str:
@@ -198,21 +214,19 @@ def _rows_note(results: pa.Table) -> str:
     return f"{which}results.parquet has all, in SI units and radians, with all digits.{said}"
 
 
-def run_rows(task: Task, description: Description) -> list[list[str]]:
-    """What was run, with versions."""
+def run_rows(task: Task) -> list[list[str]]:
+    """How each design was run, and what was kept of it."""
     grid = task.grid
     return [
-        ["FMU", f"{description.model} {description.guid}, made by {description.generation_tool}"],
-        ["mechanism_fmu", __version__],
         ["material", f"{task.material.name}: {task.material.text}"],
         ["run", f"{seconds(grid.stop):g} s in communication steps of {seconds(grid.step):g} s"],
-        *([name, shown(value, name, description)] for name, value in task.fixed.items()),
         *([quantity.column, quantity.when.meaning] for quantity in task.quantities),
     ]
 
 
-def range_of(axis: Axis) -> str:
-    """Between which values something is varied, with the unit."""
-    if axis.values is not None:
-        return ", ".join(shown(value, axis.name, axis.description) for value in axis.values)
-    return f"{axis.low:g} to {axis.high:g} {axis.unit}"
+def limits(axis: Axis) -> tuple[str, str]:
+    """Between which values something is varied, or the values, and the unit."""
+    if axis.values is None:
+        return f"{axis.low:g} … {axis.high:g}", axis.unit or "1"
+    texts, units = zip(*(in_display_unit(value, axis.name, axis.description) for value in axis.values), strict=True)
+    return ", ".join(texts), units[0]

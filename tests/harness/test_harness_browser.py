@@ -23,6 +23,9 @@ pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no chromium is installe
 PHONE, DESK = 360, 1200
 SCREENS = (*((name, PHONE) for name in ("run", "study", "sweep", "optimum")), ("run", DESK), ("study", DESK))
 
+#: The time that the animation shows, and what its button says.
+CLOCK, BUTTON = "document.querySelector('.time').textContent", "document.querySelector('.play').textContent"
+
 #: Elements that reach beyond the screen, but for what lies in something that scrolls.
 TOO_WIDE = """[...document.body.querySelectorAll("*")].filter(
     (e) => !e.closest(".scroll *") && e.getBoundingClientRect().right > document.documentElement.clientWidth + 0.5
@@ -111,11 +114,10 @@ def test_all_charts_are_there(shown: tuple[Page, Report]) -> None:
     assert len(drawn) == report.charts
 
 
-@pytest.mark.parametrize("name", ["run", "study"])
-def test_the_mechanism_is_drawn(browser: Browser, reports: dict[str, Report], name: str) -> None:
-    with opened(browser, reports[name].path, DESK) as page:
-        assert page.value('document.querySelectorAll(".animation svg polygon").length') == 1  # the wheel
-        assert page.value('document.querySelector(".animation .time").textContent') == "t = 0.000 s"
+def test_the_mechanism_is_drawn_and_plays(shown: tuple[Page, Report]) -> None:
+    page, _ = shown
+    assert page.value('document.querySelectorAll(".animation svg polygon").length') == 1  # the wheel
+    _play(page)
 
 
 def test_nothing_is_wider_than_the_screen(shown: tuple[Page, Report]) -> None:
@@ -123,6 +125,7 @@ def test_nothing_is_wider_than_the_screen(shown: tuple[Page, Report]) -> None:
     assert page.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
     assert page.value("innerWidth") == page.width  # a phone would zoom out
     assert page.value(TOO_WIDE) == []
+    assert page.value('[...document.querySelectorAll(".card")].every((e) => e.scrollWidth <= e.clientWidth)')
 
 
 def test_wide_tables_scroll_inside_themselves(shown: tuple[Page, Report]) -> None:
@@ -132,23 +135,27 @@ def test_wide_tables_scroll_inside_themselves(shown: tuple[Page, Report]) -> Non
 
 
 def test_the_mechanism_plays_pauses_and_goes_to_the_impact(browser: Browser, reports: dict[str, Report]) -> None:
-    clock, button = "document.querySelector('.time').textContent", "document.querySelector('.play').textContent"
-    bar = "document.querySelector('.animation svg path').getAttribute('transform')"
     with opened(browser, reports["run"].path, PHONE) as page:
-        start, place = page.value(clock), page.value(bar)
-        assert start == "t = 0.000 s"
-        page.click(".animation .play")
-        page.wait_until(f"{clock} !== {start!r} && {bar} !== {place!r}")
-        assert page.value(button) == "Pause"
-        page.click(".animation .play")
-        stopped = page.value(clock)
+        _play(page)
+        stopped = page.value(CLOCK)
         frames = "let n = 20; const go = () => n-- ? requestAnimationFrame(go) : done(); go();"
         page.value(f"new Promise((done) => {{ {frames} }})")
-        assert page.value(clock) == stopped
-        assert page.value(button) == "Play"
+        assert page.value(CLOCK) == stopped
+        assert page.value(BUTTON) == "Play"
         page.click(".animation .next")
         page.wait_until("document.querySelector('.struck').textContent === 'impact 1 of 1 at 0.9399212 s'")
         assert page.value("document.querySelector('.flash').getAttribute('visibility')") == "visible"
+
+
+def _play(page: Page) -> None:
+    """Begin at the beginning, see the pawl move, and pause."""
+    bar = "document.querySelector('.animation svg path').getAttribute('transform')"
+    start, place = page.value(CLOCK), page.value(bar)
+    assert start == "t = 0.000 s"
+    page.click(".animation .play")
+    page.wait_until(f"{CLOCK} !== {start!r} && {bar} !== {place!r}")
+    assert page.value(BUTTON) == "Pause"
+    page.click(".animation .play")
 
 
 def test_the_eyes_of_these_tests_are_open(browser: Browser, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from cheap_designs import VALLEY, Place, axis
+from fake_slave import FakeFmu, FakeSlave
 
 from harness.clock import TimeGrid
 from harness.designs.goal import Constraint, Goal
@@ -25,7 +26,7 @@ from harness.designs.ways import Way
 from harness.designs.workers import Work, here
 from harness.errors import UsageError
 from harness.master import never
-from harness.report.optimum_report import optimum_report
+from harness.report.optimum_report import Found, optimum_report
 
 FAR, SUM = Quantity(When.END, "far", "Real", "m2"), Quantity(When.END, "sum", "Real", "")
 TASK = Task(TimeGrid.of(1.0, 0.1), {}, None, (FAR, SUM))
@@ -155,8 +156,9 @@ def test_sobol_indices_of_a_sum_of_squares(tmp_path: Path) -> None:
     np.testing.assert_allclose(found.total, variances / variances.sum(), atol=0.04)
     assert found.spread == pytest.approx(math.sqrt(variances.sum()), rel=0.05)
     assert found.limits[1] == pytest.approx((-0.3, -0.1), abs=1e-4)
-    page = optimum_report(optimum, best, found, history, store_of(optimum, tmp_path).finish())
-    for heading in ("Search", "Sensitivity", "Constraints", "All designs"):
+    table = store_of(optimum, tmp_path).finish()
+    page = optimum_report(optimum, Found(best, found, history, table, None), FakeFmu(FakeSlave()))  # type: ignore[arg-type]
+    for heading in ("Search", "Sensitivity", "Constraints", "All designs", "Parameters", "Versions"):
         assert f"<h2>{heading}</h2>" in page
 
 

@@ -71,6 +71,7 @@ def test_a_sweep_from_the_file_to_the_report(slider_crank_fmu: Path, tmp_path: P
     page = (out / "report.html").read_text(encoding="utf-8")
     assert "<h1>Cranks</h1>" in page
     assert "offset [mm]" in page
+    assert "the one with the largest end.crank_angle of all" in page
     assert "<h2>Failed designs</h2>" in page
     code, text = invoke(file_of(tmp_path, slider_crank_fmu, 8, longest=2000), "-o", out)
     assert code == 1

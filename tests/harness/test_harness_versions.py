@@ -11,7 +11,7 @@ def test_a_result_says_what_made_it() -> None:
     told = versions(Path("build/Fake.fmu"), fake_description())
     assert (told["FMU"], told["GUID of the FMU"]) == ("Fake.fmu", "{guid}")
     assert told["mechanism_fmu"] == __version__
-    assert {"numpy", "scipy", "pandas", "fmpy", "plotly", "pillow"} <= set(told)
+    assert {"numpy", "scipy", "pandas", "fmpy", "plotly", "pillow", "pyarrow", "rainflow", "optuna"} <= set(told)
     assert all(told.values())
 
 
