@@ -94,7 +94,8 @@ def surface(*names: str) -> list[Path]:
 
 def _platform(target: Target) -> list[str]:
     if not target.name.endswith("windows"):
-        return ["-fPIC", "-lm", *(["-Wl,-z,defs"] if target.suffix == ".so" else [])]
+        # Without zig's own runtime library: nothing needs it, and compiling it took half a minute of the first build.
+        return ["-fPIC", "-nostdlib", "-lc", "-lm", *(["-Wl,-z,defs"] if target.suffix == ".so" else [])]
     libc = _zig_library() / "libc" / "include" / "any-windows-any"
     libraries = [f"-lapi-ms-win-crt-{name}-l1-1-0" for name in _WINDOWS_LIBRARIES]
     return ["-nostdlib", "-isystem", str(libc), "-D_UCRT", *map(str, surface("windows.c")), *libraries]
