@@ -173,7 +173,10 @@ def _pool(work: Work, count: int) -> ProcessPoolExecutor:
         os.environ.setdefault(name, "1")
     context = get_context("forkserver" if "forkserver" in get_all_start_methods() else "spawn")
     context.set_forkserver_preload([__name__])
-    return ProcessPoolExecutor(count, context, _begin, (work,))
+    pool = ProcessPoolExecutor(count, context, _begin, (work,))
+    # All at the first design: one that is started while another dies is overlooked, and the pool waits for it for ever.
+    pool._safe_to_dynamically_spawn_children = False  # type: ignore[attr-defined]
+    return pool
 
 
 _work: Work | None = None
