@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -135,7 +136,8 @@ def _tpe(optimum: Optimum, history: History) -> None:
     optuna = _optuna()
     ranges = {axis.name: _distribution(optuna, axis) for axis in optimum.axes}
     study = optuna.create_study(sampler=optuna.samplers.TPESampler(seed=optimum.seed))
-    while True:
+    whole = math.prod(axis.count for axis in optimum.axes)
+    while len(history.designs) < whole:
         trials = [study.ask(ranges) for _ in range(_TOGETHER)]
         candidates = [{axis.name: _chosen(axis, trial.params[axis.name]) for axis in optimum.axes} for trial in trials]
         results = history.results_of(candidates)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -43,6 +44,13 @@ class Axis:
     def name(self) -> str:
         """Of the variable."""
         return self.variable.name
+
+    @property
+    def count(self) -> float:
+        """How many values there are; infinite for Real ones between limits."""
+        if self.values is not None:
+            return len(self.values)
+        return int(self.high) - int(self.low) + 1 if self.variable.type == "Integer" else math.inf
 
     def at(self, fraction: float) -> Value:
         """The value at a fraction in [0, 1) of the way; whole numbers and values of a list are all equally wide."""
