@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -64,11 +64,23 @@ def keep_built(fmu: Fmu, file: TomlFile, folder: Path) -> None:
         raise UsageError(f"'{place / fmu.path.name}' cannot be written: {error}.") from error
 
 
-def _alone_in(folder: Path) -> AbstractContextManager[None]:
-    """Wait until no other command works in a folder."""
-    return alone(
-        folder, lambda: console.print(f"Another command is at work in {folder}: waiting for it.", markup=False)
-    )
+@contextmanager
+def _alone_in(folder: Path) -> Iterator[None]:
+    """Wait until no other command works in a folder.
+
+    Raises:
+        UsageError: its lock cannot be opened.
+    """
+    waits = f"Another command is at work in {folder}: waiting for it."
+    with ExitStack() as stack:
+        try:
+            stack.enter_context(alone(folder, lambda: console.print(waits, markup=False)))
+        except OSError as error:
+            raise UsageError(
+                f"'{folder / '.lock'}' cannot be opened ({error}): perhaps somebody else made it. Remove it, or choose "
+                "another folder with -o."
+            ) from error
+        yield
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rich.markup import escape
 
+from .clock import seconds
 from .designs.history import History, InterruptedSearchError
 from .designs.identity import contents, identity
 from .designs.optimum_file import Optimum, read_optimum
@@ -103,19 +104,28 @@ def _ending(fmu: Fmu, optimum: Optimum, history: History, best: Best, near_it: S
             f"A neighbour, design {after.design.number}, is better still: a larger count would find such.",
             soft_wrap=True,
         )
-    which = "the best" if best.feasible else "the one that misses the constraints least"
-    seen = seen_again(fmu, optimum.task, best.design if best.result.failure is None else None, which)
     files = [
         store.table_file,
         store.identity_file,
         write_json(store.folder / "optimum.json", _summary(optimum, best, near_it)),
+    ]
+    which = "the best" if best.feasible else "the one that misses the constraints least"
+    seen = seen_again(fmu, optimum.task, best.design if best.result.failure is None else None, which)
+    files += [
         write_optimum_report(optimum, Found(best, near_it, history, table, seen), fmu, store.folder / "report.html"),
     ]
     show_files(files)
-    if not best.feasible:
+    if best.feasible:
+        return 0
+    column = optimum.goal.objective.column
+    if optimum.goal.value(best.result, optimum.task) is None:
+        show_error(
+            f"No design gave a value of {column}: all failed, or there was nothing to take it of, as an impact before "
+            f"{seconds(optimum.task.grid.stop):g} s."
+        )
+    else:
         show_error("No design keeps all constraints; the one shown misses them least. Give it more freedom.")
-        return FAILED
-    return 0
+    return FAILED
 
 
 def _summary(optimum: Optimum, best: Best, near_it: Sensitivity | None) -> dict[str, object]:

@@ -27,8 +27,7 @@ def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: s
     """Run the designs of a file that are not there yet, keep them as they come, and write table and report."""
     with prepared(path, folder) as (file, fmu, folder):
         sweep = read_sweep(file, fmu.description)
-        how = ("sweep", {"method": sweep.method})
-        known = identity(contents(fmu), sweep.task, sweep.axes, how, sweep.designs)
+        known = identity(contents(fmu), sweep.task, sweep.axes, sweep.how, sweep.designs)
         store = Store(folder, known, sweep.axes, sweep.task.quantities)
         keep_built(fmu, file, folder)
         with crew_of(fmu, sweep.task, workers, scheduler, fast) as crew:

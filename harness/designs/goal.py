@@ -12,12 +12,12 @@ from ..errors import UsageError
 from .plan import as_text
 from .quantities import UnknownQuantityError, column
 from .task import Quantity, Result, Task
-from .toml_file import TomlFile
+from .toml_file import TomlFile, is_number
 
 #: Merits of designs that miss a limit lie between this and twice this; of those that give no number, above.
-_MISSED = 1e30
-#: What is larger counts as this: a number of runs to failure may be infinite.
-_LARGEST = 1e29
+_MISSED = 1e4
+#: Merits of designs that keep all limits are not larger: asinh of the largest number is 710.
+_LARGEST = 1e3
 
 
 @dataclass(frozen=True)
@@ -80,8 +80,9 @@ class Goal:
         if violation is None or value is None:
             return 4.0 * _MISSED
         if violation > 0.0:
-            return _MISSED * (1.0 + violation / (1.0 + violation))
-        return min(max(-value if self.largest else value, -_LARGEST), _LARGEST)
+            return _MISSED * (2.0 - 1.0 / (1.0 + violation))
+        # lives reach 1e70, and safety factors infinity: asinh keeps their order, far below what misses
+        return min(max(math.asinh(-value if self.largest else value), -_LARGEST), _LARGEST)
 
 
 def _values(result: Result, task: Task) -> dict[str, float]:
@@ -120,10 +121,10 @@ def _constraint(file: TomlFile, name: str, description: Description) -> Constrai
     found = {
         key: _limit(file, (*section.key, key), given, unit, quantity, description) for key, given in limits.items()
     }
-    low, high = found["at_least"], found["at_most"]
-    if low is not None and high is not None and low > high:
-        section.wrong("at_least", f"= {low:g} is above at_most = {high:g}; nothing can keep both")
-    return Constraint(quantity, low, high)
+    least, most = limits["at_least"], limits["at_most"]
+    if is_number(least) and is_number(most) and least > most:
+        section.wrong("at_least", f"= {least} is above at_most = {most}; nothing can keep both")
+    return Constraint(quantity, found["at_least"], found["at_most"])
 
 
 def _limit(

@@ -16,6 +16,7 @@ from ..fmu import Fmu
 from .task import Design, Task
 from .variation import Axis
 
+_DESIGNS = "designs"
 _DATE = re.compile(rb'generationDateAndTime="[^"]*"')
 
 
@@ -37,9 +38,10 @@ class Identity:
         return _digest(self.topics)
 
     def changed(self, other: Mapping[str, Any]) -> list[str]:
-        """The topics that differ."""
+        """The topics that differ; the designs only where nothing else explains it, as with another scipy."""
         names = dict.fromkeys([*self.topics, *other])
-        return [name for name in names if self.topics.get(name) != other.get(name)]
+        found = [name for name in names if self.topics.get(name) != other.get(name)]
+        return [name for name in found if name != _DESIGNS] or found
 
 
 def identity(
@@ -80,7 +82,8 @@ def identity(
                 for axis in axes
             },
             "record": [quantity.column for quantity in task.quantities],
-            how[0]: dict(how[1]) | {"designs": _digest([list(design.values.values()) for design in designs])},
+            how[0]: dict(how[1]),
+            _DESIGNS: _digest([list(design.values.values()) for design in designs]),
         }
     )
 

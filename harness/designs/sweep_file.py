@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from ..description import Description
 from . import sampling
@@ -27,6 +28,7 @@ class Sweep:
         task: what is done with each design.
         axes: what is varied.
         method: how designs are chosen.
+        seed: of what is random in it; 0 in a grid.
         designs: all of them.
     """
 
@@ -34,7 +36,13 @@ class Sweep:
     task: Task
     axes: tuple[Axis, ...]
     method: str
+    seed: int
     designs: Sequence[Design]
+
+    @property
+    def how(self) -> tuple[str, Mapping[str, Any]]:
+        """What besides the axes decides which designs there are, for the `identity`."""
+        return "sweep", {"method": self.method, "count": len(self.designs), "seed": self.seed}
 
 
 def read_sweep(file: TomlFile, description: Description) -> Sweep:
@@ -43,6 +51,9 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
     Raises:
         UsageError: mistakes in the file, all of them.
     """
+    if "optimise" in file.data:
+        file.wrong(("optimise",), f"belongs to an optimum: mechanism-fmu optimise {file.path}")
+        file.check()
     title, running, fixed = shared(file, TABLES, description)
     section = file.section("sweep", why='write [sweep] and below it method = "latin_hypercube" and count = 64')
     method = section.choice("method", (_GRID, *sampling.METHODS), needed='write e.g. method = "latin_hypercube"')
@@ -62,7 +73,7 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
         )
     record = file.section("record", why='write [record] and below it e.g. end = ["wheel_angle"]')
     quantities = recorded(record, description)
-    if record.given and not record.table:
+    if record.given and not any(record.table.values()):
         file.wrong(("record",), 'is empty; write what to keep of each design, as in end = ["wheel_angle"]')
     file.check()
     assert running.grid is not None  # otherwise there were mistakes
@@ -73,5 +84,6 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
         Task(running.grid, fixed, running.inputs, tuple(quantities), running.material),
         tuple(varied),
         method,
+        seed or 0,
         designs,
     )

@@ -103,6 +103,11 @@ class TomlFile:
         return next(found, 0)
 
 
+def is_number(value: Any) -> bool:
+    """Whether a value of a file is a number; true is none."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
 @dataclass
 class Section:
     """One table of a file; what has not been taken from it in the end is not known.

@@ -13,7 +13,7 @@ from ..inputs import InputSignals
 from ..units import UnitMismatchError
 from .plan import as_text, parsed, settable
 from .task import MOST_DESIGNS
-from .toml_file import Section, TomlFile
+from .toml_file import Section, TomlFile, is_number
 
 #: Columns of the results that no variable may have the name of.
 RESERVED = ("design", "way", "status", "message", "warnings")
@@ -108,8 +108,10 @@ def _axis(
         section.wrong("values", "stands beside from, to or steps; give either values, or from and to")
     if not by_values:
         _check_limits_given(section, variable, low, high, steps, grid=grid)
-    if unit is not None and not _unit_fits(section, unit, variable, description):
-        return None
+    if is_number(low) and is_number(high) and low >= high:
+        section.wrong("from", f"= {low} is not below to = {high}; exchange them, or give different limits")
+    if unit is not None:
+        _check_unit(section, unit, variable, description)
     if len(section.file.mistakes) > said:
         return None
     shown = unit or variable.unit
@@ -118,9 +120,6 @@ def _axis(
         return None if listed is None else Axis(variable, shown, 0.0, 0.0, listed, listed, description)
     limits = [_limit(section, key, given, unit, variable, description) for key, given in (("from", low), ("to", high))]
     if None in limits:
-        return None
-    if low >= high:
-        section.wrong("from", f"= {low} is not below to = {high}; exchange them, or give different limits")
         return None
     if grid and variable.type == "Integer" and high - low >= MOST_DESIGNS:
         section.wrong("to", f"= {high} makes {high - low + 1:,} values, more than {MOST_DESIGNS:,} designs; list some")
@@ -158,16 +157,14 @@ def _check_limits_given(
         section.wrong("steps", "is missing; a grid needs to know how many values to take, both ends among them")
 
 
-def _unit_fits(section: Section, unit: str, variable: Variable, description: Description) -> bool:
+def _check_unit(section: Section, unit: str, variable: Variable, description: Description) -> None:
     if not variable.unit:
         section.wrong("unit", f"'{unit}': {variable.name} has no unit; leave it out")
-        return False
+        return
     try:
         description.units.convert(1.0, unit, variable.unit)
     except UnitMismatchError as mismatch:
         section.wrong("unit", f"{mismatch}.")
-        return False
-    return True
 
 
 def _limit(

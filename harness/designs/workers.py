@@ -65,15 +65,17 @@ def portions(designs: Iterable[Design], size: int) -> Iterator[list[Design]]:
 
 
 def here(work: Work, designs: Iterable[Design], stop_requested: Callable[[], bool] = never) -> Iterator[Pairs]:
-    """Run designs in this process; the portions become as large as fits a fraction of a second, so little is lost."""
+    """Run designs in this process, in portions that take half a second or so: that much work is lost by a kill."""
     rest, size = iter(designs), 1
     while portion := list(islice(rest, size)):
         if stop_requested():
             return
         began = perf_counter()
         done = work.run(portion)
-        grown = 2 * size if perf_counter() - began < _PORTION / 2 else size
-        size = min(grown, work.way.together)
+        good = sum(result.failure is None for _, result in done)
+        if good:  # what fails at once says nothing about how long the others take
+            fitting = int(_PORTION * good / (perf_counter() - began))
+            size = max(1, min(fitting, 2 * size, work.way.together))
         yield done
 
 

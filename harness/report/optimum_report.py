@@ -25,7 +25,7 @@ from .inputs import inputs_section
 from .page import cards, chart, facts, page, section, table, versions_section
 from .parameters import parameters_of_designs
 from .style import COLOURS, layout
-from .sweep_report import designs_table, limits, results_charts, run_rows
+from .sweep_report import designs_table, limits, results_charts, run_rows, warnings_section
 
 
 @dataclass(frozen=True)
@@ -87,6 +87,7 @@ def optimum_report(optimum: Optimum, found: Found, fmu: Fmu) -> str:
     body += [
         section("Designs", *results_charts(optimum.axes, optimum.task, description, results)),
         section("All designs", designs_table(optimum.axes, optimum.task, description, results)),
+        warnings_section(results),
         section("What was run", facts("value", _set_up(optimum, near_it))),
         inputs_section(optimum.task.inputs, description),
         _parameters(optimum, best, description),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,6 +33,9 @@ from .style import COLOURS, WIDE_TOP, layout
 
 #: More rows make a page slow; the file has all.
 _MOST_ROWS = 500
+_NUMBER = re.compile(r"-?\d+(\.\d+)?(e[-+]?\d+)?")
+#: Kinds of warnings.
+_MOST_KINDS = 20
 #: Height of one row of charts [px].
 _ROW_HEIGHT = 260
 #: Beyond so many dots, SVG is slow.
@@ -50,6 +55,16 @@ class Column:
     name: str
     heading: str
     values: npt.NDArray[np.float64]
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether only a logarithm shows all of it: positive, over more than three decades."""
+        finite = self.values[np.isfinite(self.values)]
+        return bool(finite.size and finite.min() > 0.0 and finite.max() > 1e3 * finite.min())
+
+    def in_decades(self) -> Column:
+        """What is wide as its logarithm, anything else as it is."""
+        return Column(self.name, f"lg {self.heading}", np.log10(self.values)) if self.is_wide else self
 
 
 def write_sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | None, path: Path) -> Path:
@@ -71,15 +86,17 @@ def sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | Non
         ("way", ", ".join(sorted(set(results["way"].to_pylist())))),
     ]
     charts = results_charts(sweep.axes, sweep.task, description, results)
-    body = [
-        cards(figures),
+    body = [cards(figures)]
+    if failed:
+        rows = [[str(number), message] for number, message in failed[:_MOST_ROWS]]
+        body.append(section("Failed designs", table(["design", "message"], rows, numeric=[0]), css_class="banner"))
+    body += [
+        section("Ranges", ranges_table(sweep.task, description, results)),
         section("Results", *charts, note="Each dot is one design. Drag over an axis to zoom."),
         animation_of_design(seen),
         section("Designs", designs_table(sweep.axes, sweep.task, description, results), note=_rows_note(results)),
     ]
-    if failed:
-        rows = [[str(number), message] for number, message in failed[:_MOST_ROWS]]
-        body.append(section("Failed designs", table(["design", "message"], rows, numeric=[0]), css_class="banner"))
+    body.append(warnings_section(results))
     varied = {axis.name: (*limits(axis), Origin.VARIED) for axis in sweep.axes}
     note = "What was set for all designs, or varied between limits, is marked; the rest are the FMU's defaults."
     body += [
@@ -104,6 +121,30 @@ def designs_table(axes: Sequence[Axis], task: Task, description: Description, re
     return _table(varied, found, results)
 
 
+def ranges_table(task: Task, description: Description, results: pa.Table) -> str:
+    """Between which values each quantity lies, and in which designs it has them."""
+    numbers = results["design"].to_pylist()
+    rows = []
+    for column in (_found(quantity, description, results) for quantity in task.quantities):
+        there = np.flatnonzero(np.isfinite(column.values))
+        ends = [there[np.argmin(column.values[there])], there[np.argmax(column.values[there])]] if there.size else []
+        cells = [text for place in ends for text in (f"{column.values[place]:.6g}", str(numbers[place]))]
+        rows.append([column.heading, *(cells or [""] * 4)])
+    return table(["quantity", "smallest", "design", "largest", "design"], rows, numeric=range(1, 5))
+
+
+def warnings_section(results: pa.Table) -> str:
+    """Each warning, and to how many designs it was said; nothing when there was none."""
+    said = [text for text in results["warnings"].to_pylist() if text]
+    if not said:
+        return ""
+    # numbers differ from design to design, but not what is said
+    kinds = [_NUMBER.sub("…", text) for text in said]
+    alike, examples = Counter(kinds), dict(zip(reversed(kinds), reversed(said), strict=True))
+    rows = [[str(count), examples[kind]] for kind, count in alike.most_common(_MOST_KINDS)]
+    return section("Warnings", table(["designs", "as in"], rows, numeric=[0]))
+
+
 def _columns(
     axes: Sequence[Axis], task: Task, description: Description, results: pa.Table
 ) -> tuple[list[Column], list[Column]]:
@@ -114,7 +155,10 @@ def _columns(
 def parallel_chart(columns: Sequence[Column], colour: Column) -> go.Figure:
     """Each design a line across all columns, coloured by one of them."""
     # below, and a line further down; above, their lines would hide the ends of the ranges
-    dimensions = [{"label": f"<br>{_broken(column.heading)}", "values": column.values} for column in columns]
+    columns, colour = [column.in_decades() for column in columns], colour.in_decades()
+    dimensions = [
+        {"label": f"<br>{_broken(column.heading)}", "values": column.values, "tickformat": ".3~g"} for column in columns
+    ]
     title = {"text": _broken(colour.heading), "font": {"size": 12}}
     line = {"color": colour.values, "colorscale": "Viridis", "colorbar": {"title": title}}
     labels = {"labelside": "bottom", "labelfont": {"size": 12}}
@@ -141,7 +185,10 @@ def scatter_chart(varied: Sequence[Column], found: Sequence[Column]) -> go.Figur
             marker = {"size": 6, "color": COLOURS[(i - 1) % len(COLOURS)], "opacity": 0.75}
             dots = {"x": x.values, "y": y.values, "mode": "markers", "marker": marker, "name": y.name}
             figure.add_trace(kind(**dots, showlegend=False), row=i, col=k)
-        figure.update_yaxes(title_text=_broken(y.heading), exponentformat="SI", row=i, col=1)
+        exponents = {"type": "log", "exponentformat": "power"} if y.is_wide else {"exponentformat": "SI"}
+        figure.update_yaxes(title_text=_broken(y.heading), **exponents, row=i, col=1)
+        if y.is_wide:
+            figure.update_yaxes(type="log", row=i)
     for k, x in enumerate(varied, start=1):
         figure.update_xaxes(title_text=x.heading, row=rows, col=k)
     figure.update_layout(layout(height=_ROW_HEIGHT * rows + 90, margin=WIDE_TOP))
@@ -210,7 +257,7 @@ def _cell(number: float) -> str:
 def _rows_note(results: pa.Table) -> str:
     count, warned = len(results), len(results) - results["warnings"].null_count
     which = "" if count <= _MOST_ROWS else f"The first {_MOST_ROWS} of {count}. "
-    said = f" To {warned} designs the FMU had something to say; it stands there, too." if warned else ""
+    said = f" {warned} designs have warnings, which stand there, too." if warned else ""
     return f"{which}results.parquet has all, in SI units and radians, with all digits.{said}"
 
 

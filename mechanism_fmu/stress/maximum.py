@@ -13,9 +13,13 @@ from .material import Material
 from .modes import ritz_modes
 from .natural_mode import Mode
 from .search import largest_stress
+from .tooth import WedgeTooth
 
 #: With less damping there are thousands of nearly equal swings to compare, and with none there is no largest one.
 _LEAST_DAMPING = 1e-4
+
+#: As long as it is thick at its root.
+_WEDGE = WedgeTooth(length=1.0, apex_angle=math.pi / 4)
 
 
 @dataclass(frozen=True)
@@ -57,8 +61,17 @@ def maximum_stress(
     Source: Pennestrì, Valentini, Vita, eqs (13), (16) and section 5.1.
     """
     require_impact_velocity(impact_velocity)
-    at_unit_velocity = _maximum_at_unit_velocity(tooth, material, modes)
+    if isinstance(tooth, WedgeTooth) and modes is None:
+        at_unit_velocity = _of_wedge(tooth, material)
+    else:
+        at_unit_velocity = _maximum_at_unit_velocity(tooth, material, modes)
     return replace(at_unit_velocity, stress=at_unit_velocity.stress * impact_velocity)
+
+
+def _of_wedge(tooth: WedgeTooth, material: Material) -> MaximumStress:
+    """That of one wedge tells those of all: A ~ 1 - xi, I ~ (1 - xi)^3, so that only the time scale l^2 / h differs."""
+    found = _maximum_at_unit_velocity(_WEDGE, material, None)
+    return replace(found, time=found.time * tooth.length / math.tan(tooth.apex_angle))
 
 
 @lru_cache(maxsize=1024)

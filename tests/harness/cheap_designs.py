@@ -40,11 +40,11 @@ def axis(name: str = "restitution", low: float = 0.0, high: float = 1.0, unit: s
 def cheap_sweep(count: int, method: str = "sobol", seed: int = 1) -> Sweep:
     axes = (axis(),)
     task = Task(TimeGrid.of(1.0, 0.1), {}, None, (SQUARE,))
-    return Sweep("Cheap", task, axes, method, sampled(axes, method, count, seed))
+    return Sweep("Cheap", task, axes, method, seed, sampled(axes, method, count, seed))
 
 
 def store_of(sweep: Sweep, folder: Path) -> Store:
-    known = identity({"model": "Cheap"}, sweep.task, sweep.axes, ("sweep", {"method": sweep.method}), sweep.designs)
+    known = identity({"model": "Cheap"}, sweep.task, sweep.axes, sweep.how, sweep.designs)
     return Store(folder, known, sweep.axes, sweep.task.quantities)
 
 

@@ -64,6 +64,19 @@ def test_what_is_no_number_is_worse_than_any_design(values: tuple[float | None, 
         assert goal.merit(Result(1, "cheap", values), TASK) > goal.merit(Result(2, "cheap", other), TASK)
 
 
+@pytest.mark.parametrize("largest", [False, True])
+def test_however_large_values_are_the_better_one_wins(largest: bool) -> None:
+    """A number of runs to failure is 1e44 to 1e73 on the paper's wheel, and a safety factor may be infinite."""
+    goal = Goal(FAR, largest, (Constraint(SUM, None, 1.0),))
+    values = [-math.inf, -1e300, -1e73, -1e60, -2.0, 0.0, 1e-12, 2.0, 1e59, 1e60, 1.0001e60, 1e308, math.inf]
+    merits = [goal.merit(Result(1, "cheap", (value, 0.5)), TASK) for value in values]
+    assert merits == sorted(set(merits), reverse=largest)
+    missed = [goal.merit(Result(1, "cheap", (0.0, limited)), TASK) for limited in (1.001, 2.0, 1e60, math.inf)]
+    failed = goal.merit(Result.failed(Design(1, {}), "cheap", TASK, "no"), TASK)
+    assert [*sorted(merits), *missed, failed] == sorted([*merits, *missed, failed])
+    assert not any(map(math.isnan, missed))
+
+
 def test_a_space_that_is_known_whole_still_has_a_sensitivity(tmp_path: Path) -> None:
     optimum = replace(optimum_of(axis("tooth_count", 15, 19), axis("gear", 1, 2), count=300), around=Around(4, 0.1))
     history = history_of(optimum, tmp_path)

@@ -5,6 +5,7 @@ import os
 import signal
 import time
 import zipfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import forkserver
@@ -24,8 +25,9 @@ from harness.designs import sampling
 from harness.designs.identity import contents
 from harness.designs.store import failures
 from harness.designs.sweep import Progress, perform_sweep
-from harness.designs.task import Result
-from harness.designs.workers import Processes, here
+from harness.designs.task import Design, Result, Task
+from harness.designs.ways import Way
+from harness.designs.workers import Processes, Work, here
 from harness.errors import UsageError
 
 
@@ -181,6 +183,29 @@ def test_a_sweep_killed_at_any_moment_gives_what_an_undisturbed_one_gives(tmp_pa
     results = [tmp_path / name / "results.parquet" for name in ("killed", "undisturbed")]
     assert results[0].read_bytes() == results[1].read_bytes()
     assert count <= len(trace.read_text().split()) <= count + kills
+
+
+def test_portions_are_as_large_as_fits_in_a_moment(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Many designs that fail at once, then slow ones, then quick ones."""
+    now, seconds = [0.0], {True: 1e-6, False: 0.1}
+    monkeypatch.setattr("harness.designs.workers.perf_counter", lambda: now[0])
+    sizes: list[int] = []
+
+    def run(fmu: object, task: Task, designs: Sequence[Design]) -> list[Result]:
+        sizes.append(len(designs))
+        failing = designs[-1].number <= 50
+        now[0] += len(designs) * seconds[failing or designs[-1].number > 100]
+        return [
+            Result.failed(design, "cheap", task, "no") if failing else Result(design.number, "cheap", (1.0,))
+            for design in designs
+        ]
+
+    sweep = cheap_sweep(1000)
+    work = Work(None, sweep.task, Way("cheap", run, 256))  # type: ignore[arg-type]
+    assert sum(len(pairs) for pairs in here(work, sweep.designs)) == 1000
+    assert set(sizes[:50]) == {1}
+    assert sizes[50:60] == [1, 2, 4, 5, 5, 5, 5, 5, 5, 5]
+    assert max(sizes) == 256
 
 
 @dataclass(frozen=True)

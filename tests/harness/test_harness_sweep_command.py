@@ -82,7 +82,7 @@ def test_a_changed_file_is_refused_with_the_way_out(slider_crank_fmu: Path, tmp_
     assert invoke(file_of(tmp_path, slider_crank_fmu, 1), "-o", tmp_path / "out", "--workers", "1")[0] == 0
     code, text = invoke(file_of(tmp_path, slider_crank_fmu, 1, longest=21), "-o", tmp_path / "out")
     assert code == 2
-    assert "[vary], [sweep] differ" in text
+    assert "[vary] differ from" in text
     assert "Choose another folder with -o" in text
 
 
@@ -98,6 +98,13 @@ def test_another_model_in_the_same_file_is_another_fmu(tmp_path: Path) -> None:
     code, text = invoke(path, "-o", tmp_path / "out", "--fast")
     assert code == 2
     assert "holds results of another file, FMU or version: [fmu]" in text
+
+
+def test_a_lock_that_cannot_be_opened_is_told(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    (tmp_path / "out" / ".lock").mkdir(parents=True)
+    code, text = invoke(file_of(tmp_path, slider_crank_fmu, 1), "-o", tmp_path / "out")
+    assert code == 2
+    assert "cannot be opened" in text
 
 
 def test_two_ways_at_once_are_wrong_use(slider_crank_fmu: Path, tmp_path: Path) -> None:

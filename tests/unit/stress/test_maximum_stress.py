@@ -130,3 +130,15 @@ def test_impossible_velocity_is_refused(velocity):
 def test_too_little_damping_is_refused(damping):
     with pytest.raises(ValueError, match=rf"^damping ratio = {damping:g}, but .*0\.0001.*very many swings"):
         maximum_stress(TOOTH, replace(STEEL, damping_ratio=damping), 1.0)
+
+
+@pytest.mark.parametrize(("length", "angle"), [(0.02, 0.3), (0.004, 1.2), (3.0, 1e-3)])
+def test_one_wedge_tells_of_all(length: float, angle: float) -> None:
+    """The search for this very wedge finds what follows by similarity."""
+    tooth = WedgeTooth(length, angle)
+    found = maximum_stress(tooth, STEEL, 2.0)
+    searched = maximum_stress(tooth, STEEL, 2.0, ritz_modes(tooth, STEEL))
+    assert found.stress == pytest.approx(searched.stress, rel=1e-9)
+    assert found.coefficient == pytest.approx(searched.coefficient, rel=1e-9)
+    assert found.position == pytest.approx(searched.position, abs=2e-5)
+    assert found.time == pytest.approx(searched.time, rel=2e-5)
