@@ -120,7 +120,8 @@ class RunDisplay:
 
     def __exit__(self, *_: object) -> None:
         self._spinner.stop()
-        self._bar.stop()
+        if self.bar_shown:
+            self._bar.stop()
 
     def started(self, unit: Observable, time: float) -> None:
         """The FMU is ready."""

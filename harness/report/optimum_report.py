@@ -25,7 +25,7 @@ from .inputs import inputs_section
 from .page import cards, chart, facts, page, section, table, versions_section
 from .parameters import parameters_of_designs
 from .style import COLOURS, layout
-from .sweep_report import designs_table, limits, results_charts, run_rows, warnings_section
+from .sweep_report import Column, designs_table, limits, results_charts, run_rows, warnings_section
 
 
 @dataclass(frozen=True)
@@ -114,6 +114,8 @@ def history_chart(optimum: Optimum, history: History) -> go.Figure:
     figure.add_trace(go.Scatter(x=numbers, y=so_far, mode="lines", name="best so far", line=line))
     figure.update_xaxes(title_text="design [1]")
     figure.update_yaxes(title_text=f"{goal.objective.column} [{goal.objective.unit or '1'}]", exponentformat="SI")
+    if Column(goal.objective.column, "", values).is_wide:
+        figure.update_yaxes(type="log", exponentformat="power")
     figure.update_layout(layout(height=420, legend={"orientation": "h", "y": -0.2}))
     return figure
 
