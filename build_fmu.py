@@ -81,7 +81,7 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
     from mechanism_fmu.model import MechanismError
 
     messages = _messages()
-    if not (model in models.available() or looks_like_a_file(model)):
+    if not model or not (model in models.available() or looks_like_a_file(model)):
         asked = f"There is no model {model!r}" if model else "Say which model to build"
         names = ", ".join(models.available())
         example = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
