@@ -12,16 +12,25 @@ from .checks import FloatArray
 
 
 class End(Enum):
-    """What is held at one end of a beam; the value lists the derivatives of the deflection that vanish there.
+    """What is held at one end of a beam.
 
     What is not held follows by itself from the stationary energy: no moment where the slope is free, no shear force
     where the deflection is.
     """
 
-    FREE = ()
-    PINNED = (0,)
-    GUIDED = (1,)
-    CLAMPED = (0, 1)
+    FREE = "free"
+    PINNED = "pinned"
+    GUIDED = "guided"
+    CLAMPED = "clamped"
+
+    @property
+    def vanishing(self) -> tuple[int, ...]:
+        """Orders of the derivatives of the deflection that are 0 there."""
+        return _VANISHING[self]
+
+
+# Not the values themselves: Python 3.11.2, which is Debian 12's, makes something else of an empty tuple.
+_VANISHING = {End.FREE: (), End.PINNED: (0,), End.GUIDED: (1,), End.CLAMPED: (0, 1)}
 
 
 def held(degree: int, root: End, tip: End) -> FloatArray:
@@ -34,7 +43,7 @@ def held(degree: int, root: End, tip: End) -> FloatArray:
     rows = [
         legendre.legval(at, legendre.legder(unit, order))
         for end, at in ((root, -1.0), (tip, 1.0))
-        for order in end.value
+        for order in end.vanishing
     ]
     return np.asarray(np.reshape([row / np.linalg.norm(row) for row in rows], (len(rows), degree + 1)))
 
@@ -55,7 +64,7 @@ def admissible(terms: int, root: End, tip: End) -> FloatArray:
     Source: J. Shen, Efficient spectral-Galerkin method I, SIAM J. Sci. Comput. 15 (1994): neighbouring Legendre
     polynomials recombined to fulfil the end conditions; here made orthonormal, too.
     """
-    count = len(root.value) + len(tip.value)
+    count = len(root.vanishing) + len(tip.vanishing)
     degree = terms - 1 + count
     rows = held(degree, root, tip)
     columns = np.zeros((degree + 1, terms))
@@ -68,10 +77,10 @@ def admissible(terms: int, root: End, tip: End) -> FloatArray:
 
 def rigid_motions(root: End, tip: End) -> dict[str, tuple[float, float]]:
     """Motions without bending, c_0 + c_1 xi, that the ends allow: (c_0, c_1) by name."""
-    held_by_both = root.value + tip.value
+    held_by_both = root.vanishing + tip.vanishing
     motions = {}
     if 0 not in held_by_both:
         motions["rigid translation"] = (1.0, 0.0)
     if 1 not in held_by_both and held_by_both.count(0) < 2:
-        motions["rigid rotation"] = (-1.0, 1.0) if 0 in tip.value else (0.0, 1.0)
+        motions["rigid rotation"] = (-1.0, 1.0) if 0 in tip.vanishing else (0.0, 1.0)
     return motions

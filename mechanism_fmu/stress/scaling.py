@@ -44,7 +44,7 @@ def scaled(mode: NaturalMode, beam: Beam, material: Material, root: End, scaling
 
 def _first_coefficient(mode: NaturalMode, root: End) -> float:
     """Coefficient of the lowest power of xi that the root allows [-]: 2 for a clamped root, 1 for a pinned, else 0."""
-    power = next(power for power in range(3) if power not in root.value)
+    power = next(power for power in range(3) if power not in root.vanishing)
     derivatives = mode.shape(np.array([0.0]), derivative=power)
     return float(derivatives[0]) / math.factorial(power)
 
