@@ -30,7 +30,7 @@ def element_frequencies(beam, ends, elements):
     held = [
         basis.get_dofs(lambda x, place=place: x[0] == place).all(["u", "u_x"][order])
         for place, end in zip((0.0, 1.0), ends, strict=True)
-        for order in end.value
+        for order in end.vanishing
     ]
     free = basis.complement_dofs(np.concatenate(held))
     k, m = (form.assemble(basis)[free][:, free].toarray() for form in (stiffness, mass))

@@ -70,6 +70,7 @@ def test_the_bar_appears_only_when_the_run_takes_long() -> None:
 
 def test_ctrl_c_is_a_request_the_first_time_and_an_exception_the_second() -> None:
     asked: list[str] = []
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background process ignores it
     with interruption(lambda: asked.append("noticed")) as stop_requested:
         assert not stop_requested()
         os.kill(os.getpid(), signal.SIGINT)
