@@ -69,7 +69,7 @@ def _compare(folder: Path, progress: Console) -> tuple[list[Comparison], list[Ac
             progress.print(f"MuJoCo, to {stop_time:g} s")
             compared = [against_mujoco(sweep, _ROUNDS, _LEAST_MUJOCO if required else None)]
             progress.print(f"solve_ivp, to {stop_time:g} s")
-            compared += [against_plain(sweep, pool, _FEW, _ROUNDS // 3, _LEAST_PLAIN if required else None)]
+            compared += [against_plain(sweep, pool, _FEW, _ROUNDS, _LEAST_PLAIN if required else None)]
             comparisons += [comparison for comparison, _ in compared]
             accuracies += [accuracy for _, found in compared for accuracy in found]
     return comparisons, accuracies
