@@ -11,7 +11,8 @@ from rich.markup import escape
 from .designs import sweep as sweeps
 from .designs.identity import contents, identity
 from .designs.in_motion import design_with_largest
-from .designs.store import Store, failures
+from .designs.ranges import range_cells
+from .designs.store import Store, failures, numbers_of
 from .designs.sweep_file import Sweep, read_sweep
 from .designs.workers import Crew
 from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
@@ -66,18 +67,12 @@ def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, tab
 def _show_ranges(sweep: Sweep, table: pa.Table) -> None:
     """Between which values each quantity lies, and in which designs it has them."""
     numbers = table["design"].to_pylist()
-    rows = []
-    for quantity in sweep.task.quantities:
-        values = zip(table[quantity.column].to_pylist(), numbers, strict=True)
-        there = [(float(value), number) for value, number in values if value is not None]
-        ends = [text for pair in (min(there), max(there)) for text in _end(*pair)] if there else [""] * 4
-        rows.append([quantity.column, quantity.unit or "1", *ends])
+    rows = [
+        [quantity.column, quantity.unit or "1", *range_cells(numbers_of(table, quantity.column), numbers)]
+        for quantity in sweep.task.quantities
+    ]
     headings = ["quantity", "unit", "smallest", "no.", "largest", "no."]
     show_table(f"Results of {len(table)} designs", headings, rows, numeric=range(2, len(headings)))
-
-
-def _end(value: float, number: int) -> list[str]:
-    return [f"{value:.6g}", str(number)]
 
 
 def show_failures(failed: Sequence[tuple[int, str]]) -> None:

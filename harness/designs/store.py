@@ -17,6 +17,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
 import pyarrow as pa
 import pyarrow.parquet as pq
 
@@ -157,6 +159,11 @@ def failures(table: pa.Table) -> list[tuple[int, str]]:
     """Number and message of each design that failed."""
     rows = zip(table["design"].to_pylist(), table["status"].to_pylist(), table["message"].to_pylist(), strict=True)
     return [(number, message) for number, status, message in rows if status == _FAILED]
+
+
+def numbers_of(table: pa.Table, column: str) -> npt.NDArray[np.float64]:
+    """A column of results as numbers, NaN where there is none, shape (designs,)."""
+    return np.array([np.nan if value is None else float(value) for value in table[column].to_pylist()])
 
 
 def _schema(identity: Identity, axes: Sequence[Axis], quantities: Sequence[Quantity]) -> pa.Schema:

@@ -17,7 +17,8 @@ from plotly.subplots import make_subplots
 from ..clock import seconds
 from ..description import Description
 from ..designs.in_motion import InMotion
-from ..designs.store import failures
+from ..designs.ranges import range_cells
+from ..designs.store import failures, numbers_of
 from ..designs.sweep_file import Sweep
 from ..designs.task import Quantity, Task
 from ..designs.variation import Axis
@@ -124,12 +125,8 @@ def designs_table(axes: Sequence[Axis], task: Task, description: Description, re
 def ranges_table(task: Task, description: Description, results: pa.Table) -> str:
     """Between which values each quantity lies, and in which designs it has them."""
     numbers = results["design"].to_pylist()
-    rows = []
-    for column in (_found(quantity, description, results) for quantity in task.quantities):
-        there = np.flatnonzero(np.isfinite(column.values))
-        ends = [there[np.argmin(column.values[there])], there[np.argmax(column.values[there])]] if there.size else []
-        cells = [text for place in ends for text in (f"{column.values[place]:.6g}", str(numbers[place]))]
-        rows.append([column.heading, *(cells or [""] * 4)])
+    found = [_found(quantity, description, results) for quantity in task.quantities]
+    rows = [[column.heading, *range_cells(column.values, numbers)] for column in found]
     return table(["quantity", "smallest", "design", "largest", "design"], rows, numeric=range(1, 5))
 
 
@@ -210,7 +207,7 @@ def _charts(varied: Sequence[Column], found: Sequence[Column]) -> list[str]:
 
 def _varied(axis: Axis, results: pa.Table) -> Column:
     variable, units = axis.variable, axis.description.units
-    values = _numbers(results, axis.name)
+    values = numbers_of(results, axis.name)
     if axis.unit != variable.unit:
         zero, one = (units.convert(x, axis.unit, variable.unit) for x in (0.0, 1.0))
         values = (values - zero) / (one - zero)
@@ -218,15 +215,11 @@ def _varied(axis: Axis, results: pa.Table) -> Column:
 
 
 def _found(quantity: Quantity, description: Description, results: pa.Table) -> Column:
-    values = _numbers(results, quantity.column)
+    values = numbers_of(results, quantity.column)
     zero, one = (description.units.to_display(x, quantity.unit, quantity.display_unit) for x in (0.0, 1.0))
     if zero is None or one is None:
         return Column(quantity.column, _heading(quantity.column, quantity.unit), values)
     return Column(quantity.column, _heading(quantity.column, quantity.display_unit), zero + (one - zero) * values)
-
-
-def _numbers(results: pa.Table, name: str) -> npt.NDArray[np.float64]:
-    return np.array([np.nan if value is None else float(value) for value in results[name].to_pylist()])
 
 
 def _heading(name: str, unit: str) -> str:

@@ -69,7 +69,10 @@ def maximum_stress(
 
 
 def _of_wedge(tooth: WedgeTooth, material: Material) -> MaximumStress:
-    """That of one wedge tells those of all: A ~ 1 - xi, I ~ (1 - xi)^3, so that only the time scale l^2 / h differs."""
+    """That of one wedge tells those of all: A ~ 1 - xi and I ~ (1 - xi)^3, so that only the time scale differs.
+
+    It is l^2 / (h sqrt(E / rho)) with the root's height h = l tan(alpha): l / tan(alpha), 1 for the reference wedge.
+    """
     found = _maximum_at_unit_velocity(_WEDGE, material, None)
     return replace(found, time=found.time * tooth.length / math.tan(tooth.apex_angle))
 

@@ -23,6 +23,7 @@ from scipy.stats import qmc
 
 from harness.designs import sampling
 from harness.designs.identity import contents
+from harness.designs.ranges import range_cells
 from harness.designs.store import failures
 from harness.designs.sweep import Progress, perform_sweep
 from harness.designs.task import Design, Result, Task
@@ -183,6 +184,11 @@ def test_a_sweep_killed_at_any_moment_gives_what_an_undisturbed_one_gives(tmp_pa
     results = [tmp_path / name / "results.parquet" for name in ("killed", "undisturbed")]
     assert results[0].read_bytes() == results[1].read_bytes()
     assert count <= len(trace.read_text().split()) <= count + kills
+
+
+def test_ranges_leave_out_what_is_no_value_and_name_the_first_of_equals() -> None:
+    assert range_cells(np.array([np.nan, 2.0, 1.0, 1.0, np.inf]), [1, 2, 3, 4, 5]) == ["1", "3", "inf", "5"]
+    assert range_cells(np.array([np.nan]), [1]) == ["", "", "", ""]
 
 
 def test_portions_are_as_large_as_fits_in_a_moment(monkeypatch: pytest.MonkeyPatch) -> None:
