@@ -115,6 +115,20 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
     return path
 
 
+def model_names() -> list[str]:
+    """Names of the ready-made models."""
+    import models
+
+    return list(models.available())
+
+
+def machines() -> dict[str, Path]:
+    """Files of the ready-made machines, by name."""
+    import models
+
+    return models.machines()
+
+
 def advise(flavour: Flavour) -> None:
     """Say what an FMU of this flavour, built here, could have more of."""
     from mechanism_fmu.fmu.native.link import INSTALL, has_linker

@@ -26,6 +26,8 @@ TORSION_SPRING = 1
 DAMPER = 2
 SHAFT = 3
 FORCE = 4
+SLIP_CLUTCH = 5
+DC_MOTOR = 6
 
 # force_data columns
 TORQUE_VALUE = 0
@@ -39,6 +41,22 @@ SHAFT_ANGLE = 2
 SHAFT_SPEED = 3
 FORCE_X = 0
 FORCE_Y = 1
+CLUTCH_STIFFNESS = 0
+CLUTCH_DAMPING = 1
+CLUTCH_LIMIT = 2
+CLUTCH_SPEED = 3
+MOTOR_CONSTANT = 0
+MOTOR_RESISTANCE = 1
+MOTOR_INDUCTANCE = 2
+MOTOR_VOLTAGE_LIMIT = 3
+MOTOR_GAIN = 4
+MOTOR_INTEGRAL_GAIN = 5
+MOTOR_ANTI_WINDUP = 6
+MOTOR_SPEED = 7
+
+# states of a force element's own, from `force_own` on: of a clutch its twist [rad]; of a motor
+MOTOR_CURRENT = 0
+MOTOR_INTEGRAL = 1
 
 # contact_kind
 POINT_LINE = 0
@@ -113,6 +131,9 @@ EVENTS_IN_STEP_OUT = 21
 BUFFERED_EVENT = 22
 JOINT_FORCE = 23
 CONTACT_POINT = 24
+OWN_STATE = 25
+CLUTCH_TORQUE = 26
+MOTOR_VOLTAGE = 27
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before, then after
 RECORD_TIME = 0

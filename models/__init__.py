@@ -1,4 +1,7 @@
-"""Ready-made mechanisms, one folder each: `model.py` with `MODEL`, README, drawing, reference curve."""
+"""Ready-made mechanisms, one folder each: `model.py` with `MODEL`, README, drawing, reference curve.
+
+And machines of them, in `machines`, one file each.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +11,17 @@ from types import ModuleType
 
 from mechanism_fmu.model import MechanismError
 
-__all__ = ["available", "load"]
+__all__ = ["available", "load", "machines"]
 
 
 def available() -> dict[str, Path]:
     """Folders of all models, by name."""
     return {path.parent.name: path.parent for path in sorted(Path(__file__).parent.glob("*/model.py"))}
+
+
+def machines() -> dict[str, Path]:
+    """Files of all machines, by name."""
+    return {path.stem: path for path in sorted((Path(__file__).parent / "machines").glob("*.toml"))}
 
 
 def load(name: str) -> ModuleType:

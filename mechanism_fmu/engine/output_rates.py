@@ -14,6 +14,7 @@ from .contacts.guards import gap
 from .dynamics.acceleration import derivative
 from .dynamics.forces import kinetic_power, spring_power
 from .dynamics.inputs import feed
+from .dynamics.own_states import first_own
 from .stepping.stepper import state_at_time
 
 
@@ -22,7 +23,7 @@ def read_output_rates(block: Array) -> None:
     """Write dz/dt of every output z, shape (outputs,), to the work field `output_rates`; the motion is not touched.
 
     Jumps in impacts do not count. Not a number: what jumps only, and what follows accelerations (forces of contacts,
-    torques of shafts), whose derivatives depend on those of inputs.
+    torques of shafts, voltages), whose derivatives depend on those of inputs.
     """
     table = ports(block)
     s = stages(block)
@@ -32,13 +33,13 @@ def read_output_rates(block: Array) -> None:
     derivative(block, s.y_at, s.dy_at)
     place_bodies(block, s.y_at)
     for o in range(table.outputs.shape[0]):
-        table.output_rates[o] = _rate(block, table.output_kind[o], table.output_index[o])
+        table.output_rates[o] = _rate(block, table.output_kind[o], table.output_index[o], table.output_value[o])
     feed(block, table.held_inputs)
 
 
 @jit
-def _rate(block: Array, kind: int, index: int) -> float:
-    """The derivative of one output; `index` as in `ports.output_index`."""
+def _rate(block: Array, kind: int, index: int, factor: float) -> float:
+    """The derivative of one output; `index` as in `ports.output_index`, `factor` as in `ports.output_value`."""
     n = sizes(block).coordinates
     s = stages(block)
     rate = math.nan
@@ -55,11 +56,13 @@ def _rate(block: Array, kind: int, index: int) -> float:
     elif kind == codes.KINETIC_ENERGY:
         rate = kinetic_power(bodies(block).inverse_mass, s.y_at[n:], s.dy_at[n:], n)
     elif kind == codes.SPRING_ENERGY:
-        rate = spring_power(block, s.y_at)
+        rate = spring_power(block, s.y_at, s.dy_at)
     elif kind == codes.WORK_DONE:
         rate = s.dy_at[2 * n]
     elif kind == codes.ENERGY_LOST:
         rate = s.dy_at[2 * n + 1]
     elif kind == codes.CONTACT_POINT:
         rate = s.dy_at[2 * n + 2 + index]
+    elif kind == codes.OWN_STATE:
+        rate = factor * s.dy_at[first_own(block) + index]
     return rate

@@ -10,8 +10,9 @@ from .compiler.subset import entry, jit
 from .constraints.kinematics import place_bodies
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
-from .dynamics.forces import kinetic_energy, shaft_torque, spring_energy
+from .dynamics.forces import body_speed, kinetic_energy, shaft_torque, spring_energy
 from .dynamics.inputs import feed
+from .dynamics.own_states import clutch_torque, first_own, motor_voltage
 from .stepping.stepper import state_at_time
 
 
@@ -81,6 +82,12 @@ def read_outputs(block: Array) -> None:
             value *= linear_system(block).multiplier[index]
         elif kind == codes.CONTACT_POINT:
             value = s.y_at[2 * n + 2 + index]
+        elif kind == codes.OWN_STATE:
+            value *= s.y_at[first_own(block) + index]
+        elif kind == codes.CLUTCH_TORQUE:
+            value = clutch_torque(block, index, s.y_at, body_speed(block, s.y_at, index))
+        elif kind == codes.MOTOR_VOLTAGE:
+            value = motor_voltage(block, index, s.y_at, body_speed(block, s.y_at, index))
         elif kind == codes.BUFFERED_EVENT:
             value = _buffered_event(block, table.output_slot[o], index)
         table.outputs[o] = value

@@ -124,7 +124,7 @@ class Equations:
         y = field_of(self._block, "y_end")
         n = self._bodies
         y[:n], y[n : 2 * n] = q[:n], rates[:n]
-        y[2 * n + 2 :] = q[n:]
+        y[2 * n + 2 : n + 2 + len(q)] = q[n:]
         field_of(self._block, "alpha_rate")[:] = rates[n:]
         textbook_rows(self._block, float(time))
         residual, rate, gamma, jacobian = (

@@ -13,7 +13,7 @@ from .curves import Curve, Piece, Term, constant, cosine, sine
 from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
 from .errors import MechanismError
 from .findings import Finding
-from .forces import CompliantShaft, Damper, Force, Torque, TorsionSpring
+from .forces import CompliantShaft, Damper, DCMotor, Force, SlipClutch, Torque, TorsionSpring
 from .joints import (
     AngleDriver,
     CamFlatFollower,
@@ -92,6 +92,7 @@ __all__ = [
     "CompliantShaft",
     "Contact",
     "Curve",
+    "DCMotor",
     "Damper",
     "Disc",
     "Distance",
@@ -119,6 +120,7 @@ __all__ = [
     "RevoluteTranslational",
     "Settings",
     "Shape",
+    "SlipClutch",
     "Striker",
     "Term",
     "Torque",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from .body import Body
 from .check_contact_numbers import contact_findings, pattern_findings
@@ -16,7 +16,8 @@ from .conditions import (
     within,
 )
 from .findings import Finding, literal, refuse_unless
-from .forces import CompliantShaft, Damper, ForceElement, TorsionSpring
+from .forces import CompliantShaft, Damper, DCMotor, ForceElement, SlipClutch, TorsionSpring
+from .functions import Number
 from .mechanism import Mechanism, Settings, curve_owners
 
 
@@ -62,15 +63,34 @@ def _body(body: Body) -> Iterator[Finding]:
 
 
 def _force(force: ForceElement) -> Iterator[Finding]:
-    values = []
+    values: list[tuple[str, Number, str]] = []
     if isinstance(force, (TorsionSpring, CompliantShaft)):
         values.append(("stiffness", force.stiffness, "N.m/rad"))
     if isinstance(force, (Damper, CompliantShaft)):
         values.append(("damping", force.damping, "N.m.s/rad"))
     label = f"{type(force).__name__} {literal(repr(force.name))}"
+    if isinstance(force, SlipClutch):
+        values.append(("limit", force.limit, "N.m"))
+        above = (("stiffness", force.stiffness, "N.m/rad"), ("damping", force.damping, "N.m.s/rad"))
+        yield from _above_zero(label, above)
+    if isinstance(force, DCMotor):
+        yield from _above_zero(label, (("inductance", force.inductance, "H"),))
+        values += [
+            ("resistance", force.resistance, "ohm"),
+            ("voltage", force.voltage, "V"),
+            ("gain", force.gain, "V.s/rad"),
+            ("integral_gain", force.integral_gain, "V/rad"),
+            ("anti_windup", force.anti_windup, "rad/(V.s)"),
+        ]
     for what, value, unit in values:
         text = f"{label}: {what} = {{:g}} {unit}, but it must not be negative."
         yield refuse_unless(not_negative(value), text, value)
+
+
+def _above_zero(label: str, values: Iterable[tuple[str, Number, str]]) -> Iterator[Finding]:
+    for what, value, unit in values:
+        text = f"{label}: {what} = {{:g}} {unit}, but it must be positive and finite."
+        yield refuse_unless(finite_positive(value), text, value)
 
 
 def _settings(settings: Settings) -> Iterator[Finding]:

@@ -12,6 +12,7 @@ from .. import codes
 from .body import GROUND
 from .check import check
 from .curves import Curve
+from .forces import own_states
 from .functions import Number, is_plain, sqrt
 from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
@@ -19,7 +20,7 @@ from .sources import output_factor, resolve_output
 
 #: Widths of `joint_data`, of `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
 JOINT_COLUMNS = 9
-FORCE_COLUMNS = 4
+FORCE_COLUMNS = 8
 CONTACT_COLUMNS = 6
 
 #: A one- or two-dimensional table of numbers; of dtype object when the numbers are symbolic.
@@ -32,7 +33,7 @@ class MechanismTables:
 
     Integer tables hold structure and never depend on parameter values; the others hold numbers (SI units).
     `joint_rows` is the number of rows of all joints, `contact_rows` that of all contacts when contact coordinates
-    count as coordinates, `alphas` the number of these.
+    count as coordinates, `alphas` the number of these, `own` that of states of force elements' own.
     `inverse_mass` and `inverse_root_mass` have 3 entries a body and 3 zeros for the ground.
     """
 
@@ -51,6 +52,7 @@ class MechanismTables:
     force_kind: Table
     force_body: Table
     force_reaction: Table
+    force_own: Table
     force_data: Table
     contact_kind: Table
     contact_body_i: Table
@@ -61,6 +63,7 @@ class MechanismTables:
     contact_data: Table
     contact_row_first: Table
     contact_rows: int
+    own: int
     contact_alpha: Table
     alphas: int
     contact_curve_i: Table
@@ -117,6 +120,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     first_rows = np.cumsum([0, *(joint.rows for joint in mechanism.joints)])
     first_contact_rows = np.cumsum([0, *(contact.rows for contact in contacts)])
     first_alphas = np.cumsum([0, *(contact.alphas for contact in contacts)])
+    first_own = np.cumsum([0, *(own_states(force) for force in mechanism.forces)])
     curves = [curve for _, curve in curve_owners(mechanism)]
     first_pieces = np.cumsum([0, *(len(curve.pieces) for curve in curves)])
     pieces = [piece for curve in curves for piece in curve.pieces]
@@ -140,6 +144,10 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         force_kind=_integers([f.kind for f in mechanism.forces]),
         force_body=_integers([bodies[f.body] for f in mechanism.forces]),
         force_reaction=_integers([bodies[f.reaction] for f in mechanism.forces]),
+        force_own=_integers(
+            [first if own_states(f) else codes.NONE for f, first in zip(mechanism.forces, first_own, strict=False)]
+        ),
+        own=int(first_own[-1]),
         force_data=_rows([f.data() for f in mechanism.forces], FORCE_COLUMNS),
         contact_kind=_integers([c.kind for c in contacts]),
         contact_body_i=_integers([bodies[c.body_i] for c in contacts]),

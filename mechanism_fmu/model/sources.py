@@ -9,6 +9,7 @@ from difflib import get_close_matches
 from .. import codes
 from .efforts import EFFORTS, effort
 from .errors import MechanismError
+from .forces import DCMotor, own_states
 from .functions import Number
 from .mechanism import Mechanism
 
@@ -33,6 +34,12 @@ _OF_CONTACT = {
     "clicks": codes.STOP_CLICKS,
     "latched": codes.STOP_REFERENCE,
 }
+_OF_FORCE = {
+    codes.SHAFT: {"torque": codes.SHAFT_TORQUE},
+    codes.SLIP_CLUTCH: {"torque": codes.CLUTCH_TORQUE},
+    codes.DC_MOTOR: {"torque": codes.OWN_STATE, "current": codes.OWN_STATE, "voltage": codes.MOTOR_VOLTAGE},
+}
+_OWN_STATES = {"torque": codes.MOTOR_CURRENT, "current": codes.MOTOR_CURRENT}
 _FIELDS = {
     "time": codes.RECORD_TIME,
     "contact": codes.RECORD_CONTACT,
@@ -77,6 +84,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         raise MechanismError(
             f"output source {source!r} is unknown{meant}<body>.x|y|angle|x_rate|y_rate|speed, "
             f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, <pattern>.index, <shaft>.torque, "
+            f"<clutch>.torque, <motor>.torque|current|voltage, "
             f"<joint>.force|force_x|force_y|normal_force|torque as the joint has them, event.count|in_step, "
             f"events[k].{'|'.join(_EVENT_FIELDS)}, energy.{'|'.join(_ENERGIES)}, "
             f"impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
@@ -95,7 +103,8 @@ def _common_sources(mechanism: Mechanism) -> Iterator[str]:
         yield from (f"{contact.name}.{quantity}" for quantity in _OF_CONTACT)
         yield f"impact.impulse:{contact.name}"
     yield from (f"{pattern.name}.index" for pattern in mechanism.patterns)
-    yield from (f"{force.name}.torque" for force in mechanism.forces if force.kind == codes.SHAFT)
+    for force in mechanism.forces:
+        yield from (f"{force.name}.{quantity}" for quantity in _OF_FORCE.get(force.kind, ()))
     for joint in mechanism.joints:
         yield from (f"{joint.name}.{quantity}" for quantity in EFFORTS.get(joint.kind, ()))
     yield from (f"energy.{kind}" for kind in _ENERGIES)
@@ -148,8 +157,11 @@ def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
 
 
 def output_factor(source: str, mechanism: Mechanism) -> Number:
-    """The factor by which a joint's multiplier becomes the effort that a source names; 0 for other sources."""
+    """The factor of what an output reads: of a joint's multiplier, of a motor's current; 0 for other sources."""
     part, _, quantity = source.partition(".")
+    for force in mechanism.forces:
+        if force.name == part and isinstance(force, DCMotor):
+            return force.constant if quantity == "torque" else 1.0
     for joint in mechanism.joints:
         if joint.name == part:
             found = effort(joint, quantity)
@@ -163,10 +175,15 @@ def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, in
 
 
 def _of_force(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
-    names = [f.name for f in mechanism.forces]
-    if part not in names or quantity != "torque" or mechanism.forces[names.index(part)].kind != codes.SHAFT:
-        return None
-    return codes.SHAFT_TORQUE, names.index(part), 0
+    own = 0
+    for place, force in enumerate(mechanism.forces):
+        if force.name == part:
+            kind = _OF_FORCE.get(force.kind, {}).get(quantity)
+            if kind is None:
+                return None
+            return kind, own + _OWN_STATES[quantity] if kind == codes.OWN_STATE else place, 0
+        own += own_states(force)
+    return None
 
 
 def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

@@ -1,4 +1,4 @@
-"""The FMUs of gear train and cam drive give the reference curves, and say what their mechanisms cannot do."""
+"""The FMUs of the drives give the reference curves, and say what their mechanisms cannot do."""
 
 import numpy as np
 import pandas as pd
@@ -11,6 +11,8 @@ from tests.fmu.conformance.host import Instance
 #: Start values with which the reference was made.
 REFERENCES = {
     "gear_train": {"relative_tolerance": 1e-11},
+    "motor": {"relative_tolerance": 1e-11},
+    "rotary_table": {"relative_tolerance": 1e-11},
     "cam_drive": {"cam_inertia": 1e6, "drive_damping": 0.0, "relative_tolerance": 1e-11},
 }
 

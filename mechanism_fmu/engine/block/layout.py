@@ -31,13 +31,14 @@ SIZES = (
     "pieces",
     "terms",
     "alphas",  # contact coordinates
+    "own",  # states of force elements' own
     "held",
     "inputs",
     "outputs",
     "joint_rows",
     "contact_rows",  # of all contacts, when contact coordinates count as coordinates
     "rows",  # joint rows, contact rows, and a spare one
-    "unknowns",  # positions, rates, work done, energy lost in dampers and friction, contact coordinates
+    "unknowns",  # positions, rates, work done, energy lost in motion, contact coordinates, own states
     "guards",  # two a contact, two a pattern, one a logical function
     "record",  # columns of an impact record
     "buffer",  # impacts that are kept of one communication step
@@ -56,6 +57,7 @@ GIVEN_SIZES = (
     "pieces",
     "terms",
     "alphas",
+    "own",
     "held",
     "inputs",
     "outputs",
@@ -88,7 +90,8 @@ FIELDS = (
     Field("tables", "force_kind", ("forces",), True),
     Field("tables", "force_body", ("forces",), True),
     Field("tables", "force_reaction", ("forces",), True),
-    Field("tables", "force_data", ("forces", 4)),
+    Field("tables", "force_own", ("forces",), True),
+    Field("tables", "force_data", ("forces", 8)),
     Field("tables", "contact_kind", ("contacts",), True),
     Field("tables", "contact_body_i", ("contacts",), True),
     Field("tables", "contact_body_j", ("contacts",), True),
@@ -284,7 +287,7 @@ def _complete(sizes: dict[str, int]) -> dict[str, int]:
         "wide": coordinates + 3 + sizes["alphas"],
         "frames": sizes["bodies"] + 1,
         "rows": sizes["joint_rows"] + sizes["contact_rows"] + 1,
-        "unknowns": 2 * coordinates + 2 + sizes["alphas"],
+        "unknowns": 2 * coordinates + 2 + sizes["alphas"] + sizes["own"],
         "guards": 2 * sizes["contacts"] + 2 * sizes["patterns"] + sizes["functions"],
         "record": codes.RECORD_CONTACT_IMPULSES + sizes["contacts"] + 2 * coordinates,
         "buffer": codes.IMPACT_BUFFER_LENGTH,

@@ -11,9 +11,9 @@ from .room import room
 class Course(NamedTuple):
     """How far the motion has come.
 
-    Clock, counters and ledger (columns in `codes`); y = (q, qd, work, loss) and its derivative at the end of the
-    engine's own step, and the step's dense output; how independent the active rows are there (see `singular`); the last
-    impact, and impacts and events of the last communication step.
+    Clock, counters and ledger (columns in `codes`); y = (q, qd, work, loss, alpha, own) and its derivative at the end
+    of the engine's own step, and the step's dense output; how independent the active rows are there (see `singular`);
+    the last impact, and impacts and events of the last communication step.
     """
 
     clock: Array

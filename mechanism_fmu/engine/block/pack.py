@@ -26,6 +26,7 @@ def pack(tables: Any) -> Array:
             "pieces": len(tables.piece_term),
             "terms": len(tables.term_data),
             "alphas": tables.alphas,
+            "own": tables.own,
             "held": len(tables.held),
             "inputs": len(tables.input_force),
             "outputs": len(tables.output_kind),

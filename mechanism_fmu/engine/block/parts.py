@@ -25,6 +25,7 @@ class Sizes(NamedTuple):
     pieces: int
     terms: int
     alphas: int
+    own: int
     held: int
     inputs: int
     outputs: int
@@ -84,11 +85,12 @@ curves = room(Curves, "curve_")
 
 
 class Forces(NamedTuple):
-    """The force elements; `data` holds what inputs write."""
+    """The force elements; `data` holds what inputs write, `own` says which of the own states is an element's first."""
 
     kind: Array
     body: Array
     reaction: Array
+    own: Array
     data: Array
 
 

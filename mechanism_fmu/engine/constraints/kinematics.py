@@ -12,7 +12,7 @@ from ..compiler.subset import jit, keep_small
 
 @jit
 def place_bodies(block: Array, y: Array) -> None:
-    """Write poses and rates from y = (q, qd, ..., alpha).
+    """Write poses and rates from y = (q, qd, work, loss, alpha, ...).
 
     q and qd are (x, y, phi) of each body in turn, shape (3 bodies,); alpha are the contact coordinates.
     """
@@ -38,6 +38,5 @@ def place_bodies(block: Array, y: Array) -> None:
     at.x_rate[bodies] = 0.0
     at.y_rate[bodies] = 0.0
     at.phi_rate[bodies] = 0.0
-    alphas = sizes(block).alphas
-    for k in range(alphas):
-        at.alpha[k] = y[y.shape[0] - alphas + k]
+    for k in range(sizes(block).alphas):
+        at.alpha[k] = y[6 * bodies + 2 + k]

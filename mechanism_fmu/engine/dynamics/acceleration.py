@@ -23,7 +23,7 @@ _ROUNDS = 200
 
 @jit
 def derivative(block: Array, y: Array, dy: Array) -> None:
-    """Derivative of y = (q, qd, work, loss, alpha): dy = (qd, qdd, powers, alpha'), all of shape (unknowns,).
+    """Derivative of y = (q, qd, work, loss, alpha, own): dy = (qd, qdd, powers, alpha', own'); shape (unknowns,).
 
     qdd = qdd_f + M^-1/2 D^+ (gamma - Phi_q qdd_f), eq (3). `linear_system.multiplier` afterwards holds the force along
     each active row (M qdd = F + Phi_q^T multiplier; for a contact, positive when it pushes).
@@ -32,7 +32,7 @@ def derivative(block: Array, y: Array, dy: Array) -> None:
     place_bodies(block, y)
     count = active_rows(block)
     stabilise(block, count)
-    given, lost = apply_forces(block, y)
+    given, lost = apply_forces(block, y, dy)
     accelerate(block, count)
     if has_friction(block):
         lost += _with_friction(block, count)

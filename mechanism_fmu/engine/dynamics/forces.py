@@ -8,14 +8,16 @@ from ..block.motion import loads
 from ..block.parts import forces, sizes
 from ..block.vectors import clear
 from ..compiler.subset import jit, keep_small
+from .own_states import clutch_at, motor_at, own_energy, own_power
 
 
 @jit
-def apply_forces(block: Array, y: Array) -> tuple[float, float]:
+def apply_forces(block: Array, y: Array, dy: Array) -> tuple[float, float]:
     """Write the generalised forces F [N, N m] to `loads.force`; return the powers given and lost [W].
 
-    Given: by torques, forces, shafts, and the preloads of springs (the linear part of a spring stores energy instead).
-    Lost: in dampers.
+    Given: by torques, forces, shafts, the driven ends of clutches, the supplies of motors, and the preloads of springs
+    (the linear part of a spring stores energy instead). Lost: in dampers, clutches and the windings of motors.
+    Derivatives of own states go to their place in `dy`, shape (unknowns,).
     """
     n = sizes(block).coordinates
     force = loads(block).force
@@ -43,6 +45,14 @@ def apply_forces(block: Array, y: Array) -> tuple[float, float]:
         elif kind == codes.DAMPER:
             torque = -table.data[k, codes.DAMPING] * rate
             lost -= torque * rate
+        elif kind == codes.SLIP_CLUTCH:
+            torque, power, loss = clutch_at(block, k, y, rate, dy)
+            given += power
+            lost += loss
+        elif kind == codes.DC_MOTOR:
+            torque, power, loss = motor_at(block, k, y, rate, dy)
+            given += power
+            lost += loss
         else:
             torque = table.data[k, codes.TORQUE_VALUE]
             if kind == codes.SHAFT:
@@ -68,11 +78,19 @@ def shaft_torque(block: Array, y: Array, shaft: int) -> float:
 
 
 @jit
+def body_speed(block: Array, y: Array, element: int) -> float:
+    """Rate of a force element's body relative to its reaction [rad/s]."""
+    n = sizes(block).coordinates
+    table = forces(block)
+    return _relative(y[n:], 3 * table.body[element] + 2, 3 * table.reaction[element] + 2, n)
+
+
+@jit
 def spring_energy(block: Array, y: Array) -> float:
-    """Energy stored in the linear part of all springs [J]."""
+    """Energy stored in the linear part of all springs, and in what has states of its own [J]."""
     keep_small()
     table = forces(block)
-    energy = 0.0
+    energy = own_energy(block, y)
     for k in range(table.kind.shape[0]):
         if table.kind[k] == codes.TORSION_SPRING:
             stretch = _stretch(block, k, y)
@@ -81,12 +99,12 @@ def spring_energy(block: Array, y: Array) -> float:
 
 
 @jit
-def spring_power(block: Array, y: Array) -> float:
-    """Power stored in the linear part of all springs [W]."""
+def spring_power(block: Array, y: Array, dy: Array) -> float:
+    """Derivative of `spring_energy` [W]."""
     keep_small()
     n = sizes(block).coordinates
     table = forces(block)
-    power = 0.0
+    power = own_power(block, y, dy)
     for k in range(table.kind.shape[0]):
         if table.kind[k] == codes.TORSION_SPRING:
             on = 3 * table.body[k] + 2

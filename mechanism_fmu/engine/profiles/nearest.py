@@ -59,9 +59,8 @@ def find_contact_points(block: Array, y: Array) -> None:
 
 @jit
 def _keep(block: Array, y: Array) -> None:
-    count = sizes(block).alphas
-    first = y.shape[0] - count
-    for k in range(count):
+    first = 2 * sizes(block).coordinates + 2
+    for k in range(sizes(block).alphas):
         y[first + k] = pose(block).alpha[k]
 
 

@@ -17,6 +17,7 @@ from ..constraints.rows import active_rows, spare_row
 from ..contacts.guards import gap
 from ..contacts.records import clear_impact, clear_records
 from ..dynamics.inputs import take_inputs
+from ..dynamics.own_states import first_own
 from ..profiles.overlap import overlap
 from .assembly import newton_direction, worst_of
 
@@ -67,6 +68,9 @@ def _begin_at_zero(block: Array, time: float) -> None:
     now.ledger[codes.LEDGER_LOST] = 0.0
     now.y_end[2 * n] = 0.0
     now.y_end[2 * n + 1] = 0.0
+    first = first_own(block)
+    for k in range(sizes(block).own):
+        now.y_end[first + k] = 0.0
 
 
 @jit

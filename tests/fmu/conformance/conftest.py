@@ -92,6 +92,22 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "until": 2.0,
         "impossible": {"lift": 0.2},
     },
+    # The voltage is at its limit, off it, and at it again.
+    "motor": {
+        "rough": {"rotor_angle_start": 1.0, "rotor_speed_start": -20.0, "voltage_limit": 8.0, "rotor_damping": 1e-2},
+        "inputs": {"speed_reference": (-60.0, 60.0), "load_torque": (-0.5, 0.5)},
+        "until": 2.0,
+        "impossible": {"inductance": 1e-9},
+        "impacts": False,
+    },
+    # The table sticks and slips.
+    "rotary_table": {
+        "rough": {"table_angle_start": 0.2, "table_speed_start": 3.0, "table_damping": 1e-2},
+        "inputs": {"drive_angle": (-1.0, 1.0), "load_torque": (-0.3, 0.3), "brake_torque": (0.0, 0.4)},
+        "until": 2.0,
+        "impossible": {"brake_stiffness": 1e9, "brake_damping": 1e-3},
+        "impacts": False,
+    },
 }
 
 

@@ -19,6 +19,7 @@ GIVEN = {
     "pieces": 6,
     "terms": 9,
     "alphas": 3,
+    "own": 2,
     "held": 1,
     "inputs": 6,
     "outputs": 7,
@@ -45,7 +46,7 @@ def test_sizes_that_follow_from_others():
     assert (sizes["coordinates"], sizes["columns"], sizes["frames"]) == (6, 9, 3)
     assert sizes["wide"] == 9 + 3  # a column for each contact coordinate
     assert sizes["rows"] == 8 + 7 + 1  # of joints, of contacts, a spare one
-    assert sizes["unknowns"] == 2 * 6 + 2 + 3  # positions, rates, work and loss, contact coordinates
+    assert sizes["unknowns"] == 2 * 6 + 2 + 3 + 2  # positions, rates, work and loss, contact coordinates, own states
     assert sizes["buffer"] == codes.IMPACT_BUFFER_LENGTH
     assert sizes["guards"] == 2 * 5 + 2 * 2 + 3  # gap and click of a contact, both ends of a pattern, functions
     assert sizes["record"] == 6 + 5 + 12  # six columns, an impulse a contact, all rates before and after

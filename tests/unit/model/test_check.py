@@ -12,6 +12,7 @@ from mechanism_fmu.model import (
     CircularPattern,
     CompliantShaft,
     Damper,
+    DCMotor,
     Input,
     LogicalFunction,
     Mechanism,
@@ -20,6 +21,7 @@ from mechanism_fmu.model import (
     PointLineContact,
     Revolute,
     Settings,
+    SlipClutch,
     Torque,
     TorsionSpring,
     Translational,
@@ -162,6 +164,30 @@ REFUSALS = {
     "negative damping of a shaft": (
         {"forces": (DRIVE, SPRING, replace(SHAFT, damping=-4.0))},
         ["CompliantShaft 'shaft'", "damping = -4 N.m.s/rad"],
+    ),
+    "brake without stiffness": (
+        {"forces": (DRIVE, SPRING, SlipClutch("brake", "arm", stiffness=0.0))},
+        ["SlipClutch 'brake'", "stiffness = 0 N.m/rad", "must be positive"],
+    ),
+    "brake without damping": (
+        {"forces": (DRIVE, SPRING, SlipClutch("brake", "arm", damping=-1.0))},
+        ["SlipClutch 'brake'", "damping = -1 N.m.s/rad", "must be positive"],
+    ),
+    "brake that holds less than nothing": (
+        {"forces": (DRIVE, SPRING, SlipClutch("brake", "arm", limit=-1.0))},
+        ["SlipClutch 'brake'", "limit = -1 N.m", "not be negative"],
+    ),
+    "motor without inductance": (
+        {"forces": (DRIVE, SPRING, DCMotor("motor", "arm", inductance=0.0))},
+        ["DCMotor 'motor'", "inductance = 0 H", "must be positive"],
+    ),
+    "negative resistance": (
+        {"forces": (DRIVE, SPRING, DCMotor("motor", "arm", resistance=-2.0))},
+        ["DCMotor 'motor'", "resistance = -2 ohm", "not be negative"],
+    ),
+    "negative gain of a motor": (
+        {"forces": (DRIVE, SPRING, DCMotor("motor", "arm", integral_gain=-2.0))},
+        ["DCMotor 'motor'", "integral_gain = -2 V/rad", "not be negative"],
     ),
     "negative pin friction": ({"joints": (replace(HINGE, friction_radius=-0.01), GUIDE)}, ["'hinge'", "-0.01"]),
     "infinite slider friction": ({"joints": (HINGE, replace(GUIDE, friction=math.inf))}, ["'guide'", "inf", "finite"]),

@@ -1,5 +1,5 @@
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -14,14 +14,17 @@ from mechanism_fmu.model import (
     CircularPattern,
     CompliantShaft,
     Damper,
+    DCMotor,
     Force,
     Input,
     LogicalFunction,
     Mechanism,
+    MechanismError,
     Output,
     PointLineContact,
     Revolute,
     Settings,
+    SlipClutch,
     Torque,
     TorsionSpring,
     Translational,
@@ -116,8 +119,10 @@ def test_forces():
     assert list(TABLES.force_kind) == [codes.TORQUE, codes.TORSION_SPRING, codes.DAMPER, codes.SHAFT, codes.FORCE]
     assert list(TABLES.force_body) == [1, 0, 0, 1, 0]
     assert list(TABLES.force_reaction) == [0, 2, 1, 2, 2]
+    assert TABLES.force_data.shape == (5, 8)
+    np.testing.assert_array_equal(TABLES.force_data[:, 4:], 0.0)
     np.testing.assert_array_equal(
-        TABLES.force_data,
+        TABLES.force_data[:, :4],
         [
             [9, 0, 0, 0],
             [1, 2, 3, 0],
@@ -192,6 +197,38 @@ def test_inputs_write_entries_of_the_force_table():
     np.testing.assert_array_equal(TABLES.input_start, [0.1, 0.2])
 
 
+def test_states_of_forces_own():
+    assert list(TABLES.force_own) == [codes.NONE] * 5
+    assert TABLES.own == 0
+    mechanism = Mechanism(
+        bodies=(Body("rotor", 1.0, 1.0),),
+        forces=(
+            SlipClutch("brake", "rotor", stiffness=1.0, damping=2.0, limit=3.0, speed=4.0),
+            Torque("load", "rotor"),
+            DCMotor("motor", "rotor", GROUND, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0),
+            SlipClutch("clutch", "rotor"),
+        ),
+        inputs=(Input("wanted", "motor.speed", 0.0, ""), Input("hold", "brake.limit", 0.0, "")),
+        outputs=(
+            Output("torque", "motor.torque", ""),
+            Output("current", "motor.current", ""),
+            Output("voltage", "motor.voltage", ""),
+            Output("held", "clutch.torque", ""),
+        ),
+    )
+    tables = compile_mechanism(mechanism)
+    assert list(tables.force_own) == [0, codes.NONE, 1, 3]
+    assert tables.own == 4
+    np.testing.assert_array_equal(tables.force_data[0], [1, 2, 3, 4, 0, 0, 0, 0])
+    np.testing.assert_array_equal(tables.force_data[2], [1, 2, 3, 4, 5, 6, 7, 8])
+    assert list(tables.input_column) == [codes.MOTOR_SPEED, codes.CLUTCH_LIMIT]
+    assert list(tables.output_kind) == [codes.OWN_STATE, codes.OWN_STATE, codes.MOTOR_VOLTAGE, codes.CLUTCH_TORQUE]
+    assert list(tables.output_index) == [1, 1, 2, 3]
+    np.testing.assert_array_equal(tables.output_value, [1.0, 1.0, 1.0, 0.0])
+    with pytest.raises(MechanismError, match=r"did you mean 'motor\.current'"):
+        compile_mechanism(replace(mechanism, outputs=(Output("current", "motor.curent", ""),)))
+
+
 def test_outputs_and_calculated_values():
     contacts, bodies = 6, 2
     impulses = codes.RECORD_CONTACT_IMPULSES
@@ -235,7 +272,7 @@ def test_structure_is_integer_and_numbers_are_floats():
 def test_a_single_free_body_has_tables_of_the_right_width():
     tables = compile_mechanism(Mechanism(bodies=(Body("stone", 1.0, 1.0, (0.0, 1.0, math.pi)),)))
     assert tables.joint_data.shape == (0, 9)
-    assert tables.force_data.shape == (0, 4)
+    assert tables.force_data.shape == (0, 8)
     assert tables.contact_data.shape == (0, 6)
     assert tables.contact_value.shape == (0, codes.CONTACT_VALUES)
     assert tables.pattern_data.shape == (0, 6)

@@ -1,4 +1,4 @@
-"""Gear train and cam drive: their parameters-to-tables functions, what is refused, what is warned of."""
+"""Drives: their parameters-to-tables functions, what is refused, what is warned of."""
 
 import math
 import re
@@ -12,11 +12,15 @@ from mechanism_fmu.simulation import Simulation
 from models.cam_drive.model import MODEL as CAM_DRIVE
 from models.cam_drive.shapes import SHAPES
 from models.gear_train.model import MODEL as GEAR_TRAIN
+from models.motor.model import MODEL as MOTOR
+from models.rotary_table.model import MODEL as ROTARY_TABLE
 
 POINTS = [
     pytest.param(GEAR_TRAIN, {"pinion_angle_start": 2.0, "pinion_speed_start": 3.0}, id="gear train"),
     pytest.param(CAM_DRIVE, {"cam_angle_start": 0.7}, id="cam drive, falling"),
     pytest.param(CAM_DRIVE, {"cam_angle_start": 4.0, "drive_stiffness": 5.0}, id="cam drive, rising"),
+    pytest.param(MOTOR, {"rotor_angle_start": 2.0, "rotor_speed_start": 3.0}, id="motor"),
+    pytest.param(ROTARY_TABLE, {"table_angle_start": 2.0, "table_damping": 0.1}, id="rotary table"),
 ]
 HOLLOW = {"rise_angle": math.radians(60), "return_angle": math.radians(60), "lift": 0.012, "base_radius": 0.04}
 

@@ -1,0 +1,1 @@
+"""A direct-current motor with a PI controller of its speed, whose voltage is limited."""

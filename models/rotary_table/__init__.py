@@ -1,0 +1,1 @@
+"""A rotary table with a friction brake, turned through a compliant shaft."""
