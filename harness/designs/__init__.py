@@ -2,7 +2,7 @@
 
 Internal: they serve the commands `sweep` and `optimise`. In the order in which a design passes them:
 
-- the file: `toml_file` (tables, keys, lines, mistakes), `plan` ([fmu], [run], [set]), `quantities` ([record]),
+- the file (`harness/toml_file.py`): `plan` ([fmu], [run], [set]), `quantities` ([record]),
   `variation` ([vary.*]), `sampling` (the list of designs), `sweep_file` (all of it)
 - one design: `task` (what is done with each), `by_fmu` (a run), `by_batch` (hundreds in one call),
   `of_impacts`, `ways` (which ways there are)

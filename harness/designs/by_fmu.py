@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from ..description import Value
 from ..errors import FmuError
-from ..fmu import Fmu, discard_message
+from ..fmu import Fmu
+from ..fmu.slave import discard_message
 from ..impacts import ImpactCollector
 from ..master import run_fixed_step
 from ..slave import Observable

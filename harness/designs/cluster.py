@@ -17,8 +17,8 @@ from mechanism_fmu import __version__
 
 from ..errors import HarnessError, UsageError
 from ..fmu import open_fmu
+from ..fmu.workspace import temporary_folder
 from ..master import never
-from ..workspace import temporary_folder
 from .task import Design, Result, Task
 from .ways import Way
 from .workers import Pairs, Work, portions

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from ..assignments import parse_value
 from ..description import Description, Variable
 from ..errors import UsageError
-from .plan import as_text
+from ..toml_file import TomlFile, is_number
+from ..toml_values import as_text
 from .quantities import UnknownQuantityError, column
 from .task import Quantity, Result, Task
-from .toml_file import TomlFile, is_number
 
 #: Merits of designs that miss a limit lie between this and twice this; of those that give no number, above.
 _MISSED = 1e4

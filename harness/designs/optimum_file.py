@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..description import Description
+from ..toml_file import TomlFile
 from .goal import Goal, read_goal, with_goal
 from .plan import shared
 from .quantities import recorded
 from .task import MOST_DESIGNS, Task
-from .toml_file import TomlFile
 from .variation import Axis, axes
 
 TABLES = ("title", "fmu", "run", "set", "optimise", "vary", "constraint", "sensitivity", "record")

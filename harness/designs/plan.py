@@ -8,15 +8,13 @@ from pathlib import Path
 
 from mechanism_fmu.stress import STEEL_CARD, MaterialCard, material_card
 
-from ..assignments import parse_value, settable_variable
+from ..assignments import settable_variable
 from ..clock import SECOND, TimeGrid, seconds
 from ..description import Description, Value, Variable
 from ..errors import UsageError
 from ..inputs import InputSignals, read_inputs
-from .toml_file import Section, TomlFile
-
-#: Times of a file are parsed like variables.
-_TIME = Variable("time", reference=-1, type="Real", causality="parameter", unit="s", minimum=0.0)
+from ..toml_file import Section, TomlFile
+from ..toml_values import as_text, parsed, time_at
 
 
 @dataclass(frozen=True)
@@ -70,8 +68,8 @@ class Course:
 def course(file: TomlFile, description: Description) -> Course:
     """The table [run]."""
     section = file.section("run", needed=False)
-    stop_time = _time(section, "stop_time", description.stop_time, description)
-    step = _time(section, "step", description.step, description)
+    stop_time = time_at(section, "stop_time", description.stop_time, description)
+    step = time_at(section, "step", description.step, description)
     input_file, material = section.text("input"), section.text("material")
     section.done()
     card, times, inputs = STEEL_CARD, None, None
@@ -120,30 +118,3 @@ def settable(
         section.wrong(key, f"'{name}' is in the table of inputs, too (run.input); give it in one place.")
         return None
     return variable
-
-
-def parsed(section: Section, key: str, text: str, variable: Variable, description: Description) -> Value | None:
-    """The value that `text` gives to `variable`; None when it cannot, which is noted at the key."""
-    try:
-        return parse_value(text, variable, description)
-    except UsageError as error:
-        section.wrong(key, str(error))
-        return None
-
-
-def as_text(value: object) -> str:
-    """A value of TOML as it would be written behind --set."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return value if isinstance(value, str) else repr(value)
-
-
-def _time(section: Section, name: str, default: float | None, description: Description) -> float | None:
-    given = section.take(name)
-    if given is None:
-        if default is None:
-            section.file.wrong((*section.key, name), f"is missing; {description.model} has no default for it")
-        return default
-    named = Variable(name, _TIME.reference, _TIME.type, _TIME.causality, unit="s", minimum=0.0)
-    value = parsed(section, name, as_text(given), named, description)
-    return None if value is None else float(value)

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 from ..description import Description, Variable, hint_at
 from ..impacts import ImpactCollector
+from ..toml_file import Section
 from ..tooth_damage import DAMAGE_UNITS
 from ..tooth_stress import STRESS_UNITS, TOOTH
 from .task import Quantity, When
-from .toml_file import Section
 
 _NUMBERS = ("Real", "Integer", "Boolean")
 

@@ -78,7 +78,8 @@ def sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity |
     if missing:
         raise NoIndicesError(f"near the optimum, {missing} of {len(seen)} designs give no number")
     if min(seen) == max(seen):
-        raise NoIndicesError(f"near the optimum, the objective is {seen[0]:.9g} everywhere: no variable matters there")
+        value = f"{seen[0]:.9g} {optimum.goal.objective.unit or '1'}"
+        raise NoIndicesError(f"near the optimum, the objective is {value} everywhere: no variable matters there")
     return Sensitivity(
         names=tuple(axis.name for axis in free),
         first=np.asarray(found.first_order),

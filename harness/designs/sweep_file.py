@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..description import Description
+from ..toml_file import TomlFile
 from . import sampling
 from .plan import shared
 from .quantities import recorded
 from .task import MOST_DESIGNS, Design, Task
-from .toml_file import TomlFile
 from .variation import Axis, axes
 
 _GRID = "grid"

@@ -10,10 +10,11 @@ import numpy as np
 
 from ..description import Description, Value, Variable
 from ..inputs import InputSignals
+from ..toml_file import Section, TomlFile, is_number
+from ..toml_values import as_text, parsed
 from ..units import UnitMismatchError
-from .plan import as_text, parsed, settable
+from .plan import settable
 from .task import MOST_DESIGNS
-from .toml_file import Section, TomlFile, is_number
 
 #: Columns of the results that no variable may have the name of.
 RESERVED = ("design", "way", "status", "message", "warnings")

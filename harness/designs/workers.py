@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import os
-import shutil
-import signal
-import threading
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from itertools import islice
-from multiprocessing import connection, get_all_start_methods, get_context, parent_process
-from pathlib import Path
 from time import perf_counter
 
 from ..fmu import Fmu
 from ..master import never
+from ..processes import serve_only, starting_from
 from .task import Design, Result, Task
 from .ways import Way
 
@@ -25,9 +20,6 @@ Pairs = list[tuple[Design, Result]]
 
 #: Runs designs and yields what has come, as soon as it has; begins no more once it is asked to stop.
 Crew = Callable[[Iterable[Design], Callable[[], bool]], Iterator[Pairs]]
-
-#: How numpy's libraries are told how many threads to have, when they are loaded.
-_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 #: What is lost at most when this process is killed, unless a single design takes longer [s].
 _PORTION = 0.5
@@ -165,17 +157,8 @@ def _alone(work: Work, design: Design) -> Pairs:
 
 
 def _pool(work: Work, count: int) -> ProcessPoolExecutor:
-    """Processes that know their work.
-
-    Where the system can, they are copies of one that has nothing but this module: copies of this process might hold
-    half of a lock, and a start from nothing takes a second each. There is one for each processor, so threads of numpy's
-    own would only be in each other's way: twice the time.
-    """
-    for name in _THREADS:
-        os.environ.setdefault(name, "1")
-    context = get_context("forkserver" if "forkserver" in get_all_start_methods() else "spawn")
-    context.set_forkserver_preload([__name__])
-    pool = ProcessPoolExecutor(count, context, _begin, (work,))
+    """Processes that know their work; there is one for each processor."""
+    pool = ProcessPoolExecutor(count, starting_from(__name__), _begin, (work,))
     # All at the first design: one that is started while another dies is overlooked, and the pool waits for it for ever.
     pool._safe_to_dynamically_spawn_children = False  # type: ignore[attr-defined]
     return pool
@@ -185,20 +168,10 @@ _work: Work | None = None
 
 
 def _begin(work: Work) -> None:
-    """Prepare a process: Ctrl-C is for the one that leads, and without that one nobody is to go on."""
+    """Prepare a process."""
     global _work
     _work = work
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, args=(work.fmu.folder,), daemon=True).start()
-
-
-def _end_with_parent(folder: Path) -> None:
-    """When the process that leads is killed, remove what it cannot remove any more, and end."""
-    parent = parent_process()
-    assert parent is not None
-    connection.wait([parent.sentinel])
-    shutil.rmtree(folder, ignore_errors=True)
-    os._exit(1)
+    serve_only(work.fmu.folder)
 
 
 def _run_portion(designs: list[Design]) -> Pairs:

@@ -8,17 +8,18 @@ from pathlib import Path
 import pyarrow as pa
 from rich.markup import escape
 
-from .designs import sweep as sweeps
-from .designs.identity import contents, identity
-from .designs.in_motion import design_with_largest
-from .designs.ranges import range_cells
-from .designs.store import Store, failures, numbers_of
-from .designs.sweep_file import Sweep, read_sweep
-from .designs.workers import Crew
-from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
-from .fmu import Fmu
-from .interrupt import interruption
-from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
+from ..designs import sweep as sweeps
+from ..designs.identity import contents, identity
+from ..designs.in_motion import design_with_largest
+from ..designs.ranges import range_cells
+from ..designs.store import Store, failures, numbers_of
+from ..designs.sweep_file import Sweep, read_sweep
+from ..designs.workers import Crew
+from ..fmu import Fmu
+from ..interrupt import interruption
+from ..occupied import alone_in
+from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
 
 #: Failed designs that fit a terminal; the file has all.
 _MOST_SHOWN = 10
@@ -26,14 +27,16 @@ _MOST_SHOWN = 10
 
 def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
     """Run the designs of a file that are not there yet, keep them as they come, and write table and report."""
-    with prepared(path, folder) as (file, fmu, folder):
+    folder = Path(path.stem) if folder is None else folder
+    with prepared(path) as (file, fmu):
         sweep = read_sweep(file, fmu.description)
         known = identity(contents(fmu), sweep.task, sweep.axes, sweep.how, sweep.designs)
-        store = Store(folder, known, sweep.axes, sweep.task.quantities)
-        keep_built(fmu, file, folder)
-        with crew_of(fmu, sweep.task, workers, scheduler, fast) as crew:
-            progress, table = _performed(sweep, store, crew)
-        return _ending(fmu, sweep, store, progress, table)
+        with alone_in(folder):
+            store = Store(folder, known, sweep.axes, sweep.task.quantities)
+            keep_built(fmu, file, folder)
+            with crew_of(fmu, sweep.task, workers, scheduler, fast) as crew:
+                progress, table = _performed(sweep, store, crew)
+            return _ending(fmu, sweep, store, progress, table)
 
 
 def _performed(sweep: Sweep, store: Store, crew: Crew) -> tuple[sweeps.Progress, pa.Table]:
@@ -51,7 +54,7 @@ def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, tab
             soft_wrap=True,
         )
         return INTERRUPTED
-    from .report.sweep_report import write_sweep_report
+    from ..report.sweep_report import write_sweep_report
 
     new = progress.total - progress.earlier
     console.print(f"{progress.total} designs, {new} of them run now, {progress.earlier} there before.")

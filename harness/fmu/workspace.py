@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from .errors import UsageError
+from ..errors import UsageError
 
 #: FMUs made by pythonfmu 0.7.0 crash the process when the path to them has `# % + ? &` or letters beyond ASCII.
 _PLAIN = re.compile(r"[A-Za-z0-9_./\\:~-]+")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -9,13 +10,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..description import hint_at
-from ..errors import UsageError
+from .description import hint_at
+from .errors import UsageError
 
 #: Where something stands in a file: names of tables, then of the key.
 Key = tuple[str, ...]
 
-_TABLE = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]\s*(#.*)?")
+_TABLE = re.compile(r"\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(#.*)?")
 _ASSIGNMENT = re.compile(r"""\s*((?:[\w.\s-]|"[^"]*"|'[^']*')+?)\s*=""")
 _NAME = re.compile(r"""\s*(?:"([^"]*)"|'([^']*)'|([\w-]+))\s*(?:\.|$)""")
 
@@ -71,6 +72,14 @@ class TomlFile:
         if given and not isinstance(table, Mapping):
             self.wrong(key, f"must be a table [{'.'.join(key)}], not {_shown(table)}")
         return Section(self, key, table if isinstance(table, Mapping) else {}, given)
+
+    def sections(self, name: str) -> list[Section]:
+        """The tables of an array of tables, [[name]], with keys like "name[1]"; empty when there is none."""
+        tables = self.data.get(name, [])
+        if not isinstance(tables, list) or not all(isinstance(table, Mapping) for table in tables):
+            self.wrong((name,), f"must be tables, each below a line [[{name}]]")
+            return []
+        return [Section(self, _entry((name,), number), table) for number, table in enumerate(tables, start=1)]
 
     def only_tables(self, known: Sequence[str]) -> None:
         """Object to everything at the top of the file that is not among the `known` names."""
@@ -157,6 +166,23 @@ class Section:
             return None
         return value
 
+    def number(self, name: str, default: float) -> float | None:
+        """A number that is finite; None when it is none."""
+        value = self.take(name)
+        if value is None:
+            return default
+        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+            self._refused(name, value, "a number")
+            return None
+        return float(value)
+
+    def flag(self, name: str) -> bool:
+        """Whether something is so; it is not when nothing is said."""
+        value = self.take(name)
+        if value is not None and not isinstance(value, bool):
+            self._refused(name, value, "true or false")
+        return value is True
+
     def choice(self, name: str, among: Sequence[str], *, needed: str = "") -> str | None:
         """One of several texts."""
         value = self.take(name, needed=needed)
@@ -203,15 +229,24 @@ def _shown(value: object) -> str:
 def _lines_of(text: str) -> dict[Key, int]:
     """The line of each table and key. What stands in an inline table or a text of several lines is not looked for."""
     lines: dict[Key, int] = {}
+    counts: dict[Key, int] = {}
     table: Key = ()
     for number, line in enumerate(text.splitlines(), start=1):
         heading, assignment = _TABLE.fullmatch(line), _ASSIGNMENT.match(line)
         if heading is not None:
-            table = _names(heading[1])
+            table = _names(heading[2])
+            if heading[1] == "[[":
+                counts[table] = counts.get(table, 0) + 1
+                table = _entry(table, counts[table])
             lines.setdefault(table, number)
         elif assignment is not None:
             lines.setdefault((*table, *_names(assignment[1])), number)
     return lines
+
+
+def _entry(name: Key, number: int) -> Key:
+    """The key of one table of an array of tables."""
+    return (*name[:-1], f"{name[-1]}[{number}]")
 
 
 def _names(dotted: str) -> Key:

@@ -7,49 +7,52 @@ from pathlib import Path
 
 from rich.markup import escape
 
-from .clock import seconds
-from .designs.history import History, InterruptedSearchError
-from .designs.identity import contents, identity
-from .designs.optimum_file import Optimum, read_optimum
-from .designs.search import Best, best_of, search
-from .designs.sensitivity import NoIndicesError, Sensitivity, sensitivity
-from .designs.store import Store, failures
-from .designs.sweep import Progress
-from .designs_command import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
-from .fmu import Fmu
-from .interrupt import interruption
-from .numbers import shown
-from .results import write_json
-from .terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
+from ..clock import seconds
+from ..designs.history import History, InterruptedSearchError
+from ..designs.identity import contents, identity
+from ..designs.optimum_file import Optimum, read_optimum
+from ..designs.search import Best, best_of, search
+from ..designs.sensitivity import NoIndicesError, Sensitivity, sensitivity
+from ..designs.store import Store, failures
+from ..designs.sweep import Progress
+from ..fmu import Fmu
+from ..interrupt import interruption
+from ..numbers import shown
+from ..occupied import alone_in
+from ..results import write_json
+from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
 
 
 def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
     """Look for the best design of a file, go on where it stopped, and write history, optimum and report."""
-    with prepared(path, folder) as (file, fmu, folder):
+    folder = Path(path.stem) if folder is None else folder
+    with prepared(path) as (file, fmu):
         optimum = read_optimum(file, fmu.description)
         known = identity(contents(fmu), optimum.task, optimum.axes, optimum.how)
-        store = Store(folder, known, optimum.axes, optimum.task.quantities)
-        keep_built(fmu, file, folder)
-        what = "largest" if optimum.goal.largest else "smallest"
-        console.print(
-            f"[bold]{escape(optimum.title)}[/]: the {what} {escape(optimum.goal.objective.column)} in up to "
-            f"{optimum.total} designs ({optimum.method})",
-            soft_wrap=True,
-        )
-        with (
-            crew_of(fmu, optimum.task, workers, scheduler, fast) as crew,
-            DesignsBar(optimum.total) as bar,
-            interruption(lambda: console.print(ENDING)) as stop_requested,
-        ):
-            history = History(
-                store, crew, optimum.count, stop_requested, lambda history: bar.show(_progress(history, optimum))
+        with alone_in(folder):
+            store = Store(folder, known, optimum.axes, optimum.task.quantities)
+            keep_built(fmu, file, folder)
+            what = "largest" if optimum.goal.largest else "smallest"
+            console.print(
+                f"[bold]{escape(optimum.title)}[/]: the {what} {escape(optimum.goal.objective.column)} in up to "
+                f"{optimum.total} designs ({optimum.method})",
+                soft_wrap=True,
             )
-            try:
-                best = search(optimum, history)
-                near_it = _sensitivity(optimum, best, history)
-            except InterruptedSearchError:
-                return _interrupted(optimum, history, store)
-        return _ending(fmu, optimum, history, best, near_it, store)
+            with (
+                crew_of(fmu, optimum.task, workers, scheduler, fast) as crew,
+                DesignsBar(optimum.total) as bar,
+                interruption(lambda: console.print(ENDING)) as stop_requested,
+            ):
+                history = History(
+                    store, crew, optimum.count, stop_requested, lambda history: bar.show(_progress(history, optimum))
+                )
+                try:
+                    best = search(optimum, history)
+                    near_it = _sensitivity(optimum, best, history)
+                except InterruptedSearchError:
+                    return _interrupted(optimum, history, store)
+            return _ending(fmu, optimum, history, best, near_it, store)
 
 
 def _sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity | None:
@@ -81,7 +84,7 @@ def _interrupted(optimum: Optimum, history: History, store: Store) -> int:
 
 def _ending(fmu: Fmu, optimum: Optimum, history: History, best: Best, near_it: Sensitivity | None, store: Store) -> int:
     """Say what was found, write everything, and return the exit code."""
-    from .report.optimum_report import Found, write_optimum_report
+    from ..report.optimum_report import Found, write_optimum_report
 
     table = store.finish()
     asked, failed = len(history.designs), len(failures(table))

@@ -1,50 +1,44 @@
-"""What `sweep` and `optimise` share: the folder, the FMU, who runs the designs, the bar, and the design to be seen."""
+"""What `sweep` and `optimise` share: the FMU, who runs the designs, the bar, and the design to be seen."""
 
 from __future__ import annotations
 
 import os
 import shutil
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from mechanism_fmu.fmu.native.alone import alone
-
-from .clock import seconds
-from .designs import sweep as sweeps
-from .designs.in_motion import InMotion, in_motion
-from .designs.plan import Source, source
-from .designs.task import Design, Task
-from .designs.toml_file import TomlFile
-from .designs.ways import BY_FMU, by_batch_in
-from .designs.workers import Crew, Processes, Work, here
-from .errors import UsageError
-from .fmu import Fmu, open_fmu
-from .interrupt import interruption
-from .results import prepare_folder
-from .terminal import RunDisplay, console
-from .workspace import temporary_folder
+from ..clock import seconds
+from ..designs import sweep as sweeps
+from ..designs.in_motion import InMotion, in_motion
+from ..designs.plan import Source, source
+from ..designs.task import Design, Task
+from ..designs.ways import BY_FMU, by_batch_in
+from ..designs.workers import Crew, Processes, Work, here
+from ..errors import UsageError
+from ..fmu import Fmu, open_fmu
+from ..fmu.workspace import temporary_folder
+from ..interrupt import interruption
+from ..terminal import RunDisplay, console
+from ..toml_file import TomlFile
 
 #: What is said when somebody presses Ctrl-C.
 ENDING = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
 
 
 @contextmanager
-def prepared(path: Path, folder: Path | None) -> Iterator[tuple[TomlFile, Fmu, Path]]:
-    """The file of a command, its FMU, and the folder of its results, in which no other command is at work.
+def prepared(path: Path) -> Iterator[tuple[TomlFile, Fmu]]:
+    """The file of a command, and its FMU.
 
     Raises:
-        UsageError: the file says no FMU, there is none, or the folder cannot be used.
+        UsageError: the file says no FMU, or there is none.
     """
     file = TomlFile.read(path)
-    wanted = source(file)
-    folder = Path(path.stem) if folder is None else folder
-    prepare_folder(folder)
-    with _alone_in(folder), _fmu_file(wanted) as found, open_fmu(found) as fmu:
-        yield file, fmu, folder
+    with _fmu_file(source(file)) as found, open_fmu(found) as fmu:
+        yield file, fmu
 
 
 def keep_built(fmu: Fmu, file: TomlFile, folder: Path) -> None:
@@ -62,25 +56,6 @@ def keep_built(fmu: Fmu, file: TomlFile, folder: Path) -> None:
         os.replace(place / f".{fmu.path.name}", place / fmu.path.name)
     except OSError as error:
         raise UsageError(f"'{place / fmu.path.name}' cannot be written: {error}.") from error
-
-
-@contextmanager
-def _alone_in(folder: Path) -> Iterator[None]:
-    """Wait until no other command works in a folder.
-
-    Raises:
-        UsageError: its lock cannot be opened.
-    """
-    waits = f"Another command is at work in {folder}: waiting for it."
-    with ExitStack() as stack:
-        try:
-            stack.enter_context(alone(folder, lambda: console.print(waits, markup=False)))
-        except OSError as error:
-            raise UsageError(
-                f"'{folder / '.lock'}' cannot be opened ({error}): perhaps somebody else made it. Remove it, or choose "
-                "another folder with -o."
-            ) from error
-        yield
 
 
 @contextmanager
@@ -155,7 +130,7 @@ def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fa
             raise UsageError(
                 "--fast uses the threads of this machine, --scheduler the machines of a cluster; choose one."
             )
-        from .designs.by_batch import require_batch
+        from ..designs.by_batch import require_batch
 
         require_batch(fmu.path)
         yield partial(here, Work(fmu, task, by_batch_in(workers)))
@@ -165,7 +140,7 @@ def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fa
             yield processes.run
         return
     try:
-        from .designs.cluster import connected, on_cluster
+        from ..designs.cluster import connected, on_cluster
     except ModuleNotFoundError as error:
         if error.name != "distributed":
             raise

@@ -1,0 +1,77 @@
+"""FMUs by way of fmpy: extract, instantiate, and always clean up."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import fmpy
+
+from ..description import Description, read_description
+from ..errors import UsageError
+from .fmi2 import Fmi2Slave
+from .fmi3 import Fmi3Slave
+from .slave import FmuSlave, MessageHandler, discard_message
+from .workspace import temporary_folder
+
+
+@dataclass(frozen=True)
+class Fmu:
+    """An extracted FMU.
+
+    Attributes:
+        path: the file it came from.
+        description: what it says about itself.
+        folder: where it is extracted.
+    """
+
+    path: Path
+    description: Description
+    folder: Path
+
+    @contextmanager
+    def instantiate(
+        self, name: str, on_message: MessageHandler = discard_message, early_return: bool = False
+    ) -> Iterator[FmuSlave]:
+        """A new instance; it is freed afterwards.
+
+        Args:
+            name: of the instance.
+            on_message: receives its messages.
+            early_return: whether an FMU of FMI 3.0 may end steps at its events, for `FmuSlave.advance`. What it then
+                tells of its last step, such as a list of impacts, is about the part of it that was taken last.
+
+        Raises:
+            FmuError: the library cannot be loaded, or the FMU refuses; with its messages.
+        """
+        slave: FmuSlave
+        if self.description.fmi == 3:
+            slave = Fmi3Slave(self.description, self.folder, name, on_message, early_return)
+        else:
+            slave = Fmi2Slave(self.description, self.folder, name, on_message)
+        try:
+            yield slave
+        finally:
+            slave.free()
+
+
+@contextmanager
+def open_fmu(path: Path) -> Iterator[Fmu]:
+    """Extract the FMU file `path` into a temporary folder; it is removed afterwards.
+
+    For a `with`: `with open_fmu(Path("build/Ratchet.fmu")) as fmu, fmu.instantiate("ratchet") as ratchet:`.
+
+    Raises:
+        UsageError: not a file, not an FMU that can be run, or made for other platforms only.
+    """
+    description = read_description(path)
+    platforms = fmpy.supported_platforms(str(path))
+    if fmpy.platform not in platforms:
+        raise UsageError(
+            f"'{path}' has no library for {fmpy.platform}; it runs on {', '.join(platforms) or 'no platform'}."
+        )
+    with temporary_folder() as folder:
+        fmpy.extract(str(path), unzipdir=str(folder))
+        yield Fmu(path, description, folder)

@@ -1,0 +1,151 @@
+"""Instances of FMUs of FMI 3.0, by way of fmpy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from ctypes import byref, c_bool, c_double, c_int, c_size_t, c_uint, c_void_p
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from fmpy.fmi3 import FMU3Slave
+
+from ..description import Description, Value
+from .batches import Batch
+from .element_reals import ElementReals
+from .raw_reals import Call, RawReals, doubles, nothing
+from .slave import FmuSlave, MessageHandler
+
+#: So often an FMU may ask for one more update of its discrete states.
+_MOST_UPDATES = 1000
+#: Types that have no functions of their own.
+_NAMES = {"Enumeration": "Int64"}
+
+
+class Fmi3Slave(FmuSlave):
+    """One instance of an FMU of FMI 3.0.
+
+    With early return, events are handled by the rules of the event mode, if the FMU has one; else it handles them by
+    itself.
+    """
+
+    _FMI, _STATE = "fmi3", "FMUState"
+
+    def __init__(
+        self, description: Description, folder: Path, name: str, on_message: MessageHandler, early_return: bool
+    ) -> None:
+        """As of `FmuSlave`; with `early_return`, `advance` may end at an event of the FMU's own."""
+        self._handles_events = early_return and description.has_event_mode
+        self._may_return = early_return and description.returns_early
+        self._event, self._ends, self._early_return = c_bool(), c_bool(), c_bool()
+        self._reached = c_double()
+        super().__init__(description, folder, name, on_message)
+
+    def set(self, values: Mapping[str, Value]) -> None:
+        """Set variables by name: one FMI call for each type.
+
+        Inputs that are not continuous change in event mode only, where there is one (FMI 3.0, section 4.2.1.3).
+        """
+        by_event = self._initialized and self._handles_events
+        if by_event and not all(self.description.variable(name).continuous for name in values):
+            self._call("fmi3EnterEventMode", self._instance.enterEventMode)
+            super().set(values)
+            self._settle()
+        else:
+            super().set(values)
+
+    def set_slopes(self, slopes: Mapping[str, float]) -> None:
+        """FMI 3.0 has no slopes of inputs."""
+        raise NotImplementedError("its description says that it takes no slopes")
+
+    def reals(self, names: Sequence[str]) -> RawReals | ElementReals:
+        """Bind Real variables."""
+        variables = [self.description.variable(name) for name in names]
+        if any(variable.elements > 1 or variable.fmi_type != "Float64" for variable in variables):
+            return ElementReals(self, names)
+        count = len(names)
+        numbers = doubles(count)
+        references = (c_uint * count)(*(variable.reference for variable in variables))
+        plain = c_void_p(self._instance.component), references, c_size_t(count)
+        first = (c_int * count)(*[1] * count)
+        size = c_size_t(count)
+
+        def call(name: str, *arguments: Any) -> Call:
+            return Call(name, partial(self._raw(name), *plain, *arguments, size) if count else nothing)
+
+        return RawReals(
+            self,
+            names,
+            numbers,
+            (
+                call("fmi3GetFloat64", numbers[1]),
+                call("fmi3SetFloat64", numbers[1]),
+                call("fmi3GetOutputDerivatives", first, numbers[1]) if self.description.gives_slopes else None,
+                None,
+            ),
+        )
+
+    def _load(self, **where: str) -> Any:
+        return FMU3Slave(**where)
+
+    def _instantiate(self) -> None:
+        self._instance.instantiate(
+            visible=False,
+            loggingOn=True,
+            eventModeUsed=self._handles_events,
+            earlyReturnAllowed=self._may_return,
+            logMessage=self._log,
+        )
+        step = self._raw("fmi3DoStep", c_void_p, c_double, c_double, c_bool, *[c_void_p] * 4)
+        self._step = partial(step, c_void_p(self._instance.component))
+        results = self._event, self._ends, self._early_return, self._reached
+        # Without states, nobody goes back.
+        self._rest: tuple[Any, ...] = not self.description.saves_state, *(byref(result) for result in results)
+
+    def _enter(self, start_time: float, stop_time: float) -> None:
+        self._call("fmi3EnterInitializationMode", self._instance.enterInitializationMode, None, start_time, stop_time)
+
+    def _exit(self) -> None:
+        """Leave it, and go through the event mode behind it."""
+        self._call("fmi3ExitInitializationMode", self._instance.exitInitializationMode)
+        self._initialized = True
+        if self._handles_events:
+            self._settle()
+
+    def _do_step(self, begin: float, size: float) -> float | None:
+        said = len(self.messages)
+        status = self._step(begin, size, *self._rest)
+        if status > 1:
+            raise self.refusal("fmi3DoStep", status, said)
+        if self._ends:
+            raise self.failure("fmi3DoStep", "it asks to end the simulation")
+        reached = self._reached.value if self._early_return else None
+        if self._event and self._handles_events:
+            self._time = begin + size if reached is None else reached
+            self._call("fmi3EnterEventMode", self._instance.enterEventMode)
+            self._settle()
+        return reached
+
+    def _settle(self) -> None:
+        """Update the discrete states until they stay as they are, and leave the event mode."""
+        for _ in range(_MOST_UPDATES):
+            again, ends, *_ = self._call("fmi3UpdateDiscreteStates", self._instance.updateDiscreteStates)
+            if ends:
+                raise self.failure("fmi3UpdateDiscreteStates", "it asks to end the simulation")
+            if not again:
+                self._call("fmi3EnterStepMode", self._instance.enterStepMode)
+                return
+        raise self.failure("fmi3UpdateDiscreteStates", f"its discrete states do not settle in {_MOST_UPDATES} updates")
+
+    def _log(self, _environment: Any, status: int, category: bytes | None, text: bytes | None) -> None:
+        self._told(status, category, (text or b"").decode("utf-8", errors="replace").replace("##", "#"))
+
+    def _get(self, batch: Batch) -> list[Any]:
+        name = _NAMES.get(batch.kind, batch.kind)
+        get = getattr(self._instance, f"get{name}")
+        numbers: list[Any] = self._call(f"fmi3Get{name}", get, batch.references, batch.count)
+        return numbers
+
+    def _set(self, batch: Batch, numbers: Sequence[Value]) -> None:
+        name = _NAMES.get(batch.kind, batch.kind)
+        self._call(f"fmi3Set{name}", getattr(self._instance, f"set{name}"), batch.references, numbers)
