@@ -3,33 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
-from typer.core import TyperGroup
 
 from build_fmu import build
 
-
-class _Group(TyperGroup):
-    """Commands whose --help comes at once.
-
-    When a command is named, the group's own --help was not given; typer imports pydantic (0.2 s) to find that None is
-    no Boolean, and does not when it is one.
-    """
-
-    def get_help_option(self, ctx: Any) -> Any:
-        """The option --help, False unless it is given."""
-        option = super().get_help_option(ctx)
-        if option is not None:
-            option.default = False
-        return option
-
+from . import machine_cli
+from .cli_group import Group
 
 # Everything else is imported inside the commands: --help must not wait for pandas and fmpy.
 main = typer.Typer(
     name="mechanism-fmu",
-    cls=_Group,
+    cls=Group,
     help="Build planar mechanisms with impacts as FMUs, run them, and see the stress that every impact leaves.",
     epilog="Start with: mechanism-fmu demo",
     no_args_is_help=True,
@@ -254,7 +240,7 @@ def sweep(
 
     Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.
     """
-    from .sweep_command import run_sweep
+    from .designs_command.sweep import run_sweep
     from .terminal import user_errors
 
     with user_errors():
@@ -298,7 +284,7 @@ def optimise(
 
     Exit code: 0 all well, 1 no design keeps all constraints, 2 wrong use, 130 interrupted.
     """
-    from .optimise_command import run_optimise
+    from .designs_command.optimise import run_optimise
     from .terminal import user_errors
 
     with user_errors():
@@ -319,9 +305,10 @@ def validate(fmu: FmuPath) -> None:
 
 
 study = typer.Typer(
-    cls=_Group, help="Parameter studies with one FMU.", no_args_is_help=True, rich_markup_mode="markdown"
+    cls=Group, help="Parameter studies with one FMU.", no_args_is_help=True, rich_markup_mode="markdown"
 )
 main.add_typer(study, name="study")
+main.add_typer(machine_cli.machine, name="machine")
 
 
 @study.command("ratchet")

@@ -38,7 +38,8 @@ def begin_and_size(begin: int, end: int) -> tuple[float, float]:
 
     The size is the difference of the two rounded instants, so that begin + size is where the next step begins.
     """
-    return seconds(begin), seconds(end) - seconds(begin)
+    time = begin / SECOND
+    return time, end / SECOND - time
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,11 @@ class TimeGrid:
         if grid.stop <= grid.start:
             raise UsageError(f"The stop time {stop_time:g} s must be later than the start time {start_time:g} s.")
         return grid
+
+    @property
+    def even(self) -> bool:
+        """Whether all steps are of one size."""
+        return len(self) == 1 or (self.stop - self.start) % self.step == 0
 
     def __len__(self) -> int:
         return -(-(self.stop - self.start) // self.step)

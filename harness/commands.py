@@ -28,6 +28,7 @@ from .terminal import (
     show_table,
     show_warning,
     show_wide_table,
+    tell_of_earlier_files,
 )
 from .tooth_damage import card_of
 
@@ -95,7 +96,7 @@ def run_fmu(
         try:
             run = _performed(fmu, experiment)
         except FmuError:
-            _tell_of_earlier_files(folder)
+            tell_of_earlier_files(folder)
             raise
     return _written(run, folder)
 
@@ -186,18 +187,12 @@ def _performed(fmu: Fmu, experiment: Experiment) -> Run:
         return perform(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop_requested)
 
 
-def _tell_of_earlier_files(folder: Path) -> None:
-    """Nothing has been written: say so where something lies that could be taken for it."""
-    if (folder / "summary.json").exists():
-        console.print(f"[yellow]Nothing was written[/]: the files in {escape(str(folder))} are an earlier run's.")
-
-
 def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
     """Write the files of a run, unless it never began, and show in the terminal how it ended."""
     from .report.run_report import write_report
 
     if run.outcome.error is not None and run.results.empty:
-        _tell_of_earlier_files(folder)
+        tell_of_earlier_files(folder)
         show_error(str(run.outcome.error))
         return FAILED
     files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -23,12 +24,16 @@ class Variable:
     Attributes:
         name, description: as in the FMU.
         reference: its value reference.
-        type: "Real", "Integer", "Boolean" or "String" (an Enumeration counts as Integer).
+        type: "Real", "Integer", "Boolean" or "String" (an Enumeration counts as Integer, FMI 3's Float64 as Real, ...).
         causality: "input", "output", "parameter", "calculatedParameter", "local" or "independent".
         continuous: whether it varies continuously.
         unit, display_unit: "" when it has none, or the unit "1".
         start: its default value, as text; None when it has none.
         minimum, maximum: its limits in `unit`; None when it has none.
+        nominal: its usual size in `unit`.
+        depends_on: of an output, the inputs that it follows at once; None: nobody says, so it may be all.
+        fmi_type: what FMI calls its type, as in "Float64".
+        elements, element: of an array of FMI 3, how many numbers it has, and which of them this variable is.
     """
 
     name: str
@@ -42,6 +47,11 @@ class Variable:
     start: str | None = None
     minimum: float | None = None
     maximum: float | None = None
+    nominal: float = 1.0
+    depends_on: frozenset[str] | None = None
+    fmi_type: str = ""
+    elements: int = 1
+    element: int = 0
 
     @property
     def settable(self) -> bool:
@@ -59,8 +69,14 @@ class Description:
         variables: by name, in the FMU's order.
         units: its unit definitions.
         stop_time, step: of its default experiment [s]; None when it gives none.
-        saves_state, serializes_state, takes_slopes: its capability flags; the last is canInterpolateInputs.
+        saves_state, serializes_state: its capability flags.
+        takes_slopes, gives_slopes: whether it takes slopes of inputs (canInterpolateInputs), and tells those of outputs
+            (maxOutputDerivativeOrder).
         log_categories: by name, with what each is for.
+        fmi: version of FMI, 2 or 3.
+        has_event_mode, returns_early: of FMI 3, whether it can let the importer handle events, and end a step at one.
+        varies_step: whether its steps may have different sizes (canHandleVariableCommunicationStepSize).
+        once_per_process: whether a process can have one instance only (canBeInstantiatedOnlyOncePerProcess).
     """
 
     model: str
@@ -75,7 +91,13 @@ class Description:
     saves_state: bool = False
     serializes_state: bool = False
     takes_slopes: bool = False
+    gives_slopes: bool = False
     log_categories: Mapping[str, str] = field(default_factory=dict)
+    fmi: int = 2
+    has_event_mode: bool = False
+    returns_early: bool = False
+    varies_step: bool = True
+    once_per_process: bool = False
 
     def variable(self, name: str) -> Variable:
         """The variable with this name.
@@ -102,7 +124,7 @@ def read_description(path: Path) -> Description:
     """Read the description of the FMU file `path`.
 
     Raises:
-        UsageError: no such file, not an FMU, or not an FMI 2.0 co-simulation FMU.
+        UsageError: no such file, not an FMU, or not one for co-simulation of FMI 2.0 or 3.0.
     """
     import fmpy
 
@@ -112,20 +134,23 @@ def read_description(path: Path) -> Description:
         raw = fmpy.read_model_description(str(path), validate=False)
     except Exception as error:  # fmpy raises whatever zipfile and lxml raise
         raise UsageError(f"'{path}' cannot be read as an FMU: {error}") from error
-    if raw.fmiVersion != "2.0" or raw.coSimulation is None:
+    version = raw.fmiVersion.partition(".")[0]
+    if version not in ("2", "3") or raw.coSimulation is None:
         raise UsageError(
-            f"'{path}' is not an FMI 2.0 co-simulation FMU (its FMI version is {raw.fmiVersion}); "
+            f"'{path}' is not an FMU for co-simulation of FMI 2.0 or 3.0 (its FMI version is {raw.fmiVersion}); "
             "the harness runs no other kind."
         )
-    return _described(raw)
+    return _described(raw, int(version))
 
 
-def _described(raw: Any) -> Description:
-    variables = [_variable(v) for v in raw.modelVariables]
-    experiment = raw.defaultExperiment
+def _described(raw: Any, fmi: int) -> Description:
+    known = [variable for variable in raw.modelVariables if variable.type in _TYPES]
+    depends_on = {unknown.variable.name: _dependencies(unknown) for unknown in raw.outputs}
+    variables = [one for variable in known for one in _variables(variable, depends_on.get(variable.name))]
+    experiment, ability = raw.defaultExperiment, raw.coSimulation
     return Description(
         model=raw.modelName,
-        identifier=raw.coSimulation.modelIdentifier,
+        identifier=ability.modelIdentifier,
         guid=raw.guid,
         variables={variable.name: variable for variable in variables},
         units=_units(raw.unitDefinitions),
@@ -133,32 +158,83 @@ def _described(raw: Any) -> Description:
         text=raw.description or "",
         stop_time=_number(experiment and experiment.stopTime),
         step=_number(experiment and experiment.stepSize),
-        saves_state=raw.coSimulation.canGetAndSetFMUstate,
-        serializes_state=raw.coSimulation.canSerializeFMUstate,
-        takes_slopes=raw.coSimulation.canInterpolateInputs,
+        saves_state=ability.canGetAndSetFMUstate,
+        serializes_state=ability.canSerializeFMUstate,
+        takes_slopes=ability.canInterpolateInputs and fmi == 2,  # FMI 3.0 has no function for it
+        gives_slopes=ability.maxOutputDerivativeOrder > 0,
         log_categories={category.name: category.description or "" for category in raw.logCategories},
+        fmi=fmi,
+        has_event_mode=ability.hasEventMode,
+        returns_early=ability.mightReturnEarlyFromDoStep,
+        varies_step=ability.canHandleVariableCommunicationStepSize,
+        once_per_process=ability.canBeInstantiatedOnlyOncePerProcess,
     )
 
 
-def _variable(raw: Any) -> Variable:
+#: Types of FMI by what they are to the harness; Binary and Clock are left out.
+_TYPES = {
+    **dict.fromkeys(("Real", "Float64", "Float32"), "Real"),
+    **dict.fromkeys(("Integer", "Enumeration"), "Integer"),
+    **{f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)},
+    **{name: name for name in ("Boolean", "String")},
+}
+
+
+def _dependencies(unknown: Any) -> frozenset[str] | None:
+    if unknown.dependencies is None:
+        return None
+    return frozenset(name for variable in unknown.dependencies for name in _element_names(variable))
+
+
+def _variables(raw: Any, depends_on: frozenset[str] | None) -> Iterator[Variable]:
+    """A variable, or the elements of one that is an array."""
+    names = _element_names(raw)
+    start = None if raw.start is None else [raw.start] if not raw.shape else raw.start.split()
+    for element, name in enumerate(names):
+        own = start[element] if start is not None and len(start) == len(names) else None
+        yield _variable(raw, name, own, depends_on, element, len(names))
+
+
+def _element_names(raw: Any) -> list[str]:
+    """Its name, or those of its elements, counted from 1.
+
+    An array of a structure's fields, such as `impacts.time`, counts the structures: impacts[1].time.
+    """
+    if not raw.shape:
+        return [raw.name]
+    places = product(*(range(1, size + 1) for size in raw.shape))
+    structure, dot, field_name = raw.name.rpartition(".")
+    ahead, behind = (structure, dot + field_name) if dot else (raw.name, "")
+    return [f"{ahead}[{','.join(map(str, place))}]{behind}" for place in places]
+
+
+def _variable(
+    raw: Any, name: str, start: str | None, depends_on: frozenset[str] | None, element: int, elements: int
+) -> Variable:
     declared = raw.declaredType
 
     def attribute(name: str) -> Any:
         own = getattr(raw, name)
         return own if own is not None or declared is None else getattr(declared, name)
 
+    kind = _TYPES[raw.type]
     return Variable(
-        name=raw.name,
+        name=name,
         reference=raw.valueReference,
-        type="Integer" if raw.type == "Enumeration" else raw.type,
+        type=kind,
         causality=raw.causality or "local",
         description=raw.description or "",
-        continuous=raw.type == "Real" and raw.variability in (None, "continuous"),
+        continuous=kind == "Real" and raw.variability in (None, "continuous"),
         unit="" if attribute("unit") in (None, "1") else attribute("unit"),
         display_unit=attribute("displayUnit") or "",
-        start=raw.start,
+        start=start,
         minimum=_number(attribute("min")),
         maximum=_number(attribute("max")),
+        nominal=_number(attribute("nominal")) or 1.0,
+        depends_on=depends_on,
+        fmi_type=raw.type,
+        elements=elements,
+        element=element,
     )
 
 

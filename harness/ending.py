@@ -58,7 +58,7 @@ def _show_final_values(run: Run) -> None:
 
 def _show_impacts(run: Run) -> None:
     if run.impacts.empty:
-        console.print("No impacts.")
+        console.print("No impacts." if len(run.impacts.columns) else "The FMU does not tell of impacts.")
         return
     columns = [name for name in _IMPACT_COLUMNS if name in run.impacts.columns]
     shown_impacts = run.impacts[columns].head(_MOST_IMPACTS)

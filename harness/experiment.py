@@ -18,7 +18,8 @@ from .drawing import Drawing, read_drawing
 from .errors import FmuError, UsageError
 from .events import UNITS as EVENT_UNITS
 from .events import EventCollector
-from .fmu import Fmu, MessageHandler, discard_message
+from .fmu import Fmu
+from .fmu.slave import MessageHandler, discard_message
 from .impacts import ImpactCollector
 from .inputs import InputSignals, check_no_overlap, read_inputs
 from .logic import LogicFile, read_logic
@@ -153,11 +154,17 @@ def perform(
         )
         wall_time = time.perf_counter() - began
         messages = tuple(slave.messages)
-    tooth, objections = _struck_tooth(reader.values) if "velocity" in collector.fields else (None, [])
-    impacts, damage = collector.table(), None
-    if tooth is not None:
-        damage = damage_of_impacts(impacts, tooth, experiment.material)
-        impacts = with_stress(impacts, tooth, experiment.material.material)
+    impacts, tooth, damage = collector.table(), None, None
+    objections: list[Check] = []
+    if "velocity" in collector.fields:
+        try:
+            tooth = tooth_of(reader.values)
+            if tooth is not None:
+                damage = damage_of_impacts(impacts, tooth, experiment.material)
+                impacts = with_stress(impacts, tooth, experiment.material.material)
+        except FmuError as error:
+            tooth, damage = None, None
+            objections = [Check("The struck tooth has a stress model", False, str(error))]
     results = recorder.table()
     return Run(
         fmu=fmu.path,
@@ -181,14 +188,6 @@ def perform(
         damage=damage,
         inputs=inputs,
     )
-
-
-def _struck_tooth(parameters: Mapping[str, Value]) -> tuple[WedgeTooth | None, list[Check]]:
-    """The tooth that impacts strike; for one without a stress model, none, and a verdict that says why."""
-    try:
-        return tooth_of(parameters), []
-    except FmuError as error:
-        return None, [Check("The struck tooth has a stress model", False, str(error))]
 
 
 def default_times(description: Description, stop_time: float | None, step: float | None) -> tuple[float, float]:

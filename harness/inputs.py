@@ -10,6 +10,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -55,11 +56,24 @@ class InputSignals:
         }
 
 
-def read_inputs(path: Path, description: Description, start_time: float, stop_time: float) -> InputSignals:
+def read_inputs(
+    path: Path,
+    description: Description,
+    start_time: float,
+    stop_time: float,
+    followed: Mapping[str, str] = MappingProxyType({}),
+) -> InputSignals:
     """Read a table of input signals.
 
     The first row names the columns: `time` first, then inputs of the FMU, each with an optional unit in brackets,
     as in `time [ms],drive_torque [N.mm]`. The rows must cover the run from `start_time` to `stop_time` [s].
+
+    Args:
+        path: of the file.
+        description: whose inputs they are.
+        start_time: of the run [s].
+        stop_time: of the run [s].
+        followed: for inputs that are connected, what they follow.
 
     Raises:
         UsageError: the file, a heading, a cell or the time column cannot be used; the message names the line.
@@ -67,6 +81,9 @@ def read_inputs(path: Path, description: Description, start_time: float, stop_ti
     data = _bytes(path)
     header, rows = _read_csv(data, path)
     names, units = _headings(header, path)
+    for name in names[1:]:
+        if name in followed:
+            raise UsageError(f"{path}: '{name}' follows {followed[name]}, by a connection; no table can drive it.")
     variables = [_input_variable(name, description, path) for name in names[1:]]
     time_axis = Variable("time", reference=-1, type="Real", causality="independent", unit="s")
     columns = [
@@ -131,9 +148,9 @@ def _input_variable(name: str, description: Description, path: Path) -> Variable
     except UsageError as error:
         raise UsageError(f"{path}: {error}") from None
     if variable.causality != "input":
-        raise UsageError(f"{path}: '{name}' is a parameter, which cannot change during a run; use --set {name}=...")
+        raise UsageError(f"{path}: '{name}' is a parameter, which cannot change during a run; set its value instead")
     if variable.type == "String":
-        raise UsageError(f"{path}: '{name}' is a String input, which a table cannot drive; use --set {name}=...")
+        raise UsageError(f"{path}: '{name}' is a String input, which a table cannot drive; set its value instead")
     return variable
 
 
@@ -174,7 +191,7 @@ def _check_times(times: npt.NDArray[np.float64], start_time: float, stop_time: f
     if times[0] > start_time + _HALF_A_NANOSECOND or times[-1] < stop_time - _HALF_A_NANOSECOND:
         raise UsageError(
             f"{path}: covers {times[0]:g} s to {times[-1]:g} s, but the run goes from {start_time:g} s to "
-            f"{stop_time:g} s; add rows or change --stop-time."
+            f"{stop_time:g} s; add rows, or change the stop time."
         )
 
 

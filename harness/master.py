@@ -8,7 +8,7 @@ from enum import Enum
 
 from .clock import TimeGrid, begin_and_size, seconds
 from .description import Value
-from .errors import FmuError
+from .errors import FmuError, HarnessError
 from .inputs import InputSignals
 from .observers import Observer
 from .slave import Slave
@@ -30,13 +30,13 @@ class Outcome:
         ending: why it ended.
         final_time: last communication point that was reached [s].
         steps: number of steps completed.
-        error: what the FMU refused, when it failed.
+        error: what the FMU refused, or else why it could not go on, when it failed.
     """
 
     ending: Ending
     final_time: float
     steps: int
-    error: FmuError | None = None
+    error: HarnessError | None = None
 
 
 def never() -> bool:

@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import IO, Any, TextIO
+from typing import IO, Any, BinaryIO, TextIO
 
 import pandas as pd
 
@@ -45,7 +45,12 @@ def write_text(path: Path, write: Callable[[TextIO], object]) -> Path:
 
 def write_bytes(path: Path, data: bytes) -> Path:
     """Write a file of bytes, whole or not at all; see `write_text`."""
-    return _whole(path, lambda handle: os.fdopen(handle, "wb"), lambda file: file.write(data))
+    return write_binary(path, lambda file: file.write(data))
+
+
+def write_binary(path: Path, write: Callable[[BinaryIO], object]) -> Path:
+    """Write a file that is no text, whole or not at all; see `write_text`."""
+    return _whole(path, lambda handle: os.fdopen(handle, "wb"), write)
 
 
 def _whole(path: Path, opened: Callable[[int], IO[Any]], write: Callable[[Any], object]) -> Path:

@@ -51,6 +51,9 @@ _PREFIXABLE = {
     "J": _measure(kg=1, m=2, s=-2),
     "W": _measure(kg=1, m=2, s=-3),
     "Pa": _measure(kg=1, m=-1, s=-2),
+    "V": _measure(kg=1, m=2, s=-3, A=-1),
+    "ohm": _measure(kg=1, m=2, s=-3, A=-2),
+    "H": _measure(kg=1, m=2, s=-2, A=-2),
     "Hz": _measure(s=-1),
 }
 

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import typer
+from rich import box
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
@@ -23,6 +24,11 @@ FAILED, USAGE, INTERRUPTED = 1, 2, 130
 
 #: A bar for less than this [s] would only flicker.
 _PATIENCE = 2.0
+#: Nobody sees a bar move more often than this [s].
+_FLICKER = 0.1
+
+#: No table is wider.
+_MOST_COLUMNS = 1000
 
 console = Console(highlight=False)
 error_console = Console(stderr=True, highlight=False)
@@ -64,6 +70,12 @@ def show_files(files: Sequence[Path]) -> None:
     console.print(f"Open in a browser: [bold]{escape(str(files[-1]))}[/]", soft_wrap=True)
 
 
+def tell_of_earlier_files(folder: Path) -> None:
+    """Nothing has been written: say so where something lies that could be taken for it."""
+    if (folder / "summary.json").exists():
+        console.print(f"[yellow]Nothing was written[/]: the files in {escape(str(folder))} are an earlier run's.")
+
+
 def show_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]], numeric: Sequence[int] = ()) -> None:
     """A table; `numeric` columns stand right, and the unit of a heading stands below its name."""
     table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="dim")
@@ -73,6 +85,9 @@ def show_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]
         )
     for row in rows:
         table.add_row(*map(escape, row))
+    unlimited = console.options.update(width=_MOST_COLUMNS)
+    if console.measure(table, options=unlimited).maximum > console.width:  # a number that is cut off is a wrong one
+        table.box, table.padding, table.pad_edge = box.SIMPLE_HEAD, (0, 1, 0, 0), False
     console.print(table)
 
 
@@ -103,15 +118,21 @@ def show_progress(waiting: str) -> Iterator[Callable[[str, float], None]]:
 
 
 class RunDisplay:
-    """An observer that says what is going on: a spinner until the first step, a bar when the steps take long."""
+    """An observer that says what is going on: a spinner until the first step, a bar when the steps take long.
+
+    The bar tells the real-time factor, too: how many seconds are simulated in one of the clock on the wall.
+    """
 
     def __init__(self, stop_time: float, loading: str, now: Callable[[], float] = clock.monotonic) -> None:
         self._now = now
         self._began = now()
         self._spinner = console.status(loading)
-        columns = TextColumn("t = {task.completed:.4g} s"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn()
+        time = TextColumn("t = {task.completed:.4g} s, {task.description}")
+        columns = time, BarColumn(), TaskProgressColumn(), TimeRemainingColumn()
         self._bar = Progress(*columns, console=console, transient=True)
         self._task = self._bar.add_task("", total=stop_time)
+        self._start_time = 0.0
+        self._next = 0.0
         self.bar_shown = False
 
     def __enter__(self) -> RunDisplay:
@@ -127,12 +148,22 @@ class RunDisplay:
         """The FMU is ready."""
         self._spinner.stop()
         self._began = self._now()
+        self._next = self._began + _PATIENCE
+        self._start_time = time
 
     def stepped(self, unit: Observable, time: float) -> None:
-        """Move the bar."""
+        """Move the bar, now and then."""
+        now = self._now()
+        if now < self._next:
+            return
+        self._next = now + _FLICKER
         if not self.bar_shown:
-            if self._now() - self._began < _PATIENCE:
-                return
             self.bar_shown = True
             self._bar.start()
-        self._bar.update(self._task, completed=time)
+        pace = real_time_factor(time - self._start_time, now - self._began)
+        self._bar.update(self._task, completed=time, description=pace)
+
+
+def real_time_factor(simulated: float, wall: float) -> str:
+    """How much faster than the clock on the wall something ran [both in s], as in "12.3 x real time"."""
+    return f"{simulated / wall:.3g} x real time" if wall > 0.0 else "-"

@@ -13,6 +13,7 @@ import pandas as pd
 from mechanism_fmu.stress import MaterialCard, Ringing, SequenceDamage, WedgeTooth, material_card, sequence_damage
 
 from .errors import UsageError
+from .tooth_stress import as_fmu_error
 
 #: Units of the numbers of a `SequenceDamage`.
 DAMAGE_UNITS = {
@@ -58,10 +59,14 @@ def damage_of_impacts(impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCa
 
     All of them count for one tooth: v_I comes from the wheel's speed, which all its teeth share. See
     docs/decisions/014.
+
+    Raises:
+        FmuError: the FMU reports impacts that the stress model does not reach.
     """
     if impacts.empty:
         return None
-    return sequence_damage(tooth, card.material, card.strength, *_jolts(impacts))
+    with as_fmu_error():
+        return sequence_damage(tooth, card.material, card.strength, *_jolts(impacts))
 
 
 def stress_history(

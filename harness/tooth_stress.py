@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,13 +48,26 @@ def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth, material: Material = S
     """The table of impacts with the largest bending stress after each.
 
     Adds `stress_max` [Pa], `stress_position` (x / length, from the root) and `stress_delay` [s] after the impact.
+
+    Raises:
+        FmuError: the FMU reports an impact that the stress model does not reach.
     """
-    found = [maximum_stress(tooth, material, abs(velocity)) for velocity in impacts["velocity"]]
+    with as_fmu_error():
+        found = [maximum_stress(tooth, material, abs(velocity)) for velocity in impacts["velocity"]]
     return impacts.assign(
         stress_max=[maximum.stress for maximum in found],
         stress_position=[maximum.position for maximum in found],
         stress_delay=[maximum.time for maximum in found],
     )
+
+
+@contextmanager
+def as_fmu_error() -> Iterator[None]:
+    """What the stress model says of an impact is said of the FMU that reports it."""
+    try:
+        yield
+    except ValueError as error:
+        raise FmuError(f"The FMU reports impacts without a stress model: {error}") from error
 
 
 @dataclass(frozen=True)

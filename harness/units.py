@@ -38,7 +38,7 @@ class Units:
         if given in self.displayed.get(wanted, {}):
             factor, offset = self.displayed[wanted][given]
             return (value - offset) / factor
-        source, target = self._meaning(given), self._meaning(wanted)
+        source, target = self.meaning(given), self.meaning(wanted)
         if source is None or target is None or source.exponents != target.exponents:
             raise UnitMismatchError(self._refusal(given, wanted, known=source is not None))
         return (source.factor * value + source.offset - target.offset) / target.factor
@@ -52,7 +52,7 @@ class Units:
 
     def fitting(self, unit: str) -> list[str]:
         """Names from the FMU's definitions that measure the same quantity as `unit`, itself first."""
-        meaning = self._meaning(unit)
+        meaning = self.meaning(unit)
         same = [
             name
             for name, measure in self.defined.items()
@@ -61,7 +61,8 @@ class Units:
         display = [name for owner in (unit, *same) for name in self.displayed.get(owner, {})]
         return list(dict.fromkeys([unit, *same, *display]))
 
-    def _meaning(self, name: str) -> Measure | None:
+    def meaning(self, name: str) -> Measure | None:
+        """What a unit means; None when nobody knows it."""
         if name in self.defined:
             return self.defined[name]
         for owner, names in self.displayed.items():
@@ -74,6 +75,6 @@ class Units:
     def _refusal(self, given: str, wanted: str, *, known: bool) -> str:
         problem = f"unit '{given}' does not measure the same quantity" if known else f"unit '{given}' is not known"
         fitting = ", ".join(self.fitting(wanted))
-        if self._meaning(wanted) is None:
+        if self.meaning(wanted) is None:
             return f"{problem}; the unit must be {fitting}, or leave it out"
         return f"{problem}; these fit: {fitting}, also with SI prefixes on any symbol (m, k, ...)"

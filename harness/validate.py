@@ -11,7 +11,8 @@ from .checks import Check
 from .clock import TimeGrid, begin_and_size, seconds
 from .description import Description, Value
 from .errors import FmuError, HarnessError
-from .fmu import Fmu, FmuSlave
+from .fmu import Fmu
+from .fmu.slave import FmuSlave
 
 #: The run takes this many steps through the default experiment, and branches off after some of them.
 _STEPS = 100

@@ -25,6 +25,13 @@ def versions(fmu: Path, description: Description) -> dict[str, str]:
         "model": description.model,
         "GUID of the FMU": description.guid,
         "generation tool of the FMU": description.generation_tool or "unknown",
+        **software(),
+    }
+
+
+def software() -> dict[str, str]:
+    """The versions of this harness, of Python and of the packages used, by name."""
+    return {
         "mechanism_fmu": __version__,
         "Python": f"{platform.python_version()}, {platform.system()} {platform.machine()}",
         **{name: found for name in _PACKAGES if (found := _installed(name))},

@@ -88,13 +88,14 @@
     return " rotate(" + (-angle * 180 / Math.PI).toFixed(3) + ")";
   }
 
-  // The picture of the mechanism; returns draw(time, struck).
-  function picture(svg, data) {
-    const [left, bottom, right, top] = data.view;
-    const scale = Math.min(MOST_WIDTH / (right - left), MOST_HEIGHT / (top - bottom));
+  // The picture of a mechanism, one of them or all that there is (`panel` is `data`); returns draw(time, struck).
+  function picture(svg, panel, data) {
+    const [left, bottom, right, top] = panel.view;
+    const [width, height] = panel.size || [MOST_WIDTH, MOST_HEIGHT];
+    const scale = Math.min(width / (right - left), height / (top - bottom));
     svg.setAttribute("viewBox", [0, 0, scale * (right - left) + 2 * MARGIN, scale * (top - bottom) + 2 * MARGIN]
       .map((number) => number.toFixed(1)).join(" "));
-    const movers = data.shapes.map((shape) => makers[shape.kind](shape, svg, scale, data.flash));
+    const movers = panel.shapes.map((shape) => makers[shape.kind](shape, svg, scale, data.flash));
     return function (time, struck) {
       const before = Math.max(0, Math.min(lastUpTo(data.time, time), data.time.length - 2));
       const after = Math.min(before + 1, data.time.length - 1);
@@ -102,11 +103,11 @@
       const part = span > 0 ? Math.min(1, Math.max(0, (time - data.time[before]) / span)) : 0;
       const value = (number) => {
         if (typeof number === "number") return number;
-        const column = data.columns[number[0]];
+        const column = panel.columns[number[0]];
         return number[1] * (column[before] + part * (column[after] - column[before]));
       };
       const ends = {};
-      data.shapes.forEach((shape, i) => {
+      panel.shapes.forEach((shape, i) => {
         const [x, y] = typeof shape.at === "string" ? ends[shape.at] : shape.at.map(value);
         if (shape.kind === "bar") {
           const angle = value(shape.angle), length = value(shape.length);
@@ -125,7 +126,10 @@
     const slider = find("input"), play = find(".play"), speed = find("select");
     const lamps = [...root.querySelectorAll(".lamp")];
     const start = data.time[0], end = data.time[data.time.length - 1];
-    const draw = picture(find("svg"), data);
+    const svgs = [...root.querySelectorAll("svg")];
+    // Each picture flashes at its own impacts.
+    const pictures = (data.panels || [data]).map((panel, i) =>
+      ({ impacts: panel.impacts, svg: svgs[i], draw: picture(svgs[i], panel, data) }));
     let now = start, playing = false, stamp = null;
 
     for (const instant of data.impacts) {
@@ -135,12 +139,26 @@
       find(".marks").appendChild(mark);
     }
 
+    // Of which component of a machine an impact is, or of which ones, if several have one at once.
+    function whose(last) {
+      const names = (data.whose || []).filter((_, i) => data.impacts[i] === data.impacts[last]);
+      return names.length ? ", " + [...new Set(names)].join(", ") : "";
+    }
+
     function show() {
       const last = lastUpTo(data.impacts, now);
       // Standing still, an impact shows for as long as the slider cannot tell it from now.
       const least = (end - start) / SLIDER;
-      const struck = last >= 0 && now - data.impacts[last] <= Math.max(playing ? FLASH * speed.value : 0, least);
-      draw(now, struck);
+      const flashes = (impacts) => {
+        const latest = lastUpTo(impacts, now);
+        return latest >= 0 && now - impacts[latest] <= Math.max(playing ? FLASH * speed.value : 0, least);
+      };
+      const struck = flashes(data.impacts);
+      for (const one of pictures) {
+        const hit = flashes(one.impacts);
+        one.draw(now, hit);
+        one.svg.classList.toggle("hit", hit);
+      }
       // What an impact has closed is active from then on, not only from the next frame.
       let frame = Math.max(0, lastUpTo(data.time, now));
       if (last >= 0 && data.impacts[last] > data.time[frame]) frame = Math.min(frame + 1, data.time.length - 1);
@@ -149,7 +167,8 @@
       const text = now.toFixed(data.decimals) + " s";
       find(".time").textContent = "t = " + text;
       find(".struck").textContent = last < 0 ? "" :
-        "impact " + (last + 1) + " of " + data.impacts.length + " at " + Number(data.impacts[last].toPrecision(7)) + " s";
+        "impact " + (last + 1) + " of " + data.impacts.length + " at " + Number(data.impacts[last].toPrecision(7)) + " s" +
+        whose(last);
       slider.value = Math.round(SLIDER * (now - start) / (end - start || 1));
       slider.setAttribute("aria-valuetext", text);
     }

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-import plotly.graph_objects as go
+from typing import Any
 
-from ..experiment import Run
+import pandas as pd
+
+from mechanism_fmu.stress import MaterialCard, SequenceDamage, WedgeTooth
+
 from ..tooth_damage import HEADINGS, damage_note, damage_row, stress_history
 from .page import chart, section, table
 from .style import COLOURS, layout
@@ -14,25 +17,28 @@ from .thin import thin
 _MOST_IMPACTS = 1000
 
 
-def fatigue_section(run: Run) -> str:
-    """Numbers and the history of the stress; nothing for a run without damage to tell."""
-    if run.damage is None:
-        return ""
-    card = run.experiment.material
-    numbers = table(list(HEADINGS), [damage_row(run.damage, card)], numeric=range(1, len(HEADINGS)))
+def fatigue_section(
+    impacts: pd.DataFrame,
+    tooth: WedgeTooth,
+    card: MaterialCard,
+    damage: SequenceDamage,
+    heading: str = "Fatigue of the tooth",
+) -> str:
+    """Numbers and the history of the stress, for a tooth of the material of `card`; at least one impact."""
+    numbers = table(list(HEADINGS), [damage_row(damage, card)], numeric=range(1, len(HEADINGS)))
     sources = f"{card.text}. {'; '.join(card.sources)}."
-    return section("Fatigue of the tooth", numbers, chart(_history(run)), note=f"{damage_note(run.damage)} {sources}")
+    history = chart(_history(impacts, tooth, card, damage.position))
+    return section(heading, numbers, history, note=f"{damage_note(damage)} {sources}")
 
 
-def _history(run: Run) -> go.Figure:
-    """Stress at the critical section over the run: a line from extreme to extreme."""
-    assert run.tooth is not None
-    assert run.damage is not None
-    impacts = run.impacts.head(_MOST_IMPACTS)
-    time, stress = thin(*stress_history(impacts, run.tooth, run.experiment.material, run.damage.position))
-    left_out = f" (the first {_MOST_IMPACTS} impacts)" if len(run.impacts) > _MOST_IMPACTS else ""
-    figure = go.Figure(go.Scatter(x=time, y=stress, mode="lines", line={"color": COLOURS[0], "width": 1}))
-    figure.update_xaxes(title_text=f"time [s]{left_out}; zoom in to see a tooth ring")
-    figure.update_yaxes(title_text="bending stress [Pa]", exponentformat="SI")
-    figure.update_layout(layout(height=300))
-    return figure
+def _history(impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard, position: float) -> dict[str, Any]:
+    """Stress at the critical section over the run: a line from extreme to extreme, as plotly takes it."""
+    time, stress = thin(*stress_history(impacts.head(_MOST_IMPACTS), tooth, card, position))
+    left_out = f" (the first {_MOST_IMPACTS} impacts)" if len(impacts) > _MOST_IMPACTS else ""
+    line = {"color": COLOURS[0], "width": 1}
+    trace = {"type": "scatter", "mode": "lines", "x": time.tolist(), "y": stress.tolist(), "line": line}
+    axes = {
+        "xaxis": {"title": {"text": f"time [s]{left_out}; zoom in to see a tooth ring"}},
+        "yaxis": {"title": {"text": "bending stress [Pa]"}, "exponentformat": "SI"},
+    }
+    return {"data": [trace], "layout": layout(height=300, **axes)}

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 import plotly.graph_objects as go
 
+from ..description import Variable
 from ..experiment import Run
 from .style import COLOURS
 from .thin import FloatArray, frame_rows
 
-_SUFFIX = "_active"
+#: What Boolean outputs end with that tell of contacts.
+SUFFIX = "_active"
 
 #: Gaps shorter than this part of the run are narrower than a pixel, and are not drawn.
 _INVISIBLE = 1 / 2000
@@ -38,13 +41,14 @@ class Contact:
 
 def contacts(run: Run) -> list[Contact]:
     """The contacts whose activity was recorded, in the FMU's order."""
-    variables = [
-        v.name
-        for v in run.description.of("output")
-        if v.type == "Boolean" and v.name.endswith(_SUFFIX) and v.name in run.results
-    ]
+    return contacts_among([v for v in run.description.of("output") if v.name in run.results])
+
+
+def contacts_among(outputs: Iterable[Variable]) -> list[Contact]:
+    """The contacts of whose activity some outputs tell."""
+    variables = [v.name for v in outputs if v.type == "Boolean" and v.name.endswith(SUFFIX)]
     return [
-        Contact(name.removesuffix(_SUFFIX).replace("_", " "), name, COLOURS[i % len(COLOURS)])
+        Contact(name.removesuffix(SUFFIX).replace("_", " "), name, COLOURS[i % len(COLOURS)])
         for i, name in enumerate(variables)
     ]
 

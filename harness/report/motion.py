@@ -16,7 +16,8 @@ from .modes import add_lanes, contacts
 from .style import COLOURS, IMPACT_COLOUR, layout
 from .thin import strongest, thin
 
-_QUANTITIES = {
+#: What a unit measures, in the plural.
+QUANTITIES = {
     "rad": "Angles",
     "rad/s": "Speeds",
     "m": "Lengths",
@@ -24,6 +25,9 @@ _QUANTITIES = {
     "N": "Forces",
     "N.m": "Torques",
     "J": "Energies",
+    "W": "Powers",
+    "V": "Voltages",
+    "A": "Currents",
 }
 
 #: Heights [px]: a row of curves, a lane of a contact, between two rows, and what lies around them all.
@@ -103,7 +107,7 @@ def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
     shown = variables[0].display_unit if variables[0].display_unit in known else ""
     factor, offset = known.get(shown, (1.0, 0.0))
     curves = [(variable.name, factor * run.results[variable.name] + offset) for variable in variables]
-    title = f"{_QUANTITIES.get(unit, 'Values')} [{shown or unit or '1'}]"
+    title = f"{QUANTITIES.get(unit, 'Values')} [{shown or unit or '1'}]"
     if unit == "rad":
         curves = [(f"{name} − {values.iloc[0]:.5g}", values - values.iloc[0]) for name, values in curves]
         title = title.replace("Angles", "Angle change")

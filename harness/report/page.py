@@ -48,6 +48,11 @@ def cards(figures: Iterable[tuple[str, str]]) -> str:
     return f'<div class="cards">{boxes}</div>'
 
 
+def points(texts: Iterable[str]) -> str:
+    """Sentences, a point each."""
+    return f'<ul class="points">{"".join(f"<li>{escape(text)}</li>" for text in texts)}</ul>'
+
+
 def checks_list(checks: Iterable[Check]) -> str:
     """Verdicts with their evidence."""
     lines = (

@@ -6,27 +6,23 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..checks import Check
-from ..description import Value, Variable
+from ..description import Variable
 from ..experiment import Run
 from ..master import Ending
 from ..numbers import engineering, in_display_unit
 from ..results import settings, write_text
-from ..tooth_stress import stress_field
 from ..versions import versions
 from .animation import animation
 from .fatigue import fatigue_section
+from .impacts import impacts_section
 from .inputs import table_told
-from .interactive import interactive
 from .logic import events_section, modes_section
 from .modes import contacts
 from .motion import motion_chart
-from .page import cards, chart, charts, checks_list, page, section, table, versions_section
+from .page import cards, chart, checks_list, page, section, table, versions_section
 from .parameters import Origin, Row, parameters_section
 from .phone import stacked
-from .stress import stress_plots
-
-#: A longer table is in impacts.csv.
-_MOST_IMPACTS = 100
+from .stress import stress_section
 
 
 def write_report(run: Run, path: Path, more_checks: Sequence[Check] = ()) -> Path:
@@ -43,7 +39,8 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    body += [animation(run), _motion(run), _stress(run), fatigue_section(run), _impacts(run)]
+    body += [animation(run), _motion(run), _stress(run), _fatigue(run)]
+    body += [impacts_section(run.impacts, run.units["impacts"])]
     body += [modes_section(run), events_section(run)]
     body += [_parameters(run), _messages(run), versions_section(versions(run.fmu, run.description))]
     return page(description.model, subtitle, [part for part in body if part])
@@ -79,45 +76,13 @@ def _motion(run: Run) -> str:
 
 
 def _stress(run: Run) -> str:
-    if run.tooth is None or run.impacts.empty:
+    return "" if run.tooth is None else stress_section(run.impacts, run.tooth, run.experiment.material)
+
+
+def _fatigue(run: Run) -> str:
+    if run.tooth is None or run.damage is None:
         return ""
-    worst = run.impacts.iloc[int(run.impacts["stress_max"].to_numpy().argmax())]
-    note = (
-        f"The impact with the largest stress: t = {worst['time']:.9g} s, "
-        f"v_I = {engineering(float(worst['velocity']), 'm/s')};"
-        f" wedge of length {run.tooth.length * 1e3:.4g} mm and apex angle {run.tooth.apex_angle:.4g} rad,"
-        f" {run.experiment.material.name}, two Ritz modes."
-    )
-    if len(run.impacts) > 1:
-        note += (
-            " v_I is the paper's, wheel speed after the impact times tooth length, meant for a wheel that is struck at "
-            "rest: for later impacts on a wheel that already turns it is an upper bound, not the jump of the speed."
-        )
-    plots = stress_plots(stress_field(run.tooth, worst["velocity"], run.experiment.material.material))
-    drawn = charts(*(chart(interactive(plot, height=400)) for plot in plots))
-    return section("Bending stress in the tooth", drawn, note=note)
-
-
-def _impacts(run: Run) -> str:
-    if run.impacts.empty:
-        return ""
-    shown_rows = run.impacts.head(_MOST_IMPACTS)
-    headings = [f"{name.replace('_', ' ')} [{run.units['impacts'][name]}]" for name in run.impacts.columns]
-    rows = [[_cell(value) for value in row] for row in shown_rows.itertuples(index=False)]
-    note = (
-        f"The first {_MOST_IMPACTS} of {len(run.impacts)}; all are in impacts.csv."
-        if len(run.impacts) > _MOST_IMPACTS
-        else ""
-    )
-    return section(
-        "Impacts",
-        table(["#", *headings], [[str(i), *row] for i, row in enumerate(rows, 1)], numeric=range(len(headings) + 1)),
-        note=note,
-    )
-
-
-def _cell(value: Value) -> str:
-    return f"{value:.7g}" if isinstance(value, float) else str(value)
+    return fatigue_section(run.impacts, run.tooth, run.experiment.material, run.damage)
 
 
 def _parameters(run: Run) -> str:

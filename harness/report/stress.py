@@ -2,10 +2,38 @@
 
 from __future__ import annotations
 
+import pandas as pd
+
+from mechanism_fmu.stress import MaterialCard, WedgeTooth
+
 from ..numbers import engineering
-from ..tooth_stress import StressField
+from ..tooth_stress import StressField, stress_field
+from .interactive import interactive
+from .page import chart, charts, section
 from .plot import Curve, Plot
 from .style import COLOURS, IMPACT_COLOUR
+
+
+def stress_section(
+    impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard, heading: str = "Bending stress in the tooth"
+) -> str:
+    """The stress that the impact leaves which leaves the largest; "" without an impact."""
+    if impacts.empty:
+        return ""
+    worst = impacts.iloc[int(impacts["stress_max"].to_numpy().argmax())]
+    note = (
+        f"The impact with the largest stress: t = {worst['time']:.9g} s, "
+        f"v_I = {engineering(float(worst['velocity']), 'm/s')};"
+        f" wedge of length {tooth.length * 1e3:.4g} mm and apex angle {tooth.apex_angle:.4g} rad,"
+        f" {card.name}, two Ritz modes."
+    )
+    if len(impacts) > 1:
+        note += (
+            " v_I is the paper's, wheel speed after the impact times tooth length, meant for a wheel that is struck at "
+            "rest: for later impacts on a wheel that already turns it is an upper bound, not the jump of the speed."
+        )
+    plots = stress_plots(stress_field(tooth, worst["velocity"], card.material))
+    return section(heading, charts(*(chart(interactive(plot, height=400)) for plot in plots)), note=note)
 
 
 def stress_plots(field: StressField) -> tuple[Plot, Plot]:

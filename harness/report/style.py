@@ -28,6 +28,8 @@ section > p {{ margin: 0 0 10px; color: var(--soft); overflow-wrap: anywhere; }}
 .card b {{ display: block; font-size: 22px; font-weight: 650; letter-spacing: -0.01em;
   overflow-wrap: anywhere; }}
 .card span {{ color: var(--soft); font-size: 13px; overflow-wrap: anywhere; }}
+ul.points {{ margin: 0; padding-left: 20px; }}
+ul.points li {{ overflow-wrap: anywhere; padding: 2px 0; }}
 ul.checks {{ list-style: none; margin: 0; padding: 0; }}
 ul.checks li {{ padding: 5px 0 5px 30px; position: relative; }}
 ul.checks li::before {{ position: absolute; left: 0; width: 20px; height: 20px; border-radius: 50%; color: #fff;
@@ -55,6 +57,14 @@ tr.changed td {{ background: #fff8e6; }}
 code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
 .banner {{ background: #fdecea; border-color: {IMPACT_COLOUR}; }}
 .animation svg {{ display: block; width: 100%; max-height: 560px; background: #fbfcfd; border-radius: 8px; }}
+.animation .panels {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 190px), 1fr));
+  gap: 14px; }}
+.animation figure {{ margin: 0; min-width: 0; }}
+.animation .panels svg, .animation .blank {{ height: 230px; }}
+.animation .panels svg.hit {{ box-shadow: inset 0 0 0 2px {IMPACT_COLOUR}; }}
+.animation .blank {{ background: #fbfcfd; border-radius: 8px; padding: 14px; color: var(--soft); font-size: 13px; }}
+.animation figcaption {{ font-weight: 600; margin-top: 6px; }}
+.animation .panels .legend {{ margin: 4px 0 6px; font-size: 12px; }}
 .animation ul {{ list-style: none; display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 0; padding: 0; }}
 .animation .legend {{ display: flex; flex-wrap: wrap; justify-content: space-between; gap: 6px 28px;
   margin: 10px 0; font-size: 13px; color: var(--soft); }}
@@ -89,6 +99,8 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
   .parameters td:nth-child(4) {{ grid-area: origin; text-align: right; }}
   .parameters td:nth-child(5) {{ grid-area: meaning; }}
   .parameters td:nth-child(n + 4) {{ font-size: 13px; color: var(--soft); }}
+  .animation .panels {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
+  .animation .panels svg, .animation .blank {{ height: 170px; }}
   .cards {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
   .card b {{ font-size: 18px; }}
   ul.checks small {{ display: block; margin-left: 0; }}

@@ -12,7 +12,8 @@ from harness.description import Variable
 from harness.drawing import Drawing, Shape
 from harness.errors import FmuError
 from harness.experiment import Experiment, Run, perform
-from harness.report.animation import animation, animation_data, playing_speeds
+from harness.report.animation import animation, animation_data
+from harness.report.player import playing_speeds
 from harness.report.run_report import run_report
 
 SHAPES = (

@@ -9,19 +9,23 @@ from pathlib import Path
 import pytest
 from chromium import PROGRAM, Browser, Page, chromium, opened
 
+from harness.designs_command.optimise import run_optimise
+from harness.designs_command.sweep import run_sweep
 from harness.experiment import Experiment, perform
 from harness.fmu import open_fmu
-from harness.optimise_command import run_optimise
+from harness.machine_command.run import run_file
 from harness.report.paper_figures import paper_figures
 from harness.report.run_report import write_report
 from harness.report.study_report import write_study_report
 from harness.study import ratchet_study
-from harness.sweep_command import run_sweep
 
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no chromium is installed (on Debian: apt install chromium)")
 
 PHONE, DESK = 360, 1200
-SCREENS = (*((name, PHONE) for name in ("run", "study", "sweep", "optimum")), ("run", DESK), ("study", DESK))
+SCREENS = (
+    *((name, PHONE) for name in ("run", "study", "sweep", "optimum", "machine")),
+    *((name, DESK) for name in ("run", "study", "machine")),
+)
 
 #: The time that the animation shows, and what its button says.
 CLOCK, BUTTON = "document.querySelector('.time').textContent", "document.querySelector('.play').textContent"
@@ -39,15 +43,23 @@ vary.restitution = {{ from = 0.0, to = 0.6 }}
 vary.tooth_slope_angle = {{ from = 86, to = 94, unit = "deg" }}
 """
 SWEEP = 'sweep = { method = "sobol", count = 16 }\nrecord.first_impact = ["time", "stress_max"]\n'
+MACHINE = """\
+title = "Two ratchets"
+run = {{ stop_time = "1.2 s", step = "10 ms", extrapolation = "constant" }}
+component.upper.file = "{fmu}"
+component.lower.file = "{fmu}"
+connect = [{{ from = "upper.wheel_angle", to = "lower.drive_angle" }}]
+"""
 OPTIMUM = 'optimise = { minimise = "first_impact.stress_max", count = 20 }\n'
 
 
 @dataclass(frozen=True)
 class Report:
-    """A file, and how many charts it has."""
+    """A file, and how many charts and pictures it has."""
 
     path: Path
     charts: int
+    pictures: int = 1
 
     def traces(self) -> list[int]:
         """The number of curves and bands in each of its charts, without those that hold no point."""
@@ -79,6 +91,7 @@ def reports(ratchet_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> dict
         "run": Report(write_report(run, folder / "report.html"), charts=4),
         "study": Report(write_study_report(study, figures, folder / "study.html"), charts=14),
         "sweep": Report(_designs(run_sweep, SWEEP, ratchet_fmu, folder / "sweep"), charts=2),
+        "machine": Report(_machine(ratchet_fmu, folder / "machine"), charts=20, pictures=2),
         "optimum": Report(_designs(run_optimise, OPTIMUM, ratchet_fmu, folder / "optimum"), charts=3),
     }
 
@@ -87,6 +100,13 @@ def _designs(command: Callable[..., int], text: str, fmu: Path, folder: Path) ->
     file = folder.with_suffix(".toml")
     file.write_text(text + DESIGNS.format(fmu=fmu.as_posix()))
     assert command(file, folder, None, None, fast=True) == 0
+    return folder / "report.html"
+
+
+def _machine(fmu: Path, folder: Path) -> Path:
+    file = folder.with_suffix(".toml")
+    file.write_text(MACHINE.format(fmu=fmu.as_posix()))
+    assert run_file(str(file), None, folder) == 0
     return folder / "report.html"
 
 
@@ -115,8 +135,8 @@ def test_all_charts_are_there(shown: tuple[Page, Report]) -> None:
 
 
 def test_the_mechanism_is_drawn_and_plays(shown: tuple[Page, Report]) -> None:
-    page, _ = shown
-    assert page.value('document.querySelectorAll(".animation svg polygon").length') == 1  # the wheel
+    page, report = shown
+    assert page.value('document.querySelectorAll(".animation svg polygon").length') == report.pictures  # the wheels
     _play(page)
 
 
@@ -145,6 +165,23 @@ def test_the_mechanism_plays_pauses_and_goes_to_the_impact(browser: Browser, rep
         page.click(".animation .next")
         page.wait_until("document.querySelector('.struck').textContent === 'impact 1 of 1 at 0.9399212 s'")
         assert page.value("document.querySelector('.flash').getAttribute('visibility')") == "visible"
+
+
+def test_components_of_a_machine_move_together_and_flash_at_their_impacts(
+    browser: Browser, reports: dict[str, Report]
+) -> None:
+    moved = (
+        "[...document.querySelectorAll('.animation svg')].map((s) => s.querySelector('path').getAttribute('transform'))"
+    )
+    with opened(browser, reports["machine"].path, PHONE) as page:
+        start = page.value(moved)
+        assert len(start) == 2
+        page.click(".animation .next")
+        page.wait_until(
+            "document.querySelector('.struck').textContent === 'impact 2 of 2 at 0.9399212 s, lower, upper'"
+        )
+        assert all(now != before for now, before in zip(page.value(moved), start, strict=True))
+        assert page.value("document.querySelectorAll('.animation svg.hit').length") == 2
 
 
 def _play(page: Page) -> None:

@@ -39,6 +39,12 @@ COMMANDS = [
     [],
     ["build"],
     ["demo"],
+    ["machine"],
+    ["machine", "check"],
+    ["machine", "container"],
+    ["machine", "export"],
+    ["machine", "import"],
+    ["machine", "run"],
     ["modes"],
     ["new"],
     ["optimise"],
@@ -87,7 +93,7 @@ def test_a_file_that_is_no_fmu_is_wrong_use(command: str, not_an_fmu: Path) -> N
 def test_another_version_of_fmi_is_wrong_use(fmi1_fmu: Path) -> None:
     code, text = invoke("run", fmi1_fmu)
     assert code == 2
-    assert "is not an FMI 2.0 co-simulation FMU (its FMI version is 1.0)" in text
+    assert "is not an FMU for co-simulation of FMI 2.0 or 3.0 (its FMI version is 1.0)" in text
 
 
 @pytest.mark.parametrize("arguments", [["fly"], ["run"], ["run", "a.fmu", "--step", "fast"], ["study", "gearbox"]])
@@ -98,7 +104,7 @@ def test_wrong_arguments_are_wrong_use(arguments: list[str]) -> None:
 def test_build_knows_its_models(tmp_path: Path) -> None:
     code, text = invoke("build", "gearbox", "-o", tmp_path)
     assert code == 2
-    known = "cam_drive, four_bar, gear_train, geneva, ratchet, slider_crank"
+    known = "cam_drive, four_bar, gear_train, geneva, motor, ratchet, rotary_table, slider_crank"
     assert f"There is no model 'gearbox'; there are: {known}" in text
     code, text = invoke("build", "--list")
     assert code == 0

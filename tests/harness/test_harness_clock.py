@@ -60,3 +60,9 @@ def test_a_step_longer_than_the_run_becomes_the_run() -> None:
 def test_impossible_times_are_refused(stop_time: float, step: float, message: str) -> None:
     with pytest.raises(UsageError, match=message):
         TimeGrid.of(stop_time, step)
+
+
+def test_steps_of_one_size():
+    assert TimeGrid.of(1.0, 0.1).even
+    assert TimeGrid.of(0.05, 0.1).even  # one step, though a shorter one
+    assert not TimeGrid.of(1.05, 0.1).even

@@ -175,3 +175,12 @@ def test_help_names_every_material() -> None:
     text = CliRunner().invoke(main, ["run", "--help"]).output
     for name in CARDS:
         assert name in text
+
+
+def test_impacts_without_a_stress_model_are_a_verdict_and_cost_no_result() -> None:
+    slave = ToothSlave([1.5e6])
+    run = perform(FakeFmu(slave), Experiment(2e6, 1e6))  # type: ignore[arg-type]
+    (verdict,) = [check for check in run.checks if check.claim == "The struck tooth has a stress model"]
+    assert not verdict.passed
+    assert "impacts without a stress model: impact velocity = -3e+06 m/s" in verdict.evidence
+    assert (run.tooth, run.damage, len(run.impacts)) == (None, None, 1)

@@ -54,7 +54,7 @@ def test_interpolation_stays_between_its_neighbours(values: list[float], time: f
         ("time,drive_torque,drive_torque\n0,1,1\n2,1,1\n", "'drive_torque' is there twice"),
         ("time,torque\n0,1\n2,1\n", "no variable 'torque'"),
         ("time,wheel_angle\n0,1\n2,1\n", "causality output and cannot be set"),
-        ("time,tooth_count\n0,10\n2,10\n", "is a parameter, which cannot change during a run; use --set"),
+        ("time,tooth_count\n0,10\n2,10\n", "is a parameter, which cannot change during a run; set its value"),
         ("time,drive_torque [\n0,1\n2,1\n", "is no heading"),
         ("time,drive_torque [mm]\n0,1\n2,1\n", "column 'drive_torque': unit 'mm' does not measure"),
         ("time [m],drive_torque\n0,1\n2,1\n", "column 'time': unit 'm' does not measure"),

@@ -5,19 +5,35 @@ import inspect
 import pytest
 from fake_slave import FakeSlave
 
-from harness.coupling import Coupling
 from harness.events import EventCollector
-from harness.fmu import FmuSlave
+from harness.fmu.element_reals import ElementReals
+from harness.fmu.fmi2 import Fmi2Slave
+from harness.fmu.fmi3 import Fmi3Slave
+from harness.fmu.raw_reals import RawReals
 from harness.impacts import ImpactCollector
+from harness.machine import record
+from harness.machine.bonds import Bonds
+from harness.machine.component import Component, Reals
+from harness.machine.impacts import Impacts
+from harness.machine.remote import RemoteComponent, RemoteReals
+from harness.machine.watched import Watched
 from harness.observers import Observer
 from harness.recorder import Recorder
 from harness.slave import Slave
 from harness.terminal import RunDisplay
-from tests.harness.test_harness_coupling import Mass
+from tests.harness.machine.fakes import Wheel, WheelReals
+from tests.harness.machine.mass import Mass, MassReals
 
-UNITS = (FmuSlave, Coupling, FakeSlave, Mass)
-OBSERVERS = (Recorder, ImpactCollector, EventCollector, RunDisplay)
-CLAIMS = [*((Slave, unit) for unit in UNITS), *((Observer, observer) for observer in OBSERVERS)]
+UNITS = (Fmi2Slave, Fmi3Slave, FakeSlave)
+COMPONENTS = (Fmi2Slave, Fmi3Slave, RemoteComponent, Watched, Wheel, Mass)
+REALS = (RawReals, ElementReals, RemoteReals, WheelReals, MassReals)
+OBSERVERS = (Recorder, ImpactCollector, EventCollector, RunDisplay, record.Recorder, Impacts, Bonds)
+CLAIMS = [
+    *((Slave, unit) for unit in UNITS),
+    *((Component, component) for component in COMPONENTS),
+    *((Reals, reals) for reals in REALS),
+    *((Observer, observer) for observer in OBSERVERS),
+]
 
 
 def calls(interface: type) -> dict[str, list[str]]:

@@ -197,7 +197,7 @@ def test_an_objective_that_never_changes_has_no_indices_and_this_is_said(tmp_pat
     optimum = replace(optimum_of(X, Y, count=20), around=Around(4, 0.1))
     history = history_of(optimum, tmp_path, way=constant)
     best = search(optimum, history)
-    with pytest.raises(NoIndicesError, match="the objective is 7 everywhere: no variable matters there"):
+    with pytest.raises(NoIndicesError, match="the objective is 7 m2 everywhere: no variable matters there"):
         sensitivity(optimum, best, history)
 
 

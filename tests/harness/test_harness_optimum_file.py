@@ -6,8 +6,8 @@ import pytest
 from fake_slave import fake_description
 
 from harness.designs.optimum_file import CONTINUOUS, MIXED, Around, Optimum, read_optimum
-from harness.designs.toml_file import TomlFile
 from harness.errors import UsageError
+from harness.toml_file import TomlFile
 
 GOOD = """\
 [fmu]

@@ -63,9 +63,16 @@ def test_the_bar_appears_only_when_the_run_takes_long() -> None:
         display.started(slave, 0.0)
         display.stepped(slave, 1.0)
         assert not display.bar_shown
-        now = 3.0
+        now = 4.0
         display.stepped(slave, 2.0)
         assert display.bar_shown
+        assert display._bar.tasks[0].description == "0.5 x real time"
+        now = 4.05
+        display.stepped(slave, 3.0)
+        assert display._bar.tasks[0].completed == 2.0
+        now = 6.0
+        display.stepped(slave, 9.0)
+        assert (display._bar.tasks[0].completed, display._bar.tasks[0].description) == (9.0, "1.5 x real time")
 
 
 def test_ctrl_c_is_a_request_the_first_time_and_an_exception_the_second() -> None:

@@ -134,6 +134,7 @@ def test_mistakes_are_wrong_use_and_nothing_is_run(slider_crank_fmu: Path, tmp_p
     assert "cranks.toml has 2 mistakes; nothing was run." in text
     assert "cranks.toml:12: sweep.count: is 0, but must be a whole number, 1 or more." in text
     assert "cranks.toml:18: vary.offset.unit: unit 'kg' does not measure the same quantity" in text
+    assert not (tmp_path / "out").exists()
 
 
 def test_ctrl_c_ends_cleanly_and_the_same_command_goes_on(slider_crank_fmu: Path, tmp_path: Path) -> None:
@@ -188,6 +189,7 @@ def test_a_cluster_gives_what_this_machine_gives(slider_crank_fmu: Path, tmp_pat
 
 
 @pytest.mark.slow
+@pytest.mark.endurance
 def test_two_thousand_designs_killed_ten_times(native_slider_crank_fmu: Path, tmp_path: Path) -> None:
     """With -9, at any moment: what was kept is never run again, and the table is the undisturbed one's."""
     path, out = file_of(tmp_path, native_slider_crank_fmu, 2000), tmp_path / "killed"

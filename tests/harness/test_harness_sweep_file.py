@@ -10,8 +10,8 @@ from harness.description import Description, Variable
 from harness.designs.plan import Source, source
 from harness.designs.sweep_file import Sweep, read_sweep
 from harness.designs.task import Quantity, When
-from harness.designs.toml_file import TomlFile
 from harness.errors import UsageError
+from harness.toml_file import TomlFile
 
 GOOD = """\
 title = "Teeth"

@@ -8,14 +8,14 @@ from types import ModuleType
 import pandas as pd
 import pytest
 
-from harness.results import write_with_units
+from harness.machine.bonds import BondEnergy
 
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
 #: Where the wheel is latched after two teeth of 18 deg [rad].
 INDEXED = math.radians(75 + 2 * 18)
-STEPS = (8e-3, 4e-3, 2e-3)
+STEPS = (6e-3, 4e-3, 2e-3)
 
 
 @pytest.fixture(scope="module")
@@ -31,11 +31,20 @@ def machine() -> ModuleType:
 
 @pytest.fixture(scope="module")
 def runs(
-    machine: ModuleType, native_gear_train_fmu: Path, native_cam_drive_fmu: Path, native_ratchet_fmu: Path
-) -> dict[float, tuple[pd.DataFrame, dict[str, str]]]:
-    """Results and units by communication step."""
+    machine: ModuleType,
+    native_gear_train_fmu: Path,
+    native_cam_drive_fmu: Path,
+    native_ratchet_fmu: Path,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> dict[float, tuple[pd.DataFrame, dict[str, BondEnergy]]]:
+    """Results, and energies over the bonds, by communication step."""
     fmus = {"gear_train": native_gear_train_fmu, "cam_drive": native_cam_drive_fmu, "ratchet": native_ratchet_fmu}
-    return {step: machine.run(fmus, step) for step in STEPS}
+    found = {}
+    for step in STEPS:
+        file = tmp_path_factory.mktemp("machine") / "results.parquet"
+        energies = machine.run(fmus, step, file)
+        found[step] = pd.read_parquet(file), energies
+    return found
 
 
 @pytest.mark.parametrize("step", STEPS)
@@ -60,21 +69,21 @@ def test_the_roller_stays_on_the_cam_and_the_gears_in_mesh(machine, runs):
     assert (results["gear_train.wheel_angle"] - results["cam_drive.cam_angle"]).abs().max() < 0.05
 
 
-def test_it_converges_with_the_communication_step(runs):
+def test_the_step_hardly_matters(runs):
+    """Impacts end a step, and in between inputs go on as outputs do."""
     for name in ("ratchet.crank_angle", "gear_train.pinion_angle", "cam_drive.cam_angle"):
         coarse, middle, fine = (runs[step][0][name].iloc[-1] for step in STEPS)
-        assert abs(middle - fine) < 1e-4
-        assert (coarse - middle) / (middle - fine) == pytest.approx(2.0, abs=0.3)
+        assert abs(coarse - fine) < 1e-5
+        assert abs(middle - fine) < 3e-6
 
 
-def test_the_energy_that_the_coupling_makes_vanishes_with_the_step(machine, runs):
-    for bond in machine.BONDS.values():
-        energies = [machine.bond_energy(runs[step][0], bond) for step in STEPS]
-        assert all(energy.given > 0.02 and energy.taken > 0.02 for energy in energies)
-        assert abs(energies[-1].made) < 1e-3 * energies[-1].most
-        made = [energy.made for energy in energies]
-        assert made[0] / made[1] == pytest.approx(2.0, abs=0.1)
-        assert made[1] / made[2] == pytest.approx(2.0, abs=0.1)
+def test_the_coupling_makes_hardly_any_energy(machine, runs):
+    for bond in machine.BONDS:
+        for step in STEPS:
+            energy = runs[step][1][bond]
+            assert energy.given > 0.02
+            assert energy.taken > 0.02
+            assert abs(energy.made) < 2e-4 * energy.most
 
 
 def test_the_crank_is_led_by_the_follower(machine, runs):
@@ -82,11 +91,3 @@ def test_the_crank_is_led_by_the_follower(machine, runs):
     lag = results["cam_drive.follower_angle"] + machine.FOLLOWER_TO_CRANK - results["ratchet.crank_angle"]
     torque = 2.0 * lag + 0.1 * (results["cam_drive.follower_speed"] - results["ratchet.crank_speed"])
     assert (torque - results["ratchet.drive_shaft_torque"]).abs().max() < 1e-3
-
-
-def test_results_are_a_table_with_units(runs, tmp_path):
-    results, units = runs[STEPS[0]]
-    table = pd.read_csv(write_with_units(results, units, tmp_path / "results.csv"))
-    assert next(iter(table.columns)) == "time [s]"
-    assert {"gear_train.mesh_force [N]", "ratchet.wheel_angle [rad]", "ratchet.clicks"} <= set(table.columns)
-    assert table["ratchet.wheel_angle [rad]"].iloc[-1] == results["ratchet.wheel_angle"].iloc[-1]

@@ -1,0 +1,12 @@
+"""Machines: several FMUs that exchange outputs and inputs (docs/machines.md).
+
+- `machine`: parts and their exchange (`component`, `part`, `signals`, `connection`, `extrapolation`, `order`); `run`;
+  `initialization`, `driven` (inputs of a table), `loops` (without delay)
+- `algorithms`: how it takes a step, a file each; `algorithm` chooses, `cautions` says what one cannot do
+- what looks on: `record` (`growing_table`, `recorded`), `impacts` (`watched`, `impact_times`), `bonds` (`port`),
+  `statistics`
+- `remote` (`far_side`): a component in a process of its own
+- `file`: a machine in TOML; `ssp` and `container`: for other tools
+"""
+
+__all__ = ["algorithms", "component", "connection", "extrapolation", "machine", "run"]

@@ -1,0 +1,122 @@
+"""What is to be said of a machine that is no mistake."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ...description import Description, Variable
+from ...numbers import shown
+from ..bonds import Bond, pushes
+from ..connection import Connection
+from ..extrapolation import Extrapolation
+from .described import described
+from .plan import BondPlan, Plan, Scheme
+
+
+def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[str] = ()) -> list[str]:
+    """Sentences for the user.
+
+    Args:
+        plan: the machine.
+        descriptions: of its components' FMUs.
+        driven: inputs that the table of inputs drives.
+    """
+    machine = described(descriptions, plan.connections)
+    found = [
+        f"{', '.join(cycle)} follow each other: a cycle. A fixed step shows what one of them does to the others "
+        "only in the next step."
+        if len(cycle) > 1
+        else f"{cycle[0]} follows itself."
+        for cycle in machine.cycles
+    ]
+    found += [
+        f"{', '.join(loop)} follow each other at once, as far as the FMUs tell: a loop without any delay. It is gone "
+        "round a few times at each communication point, and not solved."
+        for loop in machine.loops
+    ]
+    found += _free_inputs(plan, machine.description, driven)
+    found += _without_units(plan.connections, machine.description)
+    found += _extrapolation(plan, descriptions)
+    found += [_pushed(bond) for bond in plan.bonds if pushes(Bond(bond.flow, bond.effort, bond.reaction))]
+    stiff = [name for name, description in descriptions.items() if not description.saves_state]
+    if plan.policy.scheme is Scheme.EVENT_AWARE and stiff:
+        found.append(
+            f"{', '.join(stiff)} cannot be put back (canGetAndSetFMUstate): impacts there are felt by the others only "
+            "at the end of the step."
+        )
+    return found
+
+
+def _without_units(connections: Sequence[Connection], machine: Description) -> list[str]:
+    told: dict[str, str] = {}
+    for connection in connections:
+        source, target = machine.variables[connection.source], machine.variables[connection.target]
+        if bool(source.unit) is not bool(target.unit):
+            bare, other = (target, source) if source.unit else (source, target)
+            told[bare.name] = f"{bare.name} ({other.unit}, as {other.name})"
+        rate = machine.variables.get(connection.rate)
+        if rate is not None and source.unit and not rate.unit:
+            told[rate.name] = f"{rate.name} ({source.unit}/s)"
+    return [f"No unit is known of {', '.join(told.values())}: that of what it goes with was taken."] if told else []
+
+
+def _pushed(bond: BondPlan) -> str:
+    effort = bond.effort
+    driving, driven = _part(effort.target), _part(effort.source)
+    meaning = f"the reaction on {driving} (reaction = true)" if bond.reaction else f"the torque or force on {driven}"
+    also = "" if bond.reaction else " An output that is the reaction itself needs reaction = true below [[bond]]."
+    return (
+        f"Bond '{bond.name}': {effort.target} follows {effort.source} with gain = {effort.gain:g}, so {driving} is "
+        f"pushed on by what it drives, if that output is {meaning}. Perhaps the gain should be {-effort.gain:g}.{also}"
+    )
+
+
+def _free_inputs(plan: Plan, machine: Description, driven: Sequence[str]) -> list[str]:
+    known = {*driven, *plan.start_values}
+    free: dict[str, list[Variable]] = {}
+    for variable in machine.of("input"):
+        if variable.name not in known:
+            free.setdefault(variable.name.partition(".")[0], []).append(variable)
+    return [
+        f"Inputs of {part} that follow nobody and are not set keep their start values: "
+        f"{', '.join(_kept(variable, machine) for variable in variables)}."
+        for part, variables in free.items()
+    ]
+
+
+def _kept(variable: Variable, machine: Description) -> str:
+    name = variable.name.partition(".")[2]
+    if variable.start is None:
+        return name
+    if variable.type != "Real":
+        return f"{name} = {variable.start}"
+    return f"{name} = {shown(float(variable.start), variable.name, machine)}"
+
+
+def _extrapolation(plan: Plan, descriptions: Mapping[str, Description]) -> list[str]:
+    kind = plan.policy.extrapolation
+    if kind is Extrapolation.CONSTANT:
+        return []
+    targets = {_part(connection.target) for connection in plan.connections}
+    held = [name for name, description in descriptions.items() if name in targets and not description.takes_slopes]
+    found = []
+    if held:
+        found.append(
+            f"{', '.join(held)} takes no slopes of inputs (canInterpolateInputs): its inputs are held during a step, "
+            "at what they would be in its middle."
+        )
+    unknown = [c.source for c in plan.connections if _has_no_slope(c, descriptions)]
+    if kind is Extrapolation.DERIVATIVES and unknown:
+        found.append(
+            f"No derivative is known of {', '.join(dict.fromkeys(unknown))}: what follows goes on as in the step "
+            'before (extrapolation = "linear"), unless the connection names a rate.'
+        )
+    return found
+
+
+def _has_no_slope(connection: Connection, descriptions: Mapping[str, Description]) -> bool:
+    return not connection.rate and not descriptions[_part(connection.source)].gives_slopes
+
+
+def _part(name: str) -> str:
+    return name.partition(".")[0]

@@ -1,0 +1,166 @@
+"""The impacts of all components of a machine, the stress that each leaves, and the damage that all of them do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import pandas as pd
+
+from mechanism_fmu.stress import STEEL_CARD, MaterialCard, SequenceDamage, WedgeTooth
+
+from ..buffers import Buffer
+from ..description import Value
+from ..errors import FmuError, UsageError
+from ..slave import Observable
+from ..tooth_damage import damage_of_impacts
+from ..tooth_stress import STRESS_UNITS, TOOTH, tooth_of, with_stress
+from .component import Component
+from .machine import Machine
+from .watched import watched
+
+_LOST = "impacts_lost"
+
+#: The columns before those that the components tell, with their units.
+_FIRST = {"component": ""}
+
+
+@dataclass(frozen=True)
+class ComponentImpacts:
+    """What struck one component.
+
+    Attributes:
+        impacts: a row for each impact in the order of time, with its stress when there is a tooth.
+        lost: impacts that the component could not report.
+        tooth: what they struck; None when the component describes none.
+        objection: why there is no stress, though the component describes a tooth; "" when there is.
+        damage: what they have done to the tooth; None without a tooth or an impact.
+    """
+
+    impacts: pd.DataFrame
+    lost: int
+    tooth: WedgeTooth | None
+    objection: str
+    damage: SequenceDamage | None
+
+
+class Impacts:
+    """An observer of a machine that keeps all impacts that its components report.
+
+    Attributes:
+        struck: whether there was an impact since the communication point before.
+        units: of the columns of `table`, "1" for numbers without one.
+    """
+
+    def __init__(self, machine: Machine) -> None:
+        """Look on at each component that has a buffer of impacts, before the machine's first step.
+
+        Raises:
+            UsageError: two components tell the same of an impact in different units.
+        """
+        self._watches: dict[str, _Watch] = {}
+        self.units: dict[str, str] = dict(_FIRST)
+        for name, part in machine.parts.items():
+            own = _Watch(part.component)
+            if own.units:
+                own.component = watched(machine, name)
+                own.component.watchers.append(own)
+                self._watches[name] = own
+                self._join_units(name, own.units)
+        self.struck = False
+        self._seen = 0
+
+    def started(self, unit: Observable, time: float) -> None:
+        """Read which teeth will be struck."""
+        for own in self._watches.values():
+            own.read_tooth()
+
+    def stepped(self, unit: Observable, time: float) -> None:
+        """Say whether there were impacts; they have been kept already."""
+        count = sum(len(own.rows) for own in self._watches.values())
+        self.struck, self._seen = count > self._seen, count
+
+    def by_component(self, card: MaterialCard = STEEL_CARD) -> dict[str, ComponentImpacts]:
+        """What struck each component that reports impacts; teeth are of the material of `card`."""
+        return {name: own.result(card) for name, own in self._watches.items()}
+
+    def table(self, by_component: Mapping[str, ComponentImpacts]) -> pd.DataFrame:
+        """All impacts in the order of time, with the component's name first; columns of `units`."""
+        tables = [one.impacts.assign(component=name) for name, one in by_component.items() if len(one.impacts)]
+        columns = [name for name in self.units if not tables or any(name in table for table in tables)]
+        if not tables:
+            return pd.DataFrame(columns=columns)
+        whole = pd.concat(tables, ignore_index=True) if len(tables) > 1 else tables[0]
+        by_time = whole.sort_values("time", kind="stable") if "time" in whole else whole
+        return by_time[columns].reset_index(drop=True)
+
+    def _join_units(self, name: str, units: Mapping[str, str]) -> None:
+        for field, unit in units.items():
+            if self.units.setdefault(field, unit) != unit:
+                raise UsageError(
+                    f"The impacts of {name} have their {field} in {unit}, those of another component before it in "
+                    f"{self.units[field]}; one table cannot have both."
+                )
+
+
+class _Watch:
+    """A `watched.Watcher` that keeps the impacts of one component.
+
+    Attributes:
+        units: of what is told of an impact, and of its stress; {} when the component reports none.
+        rows: what was told of each impact.
+        component: that is asked.
+    """
+
+    def __init__(self, component: Component) -> None:
+        self.component = component
+        description = component.description
+        self._buffer = Buffer(description, "impacts")
+        self._counts_lost = _LOST in description.variables
+        self._tells_tooth = description.variables.keys() >= set(TOOTH) and "velocity" in self._buffer.fields
+        told = {field: variable.unit or "1" for field, variable in self._buffer.fields.items()}
+        self.units = told | (STRESS_UNITS if self._tells_tooth else {})
+        self.rows: list[list[Value]] = []
+        self._lost = 0
+        self._tooth: WedgeTooth | None = None
+        self._objection = ""
+
+    def read_tooth(self) -> None:
+        """Once, after the initialization."""
+        if not self._tells_tooth:
+            return
+        try:
+            self._tooth = tooth_of(dict(zip(TOOTH, self.component.get(TOOTH), strict=True)))
+        except FmuError as error:
+            self._objection = str(error)
+
+    def begins(self, time: float) -> None:
+        """Nothing has happened yet."""
+
+    def ended(self, time: float) -> None:
+        """Keep the impacts of the step."""
+        new = self._buffer.read(self.component)
+        if new:
+            self.rows += new
+            if self._counts_lost:
+                self._lost = int(self.component.get((_LOST,))[0])
+
+    def memory(self) -> tuple[int, int]:
+        """How many there are."""
+        return len(self.rows), self._lost
+
+    def remember(self, memory: tuple[int, int]) -> None:
+        """Forget those since."""
+        count, self._lost = memory
+        del self.rows[count:]
+
+    def result(self, card: MaterialCard) -> ComponentImpacts:
+        """What they amount to."""
+        impacts, damage = pd.DataFrame(self.rows, columns=list(self._buffer.fields)), None
+        if self._tooth is not None:
+            try:
+                damage = damage_of_impacts(impacts, self._tooth, card)
+                impacts = with_stress(impacts, self._tooth, card.material)
+            except FmuError as error:
+                return ComponentImpacts(impacts, self._lost, None, str(error), None)
+        return ComponentImpacts(impacts, self._lost, self._tooth, self._objection, damage)

@@ -1,0 +1,289 @@
+"""Components that follow each other's outputs; how they take a step is an algorithm's business."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from ..clock import SECOND
+from ..description import Description, Value, Variable
+from ..errors import UsageError
+from ..inputs import InputSignals
+from ..slave import Slave
+from ..units import Units
+from .component import Component
+from .connection import Connection, Link, linked
+from .driven import Driven
+from .extrapolation import Extrapolation
+from .initialization import initialize
+from .loops import loops
+from .order import dependency_order
+from .part import Part
+from .part_units import units_of_parts
+
+_NOTHING: Mapping[str, Sequence[float]] = {}
+
+#: So little, relatively, is rounding in a loop without delay; what is smaller than the other is nothing at all.
+_SETTLED, _NOTHING_LEFT = 1e-9, 1e-9
+
+
+#: Where a connected input gets its value, factor * values[place] + offset, from the values of a part's outputs as they
+#: were last read. A plain tuple, because every step takes it apart.
+_Wire = tuple[Sequence[float], int, float, float]
+
+
+class Machine:
+    """Components as one unit, whose variables are theirs with the part's name before them: "ratchet.wheel_angle".
+
+    Attributes:
+        description: of it, as if it were one FMU; a connected input is an output, since nobody else may set it.
+        parts: by name, each behind those that it follows.
+        cycles: groups of parts that follow each other.
+        loops: groups of connected inputs that follow each other without any delay (`loops.loops`).
+        point: number of the run's communication point that is reached; None between two, where an algorithm may stop.
+        unsettled: how often an exchange has ended though such a loop was still changing inputs beyond rounding.
+        extrapolation: of inputs between communication points.
+    """
+
+    def __init__(
+        self,
+        components: Mapping[str, Component],
+        connections: Sequence[Connection] = (),
+        extrapolation: Extrapolation = Extrapolation.CONSTANT,
+        model: str = "Machine",
+    ) -> None:
+        """Connect components.
+
+        Raises:
+            UsageError: a connection that cannot be; the message says which and why.
+        """
+        variables = {v.name: v for name, c in components.items() for v in _variables(name, c.description)}
+        self.description = Description(model, model, "", variables, _units(components))
+        links = [linked(connection, self.description) for connection in connections]
+        for link in links:
+            if not variables[link.target].settable:
+                raise UsageError(f"{link.target} has two connections; an input can have only one.")
+            variables[link.target] = replace(variables[link.target], causality="output")
+        edges = [(_part(link.source), _part(link.target)) for link in links]
+        order, self.cycles = dependency_order(list(components), edges)
+        self.loops = loops(links, {name: component.description for name, component in components.items()})
+        self.unsettled = 0
+        self.point: int | None = 0
+        together = {name: tuple(cycle) for cycle in self.cycles for name in cycle}
+        self._groups = list(dict.fromkeys(together.get(name, (name,)) for name in order))
+        self._links = links
+        self.extrapolation = extrapolation
+        self._holds = extrapolation is Extrapolation.CONSTANT
+        self.parts = {name: _connected(name, components[name], links) for name in order}
+        # What a step looks at, without detours.
+        self._outputs = {name: part.outputs for name, part in self.parts.items()}
+        for outputs in self._outputs.values():
+            outputs.remembers = not self._holds
+        self._refreshers = [outputs.refresh for outputs in self._outputs.values() if outputs.names]
+        self._inputs = {name: part.inputs for name, part in self.parts.items() if part.targets}
+        wired = {name: self._wired(name, links) for name in self._inputs}
+        self._wires = {name: [wire for _, wire in wires] for name, wires in wired.items()}
+        self._bends = {name: [(source, k, factor) for source, (_, k, factor, _) in wired[name]] for name in wired}
+        self._followed = {name: frozenset(source for source, _ in wires) for name, wires in wired.items()}
+        self._through = {name: part.feeds_through for name, part in self.parts.items()}
+        self._given: dict[str, list[float]] = {}
+        self._slopes: dict[str, Sequence[float]] = {}
+        self._driven: Driven | None = None
+
+    def set(self, values: Mapping[str, Value]) -> None:
+        """Set variables by name.
+
+        Raises:
+            UsageError: a variable that is connected.
+        """
+        for name in values:
+            if not self.description.variable(name).settable:
+                raise UsageError(f"'{name}' is no free input or parameter of the machine and cannot be set.")
+        for part, own in _by_part(list(values)).items():
+            self.parts[part].component.set({name: values[f"{part}.{name}"] for name in own})
+
+    def get(self, names: Sequence[str]) -> list[Value]:
+        """Values of variables, in the order of `names`."""
+        values: dict[str, Value] = {}
+        for part, own in _by_part(names).items():
+            values |= zip((f"{part}.{name}" for name in own), self.parts[part].component.get(own), strict=True)
+        return [values[name] for name in names]
+
+    def drive(self, signals: InputSignals, start: int) -> None:
+        """Let a table drive inputs, before the initialization; they must be set as it says for `start` [ns].
+
+        They change with each exchange. During a step, Real ones go on to what the table says for its end, unless
+        inputs are held (`Extrapolation.CONSTANT`).
+        """
+        self._driven = Driven(self.parts, signals, start)
+
+    def initialize(self, start_time: float, stop_time: float) -> None:
+        """Initialize the parts, each with the outputs of those that it follows, and exchange until nothing changes."""
+        initialize(self.parts, self._links, self._groups, start_time, stop_time)
+        self.exchange(round(start_time * SECOND))
+
+    def terminate(self) -> None:
+        """End the run of all parts."""
+        for part in self.parts.values():
+            part.component.terminate()
+
+    def free_states(self) -> None:
+        """Release all snapshots."""
+        for part in self.parts.values():
+            part.forget()
+
+    def exchange(self, time: int) -> None:
+        """Read all outputs at `time` [ns], and let inputs be what they follow.
+
+        Outputs that follow an input at once are read again when it has changed, as often as there are connected inputs
+        at most: longer chains than that are loops without any delay, which are solved only if that is enough.
+        """
+        self._slopes.clear()
+        if self._driven is not None:
+            self._driven.exchange(time)
+        if self._holds:
+            for refresh in self._refreshers:
+                refresh()
+        else:
+            for outputs in self._outputs.values():
+                outputs.read(time)
+        names: Iterable[str] = self._wires
+        for _ in self._links:
+            changed = [name for name in names if self._write(name)]
+            if not changed:
+                return
+            for name in changed:
+                self._outputs[name].read(time)
+            names = [name for name, sources in self._followed.items() if not sources.isdisjoint(changed)]
+        self.unsettled += any(self._is_changing(name) for name in names)
+        self._given.clear()
+
+    def give_all(self, begin: int, end: int) -> None:
+        """`give` every part, before any of them takes the step."""
+        if self._holds and len(self._given) == len(self._wires):
+            return  # the exchange has left nothing to do
+        for name in self._wires:
+            self.give(name, begin, end)
+        for name in () if self._driven is None else self._driven.parts:
+            if name not in self._wires:
+                self.give(name, begin, end)
+
+    def give(self, name: str, begin: int, end: int, known: Mapping[str, Sequence[float]] = _NOTHING) -> None:
+        """Let a part's inputs be what they follow, and go on during a step.
+
+        A part that takes no slopes has its inputs held at what they would be in the middle of the step.
+
+        Args:
+            name: of the part.
+            begin: of the step [ns], for which outputs were exchanged.
+            end: of the step [ns].
+            known: slopes of the outputs of parts that have already taken it [unit/s]; others are extrapolated.
+        """
+        if self._driven is not None and not self._holds:
+            self._driven.give(name, begin, end)
+        if name not in self._given:
+            if name not in self._wires:
+                return
+            self._write(name)
+        if self._holds and (not known or known.keys().isdisjoint(self._followed[name])):
+            return
+        part = self.parts[name]
+        self.foresee([name], known)
+        slopes = self._slopes
+        if known:
+            slopes = {**slopes, **known}
+        changes = [factor * slopes[source][place] for source, place, factor in self._bends[name]]
+        if self.extrapolation is Extrapolation.DERIVATIVES:
+            # b t^2 / 2, with the bend b, has the mean of (b span / 3) t: so much is felt of it, to third order.
+            third = (end - begin) / SECOND / 3
+            for k, (source, place, factor) in enumerate(self._bends[name]):
+                if source not in known:
+                    changes[k] += factor * third * self._outputs[source].bends[place]
+        if part.takes_slopes:
+            part.slopes.values[:] = changes
+            part.slopes.write_slopes()
+            self._given.pop(name, None)  # at the end of the step, they are where their slopes have brought them
+            return
+        half = (end - begin) / SECOND / 2
+        given = self._given.pop(name)
+        part.inputs.values[:] = [value + change * half for value, change in zip(given, changes, strict=True)]
+        part.inputs.write()
+
+    def foresee(self, names: Sequence[str], known: Mapping[str, Sequence[float]] = _NOTHING) -> None:
+        """Ask for the slopes that `give` needs for parts, while what they follow has not gone on yet."""
+        for name in names:
+            for source in self._followed.get(name, ()):
+                if source not in self._slopes and source not in known:
+                    self._slopes[source] = self.extrapolation.slopes(self._outputs[source])
+
+    def restored(self, name: str) -> None:
+        """A part was put back: what its inputs are is not known any more."""
+        self._given.pop(name, None)
+        if self._driven is not None:
+            self._driven.restored(name)
+
+    def _write(self, name: str) -> bool:
+        """Set a part's connected inputs from outputs as they were last read.
+
+        Whether one has changed that a connected output of the part follows at once.
+        """
+        now = [factor * values[place] + offset for values, place, factor, offset in self._wires[name]]
+        before = self._given.get(name)
+        if before == now:
+            return False
+        inputs = self._inputs[name]
+        inputs.values[:] = now
+        inputs.write()
+        self._given[name] = now
+        for k in self._through[name]:  # noqa: SIM110 any() takes twice as long
+            if before is None or before[k] != now[k]:
+                return True
+        return False
+
+    def _is_changing(self, name: str) -> bool:
+        """Whether a part's connected inputs are not what they follow, beyond rounding."""
+        now = [factor * values[place] + offset for values, place, factor, offset in self._wires[name]]
+        given = self._given.get(name, now)
+        return any(abs(a - b) > _SETTLED * max(abs(a), abs(b), _NOTHING_LEFT) for a, b in zip(now, given, strict=True))
+
+    def _wired(self, name: str, links: Sequence[Link]) -> list[tuple[str, _Wire]]:
+        """What each connected input of a part follows: which part, and which of its outputs."""
+        by_target = {link.target: link for link in links}
+        found: list[tuple[str, _Wire]] = []
+        for target in self.parts[name].targets:
+            link = by_target[f"{name}.{target}"]
+            source, _, output = link.source.partition(".")
+            outputs = self._outputs[source]
+            found.append((source, (outputs.values, outputs.names.index(output), link.factor, link.offset)))
+        return found
+
+
+def _connected(name: str, component: Component, links: Sequence[Link]) -> Part:
+    """A part with its connected outputs and inputs."""
+    own = [link for link in links if _part(link.source) == name]
+    sources = {link.source.partition(".")[2]: "" for link in own}
+    sources |= {link.source.partition(".")[2]: link.rate.partition(".")[2] for link in own if link.rate}
+    targets = [link.target.partition(".")[2] for link in links if _part(link.target) == name]
+    return Part(component, list(sources), list(sources.values()), targets)
+
+
+def _part(name: str) -> str:
+    return name.partition(".")[0]
+
+
+def _variables(part: str, description: Description) -> Iterator[Variable]:
+    for variable in description.variables.values():
+        yield replace(variable, name=f"{part}.{variable.name}")
+
+
+def _by_part(names: Sequence[str]) -> dict[str, list[str]]:
+    """Names without their part, by part."""
+    parts: dict[str, list[str]] = {}
+    for name in names:
+        part, _, own = name.partition(".")
+        parts.setdefault(part, []).append(own)
+    return parts
+
+
+def _units(slaves: Mapping[str, Slave]) -> Units:
+    return units_of_parts({part: slave.description.units for part, slave in slaves.items()})

@@ -1,0 +1,178 @@
+"""The commands `mechanism-fmu machine ...`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .cli_group import Group
+
+machine = typer.Typer(
+    cls=Group,
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+)
+
+MachineName = Annotated[
+    str,
+    typer.Argument(
+        metavar="MACHINE", help="File of the machine, NAME.toml, or the name of a ready one.", show_default=False
+    ),
+]
+
+
+@machine.callback()
+def machines() -> None:
+    """Several FMUs as one machine, described in a file: run it, check it, and exchange it with other tools.
+
+    A small FILE.toml:
+
+        [run]
+        stop_time = "10 s"
+        step = "5 ms"
+
+        [component.gears]
+        model = "gear_train"
+
+        [component.gears.set]
+        drive_torque = "0.1 N.m"
+
+        [component.wheel]
+        file = "Wheel.fmu"
+
+        [[connect]]
+        from = "gears.wheel_speed"
+        to = "wheel.drive_speed"
+
+    See docs/machines.md.
+    """
+
+
+@machine.command("run")
+def run_machine(
+    name: MachineName,
+    input_file: Annotated[
+        Path | None,
+        typer.Option(
+            "--input",
+            metavar="FILE.csv",
+            help="Signals for free inputs: a column `time [s]`, then one for each, e.g. `table.load_torque [N.m]`.",
+            show_default="run.input of the file",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
+    ] = None,
+) -> None:
+    """Run a machine and write results.parquet, impacts.csv, summary.json and report.html.
+
+    Try:
+
+        mechanism-fmu machine run indexing_table
+
+        mechanism-fmu machine run my_machine.toml -o result
+
+    Ctrl-C ends the run early and keeps what was recorded.
+
+    Exit code: 0 all well, 1 the run failed, 2 wrong use, 130 interrupted.
+    """
+    from .machine_command.run import run_file
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_file(name, input_file, output))
+
+
+@machine.command("check")
+def check_machine(name: MachineName) -> None:
+    """Show what is in a machine's file: components in their order, connections, cycles; or all of its mistakes.
+
+    Models are built for it; nothing is run.
+
+    Exit code: 0 no mistakes, 2 mistakes or wrong use.
+    """
+    from .machine_command.check import check_file
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(check_file(name))
+
+
+@machine.command("export")
+def export_machine(
+    name: MachineName,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o", "--output", metavar="FILE.ssp", help="File to write.", show_default="NAME.ssp", dir_okay=False
+        ),
+    ] = None,
+) -> None:
+    """Write a machine as SSP 1.0, one file with all FMUs, for other tools.
+
+    Try:
+
+        mechanism-fmu machine export my_machine.toml -o my_machine.ssp
+
+    Exit code: 0 all well, 2 wrong use.
+    """
+    from .machine_command.exchange import export_file
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(export_file(name, output))
+
+
+@machine.command("import")
+def import_machine(
+    file: Annotated[Path, typer.Argument(metavar="FILE.ssp", help="System in the format SSP 1.0.", show_default=False)],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder for the machine.", show_default="the file's name"),
+    ] = None,
+) -> None:
+    """Write the system of an SSP file as a machine's file, with its FMUs beside it; nothing is overwritten.
+
+    Try:
+
+        mechanism-fmu machine import drive_train.ssp -o drive_train
+
+        mechanism-fmu machine run drive_train/drive_train.toml
+
+    Exit code: 0 all well, 2 wrong use.
+    """
+    from .machine_command.exchange import import_file
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(import_file(file, output))
+
+
+@machine.command("container")
+def contain_machine(
+    name: MachineName,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o", "--output", metavar="FILE.fmu", help="File to write.", show_default="NAME.fmu", dir_okay=False
+        ),
+    ] = None,
+) -> None:
+    """Wrap a machine as one FMU, which steps its components itself: fixed steps, all at once, inputs held.
+
+    Try:
+
+        mechanism-fmu machine container my_machine.toml -o MyMachine.fmu
+
+        mechanism-fmu run MyMachine.fmu
+
+    Exit code: 0 all well, 2 wrong use, or a machine that cannot be wrapped.
+    """
+    from .machine_command.exchange import contain_file
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(contain_file(name, output))

@@ -1,0 +1,162 @@
+"""A machine's run, under the eyes of the user."""
+
+from __future__ import annotations
+
+import time
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+from mechanism_fmu.stress import material_card
+
+from ..clock import TimeGrid
+from ..drawing import read_drawing
+from ..errors import UsageError
+from ..interrupt import interruption
+from ..machine.algorithm import algorithm_of
+from ..machine.bonds import Bond, Bonds
+from ..machine.cautions import bond_cautions, cautions, loop_cautions
+from ..machine.file.plan import Scheme
+from ..machine.frames import Frames
+from ..machine.growing_table import FORMATS
+from ..machine.impacts import Impacts
+from ..machine.machine import Machine
+from ..machine.performed import MachineRun
+from ..machine.prepared import Prepared
+from ..machine.record import Recorder
+from ..machine.recorded import chosen
+from ..machine.run import run_machine
+from ..machine.statistics import statistics, statistics_rows
+from ..master import Ending
+from ..messages import LogMessage
+from ..observers import Observer
+from ..slave import Observable
+from ..terminal import RunDisplay, console, show_warning
+from .parts import instantiated
+from .pictured import pictured
+
+#: More messages than this are shown, but not kept.
+_MOST_MESSAGES = 1000
+
+
+class _Beginning:
+    """An observer that tells whether there is anything to keep."""
+
+    def __init__(self) -> None:
+        self.reached = False
+
+    def started(self, unit: Observable, time: float) -> None:
+        self.reached = True
+
+    def stepped(self, unit: Observable, time: float) -> None:
+        pass
+
+
+class _Recording:
+    """A recorder whose disk may become full: then the run ends, and what else came of it can still be written.
+
+    Attributes:
+        refused: why it could not go on.
+    """
+
+    def __init__(self, recorder: Recorder, file: Path) -> None:
+        self.refused: UsageError | None = None
+        self._recorder = recorder
+        self._file = file
+
+    def started(self, unit: Observable, time: float) -> None:
+        self._recorder.started(unit, time)
+
+    def stepped(self, unit: Observable, time: float) -> None:
+        try:
+            self._recorder.stepped(unit, time)
+        except UsageError as error:
+            self.refused = error
+
+    def finish(self) -> Path:
+        """What was recorded: one file, or else the folder of its parts."""
+        try:
+            path = self._recorder.finish()
+        except UsageError as error:
+            self.refused = self.refused or error
+            return self._file.with_suffix(".parts")
+        for suffix in FORMATS:
+            if path.suffix != suffix:
+                path.with_suffix(suffix).unlink(missing_ok=True)  # of an earlier run
+        return path
+
+
+class _Said:
+    """What FMUs say: shown at once, and kept where it needs attention."""
+
+    def __init__(self) -> None:
+        self.messages: list[LogMessage] = []
+
+    def __call__(self, message: LogMessage) -> None:
+        show_warning(message)
+        if message.needs_attention and len(self.messages) < _MOST_MESSAGES:
+            self.messages.append(message)
+
+
+def perform(machine: Prepared, folder: Path) -> MachineRun:
+    """Run a machine; the signals are recorded in `folder` as they come.
+
+    Raises:
+        FmuError: a component cannot even be instantiated or initialized; nothing is written.
+        UsageError: the disk refuses before the run, or a bond is none.
+    """
+    plan = machine.plan
+    grid = TimeGrid.of(plan.policy.stop_time, plan.policy.step)
+    card = material_card(plan.material)
+    said = _Said()
+    with (
+        RunDisplay(plan.policy.stop_time, "Loading the components ...") as display,
+        interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop_requested,
+        instantiated(machine, said) as parts,
+    ):
+        unit = Machine(parts, plan.connections, plan.policy.extrapolation, plan.title)
+        impacts = Impacts(unit)
+        bonds = Bonds(unit, {bond.name: Bond(bond.flow, bond.effort, bond.reaction) for bond in plan.bonds})
+        signals = [variable.name for variable in chosen(plan.recording.signals, unit.description)]
+        file = folder / f"results.{plan.recording.format}"
+        recorder = Recorder(unit, file, signals, plan.recording.every, impacts)
+        recording = _Recording(recorder, file)
+        drawings = {name: read_drawing(fmu.folder, fmu.description) for name, fmu in machine.fmus.items()}
+        frames = Frames(unit, *pictured(drawings, machine.descriptions), plan.policy.stop_time, impacts)
+        beginning = _Beginning()
+        algorithm = algorithm_of(plan.policy, unit)
+        observers: list[Observer] = [impacts, bonds, recording, frames, display, beginning]
+        began = time.perf_counter()
+
+        def ended() -> bool:
+            return stop_requested() or recording.refused is not None
+
+        outcome = run_machine(unit, algorithm, grid, plan.start_values, observers, machine.inputs, ended)
+        wall_time = time.perf_counter() - began
+    if outcome.error is not None and not beginning.reached:
+        with suppress(OSError):
+            file.with_suffix(".parts").rmdir()  # of the recorder, empty
+        raise outcome.error
+    results = recording.finish()
+    if outcome.error is None and recording.refused is not None:
+        outcome = replace(outcome, ending=Ending.FAILED, error=recording.refused)
+    found, energies = impacts.by_component(card), bonds.energies()
+    # those of a step to the impact are among the notes
+    told = [] if plan.policy.scheme is Scheme.EVENT_AWARE else cautions(algorithm)
+    return MachineRun(
+        machine,
+        outcome,
+        results,
+        {"results": recorder.units, "impacts": impacts.units},
+        impacts.table(found),
+        found,
+        card,
+        energies,
+        statistics(unit),
+        statistics_rows(unit, wall_time),
+        wall_time,
+        said.messages,
+        drawings,
+        frames.seen(),
+        [*told, *loop_cautions(unit, outcome.final_time), *bond_cautions(energies, outcome.final_time)],
+    )

@@ -1,0 +1,102 @@
+"""From the file of a machine to its plan and its components' FMUs, built where need be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import build_fmu
+
+from ..description import Description, hint_at, read_description
+from ..errors import UsageError
+from ..fmu import Fmu, open_fmu
+from ..fmu.workspace import temporary_folder
+from ..inputs import read_inputs
+from ..machine.file.components import components
+from ..machine.file.described import described
+from ..machine.file.plan import ComponentPlan, Source
+from ..machine.file.read import read_plan
+from ..machine.prepared import Prepared
+from ..terminal import console
+from ..toml_file import TomlFile
+
+
+def machine_file(name: str) -> Path:
+    """The file of a machine: what is named, or a ready one.
+
+    Raises:
+        UsageError: there is none.
+    """
+    path = Path(name)
+    ready = build_fmu.machines()
+    if path.suffix == ".toml" or path.is_file():
+        return path
+    if name in ready:
+        return ready[name]
+    known = hint_at(name, ready) or f" Ready machines: {', '.join(ready) or 'none'}."
+    raise UsageError(f"There is no machine '{name}'.{known} For your own, give its file, NAME.toml.")
+
+
+@contextmanager
+def prepared(name: str, table: Path | None = None) -> Iterator[Prepared]:
+    """The machine of a file, or a ready one, with its FMUs extracted; they are removed afterwards.
+
+    Args:
+        name: of the file or of the ready machine.
+        table: of inputs, instead of the file's own.
+
+    Raises:
+        UsageError: there is none, or the file has mistakes, all of which are told.
+        typer.Exit: an FMU cannot be built; the reason has been said.
+    """
+    file = TomlFile.read(machine_file(name))
+    parts = components(file, build_fmu.model_names())
+    if file.mistakes:
+        read_plan(file, parts, _known(file, parts))
+    with ExitStack() as stack:
+        fmus = {}
+        built: dict[Source, Fmu] = {}
+        for part in parts:
+            if part.source not in built:
+                built[part.source] = stack.enter_context(_fmu(part.source))
+            fmus[part.name] = built[part.source]
+        descriptions = {name: fmu.description for name, fmu in fmus.items()}
+        plan = read_plan(file, parts, descriptions)
+        plan = plan if table is None else replace(plan, inputs=table)
+        whole = described(descriptions, plan.connections).description
+        inputs = (
+            None if plan.inputs is None else read_inputs(plan.inputs, whole, 0.0, plan.policy.stop_time, plan.sources)
+        )
+        for variable in () if inputs is None else inputs.variables:
+            if variable.name in plan.start_values:
+                raise UsageError(f"'{variable.name}' is in {plan.inputs} and in {file.path}; give it in one place.")
+        yield Prepared(plan, fmus, whole, inputs)
+
+
+def _known(file: TomlFile, parts: Sequence[ComponentPlan]) -> dict[str, Description]:
+    """Descriptions of those components that are FMU files: what takes no time to find out."""
+    found = {}
+    for part in parts:
+        if part.source.path is not None and part.source.path.is_file():
+            try:
+                found[part.name] = read_description(part.source.path)
+            except UsageError as error:
+                file.wrong(("component", part.name, "file"), str(error))
+    return found
+
+
+@contextmanager
+def _fmu(source: Source) -> Iterator[Fmu]:
+    if source.path is not None:
+        with open_fmu(source.path) as fmu:
+            yield fmu
+        return
+    with temporary_folder() as place:
+        console.print(f"Building {source.model} ({source.flavour}) ...", markup=False)
+        flavour = build_fmu.Flavour(source.flavour)
+        path = build_fmu.built(source.model, place, flavour, source.fmi)
+        build_fmu.advise(flavour)
+        with open_fmu(path) as fmu:
+            yield fmu

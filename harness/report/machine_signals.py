@@ -1,0 +1,183 @@
+"""Charts of what was recorded of a machine: for each component, one for each unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ..description import Variable
+from ..machine.performed import MachineRun
+from .interactive import interactive
+from .machine_animation import in_power_flow
+from .modes import contacts_among, intervals, joined
+from .motion import QUANTITIES
+from .page import chart, charts, section, table
+from .plot import Curve, Plot
+from .style import COLOURS, IMPACT_COLOUR, layout
+from .thin import FloatArray, strongest, thin
+
+#: Points of a curve; a chart of half a screen's width shows no more.
+_POINTS = 1000
+#: Points of a curve that is still being read.
+_WHILE_READING = 16 * _POINTS
+#: More of them in one chart have no colours of their own.
+_CURVES = 6
+#: More vertical lines than this hide the curves.
+_MOST_MARKS = 60
+#: Rows that are read at once.
+_ROWS = 1 << 16
+#: Parts of a curve's height that nobody sees.
+_FINENESS = 1e-5
+#: Gaps between bands that are shorter than this part of the run are not seen.
+_INVISIBLE = 1 / 1000
+
+#: What a component's own table of impacts has, and not a chart.
+_ELSEWHERE = ("impact", "event")
+
+
+def signals_sections(run: MachineRun) -> list[str]:
+    """A section for each component of which something recorded has changed, and a table of what has not."""
+    curves = _curves(run.results, list(run.units["results"]))
+    known = run.machine.description.variables
+    variables = [known[name] for name in curves]
+    moving = [variable for variable in variables if _moves(curves[variable.name][1])]
+    sections: list[str] = []
+    for name in in_power_flow(run):
+        own = [variable for variable in moving if variable.name.partition(".")[0] == name]
+        drawn = [*_plots(run, name, own, curves), *_bands(run, own, curves)]
+        if drawn:
+            sections.append(section(f"Signals of {name}", charts(*drawn), note="" if sections else _NOTE))
+    still = [[v.name, f"{_first(curves[v.name][1]):.9g}", v.unit or "1"] for v in variables if v not in moving]
+    if not sections:
+        note = "No signal was recorded that has changed; [record] in the machine's file chooses them."
+        sections.append(section("Signals", note=note))
+    if still:
+        drawn_table = table(["signal", "value", "unit"], still, numeric=[1], long=True)
+        sections.append(section("Recorded signals that did not change", drawn_table))
+    return sections
+
+
+_NOTE = (
+    "Signals as recorded, with every peak. Angles count from their start. Dotted red lines mark impacts of the "
+    "component. Drag to zoom, double-click to return."
+)
+
+
+def _curves(file: Path, names: Sequence[str]) -> dict[str, tuple[FloatArray, FloatArray]]:
+    """Time [s] and values of each recorded signal, thinned while they are read: the memory does not grow with the run.
+
+    Args:
+        file: of the results.
+        names: of its columns, `time` first.
+    """
+    found: dict[str, tuple[FloatArray, FloatArray]] = {name: (np.empty(0), np.empty(0)) for name in names[1:]}
+    for rows in _read(file, names):
+        time = rows["time"].to_numpy(dtype=np.float64)
+        for name, (times, values) in found.items():
+            own = rows[name].to_numpy(dtype=np.float64)
+            time_kept, kept = thin(time, own, _POINTS)
+            found[name] = thin(np.append(times, time_kept), np.append(values, kept), _WHILE_READING)
+    return {name: thin(times, values, _POINTS) for name, (times, values) in found.items()}
+
+
+def _read(file: Path, names: Sequence[str]) -> Iterator[pd.DataFrame]:
+    if file.suffix == ".csv":
+        yield from pd.read_csv(file, header=0, names=list(names), chunksize=_ROWS)
+        return
+    import pyarrow.parquet as pq
+
+    with pq.ParquetFile(file) as parquet:
+        for batch in parquet.iter_batches(_ROWS):
+            yield batch.to_pandas()
+
+
+def _moves(values: FloatArray) -> bool:
+    finite = values[np.isfinite(values)]
+    return bool(finite.size) and float(np.ptp(finite)) > 0.0
+
+
+def _first(values: FloatArray) -> float:
+    return float(values[0]) if values.size else float("nan")
+
+
+def _plots(
+    run: MachineRun, name: str, variables: Sequence[Variable], curves: dict[str, tuple[FloatArray, FloatArray]]
+) -> Iterator[str]:
+    """The charts of a component's numbers, as many as it takes to tell the curves apart."""
+    shown = [v for v in variables if v.type != "Boolean" and not _own(v).startswith(_ELSEWHERE)]
+    units = dict.fromkeys(v.unit for v in shown)
+    for unit in sorted(units, key=lambda one: list(QUANTITIES).index(one) if one in QUANTITIES else len(QUANTITIES)):
+        alike = [v for v in shown if v.unit == unit]
+        for begin in range(0, len(alike), _CURVES):
+            figure = interactive(_plot(run, alike[begin : begin + _CURVES], curves), height=320)
+            figure["layout"]["shapes"] = _marks(run, name)
+            yield chart(figure)
+
+
+def _plot(run: MachineRun, group: Sequence[Variable], curves: dict[str, tuple[FloatArray, FloatArray]]) -> Plot:
+    """Curves of one unit, shown in the display unit of the first."""
+    unit = group[0].unit
+    known = run.machine.description.units.displayed.get(unit, {})
+    display = group[0].display_unit if group[0].display_unit in known else ""
+    factor, offset = known.get(display, (1.0, 0.0))
+    from_start = unit == "rad"
+    drawn = []
+    for place, variable in enumerate(group):
+        times, values = curves[variable.name]
+        values = factor * (values - values[0] if from_start else values) + (0.0 if from_start else offset)
+        if not variable.continuous:
+            times, values = times.repeat(2)[1:], values.repeat(2)[:-1]
+        drawn.append(Curve(_own(variable), _short(times), _short(values), COLOURS[place]))
+    quantity = "Angles from their start" if from_start else QUANTITIES.get(unit, "Values")
+    label = f"{'angle change' if from_start else quantity.lower()} [{display or unit or '1'}]"
+    return Plot(quantity, "time [s]", label, drawn)
+
+
+def _bands(
+    run: MachineRun, variables: Sequence[Variable], curves: dict[str, tuple[FloatArray, FloatArray]]
+) -> Iterator[str]:
+    """A chart with a lane for each contact, which is filled while it is active."""
+    lanes = contacts_among(variables)
+    if not lanes:
+        return
+    end = max(run.outcome.final_time, 1e-300)
+    data = []
+    for lane in lanes:
+        times, values = curves[lane.variable]
+        spans = joined(intervals(times, values != 0.0), end * _INVISIBLE)
+        own = lane.name.partition(".")[2]
+        x = [edge for begin, close in spans.tolist() for edge in (begin, close, None)]
+        y = [own if edge is not None else None for edge in x]
+        line = {"color": lane.colour, "width": 14}
+        data.append({"type": "scatter", "mode": "lines", "name": own, "x": x, "y": y, "line": line})
+    names = [lane.name.partition(".")[2] for lane in lanes]
+    axis = {"type": "category", "categoryarray": names, "range": [len(names) - 0.5, -0.5], "fixedrange": True}
+    heading = {"title": {"text": "Active contacts", "font": {"size": 15}, "xref": "paper", "x": 0, "xanchor": "left"}}
+    axes: dict[str, Any] = {"xaxis": {"title": {"text": "time [s]"}, "range": [0.0, end]}, "yaxis": axis}
+    yield chart({"data": data, "layout": layout(height=110 + 26 * len(names), showlegend=False, **axes, **heading)})
+
+
+def _marks(run: MachineRun, name: str) -> list[dict[str, Any]]:
+    struck = run.by_component.get(name)
+    if struck is None or "time" not in struck.impacts:
+        return []
+    line = {"color": IMPACT_COLOUR, "width": 1, "dash": "dot"}
+    place = {"type": "line", "xref": "x", "yref": "paper", "y0": 0, "y1": 1, "line": line}
+    return [place | {"x0": time, "x1": time} for time in strongest(struck.impacts, _MOST_MARKS).tolist()]
+
+
+def _short(values: FloatArray) -> FloatArray:
+    """As many decimals as can be seen."""
+    finite = values[np.isfinite(values)]
+    span = float(np.ptp(finite)) if finite.size else 0.0
+    if not 0.0 < span < np.inf:
+        return values
+    return np.round(values, int(np.ceil(-np.log10(span * _FINENESS))))
+
+
+def _own(variable: Variable) -> str:
+    return variable.name.partition(".")[2]

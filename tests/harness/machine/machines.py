@@ -1,0 +1,150 @@
+"""Machines of FMUs that are there: their files, and how they run without a command."""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from harness.clock import TimeGrid
+from harness.fmu import open_fmu
+from harness.machine.algorithms.jacobi import Jacobi
+from harness.machine.extrapolation import Extrapolation
+from harness.machine.file.components import components
+from harness.machine.file.plan import Plan
+from harness.machine.file.read import read_plan
+from harness.machine.machine import Machine
+from harness.machine.run import run_machine
+from harness.master import Ending
+from harness.recorder import Recorder
+from harness.toml_file import TomlFile
+
+#: A motor turns gears, and their wheel a cam, by a shaft. Nothing is known of their past: they start at rest, at 0.
+GEARED_CAM = """
+title = "Geared cam"
+[run]
+stop_time = "1 s"
+step = "5 ms"
+algorithm = "jacobi"
+extrapolation = "constant"
+[component.gears]
+file = "{gear_train}"
+[component.gears.set]
+drive_speed = "-60 rpm"
+drive_damping = "0.5 N.m.s/rad"
+drive_torque = 0.0
+[component.cam]
+file = "{cam_drive}"
+[component.cam.set]
+cam_speed_start = 0.0
+unilateral = {unilateral}
+drive_stiffness = "5 N.m/rad"
+drive_damping = "0.2 N.m.s/rad"
+[[connect]]
+from = "gears.wheel_angle"
+to = "cam.drive_angle"
+rate = "gears.wheel_speed"
+[[connect]]
+from = "gears.wheel_speed"
+to = "cam.drive_speed"
+{back}
+[record]
+signals = ["gears.*_angle", "cam.*_angle", "cam.*_speed"]
+every = 2
+"""
+
+#: What the shaft does to the cam, it does to the wheel the other way round.
+BACK = """
+[[connect]]
+from = "cam.drive_shaft_torque"
+to = "gears.load_torque"
+gain = -1.0
+offset = "1 N.mm"
+[[bond]]
+name = "shaft"
+flow = "cam.drive_speed"
+effort = "gears.load_torque"
+"""
+
+SIGNALS = ("gears.wheel_angle", "gears.wheel_speed", "cam.cam_angle", "cam.follower_angle")
+
+
+def geared_cam(folder: Path, gear_train: Path, cam_drive: Path, back: str = BACK, unilateral: str = "true") -> Path:
+    """Write the file of the machine."""
+    path = folder / "geared_cam.toml"
+    path.write_text(
+        GEARED_CAM.format(gear_train=gear_train, cam_drive=cam_drive, back=back, unilateral=unilateral),
+        encoding="utf-8",
+    )
+    return path
+
+
+def plan_of(path: Path) -> Plan:
+    """The plan of a file whose components are FMU files."""
+    file = TomlFile.read(path)
+    parts = components(file, [])
+    with ExitStack() as stack:
+        fmus = {part.name: stack.enter_context(open_fmu(_file(part.source.path))) for part in parts}
+        return read_plan(file, parts, {name: fmu.description for name, fmu in fmus.items()})
+
+
+class ReadOnce(Machine):
+    """A machine that reads each output once at a communication point, and only then sets inputs, as other tools do."""
+
+    def __init__(self, *given: Any) -> None:
+        super().__init__(*given)
+        for part in self.parts.values():
+            part.outputs.read = _first_time(part.outputs.read)
+
+    def exchange(self, time: int) -> None:
+        """All outputs, then all inputs."""
+        for part in self.parts.values():
+            part.outputs.read(time)
+        for name in self._wires:
+            self._write(name)
+
+
+def _first_time(read: Callable[[int], None]) -> Callable[[int], None]:
+    """Reads at the first request for each time, and ignores those that follow."""
+    last = -1
+
+    def first(time: int) -> None:
+        nonlocal last
+        if time != last:
+            read(time)
+        last = time
+
+    return first
+
+
+def run(
+    plan: Plan, signals: Sequence[str] = SIGNALS, kind: type[Machine] = Machine, step: float | None = None
+) -> pd.DataFrame:
+    """Run a plan by Jacobi's scheme with inputs held; the signals at each communication point."""
+    with ExitStack() as stack:
+        fmus = {part.name: stack.enter_context(open_fmu(_file(part.source.path))) for part in plan.components}
+        parts = {name: stack.enter_context(fmu.instantiate(name)) for name, fmu in fmus.items()}
+        machine = kind(parts, plan.connections, Extrapolation.CONSTANT)
+        recorder = Recorder([machine.description.variables[name] for name in signals])
+        grid = TimeGrid.of(plan.policy.stop_time, step or plan.policy.step)
+        outcome = run_machine(machine, Jacobi(), grid, plan.start_values, [recorder])
+    assert outcome.ending is Ending.COMPLETED, outcome.error
+    return recorder.table()
+
+
+def references(plan: Plan, signals: Sequence[str] = SIGNALS) -> Mapping[str, tuple[str, int]]:
+    """For each signal its component and its value reference there."""
+    found = {}
+    for part in plan.components:
+        with open_fmu(_file(part.source.path)) as fmu:
+            for signal in signals:
+                name, _, own = signal.partition(".")
+                if name == part.name:
+                    found[signal] = name, fmu.description.variables[own].reference
+    return found
+
+
+def _file(path: Path | None) -> Path:
+    assert path is not None
+    return path

@@ -1,0 +1,255 @@
+"""Components in processes of their own: the same numbers, one round trip a step, and a clear end of every trouble."""
+
+import os
+import signal
+import subprocess
+import sys
+import time as clock
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from harness.clock import TimeGrid
+from harness.errors import FmuError, UsageError
+from harness.machine.algorithms.adaptive import Adaptive
+from harness.machine.algorithms.base import Algorithm
+from harness.machine.algorithms.event_aware import EventAware
+from harness.machine.algorithms.jacobi import Jacobi
+from harness.machine.component import Component
+from harness.machine.connection import Connection
+from harness.machine.extrapolation import Extrapolation
+from harness.machine.machine import Machine
+from harness.machine.remote import RemoteComponent, remote
+from harness.machine.run import run_machine
+from harness.master import Ending
+from harness.messages import LogMessage, Status
+from harness.slave import Observable
+from tests.harness.machine.fakes import Trouble, Wheel, WheelOpener
+
+CONNECTIONS = [Connection("one.drag", "two.torque", gain=-0.5), Connection("two.drag", "one.torque", offset=0.1)]
+
+
+class Watch:
+    """An observer that keeps some values."""
+
+    def __init__(self) -> None:
+        self.rows: list[list[Any]] = []
+
+    def started(self, unit: Observable, time: float) -> None:
+        self.rows.append([time, *unit.get(["one.angle", "two.speed", "one.steps", "two.forward", "two.torque"])])
+
+    stepped = started
+
+
+def algorithms() -> dict[str, Any]:
+    return {"jacobi": lambda _: Jacobi(), "event_aware": EventAware, "adaptive": lambda m: Adaptive(m, 1e-4)}
+
+
+def rows(components: dict[str, Component], algorithm: str, extrapolation: Extrapolation) -> list[list[Any]]:
+    machine = Machine(components, CONNECTIONS, extrapolation)
+    watch, how = Watch(), algorithms()[algorithm](machine)
+    outcome = run_machine(machine, how, TimeGrid.of(0.5, 0.1), {"one.inertia": 2.0}, [watch])
+    assert outcome.ending is Ending.COMPLETED, outcome.error
+    return watch.rows
+
+
+@pytest.fixture(scope="module")
+def start() -> Iterator[Any]:
+    """A function that starts a wheel's process; all end with the module."""
+    with ExitStack() as stack:
+        yield lambda *a, **k: stack.enter_context(remote("wheel", WheelOpener(*a, **k)))
+
+
+@pytest.mark.parametrize("extrapolation", [Extrapolation.CONSTANT, Extrapolation.DERIVATIVES])
+@pytest.mark.parametrize("algorithm", algorithms())
+def test_a_machine_runs_as_if_its_parts_were_here(start: Any, algorithm: str, extrapolation: Extrapolation) -> None:
+    here = {"one": Wheel("one", (0.234,)), "two": Wheel("two")}
+    there = {"one": start("one", (0.234,)), "two": Wheel("two")}
+    assert rows(there, algorithm, extrapolation) == rows(here, algorithm, extrapolation)
+
+
+def trips(component: RemoteComponent, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What is asked of a component from now on."""
+    asked: list[str] = []
+    send = component._send
+
+    def spy(call: str, *rest: Any) -> None:
+        asked.append(call)
+        send(call, *rest)
+
+    monkeypatch.setattr(component, "_send", spy)
+    return asked
+
+
+def test_a_step_with_inputs_outputs_and_observers_is_one_round_trip(
+    start: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    one = start("one")
+    machine = Machine({"one": one, "two": Wheel()}, [Connection("two.drag", "one.torque")])
+
+    class Look:
+        def started(self, unit: Observable, time: float) -> None:
+            unit.get(["one.angle", "one.steps"])
+
+        stepped = started
+
+    machine.initialize(0.0, 1.0)
+    machine.get(["one.angle", "one.steps"])
+    asked = trips(one, monkeypatch)
+    algorithm: Algorithm = EventAware(machine)
+    for k in range(6):
+        algorithm.advance(machine, k * 10**8, (k + 1) * 10**8)
+        machine.get(["one.angle", "one.steps"])
+        machine.set({"two.torque": 0.1 * k})
+    # in the first two, the process learns what is wanted after each step
+    assert asked[-4:] == ["advance"] * 4
+    assert asked.count("advance") == 6
+    assert len(asked) <= 10
+
+
+def test_what_follows_an_input_at_once_is_asked_for_again(start: Any) -> None:
+    wheel = start()
+    reals = wheel.reals(["drag", "speed"])
+    reals.read()
+    torque = wheel.reals(["torque"])
+    torque.values[0] = 0.25
+    torque.write()
+    reals.read()
+    assert list(reals.values) == [-0.25, 1.0]
+    wheel.set({"torque": 0.5})
+    assert wheel.get(["drag"]) == [-0.5]
+
+
+def test_states_stay_in_the_process(start: Any) -> None:
+    wheel = start()
+    wheel.initialize(0.0, 1.0)
+    first = wheel.save()
+    wheel.step(0.0, 0.1)
+    second = wheel.save()
+    assert wheel.get(["angle", "steps"]) == [0.1, 1]
+    wheel.restore(first)
+    assert wheel.get(["angle", "steps"]) == [0.0, 0]
+    wheel.restore(second)
+    assert wheel.get(["angle", "steps"]) == [0.1, 1]
+    assert wheel.save(first) == first
+    wheel.step(0.1, 0.1)
+    wheel.restore(first)
+    assert wheel.get(["steps"]) == [1]
+    wheel.free_state(first)
+    wheel.restore(first)
+    with pytest.raises(FmuError, match="KeyError"):
+        wheel.get(["steps"])
+
+
+def test_messages_come_with_the_reply_and_the_end_is_heard() -> None:
+    said: list[LogMessage] = []
+    with remote("wheel", WheelOpener(trouble=Trouble(0.1, "warn")), said.append) as wheel:
+        wheel.initialize(0.0, 1.0)
+        wheel.advance(0.0, 0.1)
+        assert said == []
+        wheel.advance(0.1, 0.1)
+        assert [(m.time, m.status, m.text) for m in said] == [(0.1, Status.WARNING, "the oil is hot")]
+        wheel.terminate()
+    assert said[-1].text == "ended: terminated"
+    assert wheel.messages == said
+    assert wheel.process.exitcode == 0
+
+
+def test_one_that_cannot_be_made_says_why() -> None:
+    with pytest.raises(FmuError, match="no licence"), remote("wheel", WheelOpener(refusal="no licence")):
+        pass
+
+
+def test_what_does_not_exist_is_told_by_name(start: Any) -> None:
+    with pytest.raises(UsageError, match="no variable 'anglo'"):
+        start().get(["anglo"])
+
+
+@pytest.mark.parametrize(
+    ("kind", "message"),
+    [
+        ("crash", r"one failed at t = 0\.3 s \(advance\): its process was ended by the signal SIGKILL"),
+        ("exit", r"one failed at t = 0\.3 s \(advance\): its process ended with exit code 3"),
+        ("hang", r"one failed at t = 0\.3 s \(advance\): it has not answered for 0\.5 s, the time limit"),
+        ("discard", r"one failed at t = 0\.3 s \(fmi2DoStep, status discard\): it stalls"),
+        ("fatal", r"one failed at t = 0\.3 s \(fmi2DoStep, status fatal\): it stalls"),
+        ("bug", r"one failed in its process: ZeroDivisionError: a gear of no teeth"),
+        ("nan", r"one failed: its output drag is nan"),
+    ],
+)
+def test_trouble_ends_the_run_with_name_time_and_reason(kind: str, message: str) -> None:
+    watch = Watch()
+    with remote("one", WheelOpener("one", trouble=Trouble(0.3, kind)), time_limit=0.5) as one:
+        machine = Machine({"one": one, "two": Wheel("two")}, CONNECTIONS[:1])
+        outcome = run_machine(machine, EventAware(machine), TimeGrid.of(1.0, 0.1), {}, [watch])
+    assert outcome.ending is Ending.FAILED
+    assert outcome.final_time == 0.3
+    assert [row[0] for row in watch.rows] == pytest.approx([0.0, 0.1, 0.2, 0.3])
+    with pytest.raises(FmuError, match=message):
+        raise outcome.error  # type: ignore[misc]
+    assert not one.process.is_alive()
+
+
+def test_a_process_killed_by_somebody_else_is_missed_at_the_next_step() -> None:
+    with remote("one", WheelOpener("one")) as one:
+        one.initialize(0.0, 1.0)
+        one.advance(0.0, 0.1)
+        assert one.process.pid is not None
+        os.kill(one.process.pid, signal.SIGKILL)
+        with pytest.raises(FmuError, match=r"one failed at t = 0\.1 s \(advance\): .* SIGKILL") as failure:
+            one.advance(0.1, 0.1)
+    assert (failure.value.instance, failure.value.time, failure.value.status) == ("one", 0.1, Status.FATAL)
+
+
+LEADER = """
+import sys, time
+from harness.machine.remote import remote
+from pathlib import Path
+from tests.harness.machine.fakes import Trouble, WheelOpener
+
+if __name__ == "__main__":
+    folder = Path(sys.argv[1])
+    with remote("one", WheelOpener("one", trouble=Trouble(0.0, "hang")), folder=folder) as one:
+        one.initialize(0.0, 1.0)
+        print(one.process.pid, flush=True)
+        one.advance(0.0, 0.1)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signal 9 there")
+def test_no_process_outlives_the_one_that_leads(tmp_path: Path) -> None:
+    """Not even one that hangs; and the extracted FMU goes with it."""
+    script, extracted = tmp_path / "leader.py", tmp_path / "extracted"
+    script.write_text(LEADER, encoding="utf-8")
+    extracted.mkdir()
+    command = [sys.executable, str(script), str(extracted)]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as leader:
+        assert leader.stdout is not None
+        number = int(leader.stdout.readline())
+        leader.kill()
+    began = clock.monotonic()
+    while is_alive(number) and clock.monotonic() < began + 60.0:
+        clock.sleep(0.02)
+    assert not is_alive(number)
+    assert not extracted.exists()
+
+
+def is_alive(number: int) -> bool:
+    """Whether a process runs; one that waits to be fetched does not."""
+    try:
+        return Path(f"/proc/{number}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_the_numbers_are_the_same_to_the_last_bit(start: Any) -> None:
+    wheel, value = start(), float(np.nextafter(0.1, 1.0))
+    wheel.set({"torque": value})
+    reals = wheel.reals(["torque"])
+    reals.read()
+    assert reals.values[0] == value
