@@ -187,7 +187,7 @@ def export(block: Array) -> Mechanism:
         result.pin[k] = _Pin(i, j, (c_double * 2)(*data[:2]), (c_double * 2)(*data[2:4]))
     forces = zip(of["force_kind"], of["force_body"], of["force_reaction"], of["force_data"], strict=True)
     for k, (kind, body, reaction, data) in enumerate(forces):
-        result.force[k] = _Force(_KINDS[kind], body, reaction, (c_double * 4)(*data))
+        result.force[k] = _Force(_KINDS[kind], body, reaction, (c_double * 4)(*data[:4]))
     for k, c in enumerate(enabled):
         value = of["contact_value"][c]
         result.contact[k] = _Contact(

@@ -3,8 +3,8 @@
     python docs/examples/indexing_machine.py          writes machine/results.csv
 
 Two turns of the cam index the ratchet's wheel by two teeth. The parts meet only in their inputs and outputs, at
-communication points `STEP` apart. Angles go on at their speeds in between, because native FMUs (which need the package
-ziglang to be built) take slopes of inputs; with `Flavour.PYTHONFMU` they are held, and the coupling loses energy.
+communication points at most `STEP` apart: a step ends where one of them has an impact. In between, inputs go on as the
+outputs that they follow did; native FMUs (which need the package ziglang to be built) take such slopes of inputs.
 """
 
 from __future__ import annotations
@@ -17,13 +17,17 @@ from pathlib import Path
 import pandas as pd
 
 from build_fmu import Flavour, build
-from harness.bonds import Bond, bond_energy
 from harness.clock import TimeGrid
-from harness.coupling import Connection, Coupling
 from harness.fmu import open_fmu
-from harness.master import Ending, run_fixed_step
-from harness.recorder import Recorder, recorded_variables
-from harness.results import prepare_folder, write_with_units
+from harness.machine.algorithms.event_aware import EventAware
+from harness.machine.bonds import Bond, BondEnergy, Bonds
+from harness.machine.connection import Connection
+from harness.machine.extrapolation import Extrapolation
+from harness.machine.machine import Machine
+from harness.machine.record import Recorder
+from harness.machine.run import run_machine
+from harness.master import Ending
+from harness.results import prepare_folder
 
 STOP_TIME, STEP = 17.0, 2e-3
 
@@ -93,30 +97,31 @@ CONNECTIONS = (
 )
 
 
-def run(fmus: Mapping[str, Path], step: float, stop_time: float = STOP_TIME) -> tuple[pd.DataFrame, dict[str, str]]:
+def run(fmus: Mapping[str, Path], step: float, file: Path, stop_time: float = STOP_TIME) -> dict[str, BondEnergy]:
     """Run the machine.
 
     Args:
         fmus: FMU files by part.
-        step: communication step [s].
+        step: largest communication step [s].
+        file: that gets a row for each communication point; `.csv` or `.parquet`.
         stop_time: [s].
 
     Returns:
-        A row for each communication point, `time` [s] first; and the units of the columns.
+        What passed over each bond.
     """
     with ExitStack() as stack:
         parts = {
             name: stack.enter_context(stack.enter_context(open_fmu(path)).instantiate(name))
             for name, path in fmus.items()
         }
-        machine = Coupling(parts, CONNECTIONS, "IndexingMachine")
-        variables = recorded_variables(machine.description)
-        recorder = Recorder(variables)
+        machine = Machine(parts, CONNECTIONS, Extrapolation.DERIVATIVES, "IndexingMachine")
+        bonds, recorder = Bonds(machine, BONDS), Recorder(machine, file)
         values = {f"{part}.{name}": value for part, own in VALUES.items() for name, value in own.items()}
-        outcome = run_fixed_step(machine, TimeGrid.of(stop_time, step), values, [recorder])
+        outcome = run_machine(machine, EventAware(machine), TimeGrid.of(stop_time, step), values, [bonds, recorder])
+    recorder.finish()
     if outcome.ending is not Ending.COMPLETED:
         raise SystemExit(str(outcome.error))
-    return recorder.table(), {"time": "s"} | {variable.name: variable.unit for variable in variables}
+    return bonds.energies()
 
 
 def main(folder: Path = Path("machine")) -> None:
@@ -125,12 +130,10 @@ def main(folder: Path = Path("machine")) -> None:
     for model in VALUES:
         build(model, folder, Flavour.NATIVE)
     fmus = dict(zip(VALUES, (folder / f"{name}.fmu" for name in ("GearTrain", "CamDrive", "Ratchet")), strict=True))
-    results, units = run(fmus, STEP)
-    write_with_units(results, units, folder / "results.csv")
-    end = results.iloc[-1]
-    print(f"clicks: {end['ratchet.clicks']:g}, wheel at {math.degrees(end['ratchet.wheel_angle']):.4f} deg")
-    for name, bond in BONDS.items():
-        energy = bond_energy(results, bond)
+    energies = run(fmus, STEP, folder / "results.csv")
+    end = pd.read_csv(folder / "results.csv").iloc[-1]
+    print(f"clicks: {end['ratchet.clicks']:g}, wheel at {math.degrees(end['ratchet.wheel_angle [rad]']):.4f} deg")
+    for name, energy in energies.items():
         print(
             f"{name}: {energy.given:.4g} J given, {energy.taken:.4g} J taken, made by the coupling {energy.made:.2g} J"
         )
