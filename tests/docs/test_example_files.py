@@ -8,7 +8,7 @@ from harness.description import read_description
 from harness.designs.optimum_file import read_optimum
 from harness.designs.plan import Source, source
 from harness.designs.sweep_file import read_sweep
-from harness.designs.toml_file import TomlFile
+from harness.toml_file import TomlFile
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 DESIGNS = {"teeth": 64, "paper_wheels": 20}
