@@ -41,7 +41,14 @@ def serve(pipe: Pipe, name: str, opener: Opener, folder: Path | None) -> None:
         opener: makes it.
         folder: to be removed when the other side's process was killed.
     """
-    serve_only(folder)
+    end = serve_only(folder)
+    try:
+        _have_component(pipe, name, opener)
+    except (EOFError, ConnectionError):  # nobody is there any more
+        end.join()
+
+
+def _have_component(pipe: Pipe, name: str, opener: Opener) -> None:
     messages: list[LogMessage] = []
     try:
         with opener(messages.append) as component:
@@ -49,7 +56,7 @@ def serve(pipe: Pipe, name: str, opener: Opener, folder: Path | None) -> None:
             _obey(pipe, _Servant(component), messages)
         _send(pipe, True, None, [], messages)
     except (EOFError, ConnectionError):
-        return  # nobody is there any more
+        raise
     except Exception as error:
         _send(pipe, False, _told(error, name), [], messages)
 

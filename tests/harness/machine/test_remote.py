@@ -212,31 +212,39 @@ from pathlib import Path
 from tests.harness.machine.fakes import Trouble, WheelOpener
 
 if __name__ == "__main__":
-    folder = Path(sys.argv[1])
-    with remote("one", WheelOpener("one", trouble=Trouble(0.0, "hang")), folder=folder) as one:
+    hanging, waiting = (Path(folder) for folder in sys.argv[1:])
+    with (
+        remote("one", WheelOpener("one", trouble=Trouble(0.0, "hang")), folder=hanging) as one,
+        remote("two", WheelOpener("two"), folder=waiting) as two,
+    ):
         one.initialize(0.0, 1.0)
-        print(one.process.pid, flush=True)
-        one.advance(0.0, 0.1)
+        one._send("advance", (0.0, 0.1), ())
+        print(one.process.pid, two.process.pid, flush=True)
+        time.sleep(600.0)
 """
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no signal 9 there")
 def test_no_process_outlives_the_one_that_leads(tmp_path: Path) -> None:
-    """Not even one that hangs; and the extracted FMU goes with it."""
-    script, extracted = tmp_path / "leader.py", tmp_path / "extracted"
+    """Neither one that hangs nor one that waits; and the extracted FMUs go with them, whole."""
+    script, folders = tmp_path / "leader.py", [tmp_path / "hanging", tmp_path / "waiting"]
     script.write_text(LEADER, encoding="utf-8")
-    extracted.mkdir()
-    command = [sys.executable, str(script), str(extracted)]
+    for folder in folders:
+        folder.mkdir()
+        for k in range(400):  # their removal takes longer than the end of a process
+            (folder / f"{k}.txt").touch()
+    command = [sys.executable, str(script), *map(str, folders)]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as leader:
         assert leader.stdout is not None
-        number = int(leader.stdout.readline())
+        numbers = [int(number) for number in leader.stdout.readline().split()]
         leader.kill()
+    assert len(numbers) == 2
     began = clock.monotonic()
-    while is_alive(number) and clock.monotonic() < began + 60.0:
+    while any(map(is_alive, numbers)) and clock.monotonic() < began + 60.0:
         clock.sleep(0.02)
-    assert not is_alive(number)
-    assert not extracted.exists()
+    assert not any(map(is_alive, numbers))
+    assert not any(folder.exists() for folder in folders)
 
 
 def is_alive(number: int) -> bool:
