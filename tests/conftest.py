@@ -21,6 +21,10 @@ settings.load_profile("untimed")
 
 compiled_engine.use_it()
 
+# Processes that run tests side by side leave each other a processor: a linear algebra of many threads, which wait for
+# each other by spinning, takes ten times as long then.
+os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", MKL_NUM_THREADS="1")
+
 # What is printed is the same whatever terminal the tests have; a console reads these when it is made.
 os.environ.update(COLUMNS="200", LINES="50")
 for _name in ("FORCE_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
