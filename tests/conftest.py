@@ -15,8 +15,8 @@ from tests import compiled_engine, distribution
 from tests.once import once
 
 # How long an example takes says nothing while other tests run beside it.
-# A quarter of the usual number of examples: they are others in each run, and there are many runs.
-settings.register_profile("untimed", deadline=None, max_examples=25)
+# Half the usual number of examples: they are others in each run, and there are many runs.
+settings.register_profile("untimed", deadline=None, max_examples=50)
 settings.load_profile("untimed")
 
 compiled_engine.use_it()
