@@ -33,6 +33,7 @@ from .joints import (
 )
 from .logic import LogicalFunction
 from .mechanism import Mechanism, Settings
+from .members import Disk, Member, Section
 from .model import Model
 from .motion_laws import Law, Move, cycloidal, dwell, modified_sine, polynomial_345
 from .motions import harmonic_motion, polynomial_motion, table_motion
@@ -95,6 +96,7 @@ __all__ = [
     "DCMotor",
     "Damper",
     "Disc",
+    "Disk",
     "Distance",
     "DistanceDriver",
     "Finding",
@@ -108,6 +110,7 @@ __all__ = [
     "Mechanism",
     "MechanismError",
     "MechanismTables",
+    "Member",
     "Model",
     "Move",
     "Output",
@@ -118,6 +121,7 @@ __all__ = [
     "RackAndPinion",
     "Revolute",
     "RevoluteTranslational",
+    "Section",
     "Settings",
     "Shape",
     "SlipClutch",
