@@ -1,0 +1,1 @@
+"""Kineto-elastodynamics: a linkage whose links bend."""
