@@ -54,15 +54,15 @@ def accelerations(phi, speed):
     at_a = -crank
     at_p = at_a + (1j * ddlam - dlam**2) * arm
     at_b = at_a + (1j * ddlam - dlam**2) * coupler
-    return speed**2 * np.stack([at_p.real, at_p.imag, ddlam, at_a.real, at_a.imag, ddlam, at_b.real, at_b.imag], axis=-1)
+    columns = [at_p.real, at_p.imag, ddlam, at_a.real, at_a.imag, ddlam, at_b.real, at_b.imag]
+    return speed**2 * np.stack(columns, axis=-1)
 
 
 def flexibility():
     """Element flexibilities in the order of the paper's coordinates, shape (8, 8)."""
     ea, ei = YOUNG * AREA, YOUNG * SECOND
-    f = np.diag(
-        [ARM / ea, ARM**3 / 3 / ei, ARM / ei, CRANK / ea, CRANK**3 / 3 / ei, COUPLER / 3 / ei, COUPLER / ea, FOLLOWER / ea]
-    )
+    arm, crank = [ARM / ea, ARM**3 / 3 / ei, ARM / ei], [CRANK / ea, CRANK**3 / 3 / ei]
+    f = np.diag([*arm, *crank, COUPLER / 3 / ei, COUPLER / ea, FOLLOWER / ea])
     f[1, 2] = f[2, 1] = ARM**2 / 2 / ei
     return f
 

@@ -67,6 +67,11 @@ class ElasticCycle:
             *(resampled(part, count) for part in (self.mass, self.damping, self.stiffness, self.load)),
         )
 
+    def size(self, u: FloatArray) -> float:
+        """Root of the largest u^T K u of the cycle, for u of shape (T, n): it counts lengths and angles alike."""
+        with np.errstate(invalid="ignore"):
+            return float(np.sqrt(np.max(np.einsum("ta,tab,tb->t", u, self.stiffness, u))))
+
     def static(self) -> FloatArray:
         """Quasi-static deviation K^-1 p, shape (T, n): Case 2."""
         return np.asarray(np.linalg.solve(self.stiffness, self.load[..., None])[..., 0])

@@ -15,6 +15,8 @@ from .fourier import FloatArray, coefficients, evaluate, even_angles
 TOLERANCE = 1e-9
 #: Rounds at most; a series that has not settled by then will not.
 _MOST_ROUNDS = 100
+#: Harmonics below this part of the largest are rounding; fed back, they would grow.
+_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class Feedback:
 
     Attributes:
         displacement: u with the least change, at the samples of the cycle, shape (T, n).
-        changes: of each round, in parts of the quasi-static deviation, both as roots of elastic energy; shape (rounds,).
+        changes: of each round, in parts of the quasi-static deviation (roots of elastic energy), shape (rounds,).
         converged: whether the last change is below `TOLERANCE`.
     """
 
@@ -45,11 +47,11 @@ def fed_back(cycle: ElasticCycle) -> Feedback:
     """
     speed = 2.0 * math.pi / cycle.period
     static = cycle.static()
-    whole = _size(cycle, static)
+    whole = cycle.size(static)
     u, best, changes = static, static, []
     while len(changes) < _MOST_ROUNDS:
         new = _once_more(cycle, u, speed)
-        changes.append(_size(cycle, new - u) / whole if whole > 0.0 else 0.0)
+        changes.append(cycle.size(new - u) / whole if whole > 0.0 else 0.0)
         if not (len(changes) == 1 or changes[-1] < changes[-2]):
             break
         u = best = new
@@ -68,12 +70,7 @@ def fed_back(cycle: ElasticCycle) -> Feedback:
 
 def _once_more(cycle: ElasticCycle, u: FloatArray, speed: float) -> FloatArray:
     series, angles = coefficients(u), even_angles(cycle.samples)
+    series = np.where(np.abs(series) > _ROUNDING * np.abs(series).max(axis=0), series, 0.0)
     v, a = (evaluate(series, angles, k)[..., None] * speed**k for k in (1, 2))
     rest = cycle.load[..., None] - cycle.damping @ v - cycle.mass @ a
     return np.asarray(np.linalg.solve(cycle.stiffness, rest)[..., 0])
-
-
-def _size(cycle: ElasticCycle, u: FloatArray) -> float:
-    """Root of the largest u^T K u of the cycle: it counts displacements and rotations alike."""
-    energy = np.einsum("ta,tab,tb->t", u, cycle.stiffness, u)
-    return float(np.sqrt(np.max(energy)))

@@ -14,6 +14,8 @@ from .fourier import ComplexArray, FloatArray, coefficients, differentiation, ev
 
 #: What is left of the equations at all given times, in parts of the largest elastic energy's root.
 TOLERANCE = 1e-10
+#: A deviation that exceeds the quasi-static one by this is a resonance without damping, cut short by rounding.
+_RESONANCE = 1e6
 #: Harmonics of the first attempt; they are doubled until little enough is left.
 _FIRST_HARMONICS = 16
 
@@ -25,8 +27,8 @@ class PeriodicResponse:
     Attributes:
         period: [s].
         series: Fourier coefficients, shape (harmonics + 1, n).
-        residual: what is left of M u'' + C u' + K u = p at the given times, as sqrt(r^T K^-1 r), in parts of the
-            largest sqrt(u^T K u).
+        residual: what is left of M u'' + C u' + K u = p at the given times, in parts of the motion, both
+            measured by the root of the elastic energy that they have, or would make.
     """
 
     period: float
@@ -55,7 +57,7 @@ def periodic_response(cycle: ElasticCycle) -> PeriodicResponse:
         UserWarning: T / 4 harmonics are not enough.
 
     Raises:
-        ValueError: without damping a harmonic meets a resonance; the equations have no periodic solution.
+        ValueError: without damping a harmonic meets a resonance, so there is no periodic solution.
     """
     most = (cycle.samples - 2) // 4
     harmonics = min(_FIRST_HARMONICS, most)
@@ -67,8 +69,8 @@ def periodic_response(cycle: ElasticCycle) -> PeriodicResponse:
             break
         harmonics = min(2 * harmonics, most)
     warnings.warn(
-        f"{harmonics} harmonics, all that {cycle.samples} samples allow, fulfil the equations of the periodic motion to "
-        f"{found.residual:.1g} only, not to {TOLERANCE:g}: give more samples of the cycle, or a smoother load.",
+        f"{harmonics} harmonics, all that {cycle.samples} samples allow, fulfil the equations of the periodic motion "
+        f"to {found.residual:.1g} only, not to {TOLERANCE:g}: give more samples of the cycle, or a smoother load.",
         stacklevel=2,
     )
     return found
@@ -86,11 +88,13 @@ def _collocated(cycle: ElasticCycle, harmonics: int) -> PeriodicResponse:
     matrix[diagonal, :, diagonal, :] += here.stiffness
     try:
         u = np.linalg.solve(matrix.reshape(count * n, count * n), here.load.reshape(-1)).reshape(count, n)
-    except np.linalg.LinAlgError as error:
+    except np.linalg.LinAlgError:
+        u = np.full((count, n), np.inf)
+    if not here.size(u) <= _RESONANCE * here.size(here.static()):
         raise ValueError(
             "there is no periodic motion: undamped, the linkage resonates with a harmonic of its own cycle. Give it "
             "damping, 0.02 for instance, or another speed."
-        ) from error
+        )
     series = coefficients(u)
     return PeriodicResponse(cycle.period, series, _left_over(cycle, series))
 
@@ -98,8 +102,6 @@ def _collocated(cycle: ElasticCycle, harmonics: int) -> PeriodicResponse:
 def _left_over(cycle: ElasticCycle, series: ComplexArray) -> float:
     angles, speed = even_angles(cycle.samples), 2.0 * math.pi / cycle.period
     u, v, a = (evaluate(series, angles, k)[..., None] * speed**k for k in range(3))
-    elastic = cycle.stiffness @ u
-    rest = cycle.mass @ a + cycle.damping @ v + elastic - cycle.load[..., None]
-    energy = float(np.max(np.sum(u * elastic, axis=1)))
-    wrong = float(np.max(np.sum(rest * np.linalg.solve(cycle.stiffness, rest), axis=1)))
-    return math.sqrt(max(wrong, 0.0) / energy) if energy > 0.0 else 0.0
+    rest = cycle.mass @ a + cycle.damping @ v + cycle.stiffness @ u - cycle.load[..., None]
+    bent = cycle.size(u[..., 0])
+    return cycle.size(np.linalg.solve(cycle.stiffness, rest)[..., 0]) / bent if bent > 0.0 else 0.0

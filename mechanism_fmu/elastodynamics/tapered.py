@@ -60,7 +60,7 @@ def tapered_cantilever(beam: VaryingBeam, young: float) -> FloatArray:
         arm = beam.length - x
         return np.array([1.0 / area, arm * arm / second_moment, arm / second_moment, 1.0 / second_moment])
 
-    axial, across, mixed, turn = _integral(beam, integrand) / _positive(young)
+    axial, across, mixed, turn = integral(beam, integrand) / _positive(young)
     return np.array([[axial, 0.0, 0.0], [0.0, across, mixed], [0.0, mixed, turn]])
 
 
@@ -77,38 +77,15 @@ def tapered_end_moment(beam: VaryingBeam, young: float) -> FloatArray:
         area, second_moment = _section(beam, x)
         return np.array([1.0 / area, (1.0 - x / beam.length) ** 2 / second_moment])
 
-    return np.diag(_integral(beam, integrand) / _positive(young))
+    return np.diag(integral(beam, integrand) / _positive(young))
 
 
-def shear_flexibility(beam: VaryingBeam, shear_modulus: float, shear_factor: float) -> float:
-    """What shear adds to F22 of a cantilever [m/N]: int dx / (kappa G A), after Timoshenko.
-
-    Args:
-        beam: its length and A(x).
-        shear_modulus: G [Pa].
-        shear_factor: kappa [-], 5/6 for a rectangle.
+def integral(beam: VaryingBeam, integrand: Callable[[float], FloatArray]) -> FloatArray:
+    """Integrals over the length, shape (m,), of m functions of x that are positive in the middle of the beam.
 
     Raises:
-        ValueError: as of `tapered_cantilever`.
+        ValueError: one is not known to 1e-10 of itself, each counted by its value in the middle.
     """
-    integral = _integral(beam, lambda x: np.array([1.0 / _section(beam, x)[0]]))
-    return float(integral[0]) / _positive(shear_modulus * shear_factor)
-
-
-def _section(beam: VaryingBeam, x: float) -> tuple[float, float]:
-    """A [m2] and I [m4] at one place."""
-    place = np.array([x])
-    area, second_moment = float(beam.area(place)[0]), float(beam.second_moment(place)[0])
-    if not (area > 0.0 and second_moment > 0.0):
-        raise ValueError(
-            f"A = {area:g} m2 and I = {second_moment:g} m4 at x = {x:g} m of a beam of {beam.length:g} m: both must be "
-            "positive all along, or the beam gives way without limit. End it before its tip."
-        )
-    return area, second_moment
-
-
-def _integral(beam: VaryingBeam, integrand: Callable[[float], FloatArray]) -> FloatArray:
-    """Integrals from 0 to l, each to a part of `_LET_PASS` of the largest of them after scaling by its middle value."""
     scale = np.abs(integrand(0.5 * beam.length)) * beam.length
     values, error = quad_vec(
         lambda x: integrand(x) / scale,
@@ -128,7 +105,19 @@ def _integral(beam: VaryingBeam, integrand: Callable[[float], FloatArray]) -> Fl
     return np.asarray(values * scale)
 
 
-def _positive(stiffness: float) -> float:
-    if not 0.0 < stiffness < np.inf:
-        raise ValueError(f"the modulus is {stiffness:g} Pa, but must be positive and finite: give E or G in pascal.")
-    return stiffness
+def _section(beam: VaryingBeam, x: float) -> tuple[float, float]:
+    """A [m2] and I [m4] at one place."""
+    place = np.array([x])
+    area, second_moment = float(beam.area(place)[0]), float(beam.second_moment(place)[0])
+    if not (area > 0.0 and second_moment > 0.0):
+        raise ValueError(
+            f"A = {area:g} m2 and I = {second_moment:g} m4 at x = {x:g} m of a beam of {beam.length:g} m: both must be "
+            "positive all along, or the beam gives way without limit. End it before its tip."
+        )
+    return area, second_moment
+
+
+def _positive(modulus: float) -> float:
+    if not 0.0 < modulus < np.inf:
+        raise ValueError(f"the modulus is {modulus:g} Pa, but must be positive and finite: give E in pascal.")
+    return modulus

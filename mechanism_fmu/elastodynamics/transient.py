@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,7 +38,8 @@ def transient(
         cycle: the equations.
         steps: of one period. The shortest natural period that matters should have 20 of them.
         periods: how many.
-        displacement, velocity: at t = 0, shape (n,); zero unless told.
+        displacement: u at t = 0, shape (n,); zero unless told.
+        velocity: u' at t = 0, shape (n,); zero unless told.
 
     Raises:
         ValueError: there are no steps or periods, or M is singular, so that there is no acceleration to begin with.
@@ -49,7 +49,9 @@ def transient(
     """
     if steps < 1 or periods < 1:
         raise ValueError(f"{steps} steps of each of {periods} periods: there must be one or more of either.")
-    u, v = (np.zeros(cycle.load.shape[1]) if x is None else np.asarray(x, dtype=float) for x in (displacement, velocity))
+    u, v = (
+        np.zeros(cycle.load.shape[1]) if x is None else np.asarray(x, dtype=float) for x in (displacement, velocity)
+    )
     found = _integrated(cycle.resampled(steps), periods, u, v)
     time = cycle.period / steps * np.arange(periods * steps + 1)
     return Transient(time, *found)
@@ -92,8 +94,3 @@ def _integrated(
         for kept, value in zip(states, (u, v, a), strict=True):
             kept[k] = value
     return states[0], states[1], states[2]
-
-
-def steps_for(cycle: ElasticCycle, highest: float) -> int:
-    """Steps of a period that give the natural period of `highest` [rad/s] twenty of them."""
-    return math.ceil(20.0 * highest * cycle.period / (2.0 * math.pi))
