@@ -94,7 +94,7 @@ class GearTooth:
     def compression(self, half_contact: float) -> float:
         """How much nearer to the centre line the contact comes, by the force along its normal [m/N].
 
-        (2 ln(2 d / a) - nu) / (pi E b), with the depth d = h_1 / 2 of the centre line below the flank. It depends on the
+        (2 ln(2 d / a) - nu) / (pi E b), with the centre line d = h_1 / 2 below the flank. It depends on the
         half width a of Hertz's contact, which grows as the root of the force, so little that one a does for a cycle;
         `mechanism_fmu.stress.hertz_line_contact` has it.
 

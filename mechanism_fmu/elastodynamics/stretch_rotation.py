@@ -68,7 +68,7 @@ def planar_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tupl
 
 
 def spatial_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Stretch epsilon [-], shape (...), and angle theta [rad], shape (..., 3), of links whose ends move against each other.
+    """Stretch epsilon [-], shape (...), and angle theta [rad], shape (..., 3), of links by their ends.
 
     theta is perpendicular to the link: how far it turns about itself, no link vector can tell.
 

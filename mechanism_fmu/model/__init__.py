@@ -33,6 +33,7 @@ from .joints import (
 )
 from .logic import LogicalFunction
 from .mechanism import Mechanism, Settings
+from .members import Disk, LumpedBody, Member, Section, lumped_body
 from .model import Model
 from .motion_laws import Law, Move, cycloidal, dwell, modified_sine, polynomial_345
 from .motions import harmonic_motion, polynomial_motion, table_motion
@@ -95,6 +96,7 @@ __all__ = [
     "DCMotor",
     "Damper",
     "Disc",
+    "Disk",
     "Distance",
     "DistanceDriver",
     "Finding",
@@ -105,9 +107,11 @@ __all__ = [
     "InternalGears",
     "Law",
     "LogicalFunction",
+    "LumpedBody",
     "Mechanism",
     "MechanismError",
     "MechanismTables",
+    "Member",
     "Model",
     "Move",
     "Output",
@@ -118,6 +122,7 @@ __all__ = [
     "RackAndPinion",
     "Revolute",
     "RevoluteTranslational",
+    "Section",
     "Settings",
     "Shape",
     "SlipClutch",
@@ -159,6 +164,7 @@ __all__ = [
     "length_parameter",
     "link_parameters",
     "load_torque_input",
+    "lumped_body",
     "mass_parameter",
     "modified_sine",
     "motion_profile",

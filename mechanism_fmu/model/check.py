@@ -8,6 +8,7 @@ from typing import Any
 from .. import codes
 from .body import GROUND
 from .check_contacts import check_contacts
+from .check_members import check_members
 from .check_numbers import number_findings
 from .curves import Curve
 from .errors import MechanismError
@@ -31,6 +32,7 @@ def check(mechanism: Mechanism) -> None:
         *_names(mechanism),
         *_references(mechanism),
         *check_contacts(mechanism),
+        *check_members(mechanism),
         *_curves(mechanism),
         *_ports(mechanism),
     ]
@@ -64,7 +66,7 @@ def _names(mechanism: Mechanism) -> Iterator[str]:
         yield "The mechanism has no body; give at least one."
     seen: dict[str, str] = {GROUND: "the fixed frame"}
     parts = (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.contacts)
-    for part in (*parts, *mechanism.patterns, *mechanism.functions):
+    for part in (*parts, *mechanism.patterns, *mechanism.functions, *mechanism.members, *mechanism.disks):
         what = type(part).__name__
         if not part.name or "." in part.name or ":" in part.name:
             yield f"{what} {part.name!r}: a name must not be empty or hold '.' or ':'; choose another."

@@ -8,6 +8,7 @@ from .body import Body
 from .check_contact_numbers import contact_findings, pattern_findings
 from .check_curves import curve_findings
 from .check_joint_numbers import joint_findings, pair_findings
+from .check_members import disk_findings, member_findings
 from .conditions import (
     finite,
     finite_not_negative,
@@ -49,6 +50,10 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         yield from pair_findings(contact)
     for owner, curve in curve_owners(mechanism):
         yield from curve_findings(owner, curve)
+    for member in mechanism.members:
+        yield from member_findings(member)
+    for disk in mechanism.disks:
+        yield from disk_findings(disk)
     yield from _settings(mechanism.settings)
 
 

@@ -11,6 +11,7 @@ from .forces import ForceElement
 from .functions import Number
 from .joints import Joint
 from .logic import LogicalFunction
+from .members import Disk, Member
 from .patterns import CircularPattern
 from .ports import Calculated, Input, Output
 
@@ -38,6 +39,8 @@ class Mechanism:
         inputs, outputs, calculated: what the outside sees.
         held: coordinates, as "<body>.x|y|angle", that assembly must not move, nor their rates.
         settings: how the engine integrates.
+        members, disks: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics`; the engine
+            does without. The mechanism becomes a structure when its held and driven coordinates stand still.
     """
 
     bodies: tuple[Body, ...]
@@ -51,6 +54,8 @@ class Mechanism:
     calculated: tuple[Calculated, ...] = ()
     held: tuple[str, ...] = ()
     settings: Settings = Settings()
+    members: tuple[Member, ...] = ()
+    disks: tuple[Disk, ...] = ()
 
 
 def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:

@@ -79,7 +79,7 @@ def test_compression_is_the_change_of_distance_under_hertz_pressure():
 
 
 def test_steel_gear_gives_way_by_micrometres():
-    # Module 5 mm, 20 mm wide. ISO 6336-1 has 14 N/(mm um) for a pair of real teeth, bodies and all; two in a row give half.
+    # Module 5 mm, 20 mm wide. ISO 6336-1 has 14 N/(mm um) for a pair of real teeth, bodies and all.
     tooth = GearTooth(0.006, 0.0105, 0.0075, 0.02, 210e9, 0.3)
     stiffness = 1 / tooth.along_normal(math.radians(20), 5e-5) / 0.02 * 1e-9
     assert 14 < stiffness / 2 < 25

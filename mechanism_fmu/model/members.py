@@ -1,0 +1,120 @@
+"""Elastic members: of which beams a body is made where it may bend, and which lumps of mass it carries.
+
+The engine moves rigid bodies and reads none of this; `mechanism_fmu.elastodynamics` does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from .body import Point
+from .conditions import length
+from .functions import Number
+
+
+@dataclass(frozen=True)
+class Section:
+    """The cross section of a straight beam that bends in the plane of the mechanism.
+
+    Attributes:
+        area: A [m2], > 0.
+        second_moment: I about the axis normal to the plane [m4], > 0.
+        depth: h, in the plane and across the beam [m], > 0; the outer fibres lie at h/2 from the neutral axis.
+    """
+
+    area: Number
+    second_moment: Number
+    depth: Number
+
+    @classmethod
+    def rectangle(cls, width: Number, depth: Number) -> Section:
+        """A rectangle: `width` b normal to the plane and `depth` h in it [m, m]: A = b h, I = b h^3/12."""
+        return cls(width * depth, width * depth * depth * depth / 12, depth)
+
+
+@dataclass(frozen=True)
+class Member:
+    """A straight elastic beam of constant section, a part of a body.
+
+    Members of one body that end in the same point are welded there; joints and disks of a body with members stand at
+    ends of members. A body without members is rigid.
+
+    Attributes:
+        name: unique within the mechanism.
+        body: name of the body; not `GROUND`.
+        start, end: its ends in the frame of the body [m].
+        section: its cross section.
+        young: modulus of elasticity E [Pa], > 0.
+        density: [kg/m3], >= 0; 0 makes it massless.
+    """
+
+    name: str
+    body: str
+    start: Point
+    end: Point
+    section: Section
+    young: Number
+    density: Number
+
+
+@dataclass(frozen=True)
+class Disk:
+    """A lump of mass that turns with a body, whose mass and inertia it is a part of.
+
+    Attributes:
+        name: unique within the mechanism.
+        body: name of the body; not `GROUND`.
+        point: its centre in the frame of the body [m].
+        mass: [kg], >= 0.
+        inertia: about its own centre [kg m2], >= 0.
+    """
+
+    name: str
+    body: str
+    point: Point
+    mass: Number
+    inertia: Number = 0.0
+
+
+@dataclass(frozen=True)
+class LumpedBody:
+    """A body that is made of members and disks, half of each member's mass at either end.
+
+    Attributes:
+        mass: [kg].
+        inertia: about the centre of mass [kg m2].
+        centre: of mass, in the frame in which the parts were given [m].
+        members, disks: the parts in the body's own frame, from its centre of mass.
+    """
+
+    mass: Number
+    inertia: Number
+    centre: Point
+    members: tuple[Member, ...]
+    disks: tuple[Disk, ...]
+
+
+def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> LumpedBody:
+    """Mass, inertia and centre of mass of a body's members and disks, given in any one frame; their sum must be > 0."""
+    lumps: list[tuple[Number, Point]] = [(disk.mass, disk.point) for disk in disks]
+    for member in members:
+        x, y = member.end[0] - member.start[0], member.end[1] - member.start[1]
+        half = member.density * member.section.area * length((x, y)) / 2
+        lumps += [(half, member.start), (half, member.end)]
+    mass: Number = sum(part for part, _ in lumps)
+    centre = tuple(sum(part * point[k] for part, point in lumps) / mass for k in range(2))
+
+    def moved(point: Point) -> Point:
+        return point[0] - centre[0], point[1] - centre[1]
+
+    inertia: Number = sum(disk.inertia for disk in disks)
+    for part, point in lumps:
+        x, y = moved(point)
+        inertia = inertia + part * (x * x + y * y)
+    return LumpedBody(
+        mass,
+        inertia,
+        (centre[0], centre[1]),
+        tuple(replace(member, start=moved(member.start), end=moved(member.end)) for member in members),
+        tuple(replace(disk, point=moved(disk.point)) for disk in disks),
+    )
