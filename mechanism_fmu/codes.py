@@ -100,6 +100,17 @@ FREQUENCY = 7
 PHASE = 8
 TERM_COLUMNS = 9
 
+# member_data columns: how far a member gives way, and from section forces to stress
+MEMBER_STRETCH = 0  # l / EA [m/N]
+MEMBER_BENDING = 1  # l / EI [1/(N m)]
+MEMBER_AREA = 2
+MEMBER_MODULUS = 3  # section modulus 2 I / h [m3]
+MEMBER_COLUMNS = 4
+
+# lump_data columns
+LUMP_MASS = 0
+LUMP_INERTIA = 1
+
 # settings columns
 RELATIVE_TOLERANCE = 0
 BAUMGARTE_ALPHA = 1
@@ -134,6 +145,12 @@ CONTACT_POINT = 24
 OWN_STATE = 25
 CLUTCH_TORQUE = 26
 MOTOR_VOLTAGE = 27
+NODE_PLACE = 28  # of the rigid motion; index 2 * node + axis
+NODE_BENT = 29  # with the deflection
+NODE_DEFLECTION = 30  # index 3 * node + (x, y, rotation)
+NODE_DEVIATION = 31
+MEMBER_FORCE = 32  # index 3 * member + (along it, moments on its start and end)
+MEMBER_STRESS = 33
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before, then after
 RECORD_TIME = 0

@@ -13,6 +13,8 @@ from .dynamics.acceleration import derivative
 from .dynamics.forces import body_speed, kinetic_energy, shaft_torque, spring_energy
 from .dynamics.inputs import feed
 from .dynamics.own_states import clutch_torque, first_own, motor_voltage
+from .elastic.readings import elastic_reading, is_elastic
+from .elastic.structure import bend
 from .stepping.stepper import state_at_time
 
 
@@ -27,8 +29,11 @@ def read_outputs(block: Array) -> None:
     state_at_time(block, s.y_at)
     pose(block).instant[0] = now.clock[codes.TIME]
     feed(block, table.inputs)  # one that was set after the last step acts already
-    if _needs_multipliers(block):
+    bends = sizes(block).nodes > 0
+    if bends or _needs_multipliers(block):
         derivative(block, s.y_at, s.dy_at)
+    if bends:
+        bend(block)
     for o in range(table.outputs.shape[0]):
         kind = table.output_kind[o]
         index = table.output_index[o]
@@ -90,6 +95,8 @@ def read_outputs(block: Array) -> None:
             value = motor_voltage(block, index, s.y_at, body_speed(block, s.y_at, index))
         elif kind == codes.BUFFERED_EVENT:
             value = _buffered_event(block, table.output_slot[o], index)
+        elif is_elastic(kind):
+            value = elastic_reading(block, kind, index)
         table.outputs[o] = value
     feed(block, table.held_inputs)
 

@@ -35,6 +35,11 @@ SIZES = (
     "held",
     "inputs",
     "outputs",
+    "members",  # elastic ones; these five are zero when no output asks for them
+    "nodes",
+    "ties",
+    "lumps",
+    "locked",
     "joint_rows",
     "contact_rows",  # of all contacts, when contact coordinates count as coordinates
     "rows",  # joint rows, contact rows, and a spare one
@@ -42,6 +47,7 @@ SIZES = (
     "guards",  # two a contact, two a pattern, one a logical function
     "record",  # columns of an impact record
     "buffer",  # impacts that are kept of one communication step
+    "displacements",  # 3 a node
 )
 
 
@@ -61,6 +67,11 @@ GIVEN_SIZES = (
     "held",
     "inputs",
     "outputs",
+    "members",
+    "nodes",
+    "ties",
+    "lumps",
+    "locked",
     "joint_rows",
     "contact_rows",
 )
@@ -129,6 +140,16 @@ FIELDS = (
     Field("tables", "output_slot", ("outputs",), True),
     Field("tables", "output_value", ("outputs",)),
     Field("tables", "settings", (3,)),
+    Field("tables", "node_body", ("nodes",), True),
+    Field("tables", "node_point", ("nodes", 2)),
+    Field("tables", "member_start", ("members",), True),
+    Field("tables", "member_end", ("members",), True),
+    Field("tables", "member_data", ("members", codes.MEMBER_COLUMNS)),
+    Field("tables", "tie_joint", ("ties",), True),
+    Field("tables", "tie_node", ("ties",), True),
+    Field("tables", "lump_node", ("lumps",), True),
+    Field("tables", "lump_data", ("lumps", 2)),
+    Field("tables", "locked", ("locked",), True),
     Field("state", "clock", (codes.CLOCK_LENGTH,)),
     Field("state", "counters", (codes.COUNTERS_LENGTH,), True),
     Field("state", "ledger", (codes.LEDGER_LENGTH,)),
@@ -215,6 +236,13 @@ FIELDS = (
     Field("work", "rates_before", ("coordinates",)),
     Field("work", "outputs", ("outputs",)),
     Field("work", "output_rates", ("outputs",)),
+    Field("work", "node_place", ("nodes", 2)),
+    Field("work", "matrix", ("displacements", "displacements")),
+    Field("work", "matrix_order", ("displacements",), True),
+    Field("work", "load", ("displacements",)),
+    Field("work", "element_force", ("displacements",)),
+    Field("work", "deformation", ("displacements",)),
+    Field("work", "displacement", ("displacements",)),
 )
 
 _FIRST_OFFSET = len(SIZES)
@@ -291,4 +319,5 @@ def _complete(sizes: dict[str, int]) -> dict[str, int]:
         "guards": 2 * sizes["contacts"] + 2 * sizes["patterns"] + sizes["functions"],
         "record": codes.RECORD_CONTACT_IMPULSES + sizes["contacts"] + 2 * coordinates,
         "buffer": codes.IMPACT_BUFFER_LENGTH,
+        "displacements": 3 * sizes["nodes"],
     }

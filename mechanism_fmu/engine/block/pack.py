@@ -30,6 +30,11 @@ def pack(tables: Any) -> Array:
             "held": len(tables.held),
             "inputs": len(tables.input_force),
             "outputs": len(tables.output_kind),
+            "members": len(tables.member_start),
+            "nodes": len(tables.node_body),
+            "ties": len(tables.tie_joint),
+            "lumps": len(tables.lump_node),
+            "locked": len(tables.locked),
             "joint_rows": tables.joint_rows,
             "contact_rows": tables.contact_rows,
         }

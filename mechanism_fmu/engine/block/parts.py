@@ -29,6 +29,11 @@ class Sizes(NamedTuple):
     held: int
     inputs: int
     outputs: int
+    members: int
+    nodes: int
+    ties: int
+    lumps: int
+    locked: int
     joint_rows: int
     contact_rows: int
     rows: int
@@ -36,6 +41,7 @@ class Sizes(NamedTuple):
     guards: int
     record: int
     buffer: int
+    displacements: int
 
 
 sizes = sizes_room(Sizes)
