@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import codes
+from .beams import beam_data, beam_members, hinge
 from .body import GROUND
 from .check import check
 from .curves import Curve
@@ -35,7 +36,8 @@ class MechanismTables:
     Integer tables hold structure and never depend on parameter values; the others hold numbers (SI units).
     `joint_rows` is the number of rows of all joints, `contact_rows` that of all contacts when contact coordinates
     count as coordinates, `alphas` the number of these, `own` that of states of force elements' own.
-    `node_body` to `locked` are those of `structure.Structure`, empty when no output reads elastic members.
+    `node_body` to `locked` are those of `structure.Structure`, and of `beam_body` to
+    `beam_data` those of `beams`; empty when no output reads elastic members.
     `inverse_mass` and `inverse_root_mass` have 3 entries a body and 3 zeros for the ground.
     """
 
@@ -106,6 +108,9 @@ class MechanismTables:
     lump_node: Table
     lump_data: Table
     locked: Table
+    beam_body: Table
+    beam_row: Table
+    beam_data: Table
 
 
 def compile_mechanism(mechanism: Mechanism) -> MechanismTables:
@@ -140,6 +145,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     targets = [i.target.split(".") for i in mechanism.inputs]
     outputs = [resolve_output(o.source, mechanism) for o in mechanism.outputs]
     elastic = structure(mechanism) if reads_members(mechanism) else Structure()
+    hanging = beam_members(mechanism)
     constants = [(codes.CONSTANT, 0, 0)] * len(mechanism.calculated)
     return MechanismTables(
         inverse_mass=_numbers([*(1 / m for m in masses), 0.0, 0.0, 0.0]),
@@ -227,6 +233,9 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         lump_node=_integers([node for node, _, _ in elastic.lumps]),
         lump_data=_rows([(mass, inertia) for _, mass, inertia in elastic.lumps], 2),
         locked=_integers(elastic.locked),
+        beam_body=_integers([bodies[member.body] for member in hanging]),
+        beam_row=_integers([hinge(member, mechanism)[0] for member in hanging]),
+        beam_data=_rows([beam_data(member, mechanism) for member in hanging], codes.BEAM_COLUMNS),
     )
 
 

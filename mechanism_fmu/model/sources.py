@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from .. import codes
+from .beams import OF_BEAM, beam_members, hinge
 from .efforts import EFFORTS, effort
 from .errors import MechanismError
 from .forces import DCMotor, own_states
@@ -106,7 +107,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
             f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, <pattern>.index, <shaft>.torque, "
             f"<clutch>.torque, <motor>.torque|current|voltage, "
             f"<joint>.force|force_x|force_y|normal_force|torque as the joint has them, event.count|in_step, "
-            f"<member>.{'|'.join(_OF_MEMBER)}, <member>.start|end.{'|'.join(_OF_MEMBER_END)}, "
+            f"<member>.{'|'.join([*_OF_MEMBER, *OF_BEAM])}, <member>.start|end.{'|'.join(_OF_MEMBER_END)}, "
             f"events[k].{'|'.join(_EVENT_FIELDS)}, energy.{'|'.join(_ENERGIES)}, "
             f"impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
             f"bodies {', '.join(b.name for b in mechanism.bodies)} and contacts "
@@ -129,7 +130,7 @@ def _common_sources(mechanism: Mechanism) -> Iterator[str]:
     for joint in mechanism.joints:
         yield from (f"{joint.name}.{quantity}" for quantity in EFFORTS.get(joint.kind, ()))
     for member in mechanism.members:
-        yield from (f"{member.name}.{quantity}" for quantity in _OF_MEMBER)
+        yield from (f"{member.name}.{quantity}" for quantity in (*_OF_MEMBER, *OF_BEAM))
         yield from (f"{member.name}.{end}.{quantity}" for end in ("start", "end") for quantity in _OF_MEMBER_END)
     yield from (f"energy.{kind}" for kind in _ENERGIES)
     yield from (f"impact.{field}" for field in (*_COUNTERS, *_FIELDS))
@@ -216,6 +217,9 @@ def _of_member(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int
     if part not in names:
         return None
     place = names.index(part)
+    if quantity in OF_BEAM:
+        hinge(mechanism.members[place], mechanism)
+        return OF_BEAM[quantity], beam_members(mechanism).index(mechanism.members[place]), 0
     if quantity in _OF_MEMBER:
         kind, column = _OF_MEMBER[quantity]
         return kind, 3 * place + column if kind == codes.MEMBER_FORCE else place, 0
@@ -228,7 +232,8 @@ def _of_member(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int
 def reads_members(mechanism: Mechanism) -> bool:
     """Whether an output reads an elastic member: only then does the engine see the structure that they make."""
     names = {member.name for member in mechanism.members}
-    return any(output.source.partition(".")[0] in names for output in mechanism.outputs)
+    sources = [output.source.partition(".") for output in mechanism.outputs]
+    return any(part in names and quantity not in OF_BEAM for part, _, quantity in sources)
 
 
 def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

@@ -47,7 +47,7 @@ class Structure:
         own = [k for k, (name, _) in enumerate(self.nodes) if name == body]
         if point is None or len(own) == 1:
             return own[0]
-        return next((k for k in own if _same_point(self.nodes[k][1], point)), None)
+        return next((k for k in own if same_point(self.nodes[k][1], point)), None)
 
 
 def structure(mechanism: Mechanism) -> Structure:
@@ -79,8 +79,8 @@ def structure(mechanism: Mechanism) -> Structure:
 
 def member_data(member: Member) -> tuple[Number, ...]:
     """The member's row of the table `member_data`, in the order of the columns in `codes`."""
-    section, span = member.section, _span(member)
-    stretch, bending = span / (member.young * section.area), span / (member.young * section.second_moment)
+    section, l = member.section, span(member)
+    stretch, bending = l / (member.young * section.area), l / (member.young * section.second_moment)
     return stretch, bending, section.area, 2 * section.second_moment / section.depth
 
 
@@ -95,7 +95,7 @@ def _nodes(mechanism: Mechanism) -> Iterator[tuple[str, Point]]:
         points: list[Point] = []
         for member in mechanism.members:
             for point in (member.start, member.end) if member.body == body.name else ():
-                if not any(_same_point(point, other) for other in points):
+                if not any(same_point(point, other) for other in points):
                     points.append(point)
         yield from ((body.name, point) for point in points or [(0.0, 0.0)])
 
@@ -110,7 +110,7 @@ def _ties(mechanism: Mechanism, nodes: Structure) -> Iterator[tuple[int, int]]:
 
 def _lumps(mechanism: Mechanism, nodes: Structure) -> Iterator[tuple[int, Number, Number]]:
     for member in mechanism.members:
-        half = member.density * member.section.area * _span(member) / 2
+        half = member.density * member.section.area * span(member) / 2
         for point in (member.start, member.end):
             yield _at(nodes, member.body, point, member), half, 0.0
     elastic = {member.body for member in mechanism.members}
@@ -143,12 +143,14 @@ def _at(nodes: Structure, body: str, point: Point | None, part: Any) -> int:
     return node
 
 
-def _span(member: Member) -> Number:
+def span(member: Member) -> Number:
+    """Length of a member [m]."""
     (x, y), (x_end, y_end) = member.start, member.end
     return length((x_end - x, y_end - y))
 
 
-def _same_point(a: Point, b: Point) -> bool:
+def same_point(a: Point, b: Point) -> bool:
+    """Whether two points of a body are the same: as numbers, or as recorded expressions."""
     return all(_same(x, y) for x, y in zip(a, b, strict=True))
 
 

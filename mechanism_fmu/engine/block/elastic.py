@@ -50,6 +50,17 @@ class Lumps(NamedTuple):
 lumps = room(Lumps, "lump_")
 
 
+class Beams(NamedTuple):
+    """Members that hang on a hinge: body, first row of the hinge, and numbers by column (`codes.BEAM_SPAN` ...)."""
+
+    body: Array
+    row: Array
+    data: Array
+
+
+beams = room(Beams, "beam_")
+
+
 class Structure(NamedTuple):
     """The structure at one instant: compatibility C (then its factors, with their order of rows), and what follows.
 

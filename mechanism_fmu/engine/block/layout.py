@@ -35,11 +35,12 @@ SIZES = (
     "held",
     "inputs",
     "outputs",
-    "members",  # elastic ones; these five are zero when no output asks for them
+    "members",  # elastic ones; these six are zero when no output asks for them
     "nodes",
     "ties",
     "lumps",
     "locked",
+    "beams",
     "joint_rows",
     "contact_rows",  # of all contacts, when contact coordinates count as coordinates
     "rows",  # joint rows, contact rows, and a spare one
@@ -72,6 +73,7 @@ GIVEN_SIZES = (
     "ties",
     "lumps",
     "locked",
+    "beams",
     "joint_rows",
     "contact_rows",
 )
@@ -150,6 +152,9 @@ FIELDS = (
     Field("tables", "lump_node", ("lumps",), True),
     Field("tables", "lump_data", ("lumps", 2)),
     Field("tables", "locked", ("locked",), True),
+    Field("tables", "beam_body", ("beams",), True),
+    Field("tables", "beam_row", ("beams",), True),
+    Field("tables", "beam_data", ("beams", codes.BEAM_COLUMNS)),
     Field("state", "clock", (codes.CLOCK_LENGTH,)),
     Field("state", "counters", (codes.COUNTERS_LENGTH,), True),
     Field("state", "ledger", (codes.LEDGER_LENGTH,)),

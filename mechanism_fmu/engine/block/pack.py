@@ -35,6 +35,7 @@ def pack(tables: Any) -> Array:
             "ties": len(tables.tie_joint),
             "lumps": len(tables.lump_node),
             "locked": len(tables.locked),
+            "beams": len(tables.beam_body),
             "joint_rows": tables.joint_rows,
             "contact_rows": tables.contact_rows,
         }

@@ -34,6 +34,7 @@ class Sizes(NamedTuple):
     ties: int
     lumps: int
     locked: int
+    beams: int
     joint_rows: int
     contact_rows: int
     rows: int

@@ -12,12 +12,6 @@ from ..compiler.subset import jit, keep_small
 
 
 @jit
-def is_elastic(kind: int) -> bool:
-    """Whether an output of this kind needs `structure.bend`."""
-    return codes.NODE_PLACE <= kind <= codes.MEMBER_STRESS
-
-
-@jit
 def elastic_reading(block: Array, kind: int, index: int) -> float:
     """The value of an output of members or their ends; `index` as in `ports.output_index`."""
     keep_small()
