@@ -110,6 +110,8 @@ MEMBER_COLUMNS = 4
 # lump_data columns
 LUMP_MASS = 0
 LUMP_INERTIA = 1
+LUMP_SHARE = 2  # of the mass of its body's lumps
+LUMP_COLUMNS = 3
 
 # beam_data columns: a member whose start is a hinge and whose end is free, or pushed
 BEAM_ALONG_X = 0  # unit vector from hinge to tip, in the frame of the body

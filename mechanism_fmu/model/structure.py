@@ -12,8 +12,7 @@ from typing import Any
 from .body import GROUND, Point
 from .conditions import length
 from .errors import MechanismError
-from .functions import Number, is_plain
-from .joints import Joint
+from .functions import Number, is_plain, where_positive
 from .mechanism import Mechanism
 from .members import Member
 
@@ -31,7 +30,7 @@ class Structure:
         nodes: body and place in its frame [m].
         ends: nodes at start and end of each member.
         ties: joint and node, for each side of each joint that is not the ground.
-        lumps: node, mass [kg] and inertia [kg m2].
+        lumps: node, mass [kg], inertia [kg m2], and share of the mass of its body's lumps.
         locked: displacements that held coordinates keep at zero, numbered node by node; those of driven bodies are held
             by the rows of their drivers.
     """
@@ -39,7 +38,7 @@ class Structure:
     nodes: tuple[tuple[str, Point], ...] = ()
     ends: tuple[tuple[int, int], ...] = ()
     ties: tuple[tuple[int, int], ...] = ()
-    lumps: tuple[tuple[int, Number, Number], ...] = ()
+    lumps: tuple[tuple[int, Number, Number, Number], ...] = ()
     locked: tuple[int, ...] = ()
 
     def node(self, body: str, point: Point | None) -> int | None:
@@ -54,24 +53,30 @@ def structure(mechanism: Mechanism) -> Structure:
     """The structure that a mechanism with members is while its held and driven coordinates stand still.
 
     Raises:
-        MechanismError: a joint or disk stands beside the ends of members, or the structure is not determinate.
+        MechanismError: there are contacts, a joint or disk stands beside the ends of members, or the structure is not
+            determinate.
     """
+    if mechanism.contacts:
+        raise MechanismError(
+            f"Elastic members: contact {mechanism.contacts[0].name!r} opens and closes, but the structure must "
+            f"stay the same; read elastic members of linkages without contacts."
+        )
     nodes = Structure(nodes=tuple(_nodes(mechanism)))
     members = mechanism.members
     made = Structure(
         nodes.nodes,
         tuple((_at(nodes, m.body, m.start, m), _at(nodes, m.body, m.end, m)) for m in members),
         tuple(_ties(mechanism, nodes)),
-        tuple(_lumps(mechanism, nodes)),
+        tuple(_shared(nodes, [*_lumps(mechanism, nodes)])),
         tuple(_locked(mechanism, nodes)),
     )
     rows = sum(joint.rows for joint in mechanism.joints)
     unknown, known = 3 * len(made.nodes), 3 * len(members) + rows + len(made.locked)
     if unknown != known:
         raise MechanismError(
-            f"Elastic members: {len(made.nodes)} nodes have {unknown} displacements, but {len(members)} members, {rows} "
-            f"rows of joints and {len(made.locked)} held coordinates give {known} conditions; the linkage must be "
-            f"statically determinate once its held and driven coordinates stand still. "
+            f"Elastic members: {len(made.nodes)} nodes have {unknown} displacements, but {len(members)} members, "
+            f"{rows} rows of joints and {len(made.locked)} held coordinates give {known} conditions; the linkage must "
+            f"be statically determinate once its held and driven coordinates stand still. "
             f"{_way_out(unknown - known)}"
         )
     return made
@@ -79,15 +84,15 @@ def structure(mechanism: Mechanism) -> Structure:
 
 def member_data(member: Member) -> tuple[Number, ...]:
     """The member's row of the table `member_data`, in the order of the columns in `codes`."""
-    section, l = member.section, span(member)
-    stretch, bending = l / (member.young * section.area), l / (member.young * section.second_moment)
+    section, long = member.section, span(member)
+    stretch, bending = long / (member.young * section.area), long / (member.young * section.second_moment)
     return stretch, bending, section.area, 2 * section.second_moment / section.depth
 
 
 def _way_out(missing: int) -> str:
     if missing > 0:
         return "Hold a coordinate for each degree of freedom, and let members of a body hang together."
-    return "Take away joints that repeat each other, held coordinates that follow from others, or members that close a ring."
+    return "Take away joints that repeat each other, held coordinates that follow, or members that close a ring."
 
 
 def _nodes(mechanism: Mechanism) -> Iterator[tuple[str, Point]]:
@@ -120,6 +125,14 @@ def _lumps(mechanism: Mechanism, nodes: Structure) -> Iterator[tuple[int, Number
     for body in mechanism.bodies:
         if body.name not in elastic:
             yield _at(nodes, body.name, None, body), body.mass, body.inertia
+
+
+def _shared(nodes: Structure, lumps: list[tuple[int, Number, Number]]) -> Iterator[tuple[int, Number, Number, Number]]:
+    for node, mass, inertia in lumps:
+        body = nodes.nodes[node][0]
+        own = [other for k, other, _ in lumps if nodes.nodes[k][0] == body]
+        total = sum(own)
+        yield node, mass, inertia, where_positive(total, mass / where_positive(total, total, 1.0), 1.0 / len(own))
 
 
 def _locked(mechanism: Mechanism, nodes: Structure) -> Iterator[int]:

@@ -20,7 +20,7 @@ members = room(Members, "member_")
 
 
 class Nodes(NamedTuple):
-    """Where members end, and rigid bodies: body, place in its frame, and from its centre of mass in the global frame."""
+    """Ends of members, and rigid bodies: body, place in its frame, and from its centre of mass in the global frame."""
 
     body: Array
     point: Array
@@ -41,7 +41,7 @@ ties = room(Ties, "tie_")
 
 
 class Lumps(NamedTuple):
-    """Lumps of mass: node, and mass and inertia by column."""
+    """Lumps of mass: node, and mass, inertia and share of its body's mass by column."""
 
     node: Array
     data: Array

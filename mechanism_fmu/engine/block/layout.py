@@ -150,7 +150,7 @@ FIELDS = (
     Field("tables", "tie_joint", ("ties",), True),
     Field("tables", "tie_node", ("ties",), True),
     Field("tables", "lump_node", ("lumps",), True),
-    Field("tables", "lump_data", ("lumps", 2)),
+    Field("tables", "lump_data", ("lumps", codes.LUMP_COLUMNS)),
     Field("tables", "locked", ("locked",), True),
     Field("tables", "beam_body", ("beams",), True),
     Field("tables", "beam_row", ("beams",), True),

@@ -1,10 +1,10 @@
 """A hinged bar that bends under the forces on its tip and its own inertia (docs/elastodynamics.md).
 
-The bar is uniform with point masses at its ends, so that mass m, centre of mass and inertia J are those of its body:
-x_G being the distance of the centre from the hinge, mass per length mu = 6 (m x_G (l - x_G) - J) / l^3. The motion and the
-force Q of the hinge across the bar are those of the solve; whatever acts on the tip need not be known: moments about it
-give the couple at the hinge, M_0 = J alpha - m (l - x_G) a_G + l Q. With a(x) = a_0 + alpha x the acceleration across
-the bar, Q' = Q - m_a a_0 and
+The bar is uniform with point masses at its ends, so that mass m, centre of mass (x_G from the hinge) and inertia J are
+those of its body: its mass per length is mu = 6 (m x_G (l - x_G) - J) / l^3. The motion and the force Q of the hinge
+across the bar are those of the solve; what acts on the tip need not be known, because moments about it give the couple
+at the hinge, M_0 = J alpha - m (l - x_G) a_G + l Q. With a(x) = a_0 + alpha x the acceleration across the bar, m_0 the
+mass at the hinge and Q' = Q - m_0 a_0,
 
     M(x) = -M_0 + Q' x - mu (a_0 x^2 / 2 + alpha x^3 / 6) = E I v''(x),    M(l) = 0.
 """

@@ -1,10 +1,10 @@
 """The linkage as a structure at one instant: drives stand still, every joint holds, only members give way.
 
-Unknown are the displacements u = (x, y, rotation) of all nodes: ends of members, and one node a rigid body. Compatibility
-d = C u says what they do to the members (three deformations each) and to what cannot give way (rows of joints, locked
-coordinates), for which d = 0. C is square: the linkage is statically determinate. With loads P at the nodes, virtual
-work gives f = C^-T P, the section gives d = F f, and u = C^-1 d; so B = C^-T and u = B^T F B P, the flexibility
-approach of Erdman, Sandor and Oakberg (docs/elastodynamics.md).
+Unknown are the displacements u = (x, y, rotation) of all nodes: ends of members, and one node a rigid body.
+Compatibility d = C u says what they do to the members (three deformations each) and to what cannot give way (rows of
+joints, locked coordinates), for which d = 0. C is square: the linkage is statically determinate. With loads P at the
+nodes, virtual work gives f = C^-T P, the sections give d = F f, and u = C^-1 d; so B = C^-T and u = B^T F B P, the
+flexibility approach of Erdman, Sandor and Oakberg (docs/elastodynamics.md).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import math
 from ... import codes
 from ..block.elastic import lumps, members, nodes, structure, ties
 from ..block.layout import Array
-from ..block.motion import pose, rows, stages
+from ..block.motion import loads, pose, rows, stages
 from ..block.parts import joints, sizes
 from ..block.vectors import clear
 from ..compiler.subset import jit, keep_small
@@ -120,10 +120,15 @@ def _compatibility_of_joints(block: Array) -> None:
 
 @jit
 def _load(block: Array) -> None:
-    """P: the inertia forces -m a and moments -J alpha of all lumps in the rigid motion."""
+    """P: inertia forces -m a and moments -J alpha of all lumps in the rigid motion, and what is applied to the bodies.
+
+    A force on a centre of mass is shared among the body's lumps by their masses, which is exact for weight; torques act
+    on the first node of a body.
+    """
     keep_small()
     table = lumps(block)
     it = structure(block)
+    applied = loads(block).force
     body = nodes(block).body
     place = nodes(block).place
     rate = pose(block).phi_rate
@@ -135,14 +140,20 @@ def _load(block: Array) -> None:
         mass = table.data[k, codes.LUMP_MASS]
         turning = acceleration[3 * i + 2]
         square = rate[i] * rate[i]
-        it.load[3 * p] -= mass * (acceleration[3 * i] - turning * place[p, 1] - square * place[p, 0])
-        it.load[3 * p + 1] -= mass * (acceleration[3 * i + 1] + turning * place[p, 0] - square * place[p, 1])
+        share = table.data[k, codes.LUMP_SHARE]
+        x = acceleration[3 * i] - turning * place[p, 1] - square * place[p, 0]
+        y = acceleration[3 * i + 1] + turning * place[p, 0] - square * place[p, 1]
+        it.load[3 * p] += share * applied[3 * i] - mass * x
+        it.load[3 * p + 1] += share * applied[3 * i + 1] - mass * y
         it.load[3 * p + 2] -= table.data[k, codes.LUMP_INERTIA] * turning
+    for p in range(body.shape[0]):
+        if p == 0 or body[p] != body[p - 1]:
+            it.load[3 * p + 2] += applied[3 * body[p] + 2]
 
 
 @jit
 def _deform(block: Array) -> None:
-    """d = F f of each member: l/EA along it; l/3EI and -l/6EI of the moments on its two ends."""
+    """The deformations d = F f of each member: l/EA along it; l/3EI and -l/6EI of the moments on its two ends."""
     keep_small()
     table = members(block)
     it = structure(block)

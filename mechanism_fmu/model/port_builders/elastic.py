@@ -41,7 +41,9 @@ def member_outputs(
     Args:
         member: its name.
         inputs: those on which accelerations depend at the same instant.
-        force, moment, stress: typical sizes.
+        force: typical size [N].
+        moment: typical size [N.m].
+        stress: typical size [Pa].
     """
     through = tuple(port.name for port in inputs)
     largest = f"Largest normal stress in member {member}: axial and bending"
@@ -79,7 +81,8 @@ def hinged_beam_outputs(
         member: name of the member.
         what: the part, for the descriptions, e.g. "pawl".
         inputs: those on which accelerations depend at the same instant.
-        deflection, stress: typical sizes [m, Pa].
+        deflection: typical size [m].
+        stress: typical size [Pa].
     """
     through = tuple(port.name for port in inputs)
     bent = f"Deflection of the {what}'s tip from the tangent at its hinge, counter-clockwise positive"
