@@ -107,6 +107,9 @@ class MechanismTables:
     tie_node: Table
     lump_node: Table
     lump_data: Table
+    couple_force: Table
+    couple_node: Table
+    couple_sign: Table
     locked: Table
     beam_body: Table
     beam_row: Table
@@ -232,6 +235,9 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         tie_node=_integers([node for _, node in elastic.ties]),
         lump_node=_integers([lump[0] for lump in elastic.lumps]),
         lump_data=_rows([lump[1:] for lump in elastic.lumps], codes.LUMP_COLUMNS),
+        couple_force=_integers([force for force, _, _ in elastic.couples]),
+        couple_node=_integers([node for _, node, _ in elastic.couples]),
+        couple_sign=_integers([sign for _, _, sign in elastic.couples]),
         locked=_integers(elastic.locked),
         beam_body=_integers([bodies[member.body] for member in hanging]),
         beam_row=_integers([hinge(member, mechanism)[0] for member in hanging]),

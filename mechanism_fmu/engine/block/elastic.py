@@ -40,6 +40,17 @@ class Ties(NamedTuple):
 ties = room(Ties, "tie_")
 
 
+class Couples(NamedTuple):
+    """The torques of force elements: which element's acts on which node, and with what sign."""
+
+    force: Array
+    node: Array
+    sign: Array
+
+
+couples = room(Couples, "couple_")
+
+
 class Lumps(NamedTuple):
     """Lumps of mass: node, and mass, inertia and share of its body's mass by column."""
 

@@ -34,6 +34,7 @@ def pack(tables: Any) -> Array:
             "nodes": len(tables.node_body),
             "ties": len(tables.tie_joint),
             "lumps": len(tables.lump_node),
+            "couples": len(tables.couple_force),
             "locked": len(tables.locked),
             "beams": len(tables.beam_body),
             "joint_rows": tables.joint_rows,

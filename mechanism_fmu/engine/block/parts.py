@@ -33,6 +33,7 @@ class Sizes(NamedTuple):
     nodes: int
     ties: int
     lumps: int
+    couples: int
     locked: int
     beams: int
     joint_rows: int

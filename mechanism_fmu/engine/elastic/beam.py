@@ -17,8 +17,9 @@ from ... import codes
 from ..block.elastic import beams
 from ..block.layout import Array
 from ..block.motion import linear_system, pose, stages
-from ..block.parts import bodies, forces, sizes
+from ..block.parts import bodies, sizes
 from ..compiler.subset import jit, keep_small
+from ..dynamics.forces import weight
 
 
 @jit
@@ -71,7 +72,7 @@ def _moment(block: Array, beam: int) -> tuple[float, float, float, float]:
     mass = 1.0 / bodies(block).inverse_mass[3 * i]
     inertia = 1.0 / bodies(block).inverse_mass[3 * i + 2]
     acceleration = stages(block).dy_at[sizes(block).coordinates :]
-    weight_x, weight_y = _weight(block, i)
+    weight_x, weight_y = weight(block, i)
     at_centre = tx * (acceleration[3 * i + 1] - weight_y / mass) - ty * (acceleration[3 * i] - weight_x / mass)
     turning = acceleration[3 * i + 2]
     at_hinge = at_centre - turning * centre
@@ -80,17 +81,3 @@ def _moment(block: Array, beam: int) -> tuple[float, float, float, float]:
     concentrated = mass - density * length - at_tip
     couple = inertia * turning - mass * (length - centre) * at_centre + length * hinge
     return -couple, hinge - concentrated * at_hinge, -density * at_hinge / 2.0, -density * turning / 6.0
-
-
-@jit
-def _weight(block: Array, body: int) -> tuple[float, float]:
-    """The forces on a body's centre of mass [N], which act like its inertia: spread over its mass."""
-    keep_small()
-    table = forces(block)
-    x = 0.0
-    y = 0.0
-    for k in range(table.kind.shape[0]):
-        if table.kind[k] == codes.FORCE and table.body[k] == body:
-            x += table.data[k, codes.FORCE_X]
-            y += table.data[k, codes.FORCE_Y]
-    return x, y

@@ -12,12 +12,13 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.elastic import lumps, members, nodes, structure, ties
+from ..block.elastic import members, nodes, structure, ties
 from ..block.layout import Array
-from ..block.motion import loads, pose, rows, stages
+from ..block.motion import pose, rows
 from ..block.parts import joints, sizes
 from ..block.vectors import clear
 from ..compiler.subset import jit, keep_small
+from .applied import put_loads
 from .linear_equations import factorise, solve, solve_transposed
 
 
@@ -38,7 +39,7 @@ def bend(block: Array) -> None:
     for k in range(it.locked.shape[0]):
         it.matrix[first + k, it.locked[k]] = 1.0
     factorise(it.matrix, it.matrix_order)
-    _load(block)
+    put_loads(block)
     solve_transposed(it.matrix, it.matrix_order, it.load, it.element_force)
     _deform(block)
     solve(it.matrix, it.matrix_order, it.deformation, it.displacement)
@@ -116,39 +117,6 @@ def _compatibility_of_joints(block: Array) -> None:
             it.matrix[first + r, 3 * node] += x
             it.matrix[first + r, 3 * node + 1] += y
             it.matrix[first + r, 3 * node + 2] += jacobian[r, i + 2] - place[node, 0] * y + place[node, 1] * x
-
-
-@jit
-def _load(block: Array) -> None:
-    """P: inertia forces -m a and moments -J alpha of all lumps in the rigid motion, and what is applied to the bodies.
-
-    A force on a centre of mass is shared among the body's lumps by their masses, which is exact for weight; torques act
-    on the first node of a body.
-    """
-    keep_small()
-    table = lumps(block)
-    it = structure(block)
-    applied = loads(block).force
-    body = nodes(block).body
-    place = nodes(block).place
-    rate = pose(block).phi_rate
-    acceleration = stages(block).dy_at[sizes(block).coordinates :]
-    clear(it.load)
-    for k in range(table.node.shape[0]):
-        p = table.node[k]
-        i = body[p]
-        mass = table.data[k, codes.LUMP_MASS]
-        turning = acceleration[3 * i + 2]
-        square = rate[i] * rate[i]
-        share = table.data[k, codes.LUMP_SHARE]
-        x = acceleration[3 * i] - turning * place[p, 1] - square * place[p, 0]
-        y = acceleration[3 * i + 1] + turning * place[p, 0] - square * place[p, 1]
-        it.load[3 * p] += share * applied[3 * i] - mass * x
-        it.load[3 * p + 1] += share * applied[3 * i + 1] - mass * y
-        it.load[3 * p + 2] -= table.data[k, codes.LUMP_INERTIA] * turning
-    for p in range(body.shape[0]):
-        if p == 0 or body[p] != body[p - 1]:
-            it.load[3 * p + 2] += applied[3 * body[p] + 2]
 
 
 @jit
