@@ -67,7 +67,8 @@ class Run:
         parameters: parameters and calculated parameters after the initialization.
         messages: everything the FMU said.
         tooth: what the impacts strike; None when the FMU does not describe one.
-        units: by name, for "results", "impacts", "events", "fatigue", "compliance" and "parameters" each ("1": dimensionless).
+        units: by name ("1": dimensionless), for each of "results", "impacts", "events", "fatigue", "compliance" and
+            "parameters".
         checks: verdicts.
         wall_time: of the simulation [s].
         drawing: how the mechanism is drawn.

@@ -9,10 +9,10 @@ from ..numbers import engineering
 from .page import section, table
 
 _NOTE = (
-    "The links are not rigid: with the drive standing still, the wheel stays behind by the lost motion, and the drive must "
-    "move it by the effective tooth resolution, pitch and lost motion, to gain a tooth. The contact force acts slowly; "
-    "the impact is that with the largest force, F = v sqrt(k m), m from impulse and closing speed, k of the pawl alone, "
-    "so an upper bound. Bars of constant section (docs/stress.md)."
+    "Crank and pawl give way: with the drive standing still, the wheel stays behind by the lost motion. The effective "
+    "tooth resolution is pitch and lost motion: by so much the drive must move the wheel to gain a tooth. The contact "
+    "force acts slowly; the impact is that with the largest force, F = v sqrt(k m), with m from impulse and closing "
+    "speed and k of the pawl alone, so an upper bound. Both are bars of constant section (models/ratchet/README.md)."
 )
 
 
