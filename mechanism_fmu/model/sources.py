@@ -13,7 +13,7 @@ from .errors import MechanismError
 from .forces import DCMotor, own_states
 from .functions import Number
 from .mechanism import Mechanism
-from .structure import structure
+from .structure import nodes_of
 
 _COORDINATES = {"x": 0, "y": 1, "angle": 2}
 _RATES = {"x_rate": 0, "y_rate": 1, "speed": 2}
@@ -226,7 +226,7 @@ def _of_member(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int
     if end not in ("start", "end") or wanted not in _OF_MEMBER_END:
         return None
     kind, each, column = _OF_MEMBER_END[wanted]
-    return kind, each * structure(mechanism).ends[place][end == "end"] + column, 0
+    return kind, each * nodes_of(mechanism).ends[place][end == "end"] + column, 0
 
 
 def reads_members(mechanism: Mechanism) -> bool:

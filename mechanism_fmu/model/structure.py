@@ -72,10 +72,9 @@ def structure(mechanism: Mechanism) -> Structure:
             f"Elastic members: contact {mechanism.contacts[0].name!r} opens and closes, but the structure must "
             f"stay the same; read elastic members of linkages without contacts."
         )
-    nodes = Structure(nodes=tuple(_nodes(mechanism)))
+    nodes = nodes_of(mechanism)
     made = replace(
         nodes,
-        ends=tuple((nodes.at(m.body, m.start, m), nodes.at(m.body, m.end, m)) for m in mechanism.members),
         ties=tuple(_ties(mechanism, nodes)),
         lumps=tuple(_shared(nodes, [*_lumps(mechanism, nodes)])),
         couples=tuple(_couples(mechanism, nodes)),
@@ -83,6 +82,13 @@ def structure(mechanism: Mechanism) -> Structure:
     )
     _check(mechanism, made)
     return made
+
+
+def nodes_of(mechanism: Mechanism) -> Structure:
+    """The nodes of a mechanism with members, and which of them its members join; nothing else yet."""
+    nodes = Structure(nodes=tuple(_nodes(mechanism)))
+    members = mechanism.members
+    return replace(nodes, ends=tuple((nodes.at(m.body, m.start, m), nodes.at(m.body, m.end, m)) for m in members))
 
 
 def member_data(member: Member) -> tuple[Number, ...]:
