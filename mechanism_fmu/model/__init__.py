@@ -33,7 +33,7 @@ from .joints import (
 )
 from .logic import LogicalFunction
 from .mechanism import Mechanism, Settings
-from .members import Disk, Member, Section
+from .members import Disk, LumpedBody, Member, Section, lumped_body
 from .model import Model
 from .motion_laws import Law, Move, cycloidal, dwell, modified_sine, polynomial_345
 from .motions import harmonic_motion, polynomial_motion, table_motion
@@ -110,6 +110,7 @@ __all__ = [
     "InternalGears",
     "Law",
     "LogicalFunction",
+    "LumpedBody",
     "Mechanism",
     "MechanismError",
     "MechanismTables",
@@ -168,6 +169,7 @@ __all__ = [
     "length_parameter",
     "link_parameters",
     "load_torque_input",
+    "lumped_body",
     "mass_parameter",
     "member_outputs",
     "modified_sine",

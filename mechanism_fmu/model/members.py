@@ -5,9 +5,10 @@ The engine moves rigid bodies and reads none of this; `mechanism_fmu.elastodynam
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .body import Point
+from .conditions import length
 from .functions import Number
 
 
@@ -73,3 +74,47 @@ class Disk:
     point: Point
     mass: Number
     inertia: Number = 0.0
+
+
+@dataclass(frozen=True)
+class LumpedBody:
+    """A body that is made of members and disks, half of each member's mass at either end.
+
+    Attributes:
+        mass: [kg].
+        inertia: about the centre of mass [kg m2].
+        centre: of mass, in the frame in which the parts were given [m].
+        members, disks: the parts in the body's own frame, from its centre of mass.
+    """
+
+    mass: Number
+    inertia: Number
+    centre: Point
+    members: tuple[Member, ...]
+    disks: tuple[Disk, ...]
+
+
+def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> LumpedBody:
+    """Mass, inertia and centre of mass of a body's members and disks, given in any one frame; their sum must be > 0."""
+    lumps: list[tuple[Number, Point]] = [(disk.mass, disk.point) for disk in disks]
+    for member in members:
+        x, y = member.end[0] - member.start[0], member.end[1] - member.start[1]
+        half = member.density * member.section.area * length((x, y)) / 2
+        lumps += [(half, member.start), (half, member.end)]
+    mass: Number = sum(part for part, _ in lumps)
+    centre = tuple(sum(part * point[k] for part, point in lumps) / mass for k in range(2))
+
+    def moved(point: Point) -> Point:
+        return point[0] - centre[0], point[1] - centre[1]
+
+    inertia: Number = sum(disk.inertia for disk in disks)
+    for part, point in lumps:
+        x, y = moved(point)
+        inertia = inertia + part * (x * x + y * y)
+    return LumpedBody(
+        mass,
+        inertia,
+        (centre[0], centre[1]),
+        tuple(replace(member, start=moved(member.start), end=moved(member.end)) for member in members),
+        tuple(replace(disk, point=moved(disk.point)) for disk in disks),
+    )

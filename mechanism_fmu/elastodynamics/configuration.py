@@ -1,0 +1,144 @@
+"""The structure in all configurations of a motion: compatibility d = C u, and what follows from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from ..kinematics import KinematicMotion
+from .constraints import constraint_rows, guided
+from .elements import FloatArray
+from .elimination import independent_basis
+from .freedoms import RELEASED, named_place
+from .linkage import Linkage
+from .pose import Pose, left, pose_of
+from .transfer import transfer_matrix
+
+
+@dataclass(frozen=True)
+class Configurations:
+    """A linkage along a motion. All matrices come for all configurations, shape (times, ...).
+
+    Attributes:
+        linkage: it.
+        pose: of its bodies.
+        coordinates: names of the m free displacements u, "<place>.x|y|angle", or "<place>.along" a guide.
+        basis: Z of w = Z u, shape (times, unknowns, m), or (1, unknowns, m) where it is always the same.
+    """
+
+    linkage: Linkage
+    pose: Pose
+    coordinates: tuple[str, ...]
+    basis: FloatArray
+
+    @cached_property
+    def ends(self) -> FloatArray:
+        """E of e = E u, shape (times, elements, 6, m): how the ends of each element are displaced.
+
+        (u, v, theta) of its start and of its end, along the element and to its left [m, m, rad]. A rotation that is no
+        unknown follows from the others of the element: no moment acts there.
+        """
+        freedoms = self.linkage.freedoms
+        wide = np.zeros((len(self.pose.time), len(self.linkage.elements), 6, freedoms.ground + 1))
+        for number, element in enumerate(self.linkage.elements):
+            along = _direction(self.pose, element.member.body, element.member.start, element.member.end)
+            part = wide[:, number]
+            for place, first in ((element.start, 0), (element.end, 3)):
+                x, y, angle = freedoms.columns[place]
+                part[:, first, [x, y]] += along
+                part[:, first + 1, [x, y]] += left(along)
+                if angle != RELEASED:
+                    part[:, first + 2, angle] = 1.0
+            chord = (part[:, 4] - part[:, 1]) / element.length
+            known = [freedoms.columns[place, 2] != RELEASED for place in (element.start, element.end)]
+            for here, there in ((0, 1), (1, 0)):
+                if not known[here]:
+                    part[:, 3 * here + 2] = 1.5 * chord - 0.5 * part[:, 3 * there + 2] if known[there] else chord
+        return self._reduced(wide[..., :-1])
+
+    @cached_property
+    def compatibility(self) -> FloatArray:
+        """C of d = C u, shape (times, n, m): element deformations from the free displacements."""
+        deformation = np.asarray(block_diag(*(element.deformation for element in self.linkage.elements)))
+        ends = self.ends
+        return deformation @ ends.reshape(len(ends), -1, ends.shape[-1])
+
+    @cached_property
+    def transfer(self) -> FloatArray:
+        """B of f = B P, shape (times, n, m): element forces from system forces along the free displacements; eq (10).
+
+        Raises:
+            LinkageError: the linkage can move although it should stand still.
+        """
+        longest = max(element.length for element in self.linkage.elements)
+        scale = np.where([name.endswith(".angle") for name in self.coordinates], longest, 1.0)
+        return transfer_matrix(self.compatibility, self.linkage.flexibility, self.pose.time, self.coordinates, scale)
+
+    @cached_property
+    def system_flexibility(self) -> FloatArray:
+        """B^T F B, shape (times, m, m): u = (B^T F B) P; eq (12)."""
+        transfer = self.transfer
+        flexibility: FloatArray = np.swapaxes(transfer, 1, 2) @ (self.linkage.flexibility @ transfer)
+        return flexibility
+
+    @cached_property
+    def stiffness(self) -> FloatArray:
+        """K = C^T F^-1 C, shape (times, m, m): P = K u. The inverse of `system_flexibility`."""
+        compatibility = self.compatibility
+        stiffness: FloatArray = np.swapaxes(compatibility, 1, 2) @ np.linalg.solve(
+            self.linkage.flexibility, compatibility
+        )
+        return stiffness
+
+    def displacement(self, place: str) -> FloatArray:
+        """Rows that give (u_x, u_y, theta) of a place [m, m, rad] from u, shape (times or 1, 3, m).
+
+        A rotation that is no unknown is that of the end of the member of this name.
+
+        Raises:
+            LinkageError: there is no such place.
+        """
+        freedoms = self.linkage.freedoms
+        columns = freedoms.columns[named_place(freedoms.places, place)]
+        wide = np.zeros((1, 3, freedoms.ground + 1))
+        for row, column in enumerate(columns):
+            if column != RELEASED:
+                wide[0, row, column] = 1.0
+        rows = self._reduced(wide[..., :-1])
+        if columns[2] != RELEASED:
+            return rows
+        member, _, end = place.rpartition(".")
+        number = [element.member.name for element in self.linkage.elements].index(member)
+        turned = self.ends[:, number, 2 if end == "start" else 5]
+        wider = np.broadcast_to(rows, (len(turned), *rows.shape[1:])).copy()
+        wider[:, 2] = turned
+        return wider
+
+    def _reduced(self, wide: FloatArray) -> FloatArray:
+        """Rows for u from rows for w, shape (times, ..., unknowns)."""
+        if self.basis.shape[1] == self.basis.shape[2]:
+            return wide  # w = u
+        flat = wide.reshape(len(wide), -1, wide.shape[-1]) @ self.basis
+        return flat.reshape(len(flat), *wide.shape[1:-1], flat.shape[-1])
+
+
+def configurations(linkage: Linkage, motion: KinematicMotion) -> Configurations:
+    """A linkage in every configuration of a motion of its mechanism.
+
+    Raises:
+        LinkageError: the motion is another mechanism's, a joint is of a kind that the flexibility approach does not
+            know, or what rigid bodies are held by says the same twice.
+    """
+    pose = pose_of(linkage.mechanism, motion)
+    rows, owners = constraint_rows(linkage.mechanism, linkage.freedoms, pose)
+    guides = guided(linkage.mechanism, linkage.freedoms, pose)
+    basis, names = independent_basis(rows, owners, linkage.freedoms.names, guides)
+    return Configurations(linkage, pose, names, basis)
+
+
+def _direction(pose: Pose, body: str, start: tuple[float, float], end: tuple[float, float]) -> FloatArray:
+    along = pose.turned(body, (end[0] - start[0], end[1] - start[1]))
+    return along / np.hypot(along[:, 0], along[:, 1])[:, None]

@@ -1,0 +1,69 @@
+"""Flexibility matrices of the elements of Erdman, Sandor and Oakberg (1972): d = F f.
+
+Deformations d and forces f of an element stand in the order axial [m; N], transverse [m; N], rotation [rad; N m], as far
+as it has them: tension, the normal to the left of the element and counter-clockwise turns are positive. The pairs of
+numbers in brackets are eqs of the paper.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from ..model import Section
+
+FloatArray = np.ndarray[Any, np.dtype[np.float64]]
+
+
+def cantilever(length: float, section: Section, young: float) -> FloatArray:
+    """F of a beam clamped at one end and loaded at the other, eq (2), shape (3, 3).
+
+    [[l/AE, 0, 0], [0, l^3/3EI, l^2/2EI], [0, l^2/2EI, l/EI]]; without the last row and column where no moment can act
+    at the free end, as at a pin.
+    """
+    bending = young * section.second_moment
+    return np.array(
+        [
+            [length / (section.area * young), 0.0, 0.0],
+            [0.0, length**3 / (3 * bending), length**2 / (2 * bending)],
+            [0.0, length**2 / (2 * bending), length / bending],
+        ]
+    )
+
+
+def two_force_member(length: float, section: Section, young: float) -> FloatArray:
+    """F of a link with a pin at either end, eq (4), shape (1, 1): l/AE."""
+    return np.array([[length / (section.area * young)]])
+
+
+def supported_beam(length: float, section: Section, young: float) -> FloatArray:
+    """F of a beam on two supports with a moment at one end, eq (7), shape (2, 2): axial, and rotation there.
+
+    diag(l/AE, l/3EI). The rotation is that against the chord. So is a link whose other end is pinned to a slider.
+    """
+    return np.diag([length / (section.area * young), length / (3 * young * section.second_moment)])
+
+
+def bent_coupler(cantilever_length: float, supported_length: float, section: Section, young: float) -> FloatArray:
+    """F of a coupler of two parts welded at a fixed angle (the paper's Fig. 3), shape (5, 5).
+
+    The first part is a cantilever with its free end at the path point, the second is supported by two pins and carries
+    the first one's moment; the angle is no matter of F, but of how forces are transferred.
+    """
+    first = cantilever(cantilever_length, section, young)
+    return np.asarray(block_diag(first, supported_beam(supported_length, section, young)))
+
+
+def torsion_shaft(length: float, polar_moment: float, shear_modulus: float) -> FloatArray:
+    """F of a shaft that is twisted, eq (6), shape (1, 1): l/GJ [rad/(N m)], J the torsion constant [m4], G [Pa]."""
+    return np.array([[length / (shear_modulus * polar_moment)]])
+
+
+def spatial_link(length: float, section: Section, young: float) -> FloatArray:
+    """F of a spatial link with a revolute and a spherical joint, eq (9), shape (2, 2): axial, and transverse.
+
+    diag(l/AE, l^3/3EI): it bends in one plane only, from the revolute joint on, as a cantilever without end moment.
+    """
+    return cantilever(length, section, young)[:2, :2]

@@ -1,0 +1,83 @@
+"""Which displacements are free: w = Z u for all w with G w = 0."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.linalg import qr
+
+from .elements import FloatArray
+from .errors import LinkageError
+
+#: Rows say the same when the least pivot is below this part of the largest.
+_DEPENDENT = 1e-9
+#: Coordinates chosen in the first configuration serve in another one while what multiplies them stays below this.
+_LARGEST = 1e4
+#: Displacements are preferred to rotations as those that follow from others: angles count as so many longest arms.
+_ARMS = 10.0
+
+_Guided = Mapping[tuple[int, int], FloatArray]
+
+
+def independent_basis(
+    rows: FloatArray, owners: tuple[str, ...], names: tuple[str, ...], guides: _Guided
+) -> tuple[FloatArray, tuple[str, ...]]:
+    """Z, shape (times, unknowns, m), or (1, unknowns, m) where it is always the same, and the names of the m free u.
+
+    Args:
+        rows: G, shape (times, rows, unknowns).
+        owners: the part that each row is of.
+        names: of the unknowns.
+        guides: by the numbers of u_x and u_y, the direction of a guide, shape (times, 2): the first of the two counts
+            along it then, and is named so.
+
+    Raises:
+        LinkageError: rows say the same, or the motion goes so far that no choice of free displacements serves it all.
+    """
+    if not rows.shape[1]:
+        return np.eye(len(names))[None], names
+    turned, labels = np.broadcast_to(np.eye(len(names)), (len(rows), len(names), len(names))).copy(), list(names)
+    for (x, y), along in guides.items():
+        turned[:, x, x], turned[:, y, x] = along.T
+        turned[:, x, y], turned[:, y, y] = -along[:, 1], along[:, 0]
+        labels[x], labels[y] = names[x].removesuffix(".x") + ".along", names[y].removesuffix(".y") + ".across"
+    if not np.ptp(rows, axis=0).any() and not np.ptp(turned, axis=0).any():
+        rows, turned = rows[:1], turned[:1]
+    local = rows @ turned
+    following, free = _choice(local[0], owners, np.array([name.endswith(".angle") for name in names]))
+    basis = np.zeros((len(local), len(names), len(free)))
+    basis[:, free, range(len(free))] = 1.0
+    basis[:, following] = -_solved(local[:, :, following], local[:, :, free], owners)
+    return turned @ basis, tuple(labels[k] for k in free)
+
+
+def _choice(
+    rows: FloatArray, owners: tuple[str, ...], angular: np.ndarray[Any, np.dtype[np.bool_]]
+) -> tuple[list[int], list[int]]:
+    """Numbers of the unknowns that follow from the others, and of these, by the pivots of the rows."""
+    arm = np.abs(rows[:, angular]).max(initial=0.0) or 1.0
+    scaled = rows / np.where(angular, _ARMS * arm, 1.0)
+    triangle, order = qr(scaled, mode="r", pivoting=True)
+    pivots = np.abs(np.diag(triangle))
+    if rows.shape[0] > rows.shape[1] or pivots[-1] <= _DEPENDENT * pivots[0]:
+        raise LinkageError(
+            f"The rows of {', '.join(dict.fromkeys(owners))} say the same of rigid parts: their forces cannot be told "
+            "apart. Take one of them out, or give members to the bodies between them; `mobility` names such rows."
+        )
+    following = sorted(order[: len(rows)].tolist())
+    return following, [k for k in range(rows.shape[1]) if k not in following]
+
+
+def _solved(matrices: FloatArray, right: FloatArray, owners: tuple[str, ...]) -> FloatArray:
+    try:
+        solution: FloatArray = np.linalg.solve(matrices, right)
+    except np.linalg.LinAlgError:
+        solution = np.full_like(right, np.inf)
+    if not np.abs(solution).max(initial=0.0) < _LARGEST:
+        raise LinkageError(
+            f"{', '.join(dict.fromkeys(owners))}: the motion comes to where the displacements that were free at its "
+            "start no longer are; analyse it in pieces, each from a configuration of its own on."
+        )
+    return solution

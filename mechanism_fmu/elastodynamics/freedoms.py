@@ -1,0 +1,118 @@
+"""Which displacement of which place is which unknown of the structure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from ..model import AngleDriver, Mechanism, Revolute, RevoluteTranslational, Translational, TranslationalDriver
+from .errors import LinkageError
+from .locks import attachments, rubbing_pins, welds
+from .places import Place, find_places, place_of
+
+IntArray = np.ndarray[Any, np.dtype[np.int64]]
+
+#: In `Freedoms.columns`, of a rotation that no other part asks for: a pinned end of a member, where no moment acts.
+RELEASED = -1
+
+
+@dataclass(frozen=True)
+class Freedoms:
+    """The displacements w of all places that are left when pins, welds and the ground have made some of them equal.
+
+    Attributes:
+        places: of the mechanism; the first is the ground.
+        names: of the unknowns w, "<place>.x|y|angle" by the first place that has them.
+        columns: shape (places, 3), the numbers in w of (u_x, u_y, theta) of each place; `len(names)` is the ground,
+            which does not move; `RELEASED` stands for a rotation that is no unknown.
+    """
+
+    places: tuple[Place, ...]
+    names: tuple[str, ...]
+    columns: IntArray
+
+    @property
+    def ground(self) -> int:
+        """The number behind the last unknown: what it would be of the ground."""
+        return len(self.names)
+
+
+def find_freedoms(mechanism: Mechanism, loaded: Iterable[str] = ()) -> Freedoms:
+    """The unknowns of a mechanism whose driven, or else held, coordinates stand still.
+
+    A rotation is one where members are welded, at free ends, and where something can act on it: a disk with inertia,
+    a slider, a locked angle, friction, or a moment on one of the places `loaded`.
+
+    Raises:
+        LinkageError: a part is attached where no member ends, or there is no place as in `loaded`.
+    """
+    places = find_places(mechanism)
+    pins = [attachments(mechanism, places, j) for j in mechanism.joints if isinstance(j, Revolute)]
+    welded = welds(mechanism, places)
+    translation, rotation = _groups(len(places), pins), _groups(len(places), welded)
+    kept = _kept(mechanism, places, welded, loaded)
+    names: list[str] = []
+    columns = np.full((len(places), 3), RELEASED)
+    known: dict[tuple[str, int], int] = {}
+    for number, place in enumerate(places):
+        parts = (("x", translation[number]), ("y", translation[number]), ("angle", rotation[number]))
+        for k, part in enumerate(parts):
+            if k == 2 and number not in kept:
+                continue
+            if part[1] == (rotation if k == 2 else translation)[0]:
+                columns[number, k] = -2
+                continue
+            if part not in known:
+                known[part] = len(names)
+                names.append(f"{place.names[0]}.{part[0]}")
+            columns[number, k] = known[part]
+    return Freedoms(places, tuple(names), np.where(columns == -2, len(names), columns))
+
+
+def _groups(count: int, pairs: Iterable[tuple[int, int]]) -> IntArray:
+    """Numbers of sets of places that are connected by pairs, shape (count,)."""
+    first, second = np.array([*pairs], dtype=int).reshape(-1, 2).T
+    links = coo_array((np.ones(len(first)), (first, second)), shape=(count, count))
+    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+
+
+def _kept(
+    mechanism: Mechanism, places: tuple[Place, ...], welded: Iterable[tuple[int, int]], loaded: Iterable[str]
+) -> set[int]:
+    """Places whose rotation is an unknown, or stands still with the ground."""
+    kept = {number for pair in welded for number in pair}
+    jointed: set[int] = set()
+    for joint in mechanism.joints:
+        if isinstance(joint, AngleDriver):
+            continue  # acts at the pin of its bodies
+        i, j = attachments(mechanism, places, joint)
+        jointed |= {i, j}
+        if isinstance(joint, (Translational, RevoluteTranslational, TranslationalDriver)):
+            kept.add(i)
+    for pin, _, _ in rubbing_pins(mechanism):
+        kept.update(attachments(mechanism, places, pin))
+    for disk in mechanism.disks:
+        if any(member.body == disk.body for member in mechanism.members):
+            number = place_of(places, mechanism, f"Disk {disk.name!r}", disk.body, disk.point)
+            if disk.inertia > 0.0:
+                kept.add(number)
+    kept |= {n for n, place in enumerate(places) if len(place.names) > 1 or n not in jointed}
+    return kept | {named_place(places, name) for name in loaded}
+
+
+def named_place(places: tuple[Place, ...], name: str) -> int:
+    """The number of a place by one of its names.
+
+    Raises:
+        LinkageError: there is none.
+    """
+    for number, place in enumerate(places):
+        if name in place.names:
+            return number
+    known = ", ".join(name for place in places[1:] for name in place.names)
+    raise LinkageError(f"There is no place {name!r}; there are {known}.")
