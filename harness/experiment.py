@@ -13,6 +13,7 @@ from mechanism_fmu.stress import STEEL_CARD, MaterialCard, SequenceDamage, Wedge
 
 from .checks import Check, run_checks
 from .clock import TimeGrid, seconds
+from .compliance import COMPLIANCE_UNITS, Compliance, compliance_of
 from .description import Description, Value
 from .drawing import Drawing, read_drawing
 from .errors import FmuError, UsageError
@@ -66,7 +67,8 @@ class Run:
         parameters: parameters and calculated parameters after the initialization.
         messages: everything the FMU said.
         tooth: what the impacts strike; None when the FMU does not describe one.
-        units: by name, for "results", "impacts", "events", "fatigue" and "parameters" each ("1": dimensionless).
+        units: by name ("1": dimensionless), for each of "results", "impacts", "events", "fatigue", "compliance" and
+            "parameters".
         checks: verdicts.
         wall_time: of the simulation [s].
         drawing: how the mechanism is drawn.
@@ -76,6 +78,7 @@ class Run:
         logic: the modes and transitions that the FMU tells.
         damage: what all impacts together do to the tooth; None without a tooth or an impact.
         inputs: the signals that drove inputs; None when there were none.
+        compliance: how far pawl and crank give way; () when the FMU does not describe them.
     """
 
     fmu: Path
@@ -98,6 +101,7 @@ class Run:
     logic: LogicFile = field(default_factory=LogicFile)
     damage: SequenceDamage | None = None
     inputs: InputSignals | None = None
+    compliance: tuple[Compliance, ...] = ()
 
 
 class _ParameterReader:
@@ -187,6 +191,7 @@ def perform(
         logic=logic,
         damage=damage,
         inputs=inputs,
+        compliance=compliance_of(reader.values, results, impacts),
     )
 
 
@@ -213,5 +218,6 @@ def _units(
         "impacts": {name: impact_units[name] for name in impact_columns},
         "events": dict(EVENT_UNITS),
         "fatigue": dict(DAMAGE_UNITS),
+        "compliance": dict(COMPLIANCE_UNITS),
         "parameters": {v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter")},
     }

@@ -14,6 +14,7 @@ import pandas as pd
 
 from mechanism_fmu import __version__
 
+from .compliance import compliance_summary
 from .description import Value
 from .errors import UsageError
 from .experiment import Run
@@ -126,6 +127,7 @@ def summary(run: Run) -> dict[str, Any]:
         "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost},
         "events": {"collected": len(run.events), "lost": run.events_lost},
         "fatigue": None if run.damage is None else damage_summary(run.damage, experiment.material),
+        "compliance": compliance_summary(run.compliance),
         "units": run.units,
         "checks": [asdict(check) for check in run.checks],
         "messages": [asdict(m) | {"status": m.status.name.lower()} for m in run.messages],

@@ -100,6 +100,29 @@ FREQUENCY = 7
 PHASE = 8
 TERM_COLUMNS = 9
 
+# member_data columns: how far a member gives way, and from section forces to stress
+MEMBER_STRETCH = 0  # l / EA [m/N]
+MEMBER_BENDING = 1  # l / EI [1/(N m)]
+MEMBER_AREA = 2
+MEMBER_MODULUS = 3  # section modulus 2 I / h [m3]
+MEMBER_COLUMNS = 4
+
+# lump_data columns
+LUMP_MASS = 0
+LUMP_INERTIA = 1
+LUMP_SHARE = 2  # of the mass of its body's lumps
+LUMP_COLUMNS = 3
+
+# beam_data columns: a member whose start is a hinge and whose end is free, or pushed
+BEAM_ALONG_X = 0  # unit vector from hinge to tip, in the frame of the body
+BEAM_ALONG_Y = 1
+BEAM_SPAN = 2  # [m]
+BEAM_CENTRE = 3  # distance of the body's centre of mass from the hinge [m]
+BEAM_STIFFNESS = 4  # EI [N m2]
+BEAM_MODULUS = 5  # section modulus 2 I / h [m3]
+BEAM_SIDE = 6  # of the hinge: 1 where the body is its body i, else -1
+BEAM_COLUMNS = 7
+
 # settings columns
 RELATIVE_TOLERANCE = 0
 BAUMGARTE_ALPHA = 1
@@ -134,6 +157,14 @@ CONTACT_POINT = 24
 OWN_STATE = 25
 CLUTCH_TORQUE = 26
 MOTOR_VOLTAGE = 27
+NODE_PLACE = 28  # of the rigid motion; index 2 * node + axis
+NODE_BENT = 29  # with the deflection
+NODE_DEFLECTION = 30  # index 3 * node + (x, y, rotation)
+NODE_DEVIATION = 31
+MEMBER_FORCE = 32  # index 3 * member + (along it, moments on its start and end)
+MEMBER_STRESS = 33
+BEAM_DEFLECTION = 34
+BEAM_STRESS = 35
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before, then after
 RECORD_TIME = 0

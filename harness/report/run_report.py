@@ -13,6 +13,7 @@ from ..numbers import engineering, in_display_unit
 from ..results import settings, write_text
 from ..versions import versions
 from .animation import animation
+from .compliance import compliance_section
 from .fatigue import fatigue_section
 from .impacts import impacts_section
 from .inputs import table_told
@@ -39,7 +40,7 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    body += [animation(run), _motion(run), _stress(run), _fatigue(run)]
+    body += [animation(run), _motion(run), _stress(run), _fatigue(run), compliance_section(run.compliance)]
     body += [impacts_section(run.impacts, run.units["impacts"])]
     body += [modes_section(run), events_section(run)]
     body += [_parameters(run), _messages(run), versions_section(versions(run.fmu, run.description))]

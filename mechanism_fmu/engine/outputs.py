@@ -13,6 +13,9 @@ from .dynamics.acceleration import derivative
 from .dynamics.forces import body_speed, kinetic_energy, shaft_torque, spring_energy
 from .dynamics.inputs import feed
 from .dynamics.own_states import clutch_torque, first_own, motor_voltage
+from .elastic.beam import beam_reading
+from .elastic.readings import elastic_reading
+from .elastic.structure import bend
 from .stepping.stepper import state_at_time
 
 
@@ -27,8 +30,11 @@ def read_outputs(block: Array) -> None:
     state_at_time(block, s.y_at)
     pose(block).instant[0] = now.clock[codes.TIME]
     feed(block, table.inputs)  # one that was set after the last step acts already
-    if _needs_multipliers(block):
+    bends = sizes(block).nodes > 0
+    if bends or _needs_multipliers(block):
         derivative(block, s.y_at, s.dy_at)
+    if bends:
+        bend(block)
     for o in range(table.outputs.shape[0]):
         kind = table.output_kind[o]
         index = table.output_index[o]
@@ -90,6 +96,10 @@ def read_outputs(block: Array) -> None:
             value = motor_voltage(block, index, s.y_at, body_speed(block, s.y_at, index))
         elif kind == codes.BUFFERED_EVENT:
             value = _buffered_event(block, table.output_slot[o], index)
+        elif kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
+            value = beam_reading(block, kind, index)
+        elif kind != codes.CONSTANT:
+            value = elastic_reading(block, kind, index)
         table.outputs[o] = value
     feed(block, table.held_inputs)
 
@@ -112,7 +122,7 @@ def _needs_multipliers(block: Array) -> bool:
     contact = contacts(block)
     for o in range(table.outputs.shape[0]):
         kind = table.output_kind[o]
-        if kind == codes.JOINT_FORCE:
+        if kind == codes.JOINT_FORCE or kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
             return True
         if kind == codes.CONTACT_FORCE and contact.mode[table.output_index[o]] == codes.CLOSED:
             return True

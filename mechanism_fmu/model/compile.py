@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import codes
+from .beams import beam_data, beam_members, hinge
 from .body import GROUND
 from .check import check
 from .curves import Curve
@@ -16,7 +17,8 @@ from .forces import own_states
 from .functions import Number, is_plain, sqrt
 from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
-from .sources import output_factor, resolve_output
+from .sources import output_factor, reads_members, resolve_output
+from .structure import Structure, member_data, structure
 
 #: Widths of `joint_data`, of `force_data`, and of `contact_data` and `pattern_data`: the longest row of any kind.
 JOINT_COLUMNS = 9
@@ -34,6 +36,8 @@ class MechanismTables:
     Integer tables hold structure and never depend on parameter values; the others hold numbers (SI units).
     `joint_rows` is the number of rows of all joints, `contact_rows` that of all contacts when contact coordinates
     count as coordinates, `alphas` the number of these, `own` that of states of force elements' own.
+    `node_body` to `locked` are those of `structure.Structure`, and of `beam_body` to
+    `beam_data` those of `beams`; empty when no output reads elastic members.
     `inverse_mass` and `inverse_root_mass` have 3 entries a body and 3 zeros for the ground.
     """
 
@@ -94,6 +98,22 @@ class MechanismTables:
     output_slot: Table
     output_value: Table
     settings: Table
+    node_body: Table
+    node_point: Table
+    member_start: Table
+    member_end: Table
+    member_data: Table
+    tie_joint: Table
+    tie_node: Table
+    lump_node: Table
+    lump_data: Table
+    couple_force: Table
+    couple_node: Table
+    couple_sign: Table
+    locked: Table
+    beam_body: Table
+    beam_row: Table
+    beam_data: Table
 
 
 def compile_mechanism(mechanism: Mechanism) -> MechanismTables:
@@ -127,6 +147,8 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     first_terms = np.cumsum([0, *(len(piece.terms) for piece in pieces)])
     targets = [i.target.split(".") for i in mechanism.inputs]
     outputs = [resolve_output(o.source, mechanism) for o in mechanism.outputs]
+    elastic = structure(mechanism) if reads_members(mechanism) else Structure()
+    hanging = beam_members(mechanism)
     constants = [(codes.CONSTANT, 0, 0)] * len(mechanism.calculated)
     return MechanismTables(
         inverse_mass=_numbers([*(1 / m for m in masses), 0.0, 0.0, 0.0]),
@@ -201,6 +223,25 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                 mechanism.settings.baumgarte_beta,
             ]
         ),
+        node_body=_integers([bodies[body] for body, _ in elastic.nodes]),
+        node_point=_rows([point for _, point in elastic.nodes], 2),
+        member_start=_integers([start for start, _ in elastic.ends]),
+        member_end=_integers([end for _, end in elastic.ends]),
+        member_data=_rows(
+            [member_data(member) for member, _ in zip(mechanism.members, elastic.ends, strict=False)],
+            codes.MEMBER_COLUMNS,
+        ),
+        tie_joint=_integers([joint for joint, _ in elastic.ties]),
+        tie_node=_integers([node for _, node in elastic.ties]),
+        lump_node=_integers([lump[0] for lump in elastic.lumps]),
+        lump_data=_rows([lump[1:] for lump in elastic.lumps], codes.LUMP_COLUMNS),
+        couple_force=_integers([force for force, _, _ in elastic.couples]),
+        couple_node=_integers([node for _, node, _ in elastic.couples]),
+        couple_sign=_integers([sign for _, _, sign in elastic.couples]),
+        locked=_integers(elastic.locked),
+        beam_body=_integers([bodies[member.body] for member in hanging]),
+        beam_row=_integers([hinge(member, mechanism)[0] for member in hanging]),
+        beam_data=_rows([beam_data(member, mechanism) for member in hanging], codes.BEAM_COLUMNS),
     )
 
 

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from .. import codes
+from .beams import OF_BEAM, beam_members, hinge
 from .efforts import EFFORTS, effort
 from .errors import MechanismError
 from .forces import DCMotor, own_states
 from .functions import Number
 from .mechanism import Mechanism
+from .structure import nodes_of
 
 _COORDINATES = {"x": 0, "y": 1, "angle": 2}
 _RATES = {"x_rate": 0, "y_rate": 1, "speed": 2}
@@ -56,6 +58,24 @@ _EVENT_FIELDS = {
     "new_mode": codes.EVENT_NEW_MODE,
     "impulse": codes.EVENT_IMPULSE,
 }
+#: Of a member: kind and column.
+_OF_MEMBER = {
+    "axial_force": (codes.MEMBER_FORCE, 0),
+    "start_moment": (codes.MEMBER_FORCE, 1),
+    "end_moment": (codes.MEMBER_FORCE, 2),
+    "stress": (codes.MEMBER_STRESS, 0),
+}
+#: Of an end of a member, behind "start." or "end.": kind, how many of it a node has, and which.
+_OF_MEMBER_END = {
+    "x": (codes.NODE_PLACE, 2, 0),
+    "y": (codes.NODE_PLACE, 2, 1),
+    "x_bent": (codes.NODE_BENT, 2, 0),
+    "y_bent": (codes.NODE_BENT, 2, 1),
+    "x_deflection": (codes.NODE_DEFLECTION, 3, 0),
+    "y_deflection": (codes.NODE_DEFLECTION, 3, 1),
+    "rotation": (codes.NODE_DEFLECTION, 3, 2),
+    "deviation": (codes.NODE_DEVIATION, 1, 0),
+}
 #: A mode is a sum of 2^c over closed contacts c; as an Integer of FMI it has 31 bits.
 MOST_CONTACTS_OF_A_MODE = 31
 
@@ -75,6 +95,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         or _of_pattern(part, quantity, mechanism)
         or _of_force(part, quantity, mechanism)
         or _of_joint(part, quantity, mechanism)
+        or _of_member(part, quantity, mechanism)
     )
     if part == "energy" and quantity in _ENERGIES:
         found = (_ENERGIES[quantity], 0, 0)
@@ -86,6 +107,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
             f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, <pattern>.index, <shaft>.torque, "
             f"<clutch>.torque, <motor>.torque|current|voltage, "
             f"<joint>.force|force_x|force_y|normal_force|torque as the joint has them, event.count|in_step, "
+            f"<member>.{'|'.join([*_OF_MEMBER, *OF_BEAM])}, <member>.start|end.{'|'.join(_OF_MEMBER_END)}, "
             f"events[k].{'|'.join(_EVENT_FIELDS)}, energy.{'|'.join(_ENERGIES)}, "
             f"impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
             f"bodies {', '.join(b.name for b in mechanism.bodies)} and contacts "
@@ -107,6 +129,9 @@ def _common_sources(mechanism: Mechanism) -> Iterator[str]:
         yield from (f"{force.name}.{quantity}" for quantity in _OF_FORCE.get(force.kind, ()))
     for joint in mechanism.joints:
         yield from (f"{joint.name}.{quantity}" for quantity in EFFORTS.get(joint.kind, ()))
+    for member in mechanism.members:
+        yield from (f"{member.name}.{quantity}" for quantity in (*_OF_MEMBER, *OF_BEAM))
+        yield from (f"{member.name}.{end}.{quantity}" for end in ("start", "end") for quantity in _OF_MEMBER_END)
     yield from (f"energy.{kind}" for kind in _ENERGIES)
     yield from (f"impact.{field}" for field in (*_COUNTERS, *_FIELDS))
     yield from (f"impacts[1].{field}" for field in _FIELDS)
@@ -184,6 +209,31 @@ def _of_force(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
             return kind, own + _OWN_STATES[quantity] if kind == codes.OWN_STATE else place, 0
         own += own_states(force)
     return None
+
+
+def _of_member(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    names = [member.name for member in mechanism.members]
+    end, _, wanted = quantity.rpartition(".")
+    if part not in names:
+        return None
+    place = names.index(part)
+    if quantity in OF_BEAM:
+        hinge(mechanism.members[place], mechanism)
+        return OF_BEAM[quantity], beam_members(mechanism).index(mechanism.members[place]), 0
+    if quantity in _OF_MEMBER:
+        kind, column = _OF_MEMBER[quantity]
+        return kind, 3 * place + column if kind == codes.MEMBER_FORCE else place, 0
+    if end not in ("start", "end") or wanted not in _OF_MEMBER_END:
+        return None
+    kind, each, column = _OF_MEMBER_END[wanted]
+    return kind, each * nodes_of(mechanism).ends[place][end == "end"] + column, 0
+
+
+def reads_members(mechanism: Mechanism) -> bool:
+    """Whether an output reads an elastic member: only then does the engine see the structure that they make."""
+    names = {member.name for member in mechanism.members}
+    sources = [output.source.partition(".") for output in mechanism.outputs]
+    return any(part in names and quantity not in OF_BEAM for part, _, quantity in sources)
 
 
 def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

@@ -17,9 +17,11 @@ from mechanism_fmu.model import (
     Contact,
     Damper,
     Mechanism,
+    Member,
     Model,
     PointLineContact,
     Revolute,
+    Section,
     Settings,
     Torque,
     TorsionSpring,
@@ -66,6 +68,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         calculated=calculated(values),
         held=("crank.angle", "wheel.angle"),
         settings=Settings(values.relative_tolerance, values.baumgarte_alpha, values.baumgarte_beta),
+        members=_members(values),
     )
 
 
@@ -86,6 +89,33 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
             (pin.x + half_pawl * cos(gamma), pin.y + half_pawl * sin(gamma), gamma),
         ),
         rotor_body(values, "wheel", (0.0, 0.0), values.wheel_angle_start),
+    )
+
+
+def _members(values: SimpleNamespace) -> tuple[Member, ...]:
+    """Crank and pawl as bars from hinge to hinge and tip, of as much mass as the bodies."""
+    half_crank, half_pawl = values.crank_length / 2, values.pawl_length / 2
+    crank = Section.rectangle(values.crank_width, values.crank_depth)
+    pawl = Section.rectangle(values.pawl_width, values.pawl_depth)
+    return (
+        Member(
+            "crank_beam",
+            "crank",
+            (-half_crank, 0.0),
+            (half_crank, 0.0),
+            crank,
+            values.elastic_modulus,
+            values.crank_mass / (crank.area * values.crank_length),
+        ),
+        Member(
+            "pawl_beam",
+            "pawl",
+            (-half_pawl, 0.0),
+            (half_pawl, 0.0),
+            pawl,
+            values.elastic_modulus,
+            values.pawl_mass / (pawl.area * values.pawl_length),
+        ),
     )
 
 

@@ -11,6 +11,7 @@ from mechanism_fmu.model import (
     energy_outputs,
     event_buffer_outputs,
     force_output,
+    hinged_beam_outputs,
     impact_buffer_outputs,
     last_impact_outputs,
     shaft_torque_output,
@@ -66,4 +67,5 @@ OUTPUTS = (
         lost="Energy lost in impacts, friction and dampers since the start",
         nominal=1e-4,
     ),
+    *hinged_beam_outputs("pawl", "pawl_beam", "pawl", INPUTS, deflection=1e-9, stress=1e3),
 )

@@ -69,6 +69,15 @@ PARAMETERS = (
     Parameter("drive_damping", 0.0, f"Damping of the {SHAFT}", "N.m.s/rad", 0.0, 1e9),
     Parameter("friction", 0.0, "Coefficient of friction between pawl and teeth", "1", 0.0, 10.0),
     joint_friction_parameter("every hinge"),
+    Parameter("elastic_modulus", 2.06e11, "Modulus of elasticity of pawl and crank (E)", "Pa", 1.0, 1e15),
+    length_parameter("pawl_width", 5.6e-3, "Width of the pawl's section, along the axis of its hinge"),
+    length_parameter(
+        "pawl_depth", 22e-3, "Depth of the pawl's section, in the plane of the motion and across the pawl"
+    ),
+    length_parameter("crank_width", 5.6e-3, "Width of the crank's section, along the axis of its hinge"),
+    length_parameter(
+        "crank_depth", 22e-3, "Depth of the crank's section, in the plane of the motion and across the crank"
+    ),
 )
 
 

@@ -35,6 +35,13 @@ SIZES = (
     "held",
     "inputs",
     "outputs",
+    "members",  # elastic ones; these seven are zero when no output asks for them
+    "nodes",
+    "ties",
+    "lumps",
+    "couples",
+    "locked",
+    "beams",
     "joint_rows",
     "contact_rows",  # of all contacts, when contact coordinates count as coordinates
     "rows",  # joint rows, contact rows, and a spare one
@@ -42,6 +49,7 @@ SIZES = (
     "guards",  # two a contact, two a pattern, one a logical function
     "record",  # columns of an impact record
     "buffer",  # impacts that are kept of one communication step
+    "displacements",  # 3 a node
 )
 
 
@@ -61,6 +69,13 @@ GIVEN_SIZES = (
     "held",
     "inputs",
     "outputs",
+    "members",
+    "nodes",
+    "ties",
+    "lumps",
+    "couples",
+    "locked",
+    "beams",
     "joint_rows",
     "contact_rows",
 )
@@ -129,6 +144,22 @@ FIELDS = (
     Field("tables", "output_slot", ("outputs",), True),
     Field("tables", "output_value", ("outputs",)),
     Field("tables", "settings", (3,)),
+    Field("tables", "node_body", ("nodes",), True),
+    Field("tables", "node_point", ("nodes", 2)),
+    Field("tables", "member_start", ("members",), True),
+    Field("tables", "member_end", ("members",), True),
+    Field("tables", "member_data", ("members", codes.MEMBER_COLUMNS)),
+    Field("tables", "tie_joint", ("ties",), True),
+    Field("tables", "tie_node", ("ties",), True),
+    Field("tables", "lump_node", ("lumps",), True),
+    Field("tables", "lump_data", ("lumps", codes.LUMP_COLUMNS)),
+    Field("tables", "couple_force", ("couples",), True),
+    Field("tables", "couple_node", ("couples",), True),
+    Field("tables", "couple_sign", ("couples",), True),
+    Field("tables", "locked", ("locked",), True),
+    Field("tables", "beam_body", ("beams",), True),
+    Field("tables", "beam_row", ("beams",), True),
+    Field("tables", "beam_data", ("beams", codes.BEAM_COLUMNS)),
     Field("state", "clock", (codes.CLOCK_LENGTH,)),
     Field("state", "counters", (codes.COUNTERS_LENGTH,), True),
     Field("state", "ledger", (codes.LEDGER_LENGTH,)),
@@ -201,6 +232,8 @@ FIELDS = (
     Field("work", "dual", ("rows",)),
     Field("work", "force", ("columns",)),
     Field("work", "applied", ("columns",)),
+    Field("work", "torque", ("forces",)),
+    Field("work", "rubbing", ("joints",)),
     Field("work", "last_multiplier", ("rows",)),
     Field("work", "weight", ("columns",)),
     Field("work", "free_acceleration", ("columns",)),
@@ -215,6 +248,13 @@ FIELDS = (
     Field("work", "rates_before", ("coordinates",)),
     Field("work", "outputs", ("outputs",)),
     Field("work", "output_rates", ("outputs",)),
+    Field("work", "node_place", ("nodes", 2)),
+    Field("work", "matrix", ("displacements", "displacements")),
+    Field("work", "matrix_order", ("displacements",), True),
+    Field("work", "load", ("displacements",)),
+    Field("work", "element_force", ("displacements",)),
+    Field("work", "deformation", ("displacements",)),
+    Field("work", "displacement", ("displacements",)),
 )
 
 _FIRST_OFFSET = len(SIZES)
@@ -291,4 +331,5 @@ def _complete(sizes: dict[str, int]) -> dict[str, int]:
         "guards": 2 * sizes["contacts"] + 2 * sizes["patterns"] + sizes["functions"],
         "record": codes.RECORD_CONTACT_IMPULSES + sizes["contacts"] + 2 * coordinates,
         "buffer": codes.IMPACT_BUFFER_LENGTH,
+        "displacements": 3 * sizes["nodes"],
     }

@@ -100,12 +100,15 @@ linear_system = room(LinearSystem)
 class Loads(NamedTuple):
     """Generalised forces [N, N m].
 
-    `force` acts; `applied` is its part without friction; the accelerations that it alone would give; assembly weights;
-    the multipliers of the last round of the friction iteration.
+    `force` acts; `applied` is its part without friction; `torque` is that of each force element on its body, `rubbing`
+    that of the friction in each joint (a force in sliders); the accelerations that the forces alone would give;
+    assembly weights; the multipliers of the last round of the friction iteration.
     """
 
     force: Array
     applied: Array
+    torque: Array
+    rubbing: Array
     last_multiplier: Array
     free_acceleration: Array
     weight: Array

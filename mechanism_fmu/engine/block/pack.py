@@ -30,6 +30,13 @@ def pack(tables: Any) -> Array:
             "held": len(tables.held),
             "inputs": len(tables.input_force),
             "outputs": len(tables.output_kind),
+            "members": len(tables.member_start),
+            "nodes": len(tables.node_body),
+            "ties": len(tables.tie_joint),
+            "lumps": len(tables.lump_node),
+            "couples": len(tables.couple_force),
+            "locked": len(tables.locked),
+            "beams": len(tables.beam_body),
             "joint_rows": tables.joint_rows,
             "contact_rows": tables.contact_rows,
         }

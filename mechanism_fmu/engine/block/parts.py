@@ -29,6 +29,13 @@ class Sizes(NamedTuple):
     held: int
     inputs: int
     outputs: int
+    members: int
+    nodes: int
+    ties: int
+    lumps: int
+    couples: int
+    locked: int
+    beams: int
     joint_rows: int
     contact_rows: int
     rows: int
@@ -36,6 +43,7 @@ class Sizes(NamedTuple):
     guards: int
     record: int
     buffer: int
+    displacements: int
 
 
 sizes = sizes_room(Sizes)

@@ -58,9 +58,24 @@ def apply_forces(block: Array, y: Array, dy: Array) -> tuple[float, float]:
             if kind == codes.SHAFT:
                 torque = shaft_torque(block, y, k)
             given += torque * rate
+        loads(block).torque[k] = torque
         force[on] += torque
         force[against] -= torque
     return given, lost
+
+
+@jit
+def weight(block: Array, body: int) -> tuple[float, float]:
+    """Sum of the forces on a body's centre of mass [N]."""
+    keep_small()
+    table = forces(block)
+    x = 0.0
+    y = 0.0
+    for k in range(table.kind.shape[0]):
+        if table.kind[k] == codes.FORCE and table.body[k] == body:
+            x += table.data[k, codes.FORCE_X]
+            y += table.data[k, codes.FORCE_Y]
+    return x, y
 
 
 @jit

@@ -87,6 +87,7 @@ def _pin(block: Array, joint: int) -> float:
     slip = pose(block).phi_rate[i] - pose(block).phi_rate[j]
     normal = math.sqrt(multiplier[row] * multiplier[row] + multiplier[row + 1] * multiplier[row + 1])
     torque = -table.friction[joint] * normal * math.tanh(slip / SLIP_RATE)
+    loads(block).rubbing[joint] = torque
     force[3 * i + 2] += torque
     force[3 * j + 2] -= torque
     lost: float = -torque * slip
@@ -115,6 +116,7 @@ def _slider(block: Array, joint: int) -> float:
     slip += vy * (at.y_rate[j] + bx * at.phi_rate[j] - at.y_rate[i] - cx * at.phi_rate[i])
     normal = abs(linear_system(block).multiplier[table.row[joint]]) * length
     friction = -table.friction[joint] * normal * math.tanh(slip / SLIP_SPEED)
+    loads(block).rubbing[joint] = friction
     force[3 * j] += friction * vx
     force[3 * j + 1] += friction * vy
     force[3 * j + 2] += friction * (bx * vy - by * vx)

@@ -8,7 +8,10 @@ import numpy as np
 
 from ...engine.block.layout import FIELDS, Array, field_of, slot
 from ...model import GROUND, Mechanism, MechanismError, Settings
+from ...model.beams import beam_members
 from ...model.mechanism import curve_owners
+from ...model.sources import reads_members
+from ...model.structure import Structure, structure
 from ...model.symbol import Symbol
 from ...model.trace import Trace
 
@@ -57,6 +60,7 @@ def _labels(table: str, mechanism: Mechanism) -> list[str]:
         return [setting.name for setting in fields(Settings)]
     bodies = [body.name for body in mechanism.bodies]
     owners = curve_owners(mechanism)
+    elastic = structure(mechanism) if reads_members(mechanism) else Structure()
     parts = {
         "inverse": [*bodies, GROUND],
         "body": bodies,
@@ -68,6 +72,13 @@ def _labels(table: str, mechanism: Mechanism) -> list[str]:
         "curve": [name for name, _ in owners],
         "piece": [name for name, curve in owners for _ in curve.pieces],
         "term": [name for name, curve in owners for piece in curve.pieces for _ in piece.terms],
+        "node": [body for body, _ in elastic.nodes],
+        "member": [member.name for member in mechanism.members],
+        "tie": [mechanism.joints[joint].name for joint, _ in elastic.ties],
+        "couple": [mechanism.forces[force].name for force, _, _ in elastic.couples],
+        "lump": [elastic.nodes[lump[0]][0] for lump in elastic.lumps],
+        "locked": list(mechanism.held),
+        "beam": [member.name for member in beam_members(mechanism)],
         "held": list(mechanism.held),
         "input": [port.name for port in mechanism.inputs],
         "output": [*(port.name for port in mechanism.outputs), *(port.name for port in mechanism.calculated)],

@@ -6,6 +6,7 @@ Builders that are given a part ("crank") form the names of its ports from it ("c
 `mechanism_fmu.model`, like the parts.
 """
 
+from .elastic import bent_point_outputs, hinged_beam_outputs, member_outputs
 from .impacts import event_buffer_outputs, impact_buffer_outputs, impact_outputs, last_impact_outputs
 from .inputs import load_torque_input, shaft_inputs, torque_input
 from .outputs import (
@@ -46,6 +47,7 @@ __all__ = [
     "active_output",
     "angle_output",
     "angle_parameter",
+    "bent_point_outputs",
     "body_angle_output",
     "body_parameters",
     "body_speed_output",
@@ -56,6 +58,7 @@ __all__ = [
     "flag_parameter",
     "force_output",
     "fraction_parameter",
+    "hinged_beam_outputs",
     "impact_buffer_outputs",
     "impact_outputs",
     "inertia_parameter",
@@ -65,6 +68,7 @@ __all__ = [
     "link_parameters",
     "load_torque_input",
     "mass_parameter",
+    "member_outputs",
     "rotor_parameters",
     "settings_parameters",
     "shaft_inputs",

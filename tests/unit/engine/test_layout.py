@@ -23,6 +23,13 @@ GIVEN = {
     "held": 1,
     "inputs": 6,
     "outputs": 7,
+    "members": 2,
+    "nodes": 4,
+    "ties": 5,
+    "lumps": 3,
+    "couples": 2,
+    "locked": 1,
+    "beams": 2,
     "joint_rows": 8,
     "contact_rows": 7,
 }
@@ -47,6 +54,7 @@ def test_sizes_that_follow_from_others():
     assert sizes["wide"] == 9 + 3  # a column for each contact coordinate
     assert sizes["rows"] == 8 + 7 + 1  # of joints, of contacts, a spare one
     assert sizes["unknowns"] == 2 * 6 + 2 + 3 + 2  # positions, rates, work and loss, contact coordinates, own states
+    assert sizes["displacements"] == 3 * 4  # x, y and rotation of a node
     assert sizes["buffer"] == codes.IMPACT_BUFFER_LENGTH
     assert sizes["guards"] == 2 * 5 + 2 * 2 + 3  # gap and click of a contact, both ends of a pattern, functions
     assert sizes["record"] == 6 + 5 + 12  # six columns, an impulse a contact, all rates before and after

@@ -1,0 +1,60 @@
+"""Members that hang on a hinge and bend under what acts on their tip (`engine.elastic.beam`): their tables."""
+
+from __future__ import annotations
+
+from .. import codes
+from .errors import MechanismError
+from .functions import Number
+from .joints import Revolute
+from .mechanism import Mechanism
+from .members import Member
+from .structure import same_point, span
+
+#: Quantities of such a member, and what the engine calls them.
+OF_BEAM = {"tip_deflection": codes.BEAM_DEFLECTION, "bending_stress": codes.BEAM_STRESS}
+
+
+def beam_members(mechanism: Mechanism) -> list[Member]:
+    """The members that outputs read in this way, in their order."""
+    sources = [output.source.partition(".") for output in mechanism.outputs]
+    read = {part for part, _, quantity in sources if quantity in OF_BEAM}
+    return [member for member in mechanism.members if member.name in read]
+
+
+def hinge(member: Member, mechanism: Mechanism) -> tuple[int, int]:
+    """First row of the revolute joint at the start of a member, and 1 where its body is body i of it, else -1.
+
+    Raises:
+        MechanismError: there is none, or the body has other joints or members.
+    """
+    row, found, joints = 0, None, 0
+    for joint in mechanism.joints:
+        for body, side in ((joint.body_i, "i"), (joint.body_j, "j")):
+            if body == member.body:
+                joints += 1
+                if isinstance(joint, Revolute) and same_point(getattr(joint, f"point_{side}"), member.start):
+                    found = row, 1 if side == "i" else -1
+        row += joint.rows
+    if found is None or joints > 1 or sum(other.body == member.body for other in mechanism.members) > 1:
+        raise MechanismError(
+            f"Member {member.name!r}: {' and '.join(OF_BEAM)} are those of a bar that hangs on one revolute joint at "
+            f"its start, written with the very same numbers, with nothing else on its body {member.body!r}; read its "
+            f"stress and its ends as parts of a linkage instead."
+        )
+    return found
+
+
+def beam_data(member: Member, mechanism: Mechanism) -> tuple[Number, ...]:
+    """The member's row of the table `beam_data`, in the order of the columns in `codes`."""
+    (x, y), (x_end, y_end) = member.start, member.end
+    long, section = span(member), member.section
+    along_x, along_y = (x_end - x) / long, (y_end - y) / long
+    return (
+        along_x,
+        along_y,
+        long,
+        -(x * along_x + y * along_y),
+        member.young * section.second_moment,
+        2 * section.second_moment / section.depth,
+        float(hinge(member, mechanism)[1]),
+    )
