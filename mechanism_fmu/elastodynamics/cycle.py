@@ -1,77 +1,122 @@
-"""The equations of a bending linkage over one turn: M u'' + C u' + K u = p, all periodic."""
+"""Elastodynamic analysis by the paper's definition: deflections under the inertia forces of the rigid mechanism."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .fourier import FloatArray, resampled
+from .configuration import Configurations
+from .elements import FloatArray
+from .errors import LinkageError
+from .freedoms import RELEASED, named_place
+from .masses import inertia_forces, system_forces
+from .reactions import Reactions, power_of, reactions
+from .stresses import largest_stress, section_forces
 
 
 @dataclass(frozen=True)
-class ElasticCycle:
-    """Case 3: M(t) u'' + C(t) u' + K(t) u = p(t), at T even times of one period.
-
-    u are the deviations of the system coordinates from the rigid motion; units are any that fit each other.
+class Power:
+    """Where the power of a motion comes from and goes to, each of shape (times,) [W].
 
     Attributes:
-        period: of the motion [s].
-        mass: M, shape (n, n) or (T, n, n), symmetric, not negative.
-        damping: C, shape (n, n) or (T, n, n).
-        stiffness: K, shape (T, n, n), symmetric and positive.
-        load: p, shape (T, n); of a linkage that only its inertia bends, -M a_rigid.
-
-    Raises:
-        ValueError: shapes do not fit, a value is not finite, or there are fewer than 8 samples.
+        drives: of drivers, or of what holds the mechanism.
+        loads: of the loads.
+        kinetic: by which the kinetic energy of the lumps grows.
+        lost: to friction.
     """
 
-    period: float
-    mass: FloatArray
-    damping: FloatArray
-    stiffness: FloatArray
-    load: FloatArray
-
-    def __post_init__(self) -> None:
-        """Give every array its full shape, and refuse what does not fit."""
-        samples, n = np.shape(self.load) if np.ndim(self.load) == 2 else (0, 0)
-        if samples < 8 or n == 0:
-            raise ValueError(
-                f"the load has the shape {np.shape(self.load)}: give it at 8 or more even times of one period, in "
-                "rows, for one or more coordinates, in columns."
-            )
-        if not 0.0 < self.period < np.inf:
-            raise ValueError(f"the period is {self.period:g} s, but must be positive and finite.")
-        for name in ("mass", "damping", "stiffness", "load"):
-            array = np.asarray(getattr(self, name), dtype=float)
-            if name != "load":
-                if array.shape not in [(n, n), (samples, n, n)]:
-                    raise ValueError(
-                        f"the {name} has the shape {array.shape}, but must have {(samples, n, n)} or {(n, n)}, as the "
-                        "load says."
-                    )
-                array = np.broadcast_to(array, (samples, n, n))
-            if not np.all(np.isfinite(array)):
-                raise ValueError(f"the {name} has values that are not finite; is the linkage in a dead centre there?")
-            object.__setattr__(self, name, array)
+    drives: FloatArray
+    loads: FloatArray
+    kinetic: FloatArray
+    lost: FloatArray
 
     @property
-    def samples(self) -> int:
-        """Number T of times."""
-        return len(self.load)
+    def balance(self) -> FloatArray:
+        """Drives + loads - kinetic - lost, shape (times,) [W]: zero but for rounding."""
+        return self.drives + self.loads - self.kinetic - self.lost
 
-    def resampled(self, count: int) -> ElasticCycle:
-        """The same cycle at `count` times, by the trigonometric series through the samples."""
-        return ElasticCycle(
-            self.period,
-            *(resampled(part, count) for part in (self.mass, self.damping, self.stiffness, self.load)),
-        )
 
-    def size(self, u: FloatArray) -> float:
-        """Root of the largest u^T K u of the cycle, for u of shape (T, n): it counts lengths and angles alike."""
-        with np.errstate(invalid="ignore"):
-            return float(np.sqrt(np.max(np.einsum("ta,tab,tb->t", u, self.stiffness, u))))
+@dataclass(frozen=True)
+class Cycle:
+    """A linkage along a motion, bent by its loads and by the inertia of the rigid motion.
 
-    def static(self) -> FloatArray:
-        """Quasi-static deviation K^-1 p, shape (T, n): Case 2."""
-        return np.asarray(np.linalg.solve(self.stiffness, self.load[..., None])[..., 0])
+    Attributes:
+        configurations: the linkage along the motion.
+        forces: all forces and moments at the places, shape (times, places, 3) [N, N m]: inertia, loads and friction.
+        displacement: u, shape (times, m) [m, rad].
+        element_forces: f, shape (times, n) [N, N m].
+        section_forces: (N, M_start, M_end) of each element, shape (times, elements, 3) [N, N m].
+        stress: the largest in each element, |N|/A + |M| (h/2)/I, shape (times, elements) [Pa].
+        reactions: of joints and drivers.
+        power: its balance.
+    """
+
+    configurations: Configurations
+    forces: FloatArray
+    displacement: FloatArray
+    element_forces: FloatArray
+    section_forces: FloatArray
+    stress: FloatArray
+    reactions: Reactions
+    power: Power
+
+    def deflection(self, place: str) -> FloatArray:
+        """(delta_x, delta_y, rotation) of a place, e.g. "arm.end", shape (times, 3) [m, m, rad].
+
+        Raises:
+            LinkageError: there is no such place.
+        """
+        rows = self.configurations.displacement(place)
+        deflection: FloatArray = (rows @ self.displacement[:, :, None])[:, :, 0]
+        return deflection
+
+    def deviation(self, place: str) -> FloatArray:
+        """How far a place is off its rigid path, shape (times,) [m]."""
+        deflection = self.deflection(place)
+        deviation: FloatArray = np.hypot(deflection[:, 0], deflection[:, 1])
+        return deviation
+
+
+def quasi_static(configurations: Configurations, loads: Mapping[str, ArrayLike] | None = None) -> Cycle:
+    """Deflections, forces, stresses, reactions and power along a motion: u = B^T F B P, eqs (10) to (12).
+
+    Args:
+        configurations: the linkage along the motion.
+        loads: by names of places, force and moment (f_x, f_y, moment) on each, shape (3,) or (times, 3) [N, N m].
+
+    Raises:
+        LinkageError: the linkage can move although it should stand still, there is no such place, a moment acts where a
+            pin takes none, or friction does not settle.
+    """
+    applied = _applied(configurations, loads or {})
+    inertia = inertia_forces(configurations)
+    found = reactions(configurations, inertia + applied)
+    forces = inertia + applied + found.friction
+    transfer, flexibility = configurations.transfer, configurations.linkage.flexibility
+    element_forces: FloatArray = (transfer @ system_forces(configurations, forces)[:, :, None])[:, :, 0]
+    displacement: FloatArray = (np.swapaxes(transfer, 1, 2) @ (element_forces @ flexibility)[:, :, None])[:, :, 0]
+    sections = section_forces(configurations.linkage, element_forces)
+    power = Power(
+        drives=found.drive_power,
+        loads=power_of(configurations, applied),
+        kinetic=-power_of(configurations, inertia),
+        lost=found.lost_power,
+    )
+    stress = largest_stress(configurations.linkage, sections)
+    return Cycle(configurations, forces, displacement, element_forces, sections, stress, found, power)
+
+
+def _applied(configurations: Configurations, loads: Mapping[str, ArrayLike]) -> FloatArray:
+    freedoms = configurations.linkage.freedoms
+    forces = np.zeros((len(configurations.pose.time), len(freedoms.places), 3))
+    for name, load in loads.items():
+        place = named_place(freedoms.places, name)
+        forces[:, place] += np.asarray(load, dtype=float)
+        if freedoms.columns[place, 2] == RELEASED and np.any(forces[:, place, 2]):
+            raise LinkageError(
+                f"A moment acts at {name!r}, where there is only a pin; name the place in `linkage(..., loaded=...)`."
+            )
+    return forces
