@@ -70,7 +70,7 @@ def guide_axis(joint: Translational | RevoluteTranslational, pose: Pose) -> Floa
 
 
 def _row(pose: Pose, direction: FloatArray, turn: FloatArray | float) -> FloatArray:
-    """direction . (u_j - u_i) + turn theta_i."""
+    """Direction . (u_j - u_i) + turn theta_i."""
     row = np.zeros((len(pose.time), 6))
     row[:, 0:2], row[:, 2], row[:, 3:5] = -direction, turn, direction
     return row
