@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mechanism_fmu.elastodynamics.cycle import ElasticCycle
+from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
 
 GRAVITY = 9.80665 / 0.0254

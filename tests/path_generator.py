@@ -1,4 +1,4 @@
-"""The four-bar path generator of Erdman, Sandor and Oakberg (1972) as a mechanism with elastic members (inch, lbf, s)."""
+"""The four-bar path generator of Erdman, Sandor and Oakberg (1972) with elastic members (inch, lbf, s)."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .cycle import ElasticCycle
+from .elastic_cycle import ElasticCycle
 from .fourier import FloatArray, coefficients, evaluate, even_angles
 
 #: A change of this part of the deviation ends the iteration.

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from .cycle import ElasticCycle
+from .elastic_cycle import ElasticCycle
 from .fourier import ComplexArray, FloatArray, coefficients, differentiation, evaluate, even_angles
 
 #: What is left of the equations at all given times, in parts of the largest elastic energy's root.

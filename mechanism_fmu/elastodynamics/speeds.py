@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .cycle import ElasticCycle
+from .elastic_cycle import ElasticCycle
 from .fourier import FloatArray
 from .frequencies import InstantaneousModes
 from .periodic import periodic_response

@@ -38,8 +38,8 @@ def hinge(member: Member, mechanism: Mechanism) -> tuple[int, int]:
     if found is None or joints > 1 or sum(other.body == member.body for other in mechanism.members) > 1:
         raise MechanismError(
             f"Member {member.name!r}: {' and '.join(OF_BEAM)} are those of a bar that hangs on one revolute joint at "
-            f"its start, written with the very same numbers, with nothing else on its body {member.body!r}; read its "
-            f"stress and its ends as parts of a linkage instead."
+            f"its start (give `member.start` to both), with nothing else on its body {member.body!r}; read its stress "
+            f"and its ends as parts of a linkage instead."
         )
     return found
 

@@ -17,6 +17,7 @@ from .functions import Number, is_plain, where_positive
 from .joints import AngleDriver, Revolute
 from .mechanism import Mechanism
 from .members import Member
+from .symbol import Symbol
 
 _COORDINATES = ("x", "y", "angle")
 
@@ -55,7 +56,7 @@ class Structure:
         if found is None:
             raise MechanismError(
                 f"{type(part).__name__} {part.name!r} stands at {point} of body {body!r}, where no member ends; let "
-                f"two members meet there, written with the very same numbers."
+                f"two members meet there, e.g. by giving `member.start` to both."
             )
         return found
 
@@ -105,14 +106,14 @@ def span(member: Member) -> Number:
 
 
 def same_point(a: Point, b: Point) -> bool:
-    """Whether two points of a body are the same: as numbers, or as recorded expressions."""
+    """Whether two points of a body are the same: as numbers, as recorded expressions, or as the same objects."""
     return all(_same(x, y) for x, y in zip(a, b, strict=True))
 
 
 def _same(x: Number, y: Number) -> bool:
     if is_plain(x) and is_plain(y):
         return bool(x == y)
-    return type(x) is type(y) and hasattr(x, "number") and x.number == y.number
+    return x is y or (isinstance(x, Symbol) and isinstance(y, Symbol) and x.number == y.number)
 
 
 def _check(mechanism: Mechanism, made: Structure) -> None:

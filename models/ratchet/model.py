@@ -39,13 +39,13 @@ from .start import crank_pin, pawl_angle, starts_on_slope, tooth
 
 def mechanism(values: SimpleNamespace) -> Mechanism:
     """The ratchet for parameter values that raise no objection."""
-    half_crank, half_pawl = values.crank_length / 2, values.pawl_length / 2
     rubbing = values.joint_friction_radius
+    crank, pawl = members = _members(values)
     return Mechanism(
         bodies=_bodies(values),
         joints=(
-            Revolute("crank_hinge", "crank", (-half_crank, 0.0), GROUND, (values.hinge_distance, 0.0), rubbing),
-            Revolute("pin", "pawl", (-half_pawl, 0.0), "crank", (half_crank, 0.0), rubbing),
+            Revolute("crank_hinge", "crank", crank.start, GROUND, (values.hinge_distance, 0.0), rubbing),
+            Revolute("pin", "pawl", pawl.start, "crank", crank.end, rubbing),
             Revolute("wheel_hinge", "wheel", (0.0, 0.0), GROUND, (0.0, 0.0), rubbing),
         ),
         forces=(
@@ -68,7 +68,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         calculated=calculated(values),
         held=("crank.angle", "wheel.angle"),
         settings=Settings(values.relative_tolerance, values.baumgarte_alpha, values.baumgarte_beta),
-        members=_members(values),
+        members=members,
     )
 
 
@@ -92,7 +92,7 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
     )
 
 
-def _members(values: SimpleNamespace) -> tuple[Member, ...]:
+def _members(values: SimpleNamespace) -> tuple[Member, Member]:
     """Crank and pawl as bars from hinge to hinge and tip, of as much mass as the bodies."""
     half_crank, half_pawl = values.crank_length / 2, values.pawl_length / 2
     crank = Section.rectangle(values.crank_width, values.crank_depth)

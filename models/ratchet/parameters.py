@@ -103,6 +103,30 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         ),
         *(Calculated(name, length, description, "m") for name, length, description in lengths),
         *_solid_wheel(values),
+        *_stiffnesses(values),
+    )
+
+
+def _stiffnesses(values: SimpleNamespace) -> tuple[Calculated, Calculated]:
+    """Of the crank as a cantilever, 3 E I / a^3, and of the pawl along it, E A / b."""
+    crank, a = (
+        values.crank_width * values.crank_depth * values.crank_depth * values.crank_depth / 12,
+        values.crank_length,
+    )
+    pawl = values.pawl_width * values.pawl_depth
+    return (
+        Calculated(
+            "crank_stiffness",
+            3 * values.elastic_modulus * crank / (a * a * a),
+            "Stiffness of the crank across it, as a cantilever from its hinge to its pin",
+            "N/m",
+        ),
+        Calculated(
+            "pawl_stiffness",
+            values.elastic_modulus * pawl / values.pawl_length,
+            "Stiffness of the pawl along it",
+            "N/m",
+        ),
     )
 
 

@@ -75,7 +75,7 @@ def test_the_engine_agrees_with_the_flexibility_approach_over_a_cycle(cycle):
             np.testing.assert_allclose(mine, ends[:, number, first : first + 3], rtol=1e-10, atol=1e-13)
         axial = np.array([one[f"{name}.axial_force"] for one in read])
         if "axial" in element.coordinates:
-            column = list(_columns(found, number))[0]
+            column = next(iter(_columns(found, number)))
             np.testing.assert_allclose(axial, force[:, column], rtol=1e-10, atol=1e-10)
 
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechanism_fmu.elastodynamics.cycle import ElasticCycle
+from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.periodic import TOLERANCE, periodic_response
 from tests import bending_four_bar as four_bar
 

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from mechanism_fmu.elastodynamics.cycle import ElasticCycle
+from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.periodic import periodic_response
 from mechanism_fmu.elastodynamics.transient import growth_per_period, transient
 from tests import bending_four_bar as four_bar
