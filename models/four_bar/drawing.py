@@ -11,10 +11,10 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
+from mechanism_fmu.model.four_bar import start
 from models.icon import icon_axes
 from models.svg import INK, Point, View, polar, sheet
 
-from .geometry import start
 from .model import MODEL
 
 CRANK, COUPLER, ROCKER = "#2b7a78", "#d9731a", "#6b46c1"

@@ -21,10 +21,10 @@ from mechanism_fmu.model import (
     Torque,
     TorsionSpring,
 )
+from mechanism_fmu.model.four_bar import start
+from mechanism_fmu.model.four_bar_checks import objections, warnings
 from mechanism_fmu.model.part_bodies import MovingPoint, link_body
 
-from .checks import objections, warnings
-from .geometry import start
 from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
 from .shapes import SHAPES
 

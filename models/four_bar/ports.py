@@ -26,8 +26,8 @@ from mechanism_fmu.model import (
     stiffness_parameter,
     torque_input,
 )
+from mechanism_fmu.model.four_bar import form
 
-from .geometry import form
 
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),

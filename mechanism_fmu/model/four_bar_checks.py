@@ -1,15 +1,13 @@
-"""What is wrong, or odd, with parameter values that are each within their limits."""
+"""What is wrong, or odd, with lengths of a four-bar linkage that are each within their limits."""
 
 from __future__ import annotations
 
 import math
 from types import SimpleNamespace
 
-from mechanism_fmu.model import Finding
-from mechanism_fmu.model.conditions import size
-from mechanism_fmu.model.findings import at_most, first
-
-from .geometry import diagonal
+from .conditions import size
+from .findings import Finding, at_most, first
+from .four_bar import diagonal
 
 #: Coupler and rocker in line to this fraction of their lengths cannot say where they go.
 _IN_LINE = 1e-9

@@ -3,6 +3,9 @@
 With the ground d, the crank a, the coupler b, the rocker c and their angles theta, phi, psi:
 
     a e(theta) + b e(phi) = d e(0) + c e(psi)        e(angle) = (cos(angle), sin(angle))
+
+`values` are those of a model's parameters: crank_length, coupler_length, rocker_length, ground_length, crossed,
+crank_angle_start, crank_speed_start.
 """
 
 from __future__ import annotations
@@ -10,8 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
-from mechanism_fmu.model.triangles import angle_between
+from .functions import Number, atan2, cos, sin, sqrt, where_positive
+from .triangles import angle_between
 
 
 @dataclass(frozen=True)
