@@ -1,13 +1,12 @@
-"""The four-bar path generator of Erdman, Sandor and Oakberg (1972), as elastodynamics.md sizes it, in any unit system."""
+"""The four-bar path generator of Erdman, Sandor and Oakberg (1972), their Case 2, in any unit system."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from mechanism_fmu.kinematics import KinematicMotion
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -22,6 +21,8 @@ from mechanism_fmu.model import (
 from mechanism_fmu.model.motions import polynomial_motion
 
 INCH, POUND, POUND_FORCE = 0.0254, 0.45359237, 0.45359237 * 9.80665
+
+_SECTION = Section.rectangle(0.25 * INCH, 0.5 * INCH)
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class PathGenerator:
     follower: float = 8 * INCH
     arm: float = 6 * INCH
     angle: float = math.pi / 6
-    section: Section = Section.rectangle(0.25 * INCH, 0.5 * INCH)
+    section: Section = _SECTION
     young: float = 30e6 * POUND_FORCE / INCH**2
     density: float = 0.283 * POUND / INCH**3
     disks: tuple[tuple[float, float], ...] = (

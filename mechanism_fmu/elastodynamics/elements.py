@@ -1,8 +1,8 @@
 """Flexibility matrices of the elements of Erdman, Sandor and Oakberg (1972): d = F f.
 
-Deformations d and forces f of an element stand in the order axial [m; N], transverse [m; N], rotation [rad; N m], as far
-as it has them: tension, the normal to the left of the element and counter-clockwise turns are positive. The pairs of
-numbers in brackets are eqs of the paper.
+Deformations d and forces f of an element stand in the order axial [m; N], transverse [m; N], rotation [rad; N m], as
+far as it has them: tension, the normal to the left of the element and counter-clockwise turns are positive. Numbers of
+equations are the paper's.
 """
 
 from __future__ import annotations

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..model import AngleDriver, Mechanism, Revolute, RevoluteTranslational, Translational, TranslationalDriver
 from .errors import LinkageError
@@ -19,6 +17,10 @@ IntArray = np.ndarray[Any, np.dtype[np.int64]]
 
 #: In `Freedoms.columns`, of a rotation that no other part asks for: a pinned end of a member, where no moment acts.
 RELEASED = -1
+_FIXED = -2
+
+#: The place of the ground, and so the group of what is fixed to it.
+_GROUND = 0
 
 
 @dataclass(frozen=True)
@@ -57,28 +59,32 @@ def find_freedoms(mechanism: Mechanism, loaded: Iterable[str] = ()) -> Freedoms:
     translation, rotation = _groups(len(places), pins), _groups(len(places), welded)
     kept = _kept(mechanism, places, welded, loaded)
     names: list[str] = []
-    columns = np.full((len(places), 3), RELEASED)
-    known: dict[tuple[str, int], int] = {}
+    numbers: dict[tuple[str, int], int] = {}
+    columns = []
     for number, place in enumerate(places):
-        parts = (("x", translation[number]), ("y", translation[number]), ("angle", rotation[number]))
-        for k, part in enumerate(parts):
-            if k == 2 and number not in kept:
-                continue
-            if part[1] == (rotation if k == 2 else translation)[0]:
-                columns[number, k] = -2
-                continue
-            if part not in known:
-                known[part] = len(names)
-                names.append(f"{place.names[0]}.{part[0]}")
-            columns[number, k] = known[part]
-    return Freedoms(places, tuple(names), np.where(columns == -2, len(names), columns))
+        row = []
+        for axis, group in (("x", translation), ("y", translation), ("angle", rotation)):
+            if axis == "angle" and number not in kept:
+                row.append(RELEASED)
+            elif group[number] == _GROUND:
+                row.append(_FIXED)
+            else:
+                if (axis, group[number]) not in numbers:
+                    numbers[axis, group[number]] = len(names)
+                    names.append(f"{place.names[0]}.{axis}")
+                row.append(numbers[axis, group[number]])
+        columns.append(row)
+    table = np.array(columns, dtype=np.int64)
+    return Freedoms(places, tuple(names), np.where(table == _FIXED, len(names), table))
 
 
-def _groups(count: int, pairs: Iterable[tuple[int, int]]) -> IntArray:
-    """Numbers of sets of places that are connected by pairs, shape (count,)."""
-    first, second = np.array([*pairs], dtype=int).reshape(-1, 2).T
-    links = coo_array((np.ones(len(first)), (first, second)), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+def _groups(count: int, pairs: Iterable[tuple[int, int]]) -> list[int]:
+    """For each of `count` places the first one that it is connected with by pairs."""
+    group = [*range(count)]
+    for pair in pairs:
+        joined = {group[number] for number in pair}
+        group = [min(joined) if number in joined else number for number in group]
+    return group
 
 
 def _kept(

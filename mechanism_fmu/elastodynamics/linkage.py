@@ -112,7 +112,7 @@ def linkage(mechanism: Mechanism, loaded: Iterable[str] = ()) -> Linkage:
 
     Args:
         mechanism: `Mechanism.members` are its elements; bodies without members are rigid.
-        loaded: names of places ("<member>.start", "<member>.end") where a moment is to act although only a pin is there.
+        loaded: names of places ("<member>.start|end") where a moment is to act although only a pin is there.
 
     Raises:
         LinkageError: it is no structure of members; the message says why.
@@ -145,5 +145,5 @@ def _element(mechanism: Mechanism, freedoms: Freedoms, member: Member) -> Elemen
 def _is_free(mechanism: Mechanism, freedoms: Freedoms, place: int) -> bool:
     """Whether nothing else ends at a place that the end of one member is, so that it is the tip of a cantilever."""
     names = freedoms.places[place].names
-    same = np.flatnonzero((freedoms.columns[:, 0] == freedoms.columns[place, 0]))
+    same = np.flatnonzero(freedoms.columns[:, 0] == freedoms.columns[place, 0])
     return len(names) == 1 and len(same) == 1 and freedoms.columns[place, 0] != freedoms.ground

@@ -48,7 +48,7 @@ def mass_matrix(configurations: Configurations) -> FloatArray:
 
 
 def inertia_forces(configurations: Configurations) -> FloatArray:
-    """(-m a_x, -m a_y, -J phi'') at every place, moving as the rigid mechanism does, shape (times, places, 3) [N, N m]."""
+    """(-m a_x, -m a_y, -J phi'') at every place in the rigid motion, shape (times, places, 3) [N, N m]."""
     pose, places = configurations.pose, configurations.linkage.freedoms.places
     masses = lumps(configurations.linkage)
     forces = np.zeros((len(pose.time), len(places), 3))

@@ -36,10 +36,13 @@ class Pose:
         """A vector of a body's frame in the global one, A s, shape (times, 2)."""
         k = self.bodies.index(body)
         x, y = vector
-        return np.stack([self.cosine[:, k] * x - self.sine[:, k] * y, self.sine[:, k] * x + self.cosine[:, k] * y], 1)
+        turned = np.empty((len(self.time), 2))
+        turned[:, 0] = self.cosine[:, k] * x - self.sine[:, k] * y
+        turned[:, 1] = self.sine[:, k] * x + self.cosine[:, k] * y
+        return turned
 
     def place(self, body: str, point: Point) -> FloatArray:
-        """r + A s of a point of a body, shape (times, 2) [m]."""
+        """Where a point of a body of a body is, r + A s, shape (times, 2) [m]."""
         return self.position[:, self.bodies.index(body), :2] + self.turned(body, point)
 
     def velocity_of(self, body: str, point: Point) -> FloatArray:
@@ -56,7 +59,9 @@ class Pose:
 
 def left(vectors: FloatArray) -> FloatArray:
     """R v: vectors, shape (..., 2), turned by +90 deg."""
-    return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)
+    turned = np.empty_like(vectors)
+    turned[..., 0], turned[..., 1] = -vectors[..., 1], vectors[..., 0]
+    return turned
 
 
 def dot(first: FloatArray, second: FloatArray) -> FloatArray:

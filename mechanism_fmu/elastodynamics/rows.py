@@ -26,6 +26,9 @@ from .elements import FloatArray
 from .errors import LinkageError
 from .pose import Pose, dot, left
 
+#: Joints with the vector d between their points in their rows.
+Pair = Distance | DistanceDriver | Translational | RevoluteTranslational | TranslationalDriver
+
 _X, _Y = np.array([1.0, 0.0]), np.array([0.0, 1.0])
 
 
@@ -70,16 +73,14 @@ def guide_axis(joint: Translational | RevoluteTranslational, pose: Pose) -> Floa
 
 
 def _row(pose: Pose, direction: FloatArray, turn: FloatArray | float) -> FloatArray:
-    """direction . (u_j - u_i) + turn theta_i."""
+    """The row of direction . (u_j - u_i) + turn theta_i."""
     row = np.zeros((len(pose.time), 6))
     row[:, 0:2], row[:, 2], row[:, 3:5] = -direction, turn, direction
     return row
 
 
-def _between(
-    joint: Distance | DistanceDriver | Translational | RevoluteTranslational | TranslationalDriver, pose: Pose
-) -> FloatArray:
-    """D = r_j^P - r_i^P, shape (times, 2) [m]."""
+def _between(joint: Pair, pose: Pose) -> FloatArray:
+    """The vector d = r_j^P - r_i^P, shape (times, 2) [m]."""
     return pose.place(joint.body_j, joint.point_j) - pose.place(joint.body_i, joint.point_i)
 
 

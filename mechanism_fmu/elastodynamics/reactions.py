@@ -1,0 +1,168 @@
+"""Forces in the joints of the rigid mechanism and of its drivers: statics with inertia and friction forces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .configuration import Configurations
+from .elements import FloatArray
+from .errors import LinkageError
+from .friction import Rubbing, rubbing_joints
+from .locks import held_coordinates, is_driver
+from .pose import left
+from .rows import rotation_rows, translation_rows
+
+#: Friction is found when no force changes any more by this part of the largest; this often it is tried.
+_SETTLED, _ROUNDS = 1e-13, 200
+
+
+@dataclass(frozen=True)
+class Reactions:
+    """What joints and drivers exert on the rigid mechanism.
+
+    Attributes:
+        owners: the joint, or the held coordinate, of each row.
+        multipliers: lambda of M q'' = F + Phi_q^T lambda with rows of unit length, shape (times, rows) [N, N m]: of a
+            pin the force on body i, of a slider the force on body j to the left of its axis and then the torque, of a
+            driver or a held coordinate the force or torque on body j.
+        friction: forces and moments by friction at the places, shape (times, places, 3) [N, N m].
+        drive_power: of drivers and held coordinates, shape (times,) [W].
+        lost_power: what friction takes, shape (times,) [W].
+    """
+
+    owners: tuple[str, ...]
+    multipliers: FloatArray
+    friction: FloatArray
+    drive_power: FloatArray
+    lost_power: FloatArray
+
+    def of(self, joint: str) -> FloatArray:
+        """The multipliers of one joint, driver or held coordinate ("crank.angle"), shape (times, rows of it).
+
+        Raises:
+            LinkageError: there is none of this name.
+        """
+        if joint not in self.owners:
+            raise LinkageError(f"There is no reaction {joint!r}; there are: {', '.join(dict.fromkeys(self.owners))}.")
+        return self.multipliers[:, [k for k, owner in enumerate(self.owners) if owner == joint]]
+
+
+def reactions(configurations: Configurations, forces: FloatArray) -> Reactions:
+    """Reactions to forces at the places, shape (times, places, 3) [N, N m], inertia forces among them.
+
+    Phi_q^T lambda + F + F_friction(lambda) = 0 is solved by iteration, because Coulomb friction depends on lambda:
+    friction of the reactions of the last round, until they settle.
+
+    Raises:
+        LinkageError: the rigid mechanism can move although its drivers stand still, always or in one configuration, or
+            friction does not settle: a joint is about to lock itself.
+    """
+    rows, owners = _rigid_rows(configurations)
+    inverse = _inverse(rows, configurations.pose.time)
+    joints = rubbing_joints(configurations)
+    friction = np.zeros_like(forces)
+    multipliers = -(inverse @ _on_bodies(configurations, forces)[:, :, None])[:, :, 0]
+    for _ in range(_ROUNDS):
+        if not joints:
+            break
+        friction = _friction(joints, owners, multipliers, forces.shape)
+        last = multipliers
+        multipliers = -(inverse @ _on_bodies(configurations, forces + friction)[:, :, None])[:, :, 0]
+        change = np.abs(multipliers - last).max(axis=1)
+        if np.all(change <= _SETTLED * np.abs(multipliers).max()):
+            break
+    else:
+        raise LinkageError(
+            f"At t = {configurations.pose.time[np.argmax(change)]:.9g} s friction does not settle in {_ROUNDS} rounds: "
+            f"a joint ({', '.join(one.joint for one in joints)}) is about to lock itself. Make friction smaller, or "
+            "leave this position out."
+        )
+    rates = configurations.pose.velocity[:, :-1].reshape(len(rows), -1)
+    drives = {joint.name for joint in configurations.linkage.mechanism.joints if is_driver(joint)}
+    drives |= {f"{body}.{what}" for body, what in held_coordinates(configurations.linkage.mechanism)}
+    driving = [owner in drives for owner in owners]
+    power = np.sum(multipliers[:, driving] * (rows @ rates[:, :, None])[:, driving, 0], axis=1)
+    return Reactions(owners, multipliers, friction, power, -power_of(configurations, friction))
+
+
+def power_of(configurations: Configurations, forces: FloatArray) -> FloatArray:
+    """Power of forces at the places, shape (times, places, 3), moving as the rigid mechanism does: (times,) [W]."""
+    pose = configurations.pose
+    loads = _on_bodies(configurations, forces)
+    return np.einsum("tk,tk->t", loads, pose.velocity[:, :-1].reshape(loads.shape))
+
+
+def _rigid_rows(configurations: Configurations) -> tuple[FloatArray, tuple[str, ...]]:
+    """Phi_q of joints, drivers and held coordinates, shape (times, rows, 3 bodies), and whose each row is."""
+    mechanism, pose = configurations.linkage.mechanism, configurations.pose
+    found: list[FloatArray] = []
+    owners: list[str] = []
+    for joint in mechanism.joints:
+        for row in (*translation_rows(joint, pose), *rotation_rows(joint, pose)):
+            wide = np.zeros((len(pose.time), len(pose.bodies), 3))
+            for body, point, part in (
+                (joint.body_i, getattr(joint, "point_i", (0.0, 0.0)), row[:, :3]),
+                (joint.body_j, getattr(joint, "point_j", (0.0, 0.0)), row[:, 3:]),
+            ):
+                arm = left(pose.turned(body, point))
+                k = pose.bodies.index(body)
+                wide[:, k, :2] += part[:, :2]
+                wide[:, k, 2] += part[:, 2] + np.einsum("tk,tk->t", part[:, :2], arm)
+            found.append(wide)
+            owners.append(joint.name)
+    for body, what in held_coordinates(mechanism):
+        wide = np.zeros((len(pose.time), len(pose.bodies), 3))
+        wide[:, pose.bodies.index(body), ("x", "y", "angle").index(what)] = 1.0
+        found.append(wide)
+        owners.append(f"{body}.{what}")
+    rows = np.stack(found, axis=1)[:, :, :-1]  # the ground does not move
+    return rows.reshape(*rows.shape[:2], -1), tuple(owners)
+
+
+def _inverse(rows: FloatArray, time: FloatArray) -> FloatArray:
+    """(Phi_q^T)^-1, shape (times, rows, 3 bodies); of least norm where rows say the same."""
+    count, coordinates = rows.shape[1:]
+    transposed = np.swapaxes(rows, 1, 2)
+    if count < coordinates:
+        raise LinkageError(
+            f"{coordinates - count} degree(s) of freedom of the rigid mechanism are neither driven nor held; add a "
+            "driver, or name a coordinate in `Mechanism.held`."
+        )
+    if count > coordinates:
+        return np.linalg.pinv(transposed)
+    try:
+        return np.linalg.inv(transposed)
+    except np.linalg.LinAlgError:
+        worst = float(time[np.argmin(np.linalg.svd(rows, compute_uv=False)[:, -1])])
+        raise LinkageError(
+            f"At t = {worst:.9g} s the rigid mechanism can move although its drivers stand still; leave this position "
+            "out, or drive another body."
+        ) from None
+
+
+def _on_bodies(configurations: Configurations, forces: FloatArray) -> FloatArray:
+    """Forces at the places as forces and moments at the centres of mass of the bodies, shape (times, 3 bodies)."""
+    pose = configurations.pose
+    loads = np.zeros((len(pose.time), len(pose.bodies), 3))
+    for number, place in enumerate(configurations.linkage.freedoms.places):
+        k = pose.bodies.index(place.body)
+        arm = left(pose.turned(place.body, place.point))
+        loads[:, k] += forces[:, number]
+        loads[:, k, 2] += np.einsum("tk,tk->t", arm, forces[:, number, :2])
+    return loads[:, :-1].reshape(len(loads), -1)
+
+
+def _friction(
+    joints: tuple[Rubbing, ...], owners: tuple[str, ...], multipliers: FloatArray, shape: tuple[int, ...]
+) -> FloatArray:
+    """Forces and moments by friction at the places for the reactions `multipliers`."""
+    forces = np.zeros(shape)
+    for joint in joints:
+        first = owners.index(joint.joint)
+        carried = np.linalg.norm(multipliers[:, first : first + joint.rows], axis=1)
+        on_i = joint.direction * joint.effort(carried)[:, None]
+        forces[:, joint.places[0]] += on_i
+        forces[:, joint.places[1]] -= on_i
+    return forces
