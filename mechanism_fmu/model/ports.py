@@ -64,7 +64,8 @@ class Output:
         source: what it reads. "<body>.x|y|angle" and "<body>.x_rate|y_rate|speed"; "<contact>.force" (multiplier,
             positive when it pushes), "<contact>.gap" and "<contact>.closed"; "<stop>.clicks" and "<stop>.latched" [rad]
             of a stop with memory; "<pair of profiles>.alpha_i|alpha_j" [rad]; "<joint>.force|force_x|force_y|
-            normal_force|torque" of the joints that have them (see `efforts`); "<pattern>.index"; "<shaft>.torque"; of elastic members
+            normal_force|torque" of the joints that have them (see `efforts`); "<pattern>.index"; "<shaft>.torque";
+            of elastic members
             "<member>.start|end.x|y|x_bent|y_bent|x_deflection|y_deflection|rotation|deviation",
             "<member>.axial_force|start_moment|end_moment|stress" (see `structure`) and
             "<member>.tip_deflection|bending_stress" (see `beams`);

@@ -92,7 +92,7 @@ def test_an_arm_that_is_sped_up_bends_back_as_a_cantilever(angle, acceleration):
     assert found["bar.end.deviation"] == pytest.approx(abs(across), **near)
     assert found["bar.end.x_deflection"] == pytest.approx(-across * math.sin(angle), **near)
     assert found["bar.end.y_deflection"] == pytest.approx(across * math.cos(angle), **near)
-    assert found["bar.start_moment"] == pytest.approx(-(force * LENGTH + moment), rel=1e-10, abs=1e-9)
+    assert found["bar.start_moment"] == pytest.approx(force * LENGTH + moment, rel=1e-10, abs=1e-9)
     assert found["bar.end_moment"] == pytest.approx(moment, rel=1e-10, abs=1e-9)
     assert found["bar.stress"] == pytest.approx(abs(force * LENGTH + moment) / MODULUS, rel=1e-10, abs=1e-3)
 
@@ -138,7 +138,7 @@ def test_a_rod_passes_on_what_acts_on_a_rigid_slider():
     """The slider is so heavy that it hardly moves: all but 1e-6 of its push is lost in its inertia; so is weight."""
     found = read(crank_and_slider(torque=5.0), "bar", "link")
     # the rod's moment at the pin is held by a force across it at the slider, whose guide takes it but for inertia
-    assert found["link.start_moment"] == pytest.approx(5.0, rel=1e-9)
+    assert found["link.start_moment"] == pytest.approx(-5.0, rel=1e-9)
     assert found["link.end_moment"] == pytest.approx(0.0, abs=1e-12)
     assert found["bar.end_moment"] == pytest.approx(-5.0, rel=1e-9)
 
