@@ -4,7 +4,6 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.linalg import null_space
 
 from mechanism_fmu.kinematics import KinematicMotion
 from mechanism_fmu.model import (
@@ -71,16 +70,17 @@ class Assembly:
         return KinematicMotion(names, np.zeros(1), position, np.zeros_like(position), np.zeros_like(position))
 
     def frame(self, sections):
-        """Displacements of bar ends under forces on them: a function of shape (bars, 2, 3) to the same, and N, M, M."""
+        """What moves the ends of bars, (bars, 2, 3), under forces on them, and (N, M, M), as a function of the forces."""
         names = [(body, bar) for body, bars in self.bars.items() for bar in bars]
         rigid = [body for body in self.frames if not self.bars.get(body)]
         count = 6 * len(names) + 3 * len(rigid)
-        stiffness, rows = np.zeros((count, count)), []
+        stiffness, rows = np.zeros((count, count), dtype=np.longdouble), []
         ends = [(body, bar[k], 6 * n + 3 * k) for n, (body, bar) in enumerate(names) for k in (0, 1)]
         ends += [(body, None, 6 * len(names) + 3 * k) for k, body in enumerate(rigid)]
         bars = []
         for n, ((_, (a, b)), (section, young)) in enumerate(zip(names, sections, strict=True)):
-            matrix, turn = bar_stiffness(abs(b - a), section, young), turning(b - a)
+            along = np.clongdouble(b) - np.clongdouble(a)
+            matrix, turn = bar_stiffness(abs(along), section, young), turning(along)
             bars.append((matrix, turn))
             stiffness[6 * n : 6 * n + 6, 6 * n : 6 * n + 6] = turn.T @ matrix @ turn
 
@@ -111,16 +111,26 @@ class Assembly:
             if kind == "block":
                 rows.append(moved[2:])
         rows = np.vstack(rows)
-        free = null_space(rows[np.abs(rows).max(axis=1) > 0.0])
+        rows = rows[np.abs(rows).max(axis=1) > 0.0]
 
         def solve(forces):
             load = np.zeros(count)
             load[: forces.size] = forces.ravel()
-            moved = free @ np.linalg.solve(free.T @ stiffness @ free, free.T @ load)
+            moved = with_constraints(stiffness, rows, load)
             inner = [matrix @ turn @ moved[6 * n : 6 * n + 6] for n, (matrix, turn) in enumerate(bars)]
             return moved[: forces.size].reshape(forces.shape), np.array([(f[3], -f[2], f[5]) for f in inner])
 
         return solve
+
+
+def with_constraints(stiffness, rows, load):
+    """U of K u + G^T x = P, G u = 0; as bars are slender, in long doubles, by solving again for what is left."""
+    scale = np.abs(stiffness).max()
+    exact = np.block([[stiffness / scale, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
+    right, found = np.concatenate([load / scale, np.zeros(len(rows))]), np.zeros(len(exact), dtype=np.longdouble)
+    for _ in range(5):
+        found += np.linalg.solve(exact.astype(float), (right - exact @ found).astype(float))
+    return found[: len(load)]
 
 
 def bar_stiffness(length, section, young):
@@ -141,7 +151,10 @@ def bar_stiffness(length, section, young):
 
 def turning(along):
     c, s = along.real / abs(along), along.imag / abs(along)
-    return np.kron(np.eye(2), np.array([[c, s, 0], [-s, c, 0], [0, 0, 1.0]]))
+    turn = np.zeros((6, 6), dtype=np.longdouble)
+    for first in (0, 3):
+        turn[first : first + 3, first : first + 3] = [[c, s, 0], [-s, c, 0], [0, 0, 1]]
+    return turn
 
 
 def random_assembly(numbers, kinds):
