@@ -1,9 +1,9 @@
-"""The four-bar path generator of Erdman, Sandor and Oakberg (1972) with elastic members (inch, lbf, s)."""
+"""The four-bar path generator of Erdman, Sandor and Oakberg (1972) as a model with elastic outputs; see its Case 2."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
@@ -12,55 +12,103 @@ from mechanism_fmu.model import (
     Disk,
     Mechanism,
     Member,
+    Model,
     Output,
+    Parameter,
     Revolute,
     Section,
     polynomial_motion,
 )
+from mechanism_fmu.model.functions import cos, sin
 
-#: Lengths, angle of the arm, modulus, weight density, gravity as the oracle has it, speed.
-GROUND_LENGTH, CRANK, COUPLER, FOLLOWER, ARM, TILT = 10.0, 4.0, 10.0, 8.0, 6.0, math.pi / 6
-YOUNG, GRAVITY = 30e6, 9.80665 / 0.0254
-DENSITY = 0.283 / GRAVITY
-SPEED = 500 * 2 * math.pi / 60
-SECTION = Section.rectangle(0.25, 0.5)
-#: The guesses that assembly closes, at 30 deg.
-COUPLER_ANGLE, FOLLOWER_ANGLE = 0.62, 1.37
+INCH, POUND = 0.0254, 0.45359237
+POUND_FORCE = POUND * 9.80665
+
+#: Its numbers in inch, lbf, s, with standard gravity.
+IMPERIAL = {
+    "ground_length": 10.0,
+    "crank_length": 4.0,
+    "coupler_length": 10.0,
+    "follower_length": 8.0,
+    "arm_length": 6.0,
+    "width": 0.25,
+    "depth": 0.5,
+    "young": 30e6,
+    "density": 0.283 / (9.80665 / INCH),
+    "pound": 1.0 / (9.80665 / INCH),  # a weight of 1 lbf as a mass
+    "inch": 1.0,
+    "speed": 500 * 2 * math.pi / 60,
+    "start": math.radians(30),
+}
+_UNITS = {name: INCH for name in IMPERIAL if name.endswith("_length")} | {"width": INCH, "depth": INCH}
+_UNITS |= {"young": POUND_FORCE / INCH**2, "density": POUND_FORCE / INCH**4}
+_UNITS |= {"pound": POUND_FORCE / INCH, "inch": INCH}
+#: The same in SI.
+SI = {name: value * _UNITS.get(name, 1.0) for name, value in IMPERIAL.items()}
+
+MEMBERS = ("arm", "crank_bar", "link", "follower_bar")
+DEFLECTIONS = ("x_deflection", "y_deflection", "rotation")
+EFFORTS = ("axial_force", "start_moment", "end_moment", "stress")
+_SOURCES = [
+    *(f"{member}.{end}.{quantity}" for member in MEMBERS for end in ("start", "end") for quantity in DEFLECTIONS),
+    *(f"{member}.{effort}" for member in MEMBERS for effort in EFFORTS),
+    *(f"arm.end.{quantity}" for quantity in ("x", "y", "x_bent", "y_bent", "deviation")),
+    *(f"{body}.{q}" for body in ("crank", "coupler", "follower") for q in ("x", "y", "angle")),
+]
 
 
-def path_generator(outputs: Sequence[Output] = (), start: float = math.radians(30), speed: float = SPEED) -> Mechanism:
-    """The linkage, its crank driven at a constant speed [rad/s] from an angle [rad] near 30 deg on."""
-    point = (ARM * math.cos(TILT), ARM * math.sin(TILT))
-    x, y = CRANK * math.cos(start), CRANK * math.sin(start)
-    hinge = (GROUND_LENGTH, 0.0)
+def mechanism(values: SimpleNamespace) -> Mechanism:
+    """The linkage, its crank driven at a constant speed from an angle near 30 deg on; all outputs named as sources."""
+    half, tilt, start = values.crank_length / 2, math.pi / 6, values.start
+    x, y = half * cos(start), half * sin(start)
+    path = (values.arm_length * cos(tilt), values.arm_length * sin(tilt))
+    section = Section.rectangle(values.width, values.depth)
+
+    def member(name: str, body: str, begin: tuple[float, float], end: tuple[float, float]) -> Member:
+        return Member(name, body, begin, end, section, values.young, values.density)
+
+    origin, hinge = (0.0, 0.0), (values.ground_length, 0.0)
+    members = arm, crank, link, follower = (
+        member("arm", "coupler", origin, path),
+        member("crank_bar", "crank", (-half, 0.0), (half, 0.0)),
+        member("link", "coupler", origin, (values.coupler_length, 0.0)),
+        member("follower_bar", "follower", origin, (values.follower_length, 0.0)),
+    )
+    pound, square = values.pound, values.pound * values.inch * values.inch
     return Mechanism(
         bodies=(
-            Body("crank", 1.0, 1.0, (x / 2, y / 2, start), (-y / 2 * speed, x / 2 * speed, speed)),
-            Body("coupler", 1.0, 1.0, (x, y, COUPLER_ANGLE)),
-            Body("follower", 1.0, 1.0, (*hinge, FOLLOWER_ANGLE)),
+            Body("crank", 1.0, 1.0, (x, y, start), (-y * values.speed, x * values.speed, values.speed)),
+            Body("coupler", 1.0, 1.0, (2 * x, 2 * y, 0.62)),
+            Body("follower", 1.0, 1.0, (*hinge, 1.37)),
         ),
         joints=(
-            Revolute("crank_hinge", "crank", (-CRANK / 2, 0.0), GROUND, (0.0, 0.0)),
-            Revolute("A", "coupler", (0.0, 0.0), "crank", (CRANK / 2, 0.0)),
-            Revolute("B", "follower", (FOLLOWER, 0.0), "coupler", (COUPLER, 0.0)),
-            Revolute("follower_hinge", "follower", (0.0, 0.0), GROUND, hinge),
-            AngleDriver("drive", "crank", polynomial_motion(start, speed)),
+            Revolute("crank_hinge", "crank", crank.start, GROUND, (0.0, 0.0)),
+            Revolute("A", "coupler", link.start, "crank", crank.end),
+            Revolute("B", "follower", follower.end, "coupler", link.end),
+            Revolute("follower_hinge", "follower", follower.start, GROUND, hinge),
+            AngleDriver("drive", "crank", polynomial_motion(start, values.speed)),
         ),
-        members=(
-            _member("arm", "coupler", (0.0, 0.0), point),
-            _member("crank_bar", "crank", (-CRANK / 2, 0.0), (CRANK / 2, 0.0)),
-            _member("link", "coupler", (0.0, 0.0), (COUPLER, 0.0)),
-            _member("follower_bar", "follower", (0.0, 0.0), (FOLLOWER, 0.0)),
-        ),
+        members=members,
         disks=(
-            Disk("P", "coupler", point, 0.5 / GRAVITY, 0.5 * 0.5 / GRAVITY * 0.75**2),
-            Disk("disk_A", "coupler", (0.0, 0.0), 0.1 / GRAVITY, 0.5 * 0.1 / GRAVITY * 0.5**2),
-            Disk("disk_B", "coupler", (COUPLER, 0.0), 0.1 / GRAVITY),
+            Disk("P", "coupler", arm.end, 0.5 * pound, 0.25 * square * 0.75 * 0.75),
+            Disk("at_A", "coupler", link.start, 0.1 * pound, 0.05 * square * 0.5 * 0.5),
+            Disk("at_B", "coupler", link.end, 0.1 * pound),
         ),
-        outputs=tuple(outputs),
+        outputs=tuple(Output(source.replace(".", "_"), source, source) for source in _SOURCES),
         held=("crank.angle",),
     )
 
 
-def _member(name: str, body: str, start: tuple[float, float], end: tuple[float, float]) -> Member:
-    return Member(name, body, start, end, SECTION, YOUNG, DENSITY)
+def built(values: dict[str, float]) -> Mechanism:
+    """The linkage with plain numbers."""
+    return mechanism(SimpleNamespace(**values))
+
+
+MODEL = Model(
+    name="PathGenerator",
+    description="Four-bar path generator with elastic members",
+    parameters=tuple(Parameter(name, value, name) for name, value in SI.items()),
+    mechanism=mechanism,
+    stop_time=0.12,
+    step_size=1e-3,
+)

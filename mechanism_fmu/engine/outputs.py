@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .. import codes
+from .block.elastic import structure
 from .block.layout import Array
 from .block.motion import course, linear_system, pose, stages
 from .block.parts import bodies, contacts, patterns, ports, sizes
@@ -98,6 +99,8 @@ def read_outputs(block: Array) -> None:
             value = _buffered_event(block, table.output_slot[o], index)
         elif kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
             value = beam_reading(block, kind, index)
+        elif kind == codes.MEMBER_FORCE:
+            value *= structure(block).element_force[index]
         elif kind != codes.CONSTANT:
             value = elastic_reading(block, kind, index)
         table.outputs[o] = value

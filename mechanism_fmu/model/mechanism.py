@@ -39,8 +39,9 @@ class Mechanism:
         inputs, outputs, calculated: what the outside sees.
         held: coordinates, as "<body>.x|y|angle", that assembly must not move, nor their rates.
         settings: how the engine integrates.
-        members, disks: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics`; the engine
-            does without. The mechanism becomes a structure when its held and driven coordinates stand still.
+        members, disks: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics` and outputs
+            that read them; the motion does without. The mechanism becomes a structure when its held and driven
+            coordinates stand still.
     """
 
     bodies: tuple[Body, ...]

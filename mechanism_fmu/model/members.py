@@ -1,6 +1,6 @@
 """Elastic members: of which beams a body is made where it may bend, and which lumps of mass it carries.
 
-The engine moves rigid bodies and reads none of this; `mechanism_fmu.elastodynamics` does.
+The motion is that of rigid bodies; what bends is read by outputs (`engine.elastic`) and `mechanism_fmu.elastodynamics`.
 """
 
 from __future__ import annotations

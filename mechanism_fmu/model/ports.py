@@ -65,6 +65,10 @@ class Output:
             positive when it pushes), "<contact>.gap" and "<contact>.closed"; "<stop>.clicks" and "<stop>.latched" [rad]
             of a stop with memory; "<pair of profiles>.alpha_i|alpha_j" [rad]; "<joint>.force|force_x|force_y|
             normal_force|torque" of the joints that have them (see `efforts`); "<pattern>.index"; "<shaft>.torque";
+            of elastic members
+            "<member>.start|end.x|y|x_bent|y_bent|x_deflection|y_deflection|rotation|deviation",
+            "<member>.axial_force|start_moment|end_moment|stress" (see `structure`) and
+            "<member>.tip_deflection|bending_stress" (see `beams`);
             "event.count|in_step"; "events[k].<field>" of
             the k-th (1..16) event of the last communication step, with field one of time, guard and subject (codes;
             -1 in an empty slot), old_mode, new_mode (sum of 2^c over closed contacts c), impulse;

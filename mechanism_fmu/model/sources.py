@@ -182,8 +182,13 @@ def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
 
 
 def output_factor(source: str, mechanism: Mechanism) -> Number:
-    """The factor of what an output reads: of a joint's multiplier, of a motor's current; 0 for other sources."""
+    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a motor's current, a member.
+
+    The moment on a member's start bends it against the sense in which it turns it.
+    """
     part, _, quantity = source.partition(".")
+    if quantity in _OF_MEMBER and any(member.name == part for member in mechanism.members):
+        return -1.0 if quantity == "start_moment" else 1.0
     for force in mechanism.forces:
         if force.name == part and isinstance(force, DCMotor):
             return force.constant if quantity == "torque" else 1.0

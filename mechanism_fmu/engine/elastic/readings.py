@@ -27,8 +27,6 @@ def elastic_reading(block: Array, kind: int, index: int) -> float:
         x = it.displacement[3 * index]
         y = it.displacement[3 * index + 1]
         value = math.sqrt(x * x + y * y)
-    elif kind == codes.MEMBER_FORCE:
-        value = it.element_force[index]
     else:
         value = _stress(block, index)
     return value

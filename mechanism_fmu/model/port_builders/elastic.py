@@ -60,7 +60,7 @@ def member_outputs(
             Output(
                 f"{member}_{end}_moment",
                 f"{member}.{end}_moment",
-                f"Moment on the {end} of member {member}, counter-clockwise positive",
+                f"Bending moment at the {end} of member {member}, positive when it bends to its left",
                 "N.m",
                 nominal=moment,
                 feedthrough=through,
