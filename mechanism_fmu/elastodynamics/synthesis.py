@@ -56,13 +56,15 @@ def lightest(
 
     Args:
         judge: of a design x, shape (n,).
-        start, lower, upper: the design to begin with and its bounds, shape (n,).
+        start: the design to begin with, shape (n,).
+        lower: bounds of the design, shape (n,).
+        upper: bounds of the design, shape (n,), above the lower ones.
         largest_deviation: [m].
         largest_stress: [Pa].
 
     Raises:
-        LinkageError: bounds or limits cannot be, or no design was found within the limits; the message says how near the
-            best came.
+        LinkageError: bounds or limits cannot be, or no design was found within the limits; the message says how near
+            the best came.
     """
     search = _Search(judge, *_box(start, lower, upper), largest_deviation, largest_stress)
     if not (largest_deviation > 0.0 and largest_stress > 0.0):
@@ -78,8 +80,8 @@ def lightest(
     judged = search.at(best)
     raise LinkageError(
         f"No design between the bounds was found that keeps the deviation below {largest_deviation:g} m and the stress "
-        f"below {largest_stress:g} Pa; the best has {judged.deviation.max():.4g} m and {judged.stress.max():.4g} Pa, at "
-        f"{search.design(best)}. Widen the bounds, or allow more."
+        f"below {largest_stress:g} Pa; the best has {judged.deviation.max():.4g} m and {judged.stress.max():.4g} Pa, "
+        f"at {search.design(best)}. Widen the bounds, or allow more."
     )
 
 
@@ -149,7 +151,7 @@ def _box(start: npt.ArrayLike, lower: npt.ArrayLike, upper: npt.ArrayLike) -> tu
     x, low, high = (np.atleast_1d(np.asarray(values, dtype=float)) for values in (start, lower, upper))
     if not (x.shape == low.shape == high.shape and np.all((low <= x) & (x <= high) & (low < high))):
         raise LinkageError(
-            f"The start {x} must have as many numbers as the bounds {low} and {high}, and lie between them; lower bounds "
-            "must be below upper ones."
+            f"The start {x} must have as many numbers as the bounds {low} and {high}, and lie between them; lower "
+            "bounds must be below upper ones."
         )
     return x, low, high

@@ -4,15 +4,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.path_generator import PathGenerator
+from benchmarks.path_generator import INCH, PathGenerator
 from mechanism_fmu.elastodynamics import LinkageError, configurations, linkage, quasi_static
 from mechanism_fmu.elastodynamics.dynamics import MassModel, deflection_of, elastic_cycle, stress_of
+from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
 from mechanism_fmu.elastodynamics.judgement import judge_quasi_static, judge_steady_state, rigid_path
 from mechanism_fmu.elastodynamics.periodic import periodic_response
 from mechanism_fmu.kinematics import analyse
-
-INCH = 0.0254
-PERIOD = 0.12
 
 
 def cycle_of(generator, samples=360, turns=1.0):
@@ -44,8 +42,6 @@ def test_periodic_deviation_of_the_papers_linkage_in_metres_is_that_of_the_oracl
 
 
 def test_frequencies_are_those_of_the_oracle(case_2):
-    from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
-
     cycle = elastic_cycle(case_2, 0.02)
     hertz = instantaneous_modes(cycle.stiffness[60:61], cycle.mass[60:61]).hertz[0, :3]
     np.testing.assert_allclose(hertz, [78.22308, 242.84855, 1732.59658], atol=5e-6)
