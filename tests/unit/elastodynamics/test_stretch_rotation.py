@@ -13,7 +13,7 @@ from mechanism_fmu.elastodynamics.stretch_rotation import (
     spatial_deformation,
     spatial_operator,
 )
-from tests import bending_four_bar as four_bar
+from benchmarks import bending_by_hand as four_bar
 
 SEEDS = st.integers(0, 10**6)
 
