@@ -6,7 +6,9 @@ import numpy as np
 
 from .configuration import Configurations
 from .elements import FloatArray
-from .masses import inertia_forces, lumps, mass_matrix, system_forces
+from .linkage import Element
+from .masses import mass_matrix
+from .pose import dot, left
 
 
 def beam_mass(mass: float, length: float) -> FloatArray:
@@ -16,53 +18,55 @@ def beam_mass(mass: float, length: float) -> FloatArray:
 
     Source: J. S. Archer, Consistent mass matrix for distributed mass systems, J. Struct. Div. ASCE 89 (1963).
     """
-    axial = mass / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])
-    l = length  # noqa: E741
-    across = (
-        mass
-        / 420.0
-        * np.array(
-            [
-                [156.0, 22.0 * l, 54.0, -13.0 * l],
-                [22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l],
-                [54.0, 13.0 * l, 156.0, -22.0 * l],
-                [-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l],
-            ]
-        )
+    turns = np.array([1.0, length, 1.0, length])
+    numbers = np.array(
+        [[156.0, 22.0, 54.0, -13.0], [22.0, 4.0, 13.0, -3.0], [54.0, 13.0, 156.0, -22.0], [-13.0, -3.0, -22.0, 4.0]]
     )
     whole = np.zeros((6, 6))
-    whole[np.ix_([0, 3], [0, 3])] = axial
-    whole[np.ix_([1, 2, 4, 5], [1, 2, 4, 5])] = across
+    whole[np.ix_([0, 3], [0, 3])] = mass / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])
+    whole[np.ix_([1, 2, 4, 5], [1, 2, 4, 5])] = mass / 420.0 * np.outer(turns, turns) * numbers
     return whole
 
 
 def consistent_mass(configurations: Configurations) -> FloatArray:
-    """M, shape (times, m, m): E^T m_e E of every member, and the lumps of disks and rigid bodies.
+    """M, shape (times, m, m): sum of E^T m_e E of the members, and the lumps of disks and rigid bodies.
 
     A released rotation follows from the other displacements of its member, as it does in E. The shapes turn with the
-    links; that part of the acceleration which comes from their turning, 2 Omega u' and Omega^2 u, is left out, as is the
-    stiffening by axial forces, of the same order: (Omega / omega)^2 of what remains.
+    links; what their turning adds to the acceleration, 2 Omega u' and Omega^2 u, is left out, and so is the stiffening
+    by axial forces, of the same order: (Omega / omega)^2 of what remains.
     """
-    ends, masses = configurations.ends, _element_masses(configurations)
-    members: FloatArray = np.einsum("teim,eij,tejn->tmn", ends, masses, ends, optimize=True)
-    return members + mass_matrix(configurations, members=False)
+    ends, more = configurations.ends, _more_than_lumped(configurations)
+    members: FloatArray = np.einsum("teim,eij,tejn->tmn", ends, more, ends, optimize=True)
+    return mass_matrix(configurations) + members
 
 
 def consistent_load(configurations: Configurations) -> FloatArray:
-    """P = -sum of E^T m_e a_e, and the lumps' -m a, shape (times, m), of the mechanism that moves as a rigid one.
+    """What consistent masses add to the inertia load of the lumps, shape (times, m): the sum of -E^T (m_e - lumps) a_e.
 
-    A rigid member's acceleration is linear along it, so that the matrices m_e give its inertia forces exactly.
+    A rigid member's acceleration a_e is linear along it, so that m_e gives its inertia forces exactly.
     """
-    pose, linkage = configurations.pose, configurations.linkage
-    places = linkage.freedoms.places
-    loads = system_forces(configurations, inertia_forces(configurations, members=False))
-    for number, (element, mass) in enumerate(zip(linkage.elements, _element_masses(configurations), strict=True)):
-        along = pose.turned(element.member.body, element.along)
-        across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-        rigid = []
-        for place in (places[element.start], places[element.end]):
-            ax, ay, turn = pose.acceleration_of(place.body, place.point)
-            a = np.stack([ax, ay], axis=1)
-            rigid += [np.sum(along * a, axis=1), np.sum(across * a, axis=1), turn]
-        loads = loads - np.einsum("tim,ij,jt->tm", configurations.ends[:, number], mass, np.array(rigid), optimize=True)
-    return loads
+    ends, more = configurations.ends, _more_than_lumped(configurations)
+    rigid = np.stack([_rigid(configurations, element) for element in configurations.linkage.elements], axis=1)
+    load: FloatArray = -np.einsum("teim,eij,tej->tm", ends, more, rigid, optimize=True)
+    return load
+
+
+def _more_than_lumped(configurations: Configurations) -> FloatArray:
+    """m_e less half of the mass at either end, shape (elements, 6, 6)."""
+    found = []
+    for element in configurations.linkage.elements:
+        mass = element.member.density * element.member.section.area * element.length
+        found.append(beam_mass(mass, element.length) - np.diag(mass / 2 * np.array([1.0, 1.0, 0.0, 1.0, 1.0, 0.0])))
+    return np.array(found)
+
+
+def _rigid(configurations: Configurations, element: Element) -> FloatArray:
+    """Accelerations of the two ends along the element, to its left, and of its angle, shape (times, 6)."""
+    pose, member = configurations.pose, element.member
+    vector = (member.end[0] - member.start[0], member.end[1] - member.start[1])
+    along = pose.turned(member.body, vector) / element.length
+    columns = []
+    for point in (member.start, member.end):
+        a = pose.acceleration_of(member.body, point)
+        columns += [dot(a[:, :2], along), dot(a[:, :2], left(along)), a[:, 2]]
+    return np.stack(columns, axis=1)

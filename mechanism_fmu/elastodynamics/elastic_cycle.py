@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -66,6 +66,19 @@ class ElasticCycle:
             self.period,
             *(resampled(part, count) for part in (self.mass, self.damping, self.stiffness, self.load)),
         )
+
+    def faster(self, factor: float) -> ElasticCycle:
+        """The cycle at `factor` times the speed: a period so much shorter, and a load of the square.
+
+        That holds where only inertia loads the linkage, and it turns in the same way; K, and C for the same ratios, are
+        those of the positions.
+
+        Raises:
+            ValueError: the factor is not positive and finite.
+        """
+        if not 0.0 < factor < np.inf:
+            raise ValueError(f"the speed is {factor:g} times as high, but that must be positive and finite.")
+        return replace(self, period=self.period / factor, load=self.load * factor**2)
 
     def size(self, u: FloatArray) -> float:
         """Root of the largest u^T K u of the cycle, for u of shape (T, n): it counts lengths and angles alike."""

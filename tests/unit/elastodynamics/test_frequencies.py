@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
-from tests import bending_four_bar as four_bar
+from tests.elastodynamics_oracle import oracle
 
 
 def random_pair(seed, n=4, positions=3, massless=0):
@@ -61,7 +62,7 @@ def test_a_coordinate_without_mass_has_a_mode_of_infinite_frequency_and_no_dampi
 
 
 def test_the_papers_linkage_has_the_frequencies_of_the_oracle():
-    for case in four_bar.oracle()["frequencies_hz"]:
+    for case in oracle()["frequencies_hz"]:
         K = four_bar.stiffness([math.radians(case["phi_deg"])])
         found = instantaneous_modes(K, four_bar.masses()).hertz[0, :3]
         np.testing.assert_allclose(found, case["first_three"], rtol=1e-8)

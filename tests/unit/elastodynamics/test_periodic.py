@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.periodic import TOLERANCE, periodic_response
-from tests import bending_four_bar as four_bar
+from tests.elastodynamics_oracle import oracle
 
 
 @given(st.integers(0, 10**6), st.integers(1, 6))
@@ -81,7 +82,7 @@ def test_slowly_turned_it_is_the_quasi_static_deviation():
 
 def test_quasi_static_deviation_is_that_of_the_oracle():
     case = four_bar.cycle(rpm=500, samples=360).static()
-    for entry in four_bar.oracle()["case2"]:
+    for entry in oracle()["case2"]:
         np.testing.assert_allclose(case[entry["phi_deg"], :3], entry["delta_P"], rtol=1e-9)
     # Its largest value over the cycle is at 13.309 deg, between two tenths of a degree.
     phi, speed = np.radians(np.linspace(13.25, 13.35, 101)), 500 * math.pi / 30

@@ -3,10 +3,10 @@ import math
 import numpy as np
 import pytest
 
+from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
 from mechanism_fmu.elastodynamics.speeds import critical_speeds, speed_sweep
-from tests import bending_four_bar as four_bar
 
 
 def test_critical_speeds_are_mean_frequencies_over_harmonics():
@@ -38,10 +38,20 @@ def test_the_papers_linkage_peaks_within_a_few_percent_of_a_critical_speed():
     cycle = four_bar.cycle(500, 180)
     mean = critical_speeds(instantaneous_modes(cycle.stiffness, cycle.mass), 10)[0] * 30 / math.pi
     near = mean[7]  # harmonic 8 of the crank meets the first frequency
-    rpm = near * np.array([0.94, 1.0, 1.06])
-    found = speed_sweep(rpm * math.pi / 30, lambda speed: four_bar.cycle(speed * 30 / math.pi, 300), (0, 1))
+    at_500, speeds = four_bar.cycle(500, 300), near * math.pi / 30 * np.array([0.94, 1.0, 1.06])
+    found = speed_sweep(speeds, lambda speed: at_500.faster(speed * 30 / math.pi / 500), (0, 1))
     magnification = found.dynamic / found.static
     assert magnification.argmax() == 1
+
+
+def test_a_faster_cycle_is_that_of_the_faster_linkage():
+    found, expected = four_bar.cycle(500, 24).faster(1.7), four_bar.cycle(850, 24)
+    assert found.period == pytest.approx(expected.period, rel=1e-14)
+    for name in ("mass", "damping", "stiffness", "load"):
+        part = getattr(expected, name)
+        np.testing.assert_allclose(getattr(found, name), part, atol=1e-12 * np.abs(part).max())
+    with pytest.raises(ValueError, match="the speed is 0 times"):
+        expected.faster(0.0)
 
 
 def test_no_harmonics_are_refused():

@@ -1,23 +1,28 @@
-"""The four-bar path generator of Erdman, Sandor and Oakberg, written out by hand from the paper: an oracle.
+"""The four-bar path generator of Erdman, Sandor and Oakberg, written out by hand from the paper, one angle at a time.
 
 Inch, pound-force, second. The coordinates are x, y, rotation of P, x, y, rotation of A, x, y of B, in the global frame.
+It shares no code with `mechanism_fmu.elastodynamics` but the record of the result.
 """
 
-import json
+from __future__ import annotations
+
 import math
-from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
 
+FloatArray = npt.NDArray[np.float64]
+
+#: That of the oracle [in/s2]; the paper's table has 386.08858, which differs in the eighth digit.
 GRAVITY = 9.80665 / 0.0254
 GROUND, CRANK, COUPLER, FOLLOWER, ARM, ALPHA = 10.0, 4.0, 10.0, 8.0, 6.0, math.pi / 6
 YOUNG, AREA, SECOND, WEIGHT = 30e6, 0.125, 0.25 * 0.5**3 / 12, 0.283
 
 
-def pose(phi):
+def pose(phi: FloatArray | float) -> tuple[FloatArray, FloatArray]:
     """Angles of coupler and follower [rad], by the law of cosines, open branch."""
     ax, ay = CRANK * np.cos(phi), CRANK * np.sin(phi)
     diagonal = np.hypot(GROUND - ax, ay)
@@ -28,7 +33,7 @@ def pose(phi):
     return lam, psi
 
 
-def points(phi):
+def points(phi: FloatArray | float) -> FloatArray:
     """Coordinates of P, A, B (with the coupler's angle as rotation of P and of A), shape (T, 8)."""
     lam, psi = pose(phi)
     ax, ay = CRANK * np.cos(phi), CRANK * np.sin(phi)
@@ -37,7 +42,7 @@ def points(phi):
     return np.stack([px, py, lam, ax, ay, lam, bx, by], axis=-1)
 
 
-def accelerations(phi, speed):
+def accelerations(phi: FloatArray, speed: float) -> FloatArray:
     """Second derivative of `points` by time at constant crank speed, from the loop of complex numbers, shape (T, 8)."""
     lam, psi = pose(phi)
     crank, coupler, follower, arm = (
@@ -45,7 +50,7 @@ def accelerations(phi, speed):
         for length, angle in ((CRANK, phi), (COUPLER, lam), (FOLLOWER, psi), (ARM, lam + ALPHA))
     )
 
-    def turned(rest):
+    def turned(rest: npt.NDArray[np.complex128]) -> tuple[FloatArray, FloatArray]:
         """The rates x of coupler and y of follower with `rest` + coupler x = follower y."""
         return (rest / follower).imag / -(coupler / follower).imag, (rest / coupler).imag / (follower / coupler).imag
 
@@ -58,18 +63,18 @@ def accelerations(phi, speed):
     return speed**2 * np.stack(columns, axis=-1)
 
 
-def flexibility():
+def flexibility() -> FloatArray:
     """Element flexibilities in the order of the paper's coordinates, shape (8, 8)."""
     ea, ei = YOUNG * AREA, YOUNG * SECOND
     arm, crank = [ARM / ea, ARM**3 / 3 / ei, ARM / ei], [CRANK / ea, CRANK**3 / 3 / ei]
     f = np.diag([*arm, *crank, COUPLER / 3 / ei, COUPLER / ea, FOLLOWER / ea])
     f[1, 2] = f[2, 1] = ARM**2 / 2 / ei
-    return f
+    return np.asarray(f)
 
 
-def transfer(phi):
+def transfer(phi: float) -> FloatArray:
     """B for the global coordinates at one angle, shape (8, 8): the corrected eq (13), B's column resolved obliquely."""
-    lam, psi = pose(phi)
+    lam, psi = map(float, pose(phi))
     beta = lam + ALPHA
     m = np.array([-ARM * math.sin(beta), ARM * math.cos(beta), 1.0])
     N = m / (COUPLER * math.sin(psi - lam))
@@ -95,7 +100,7 @@ def transfer(phi):
     return B
 
 
-def masses():
+def masses() -> FloatArray:
     """Lumped masses: half of each link's at each end, and the disks, shape (8, 8)."""
     arm, crank, coupler, follower = (WEIGHT * AREA * length / 2 for length in (ARM, CRANK, COUPLER, FOLLOWER))
     at_p, at_a, at_b = 0.5 + arm, 0.1 + crank + coupler + arm, 0.1 + coupler + follower
@@ -103,22 +108,17 @@ def masses():
     return np.diag([at_p, at_p, turn_p, at_a, at_a, turn_a, at_b, at_b]) / GRAVITY
 
 
-def stiffness(phi):
+def stiffness(phi: FloatArray) -> FloatArray:
     """K = (B^T F B)^-1 at the angles `phi`, shape (T, 8, 8)."""
     f = flexibility()
     B = np.array([transfer(angle) for angle in phi])
     return np.linalg.inv(B.swapaxes(1, 2) @ f @ B)
 
 
-def cycle(rpm, samples, ratio=0.02):
+def cycle(rpm: float, samples: int, ratio: float = 0.02) -> ElasticCycle:
     """Case 3 at constant speed: a turn with `ratio` of damping in every mode."""
     speed = rpm * math.pi / 30
     phi = 2 * math.pi / samples * np.arange(samples)
     K, M = stiffness(phi), masses()
     C = instantaneous_modes(K, M).damping(ratio)
     return ElasticCycle(2 * math.pi / speed, M, C, K, -accelerations(phi, speed) @ M)
-
-
-def oracle():
-    """The numbers of the oracle file."""
-    return json.loads((Path(__file__).parent / "data" / "elastodynamics.json").read_text())
