@@ -1,0 +1,73 @@
+"""One turn of a mechanism at constant speed, whatever drives it in a simulation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..kinematics import KinematicMotion, KinematicsError, analyse
+from ..model import GROUND, AngleDriver, Mechanism, MechanismError, polynomial_motion
+from .configuration import Configurations, configurations
+from .errors import LinkageError
+from .linkage import linkage
+
+#: Name of the driver that turns the crank; its reaction is the input torque.
+DRIVE = "constant_speed"
+
+
+def crank_of(mechanism: Mechanism) -> str:
+    """The body that turns a mechanism: that of its driver of an angle against the ground, or whose angle is held.
+
+    Raises:
+        LinkageError: there is none, or another one besides.
+    """
+    driven = [j.body_j for j in mechanism.joints if isinstance(j, AngleDriver) and j.body_i == GROUND]
+    others = [j.name for j in mechanism.joints if j.motion is not None and j.name not in _angle_drivers(mechanism)]
+    held = [] if driven or others else [name.rpartition(".") for name in mechanism.held]
+    found = [*driven, *(body for body, _, what in held if what == "angle")]
+    if len(found) == 1 and not others and all(what == "angle" for _, _, what in held):
+        return found[0]
+    what = ", ".join([*found, *others, *(".".join((b, w)) for b, _, w in held if w != "angle")]) or "nothing"
+    raise LinkageError(
+        f"One body must turn the mechanism, but what its drivers and held coordinates move is: {what}. Drive one angle "
+        'against the ground with an AngleDriver, or hold one: Mechanism(..., held=("crank.angle",)).'
+    )
+
+
+def turn(mechanism: Mechanism, speed: float, samples: int) -> Configurations:
+    """A whole turn of the crank, counter-clockwise, its end included, at even times.
+
+    Args:
+        mechanism: with members, and a crank of `crank_of`; drivers and held coordinates give way to a constant speed.
+        speed: of the crank [rad/s].
+        samples: steps of the turn; its angles are multiples of 2 pi / samples, from the first one at or behind the
+            angle at the start on.
+
+    Raises:
+        LinkageError: the crank cannot turn fully, or the mechanism is no structure of members.
+    """
+    crank = crank_of(mechanism)
+    start = next(float(body.start[2]) for body in mechanism.bodies if body.name == crank)
+    step = 2 * math.pi / samples
+    # a start within rounding of a multiple is one
+    first = math.ceil(start / step - 1e-9)
+    angles = step * np.arange(first, first + samples + 1)
+    times = np.maximum((angles - start) / speed, 0.0)
+    driver = AngleDriver(DRIVE, crank, polynomial_motion(start, speed))
+    joints = tuple(joint for joint in mechanism.joints if joint.name not in _angle_drivers(mechanism))
+    driven = replace(mechanism, joints=(*joints, driver), held=())
+    try:
+        motion = analyse(driven, times if times[0] == 0.0 else np.concatenate([[0.0], times]))
+    except (KinematicsError, MechanismError) as error:
+        raise LinkageError(f"The mechanism cannot follow a whole turn of {crank!r} at constant speed: {error}") from error
+    rows = slice(len(motion.time) - len(times), None)
+    whole = KinematicMotion(
+        motion.coordinates, times - times[0], motion.position[rows], motion.velocity[rows], motion.acceleration[rows]
+    )
+    return configurations(linkage(driven), whole)
+
+
+def _angle_drivers(mechanism: Mechanism) -> set[str]:
+    return {j.name for j in mechanism.joints if isinstance(j, AngleDriver) and j.body_i == GROUND}
