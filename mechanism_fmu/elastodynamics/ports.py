@@ -47,6 +47,4 @@ def elastic_ports(mechanism: Mechanism) -> ElasticPorts:
 
     members = {member.name for member in mechanism.members}
     outputs = {port.source: port.name for port in mechanism.outputs if port.source.partition(".")[0] in members}
-    return ElasticPorts(
-        crank, of(Torque, "torque"), of(CompliantShaft, "speed"), of(CompliantShaft, "angle"), outputs
-    )
+    return ElasticPorts(crank, of(Torque, "torque"), of(CompliantShaft, "speed"), of(CompliantShaft, "angle"), outputs)

@@ -12,7 +12,7 @@ from .errors import LinkageError
 from .friction import Rubbing, rubbing_joints
 from .locks import held_coordinates, is_driver
 from .pose import left
-from .rows import rotation_rows, translation_rows
+from .rigid_rows import rigid_rows
 
 #: Friction is found when no force changes any more by this part of the largest; this often it is tried.
 _SETTLED, _ROUNDS = 1e-13, 200
@@ -59,7 +59,7 @@ def reactions(configurations: Configurations, forces: FloatArray) -> Reactions:
         LinkageError: the rigid mechanism can move although its drivers stand still, always or in one configuration, or
             friction does not settle: a joint is about to lock itself.
     """
-    rows, owners = _rigid_rows(configurations)
+    rows, owners = rigid_rows(configurations.linkage.mechanism, configurations.pose)
     inverse = _inverse(rows, configurations.pose.time)
     joints = rubbing_joints(configurations)
     friction = np.zeros_like(forces)
@@ -92,33 +92,6 @@ def power_of(configurations: Configurations, forces: FloatArray) -> FloatArray:
     pose = configurations.pose
     loads = _on_bodies(configurations, forces)
     return np.einsum("tk,tk->t", loads, pose.velocity[:, :-1].reshape(loads.shape))
-
-
-def _rigid_rows(configurations: Configurations) -> tuple[FloatArray, tuple[str, ...]]:
-    """Phi_q of joints, drivers and held coordinates, shape (times, rows, 3 bodies), and whose each row is."""
-    mechanism, pose = configurations.linkage.mechanism, configurations.pose
-    found: list[FloatArray] = []
-    owners: list[str] = []
-    for joint in mechanism.joints:
-        for row in (*translation_rows(joint, pose), *rotation_rows(joint, pose)):
-            wide = np.zeros((len(pose.time), len(pose.bodies), 3))
-            for body, point, part in (
-                (joint.body_i, getattr(joint, "point_i", (0.0, 0.0)), row[:, :3]),
-                (joint.body_j, getattr(joint, "point_j", (0.0, 0.0)), row[:, 3:]),
-            ):
-                arm = left(pose.turned(body, point))
-                k = pose.bodies.index(body)
-                wide[:, k, :2] += part[:, :2]
-                wide[:, k, 2] += part[:, 2] + np.einsum("tk,tk->t", part[:, :2], arm)
-            found.append(wide)
-            owners.append(joint.name)
-    for body, what in held_coordinates(mechanism):
-        wide = np.zeros((len(pose.time), len(pose.bodies), 3))
-        wide[:, pose.bodies.index(body), ("x", "y", "angle").index(what)] = 1.0
-        found.append(wide)
-        owners.append(f"{body}.{what}")
-    rows = np.stack(found, axis=1)[:, :, :-1]  # the ground does not move
-    return rows.reshape(*rows.shape[:2], -1), tuple(owners)
 
 
 def _inverse(rows: FloatArray, time: FloatArray) -> FloatArray:

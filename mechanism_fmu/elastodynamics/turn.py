@@ -7,11 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..kinematics import KinematicMotion, KinematicsError, analyse
-from ..model import GROUND, AngleDriver, Mechanism, MechanismError, polynomial_motion
+from ..kinematics import KinematicMotion
+from ..model import GROUND, AngleDriver, Mechanism, polynomial_motion
+from .closure import closed_at
 from .configuration import Configurations, configurations
 from .errors import LinkageError
+from .fourier import FloatArray, coefficients, evaluate, even_angles
 from .linkage import linkage
+
+#: What a turn may end beside its beginning [m, rad], for a mechanism of the size 1 m.
+_REPEATS = 1e-9
 
 #: Name of the driver that turns the crank; its reaction is the input torque.
 DRIVE = "constant_speed"
@@ -39,6 +44,9 @@ def crank_of(mechanism: Mechanism) -> str:
 def turn(mechanism: Mechanism, speed: float, samples: int) -> Configurations:
     """A whole turn of the crank, counter-clockwise, its end included, at even times.
 
+    Positions are exact to rounding; accelerations are derivatives of the series through the velocities, which 360
+    samples of a linkage that stays away from dead centres determine to rounding, too.
+
     Args:
         mechanism: with members, and a crank of `crank_of`; drivers and held coordinates give way to a constant speed.
         speed: of the crank [rad/s].
@@ -54,19 +62,29 @@ def turn(mechanism: Mechanism, speed: float, samples: int) -> Configurations:
     # a start within rounding of a multiple is one
     first = math.ceil(start / step - 1e-9)
     angles = step * np.arange(first, first + samples + 1)
-    times = np.maximum((angles - start) / speed, 0.0)
     driver = AngleDriver(DRIVE, crank, polynomial_motion(start, speed))
     joints = tuple(joint for joint in mechanism.joints if joint.name not in _angle_drivers(mechanism))
     driven = replace(mechanism, joints=(*joints, driver), held=())
-    try:
-        motion = analyse(driven, times if times[0] == 0.0 else np.concatenate([[0.0], times]))
-    except (KinematicsError, MechanismError) as error:
-        raise LinkageError(f"The mechanism cannot follow a whole turn of {crank!r} at constant speed: {error}") from error
-    rows = slice(len(motion.time) - len(times), None)
-    whole = KinematicMotion(
-        motion.coordinates, times - times[0], motion.position[rows], motion.velocity[rows], motion.acceleration[rows]
+    before = [start] if start < angles[0] else []
+    position, rate = (part[len(before) :] for part in closed_at(driven, np.array([*before, *angles])))
+    gap = np.abs(position[-1] - position[0] - 2 * math.pi * np.round(rate.mean(axis=0)) * _angular(driven)).max()
+    if gap > _REPEATS * max(1.0, np.abs(position).max()):
+        raise LinkageError(
+            f"After one turn of {crank!r} the mechanism is not where it was, by {gap:.3g} m or rad. Choose a "
+            "crank of whose every turn the motion repeats."
+        )
+    # q'' by the trigonometric series of q', which repeats
+    second = evaluate(coefficients(rate[:-1]), even_angles(samples), 1)
+    names = tuple(f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle"))
+    motion = KinematicMotion(
+        names, (angles - angles[0]) / speed, position, speed * rate, speed**2 * np.vstack([second, second[:1]])
     )
-    return configurations(linkage(driven), whole)
+    return configurations(linkage(driven), motion)
+
+
+def _angular(mechanism: Mechanism) -> FloatArray:
+    """1 for each coordinate that is an angle, else 0."""
+    return np.tile([0.0, 0.0, 1.0], len(mechanism.bodies))
 
 
 def _angle_drivers(mechanism: Mechanism) -> set[str]:
