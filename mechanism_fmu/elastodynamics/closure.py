@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..kinematics import KinematicMotion
-from ..model import Distance, Mechanism, Translational
+from ..model import Distance, Mechanism, RevoluteTranslational, Translational
 from .elements import FloatArray
 from .errors import LinkageError
 from .pose import Pose, dot, left, pose_of
@@ -87,6 +87,8 @@ def _residual(mechanism: Mechanism, pose: Pose, angles: FloatArray) -> FloatArra
             found.append(dot(row[:, 3:5], between))
         if isinstance(joint, Distance):
             found[-1] = found[-1] - joint.length
+        if isinstance(joint, RevoluteTranslational):
+            found[-1] = found[-1] - joint.distance
         if isinstance(joint, Translational):
             along_i, along_j = pose.turned(joint.body_i, joint.axis_i), pose.turned(joint.body_j, joint.axis_j)
             found.append(np.arctan(dot(left(along_i), along_j) / dot(along_i, along_j)))

@@ -1,0 +1,134 @@
+"""What a turn of a bending linkage comes to."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from mechanism_fmu.elastodynamics import Fluctuation
+
+from ..checks import Check
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Bent:
+    """The linkage as it is bent, quasi-statically or in its periodic motion.
+
+    Attributes:
+        deflection: (x, y, rotation) of the place, shape (angles, 3) [m, m, rad].
+        stress: the largest in each member, shape (angles, members) [Pa].
+        ends: (along, left, rotation) of start and end of each member, shape (angles, members, 6) [m, m, rad].
+        largest_deviation: over the continuous turn [m].
+        largest_at: the crank's angle there [rad].
+    """
+
+    deflection: FloatArray
+    stress: FloatArray
+    ends: FloatArray
+    largest_deviation: float
+    largest_at: float
+
+    @property
+    def deviation(self) -> FloatArray:
+        """How far the place is off its rigid path, shape (angles,) [m]."""
+        return np.hypot(self.deflection[:, 0], self.deflection[:, 1])
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """The rigid motion.
+
+    Attributes:
+        path: of the place, shape (angles, 2) [m].
+        starts, ends: of each member, shape (angles, members, 2) [m].
+        torque: on the crank, shape (angles,) [N m].
+        fluctuation: of the torque.
+        power_gap: the largest of the power balance, in parts of the largest power.
+    """
+
+    path: FloatArray
+    starts: FloatArray
+    ends: FloatArray
+    torque: FloatArray
+    fluctuation: Fluctuation
+    power_gap: float
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Largest deviation of the periodic motion and of the quasi-static one at each speed [rad/s, m, m]."""
+
+    speed: FloatArray
+    dynamic: FloatArray
+    static: FloatArray
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A turn at constant speed.
+
+    Attributes:
+        speed: of the crank [rad/s].
+        damping: ratio of every mode [1].
+        place: whose path it is about, e.g. "arm.end".
+        members: their names.
+        angle: of the crank, ascending from 0 on [rad], shape (angles,).
+        rigid, static, dynamic: the rigid motion, bent by its inertia, and bent in periodic motion.
+        frequencies: of the linkage frozen at each angle, ascending, shape (angles, modes) [Hz]; infinite without mass.
+        critical: speeds at which harmonic h of the crank meets mode i, shape (modes, harmonics) [rad/s].
+        residual: what is left of the equations of the periodic motion.
+        notes: what is to be said of the calculation.
+    """
+
+    speed: float
+    damping: float
+    place: str
+    members: tuple[str, ...]
+    angle: FloatArray
+    rigid: Rigid
+    static: Bent
+    dynamic: Bent
+    frequencies: FloatArray
+    critical: FloatArray
+    residual: float
+    notes: tuple[str, ...]
+
+    @property
+    def degrees(self) -> FloatArray:
+        """The crank's angles [deg]; whole numbers are so, whatever the radians have lost."""
+        return np.round(np.degrees(self.angle), 9)
+
+    @property
+    def modes(self) -> int:
+        """How many modes have a finite frequency at every angle."""
+        return int(np.isfinite(self.frequencies).all(axis=0).sum())
+
+    @property
+    def rpm(self) -> float:
+        """The speed in turns a minute."""
+        return self.speed * 30 / math.pi
+
+
+#: What is left of the power balance, and of the equations of the periodic motion, at most.
+_POWER, _RESIDUAL = 1e-9, 1e-8
+
+
+def solution_checks(found: Solution) -> tuple[Check, ...]:
+    """Whether the calculation is consistent."""
+    return (
+        Check(
+            "The power balance of the rigid motion closes",
+            found.rigid.power_gap <= _POWER,
+            f"largest gap {found.rigid.power_gap:.1e} of the largest power; limit {_POWER:g}",
+        ),
+        Check(
+            "The periodic motion fulfils its equations at all angles",
+            found.residual <= _RESIDUAL,
+            f"{found.residual:.1e} of the motion is left; limit {_RESIDUAL:g}",
+        ),
+    )
