@@ -70,7 +70,7 @@ class Assembly:
         return KinematicMotion(names, np.zeros(1), position, np.zeros_like(position), np.zeros_like(position))
 
     def frame(self, sections):
-        """What moves the ends of bars, (bars, 2, 3), under forces on them, and (N, M, M), as a function of the forces."""
+        """What moves the ends of bars, (bars, 2, 3), and (N, M, M), as a function of the forces on them."""
         names = [(body, bar) for body, bars in self.bars.items() for bar in bars]
         rigid = [body for body in self.frames if not self.bars.get(body)]
         count = 6 * len(names) + 3 * len(rigid)
@@ -160,7 +160,7 @@ def turning(along):
 def random_assembly(numbers, kinds):
     """A crank, and a pair of bodies for each of `kinds`: links ("dyad") or a link and a slider ("block", "pin").
 
-    A pair hangs on the ground or on an earlier body; every other one carries a bar to a path point, welded on. `numbers`
+    A pair hangs on an earlier body; every other one carries a bar to a path point, welded on. `numbers`
     is a `numpy.random.Generator`; points are drawn until the pairs are far from flat.
     """
     made = Assembly()
