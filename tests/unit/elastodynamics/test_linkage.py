@@ -83,9 +83,10 @@ def test_drivers_hold_the_mechanism_and_without_them_its_held_coordinates():
     one = configurations(linkage(MECHANISM), still(MECHANISM)).transfer
     for other in (held, both):
         np.testing.assert_array_equal(configurations(linkage(other), still(other)).transfer, one)
-    assert not np.allclose(
-        configurations(linkage(replace(held, held=("coupler.angle",))), still(held)).transfer.shape, one.shape
-    )
+    other = configurations(linkage(replace(held, held=("follower.angle",))), still(held))
+    assert "follower_bar.transverse" in other.linkage.coordinates
+    with pytest.raises(LinkageError, match="'coupler.angle' turns 'coupler' against 'ground', which have 0 pins"):
+        linkage(replace(held, held=("coupler.angle",)))
 
 
 def test_all_configurations_at_once_are_each_of_them():
@@ -164,7 +165,7 @@ REFUSALS = {
     "an unknown joint": (
         arm(
             bodies=(*arm().bodies, Body("wheel", 1.0, 1.0)),
-            joints=(*arm().joints, Gears("gears", "arm", "wheel", 0.1, 0.1)),
+            joints=(*arm().joints, Gears("gears", "arm", "wheel", 0.1, 0.1, 0.0, 0.0)),
         ),
         "Gears 'gears': the flexibility approach knows",
     ),
