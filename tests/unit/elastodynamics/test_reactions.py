@@ -100,7 +100,6 @@ def test_reactions_of_a_four_bar_are_the_engines(friction, damping):
     cycle = quasi_static(configurations(linkage(mechanism), motion))
     found = np.hstack([cycle.reactions.of(pin) for pin in (*PINS, "drive")])
     np.testing.assert_allclose(found, wanted, rtol=1e-6, atol=1e-6 * np.abs(wanted).max())
-    assert np.abs(cycle.power.balance).max() < 1e-9 * np.abs(cycle.power.kinetic).max()
     assert np.all(cycle.power.lost > 0.0) == (friction + damping > 0.0)
 
 
@@ -111,7 +110,6 @@ def test_reactions_of_a_slider_crank_are_the_engines(friction, damping):
     cycle = quasi_static(configurations(linkage(mechanism), motion))
     found = np.hstack([cycle.reactions.of(joint)[:, :1] for joint in ("drive", "guide")])
     np.testing.assert_allclose(found, wanted, rtol=1e-6, atol=1e-6 * np.abs(wanted).max())
-    assert np.abs(cycle.power.balance).max() < 1e-9 * np.abs(cycle.power.kinetic).max()
 
 
 def test_friction_bends_the_members():
@@ -145,6 +143,7 @@ def test_over_a_cycle_the_drive_works_for_friction_only():
     times = np.linspace(0.0, 2 * math.pi / 6.0, 181)
     cycle = quasi_static(configurations(linkage(mechanism), analyse(mechanism, times)))
     power, torque = cycle.power, cycle.reactions.of("drive")[:, 0]
+    assert np.abs(power.balance).max() < 1e-12 * np.abs(power.kinetic).max()
     work = np.trapezoid(power.lost, times)
     assert np.trapezoid(power.drives, times) == pytest.approx(work, rel=1e-6)
     found = torque_fluctuation(6.0 * times, torque)
