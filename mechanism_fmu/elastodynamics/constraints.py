@@ -56,7 +56,7 @@ def guided(mechanism: Mechanism, freedoms: Freedoms, pose: Pose) -> dict[tuple[i
 
 
 def _rigid_rows(mechanism: Mechanism, freedoms: Freedoms, pose: Pose) -> list[tuple[FloatArray, str, int, int]]:
-    """U_k - u_0 - theta R A s_k = 0 of the places k of a rigid body: rows, body, and places 0 and k."""
+    """The rows u_k - u_0 - theta R A s_k = 0 of the places k of a rigid body: rows, body, and places 0 and k."""
     found = []
     flexible = {member.body for member in mechanism.members}
     for body in mechanism.bodies:

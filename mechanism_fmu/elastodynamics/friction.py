@@ -39,7 +39,7 @@ class Rubbing:
     def effort(self, carried: FloatArray) -> FloatArray:
         """What opposes the slip, for the force that the joint carries, shape (times,) [N] to (times,) [N m, or N].
 
-        Coulomb: coefficient (times radius) times force, against the slip, and none at rest; viscous: damping times slip.
+        Coulomb: coefficient (times radius) times force, none at rest; viscous: damping times slip.
         """
         return -self.coulomb * carried * np.sign(self.slip) - self.viscous * self.slip
 

@@ -1,4 +1,4 @@
-"""Forces in the joints of the rigid mechanism, and what its drivers must do: statics with inertia and friction forces."""
+"""Forces in the joints of the rigid mechanism and of its drivers: statics with inertia and friction forces."""
 
 from __future__ import annotations
 

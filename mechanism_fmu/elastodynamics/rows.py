@@ -6,12 +6,15 @@ them. They are the Jacobians of `mechanism_fmu.model.joints`, with the points th
 
 from __future__ import annotations
 
+from typing import get_args
+
 import numpy as np
 
 from ..model import (
     AngleDriver,
     Distance,
     DistanceDriver,
+    Mechanism,
     Revolute,
     RevoluteTranslational,
     Translational,
@@ -25,6 +28,9 @@ from ..model.joints import Joint
 from .elements import FloatArray
 from .errors import LinkageError
 from .pose import Pose, dot, left
+
+#: Joints with the vector d between their points in their rows.
+Pair = Distance | DistanceDriver | Translational | RevoluteTranslational | TranslationalDriver
 
 _X, _Y = np.array([1.0, 0.0]), np.array([0.0, 1.0])
 
@@ -49,7 +55,22 @@ def translation_rows(joint: Joint, pose: Pose) -> list[FloatArray]:
     if isinstance(joint, (Distance, DistanceDriver)):
         d = _between(joint, pose)
         return [_row(pose, d / np.hypot(d[:, 0], d[:, 1])[:, None], 0.0)]
-    raise LinkageError(
+    raise _unknown(joint)
+
+
+def require_known(mechanism: Mechanism) -> None:
+    """Refuse a mechanism with joints of other kinds than the flexibility approach knows.
+
+    Raises:
+        LinkageError: with the name of the first one.
+    """
+    for joint in mechanism.joints:
+        if not isinstance(joint, (Revolute, AngleDriver, XDriver, YDriver, *get_args(Pair))):
+            raise _unknown(joint)
+
+
+def _unknown(joint: Joint) -> LinkageError:
+    return LinkageError(
         f"{type(joint).__name__} {joint.name!r}: the flexibility approach knows pins, sliders, guides, rods and "
         "drivers; of other pairs, leave them out and give their forces as loads."
     )
@@ -70,16 +91,14 @@ def guide_axis(joint: Translational | RevoluteTranslational, pose: Pose) -> Floa
 
 
 def _row(pose: Pose, direction: FloatArray, turn: FloatArray | float) -> FloatArray:
-    """Direction . (u_j - u_i) + turn theta_i."""
+    """The row of direction . (u_j - u_i) + turn theta_i."""
     row = np.zeros((len(pose.time), 6))
     row[:, 0:2], row[:, 2], row[:, 3:5] = -direction, turn, direction
     return row
 
 
-def _between(
-    joint: Distance | DistanceDriver | Translational | RevoluteTranslational | TranslationalDriver, pose: Pose
-) -> FloatArray:
-    """D = r_j^P - r_i^P, shape (times, 2) [m]."""
+def _between(joint: Pair, pose: Pose) -> FloatArray:
+    """The vector d = r_j^P - r_i^P, shape (times, 2) [m]."""
     return pose.place(joint.body_j, joint.point_j) - pose.place(joint.body_i, joint.point_i)
 
 

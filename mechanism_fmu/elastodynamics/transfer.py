@@ -38,8 +38,9 @@ def transfer_matrix(
     n, m = compatibility.shape[1:]
     if n < m:
         raise LinkageError(
-            f"{m} displacements are free, but members resist in {n} ways only: {_moving(compatibility[0], coordinates)} "
-            "can move although driven or held coordinates stand still. Hold or drive one more, or give a body members."
+            f"{m} displacements are free, but members resist in {n} ways only: "
+            f"{_moving(compatibility[0], coordinates)} can move although driven or held coordinates stand still. "
+            "Hold or drive one more, or give a body members."
         )
     transfer = _inverse(compatibility) if n == m else _with_redundants(compatibility, flexibility)
     condition = np.linalg.norm(compatibility / scale, axis=(1, 2)) * np.linalg.norm(transfer * scale, axis=(1, 2))
