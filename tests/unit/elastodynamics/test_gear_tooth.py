@@ -43,8 +43,9 @@ def plate_flank(height, end, half_contact, angle):
 def test_bending_and_shear_are_those_of_a_plate(height, end):
     expected, found = plate_end(height, end), GearTooth(height, 1.0, end, 1.0, E, NU).flexibility()
     # The clamped root of the plate cannot warp: the plate is stiffer than the beam, the more so the stubbier it is.
-    for i, j in ((1, 1), (1, 2), (2, 2)):
-        assert 0.0 < found[i, j] / expected[i, j] - 1 < 0.04 / height**0.5, (i, j)
+    assert 0.0 < found[1, 1] / expected[1, 1] - 1 < 0.04 / height**0.5
+    assert 0.0 < found[1, 2] / expected[1, 2] - 1 < 0.055 / height
+    assert 0.0 < found[2, 2] / expected[2, 2] - 1 < 0.04 / height
     # Along a tapered tooth the lines of force spread, which the beam does not know.
     assert abs(found[0, 0] / expected[0, 0] - 1) < 0.05 / height
     assert abs(expected[0, 1]) < 1e-9 * expected[0, 0]
