@@ -12,8 +12,9 @@ from ..kinematics import KinematicMotion
 from .constraints import constraint_rows, guided
 from .elements import FloatArray
 from .elimination import independent_basis
-from .freedoms import RELEASED, named_place
+from .freedoms import RELEASED
 from .linkage import Linkage
+from .places import named_place
 from .pose import Pose, left, pose_of
 from .transfer import transfer_matrix
 

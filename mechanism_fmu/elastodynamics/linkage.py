@@ -15,6 +15,7 @@ from .elements import FloatArray, cantilever, supported_beam, two_force_member
 from .errors import LinkageError
 from .freedoms import RELEASED, Freedoms, find_freedoms
 from .places import place_of
+from .rows import require_known
 
 #: Element coordinates, in the order of an element's deformations.
 _AXIAL, _TRANSVERSE, _ROTATION = "axial", "transverse", "rotation"
@@ -117,6 +118,7 @@ def linkage(mechanism: Mechanism, loaded: Iterable[str] = ()) -> Linkage:
     Raises:
         LinkageError: it is no structure of members; the message says why.
     """
+    require_known(mechanism)
     freedoms = find_freedoms(mechanism, loaded)
     return Linkage(mechanism, freedoms, tuple(_element(mechanism, freedoms, member) for member in mechanism.members))
 

@@ -6,12 +6,15 @@ them. They are the Jacobians of `mechanism_fmu.model.joints`, with the points th
 
 from __future__ import annotations
 
+from typing import get_args
+
 import numpy as np
 
 from ..model import (
     AngleDriver,
     Distance,
     DistanceDriver,
+    Mechanism,
     Revolute,
     RevoluteTranslational,
     Translational,
@@ -52,7 +55,22 @@ def translation_rows(joint: Joint, pose: Pose) -> list[FloatArray]:
     if isinstance(joint, (Distance, DistanceDriver)):
         d = _between(joint, pose)
         return [_row(pose, d / np.hypot(d[:, 0], d[:, 1])[:, None], 0.0)]
-    raise LinkageError(
+    raise _unknown(joint)
+
+
+def require_known(mechanism: Mechanism) -> None:
+    """Refuse a mechanism with joints of other kinds than the flexibility approach knows.
+
+    Raises:
+        LinkageError: with the name of the first one.
+    """
+    for joint in mechanism.joints:
+        if not isinstance(joint, (Revolute, AngleDriver, XDriver, YDriver, *get_args(Pair))):
+            raise _unknown(joint)
+
+
+def _unknown(joint: Joint) -> LinkageError:
+    return LinkageError(
         f"{type(joint).__name__} {joint.name!r}: the flexibility approach knows pins, sliders, guides, rods and "
         "drivers; of other pairs, leave them out and give their forces as loads."
     )

@@ -25,13 +25,14 @@ class Assembly:
     Attributes:
         bars: by body, pairs of points; none for rigid bodies.
         pins: body, body, point.
-        sliders: body, point, direction on the ground: a block that does not turn ("block") or a bare pin ("pin").
+        sliders: a block that does not turn ("block") or a bare pin ("pin"), the body with the guide, the body with the
+            point, the point, and the direction of the guide.
         frames: by body, the place and angle of its frame.
     """
 
     bars: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
     pins: list[tuple[str, str, complex]] = field(default_factory=list)
-    sliders: list[tuple[str, str, complex, complex]] = field(default_factory=list)
+    sliders: list[tuple[str, str, str, complex, complex]] = field(default_factory=list)
     frames: dict[str, tuple[complex, float]] = field(default_factory=dict)
 
     def local(self, body, point):
@@ -41,6 +42,10 @@ class Assembly:
         turned = (point - origin) * np.exp(-1j * angle)
         return float(turned.real), float(turned.imag)
 
+    def axis(self, body, along):
+        turned = along * np.exp(-1j * self.frames[body][1]) if body != GROUND else along
+        return float(turned.real), float(turned.imag)
+
     def mechanism(self, sections):
         bodies = [
             Body(name, 1.0, 1.0, (origin.real, origin.imag, angle)) for name, (origin, angle) in self.frames.items()
@@ -48,14 +53,13 @@ class Assembly:
         joints = [
             Revolute(f"pin{k}", i, self.local(i, p), j, self.local(j, p)) for k, (i, j, p) in enumerate(self.pins)
         ]
-        for k, (kind, body, point, along) in enumerate(self.sliders):
-            axis, place = (along.real, along.imag), self.local(GROUND, point - 0.3 * along)
+        for k, (kind, base, body, point, along) in enumerate(self.sliders):
+            guide = base, self.local(base, point - 0.3 * along), self.axis(base, along)
             if kind == "pin":
-                joints.append(RevoluteTranslational(f"guide{k}", GROUND, place, axis, body, self.local(body, point)))
+                joints.append(RevoluteTranslational(f"guide{k}", *guide, body, self.local(body, point)))
             else:
-                own = along * np.exp(-1j * self.frames[body][1])
-                point_j = self.local(body, point)
-                joints.append(Translational(f"guide{k}", GROUND, place, axis, body, point_j, (own.real, own.imag)))
+                axis = self.axis(body, along)
+                joints.append(Translational(f"guide{k}", *guide, body, self.local(body, point), axis))
         members, each = [], iter(sections)
         for body, bars in self.bars.items():
             for k, (a, b) in enumerate(bars):
@@ -70,7 +74,7 @@ class Assembly:
         return KinematicMotion(names, np.zeros(1), position, np.zeros_like(position), np.zeros_like(position))
 
     def frame(self, sections):
-        """What moves the ends of bars, (bars, 2, 3), under forces on them, and (N, M, M), as a function of the forces."""
+        """What moves the ends of bars, (bars, 2, 3), and (N, M, M), as a function of the forces on them."""
         names = [(body, bar) for body, bars in self.bars.items() for bar in bars]
         rigid = [body for body in self.frames if not self.bars.get(body)]
         count = 6 * len(names) + 3 * len(rigid)
@@ -105,8 +109,8 @@ class Assembly:
         rows += [(at(i, p) - at(j, p))[:2] for i, j, p in self.pins]
         hinge = next(p for i, j, p in self.pins if {i, j} == {"crank", GROUND})
         rows.append(at("crank", hinge)[2:])
-        for kind, body, point, along in self.sliders:
-            moved = at(body, point)
+        for kind, base, body, point, along in self.sliders:
+            moved = at(body, point) - at(base, point)
             rows.append((-along.imag * moved[0] + along.real * moved[1])[None])
             if kind == "block":
                 rows.append(moved[2:])
@@ -158,10 +162,12 @@ def turning(along):
 
 
 def random_assembly(numbers, kinds):
-    """A crank, and a pair of bodies for each of `kinds`: links ("dyad") or a link and a slider ("block", "pin").
+    """A crank, and what each of `kinds` says, hung on a body before it.
 
-    A pair hangs on the ground or on an earlier body; every other one carries a bar to a path point, welded on. `numbers`
-    is a `numpy.random.Generator`; points are drawn until the pairs are far from flat.
+    A link with a rocker ("dyad"), with one that is rigid ("rigid"), with a block in a guide ("block") or with a bare
+    pin in it ("pin"), where every other link carries a bar to a path point, welded on; a rigid arm that a pin slides in
+    ("arm"); or a link to the ground too many ("brace"). `numbers` is a `numpy.random.Generator`; points are drawn until
+    two links are far from flat.
     """
     made = Assembly()
 
@@ -180,10 +186,25 @@ def random_assembly(numbers, kinds):
     outputs = [("crank", tip)]
     for k, kind in enumerate(kinds):
         body, start = outputs[int(numbers.integers(len(outputs)))]
+        if kind == "brace":
+            body, start = outputs[-1]
+            hinge = point_from(start)
+            new_body(f"brace{k}", (start, hinge))
+            made.pins += [(f"brace{k}", body, start), (f"brace{k}", GROUND, hinge)]
+            continue
+        if kind == "arm":
+            arm, hinge = f"arm{k}", point_from(start)
+            new_body(arm)
+            made.frames[arm] = (point_from(hinge), float(numbers.uniform(-7, 7)))
+            made.pins.append((arm, GROUND, hinge))
+            made.sliders.append(("pin", arm, body, start, (start - hinge) / abs(start - hinge)))
+            outputs = [(arm, point_from(hinge))]  # so that the next one hangs on the arm
+            continue
         while True:
             middle = point_from(start)
-            other = ("block", middle) if kind != "dyad" else (GROUND, point_from(middle))
-            along = np.exp(1j * numbers.uniform(0, 2 * math.pi)) if kind != "dyad" else 1j * (other[1] - middle)
+            hinge = point_from(middle)
+            is_guided = kind in ("block", "pin")
+            along = np.exp(1j * numbers.uniform(0, 2 * math.pi)) if is_guided else 1j * (hinge - middle)
             reach = abs((np.conj(along) * (middle - start)).real) / abs(along) / abs(middle - start)
             if reach > 0.3:
                 break
@@ -194,19 +215,19 @@ def random_assembly(numbers, kinds):
             outputs.append((link, path))
         new_body(link, *bars)
         made.pins.append((link, body, start))
-        if kind == "dyad":
+        if not is_guided:
             rocker = f"rocker{k}"
-            new_body(rocker, (middle, other[1]))
-            made.pins += [(link, rocker, middle), (rocker, GROUND, other[1])]
+            new_body(rocker, *([(middle, hinge)] if kind == "dyad" else []))
+            made.pins += [(link, rocker, middle), (rocker, GROUND, hinge)]
             outputs.append((rocker, middle))
         elif kind == "block":
             slider = f"slider{k}"
             new_body(slider)
             made.frames[slider] = (middle, float(numbers.uniform(-7, 7)))
             made.pins.append((slider, link, middle))
-            made.sliders.append(("block", slider, middle, along))
+            made.sliders.append(("block", GROUND, slider, middle, along))
         else:
-            made.sliders.append(("pin", link, middle, along))
+            made.sliders.append(("pin", GROUND, link, middle, along))
     return made
 
 

@@ -16,6 +16,10 @@ KINDS = {
     "six-bar": ["dyad", "dyad"],
     "six-bar with a slider": ["dyad", "block"],
     "eight-bar": ["dyad", "pin", "dyad"],
+    "rigid rocker": ["rigid", "dyad"],
+    "quick return": ["arm", "dyad", "block"],
+    "one link too many": ["dyad", "brace"],
+    "two links too many": ["dyad", "brace", "dyad", "brace"],
 }
 
 
