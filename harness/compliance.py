@@ -87,7 +87,8 @@ def compliance_of(
         return ()
     links = Links({name: float(parameters[name]) for name in PARAMETERS})
     found = []
-    held = results[np.isfinite(results[list(OUTPUTS)]).all(axis=1) & (results["contact_force"] > 0.0)]
+    finite = np.isfinite(results[list(OUTPUTS)].to_numpy(dtype=np.float64)).all(axis=1)
+    held = results[finite & (results["contact_force"].to_numpy() > 0.0)]
     if not held.empty:
         found.append(_told("contact force", links.held(held), links))
     if set(IMPACTS) <= set(impacts):

@@ -5,6 +5,10 @@ from __future__ import annotations
 import math
 from types import SimpleNamespace
 
+import numpy as np
+
+from mechanism_fmu.elastodynamics import Cycle, configurations, linkage, quasi_static
+from mechanism_fmu.kinematics import KinematicMotion
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -20,6 +24,7 @@ from mechanism_fmu.model import (
     polynomial_motion,
 )
 from mechanism_fmu.model.functions import cos, sin
+from mechanism_fmu.simulation import Simulation
 
 INCH, POUND = 0.0254, 0.45359237
 POUND_FORCE = POUND * 9.80665
@@ -102,6 +107,29 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 def built(values: dict[str, float]) -> Mechanism:
     """The linkage with plain numbers."""
     return mechanism(SimpleNamespace(**values))
+
+
+def cycle(values: dict[str, float], steps: int) -> tuple[dict[str, np.ndarray], Cycle]:
+    """All outputs at the beginnings of the steps of a cycle, by name, and what the flexibility approach makes of them.
+
+    It is given the motion that the engine has there, so that nothing but the bending is compared.
+    """
+    linked = built(values)
+    simulation = Simulation(linked)
+    n = 3 * len(linked.bodies)
+    read, time, states, rates = [], [], [], []
+    for step in range(steps):
+        if step:
+            simulation.advance(step * 2 * math.pi / values["speed"] / steps)
+        read.append(simulation.read())
+        time.append(simulation.time)
+        states.append(simulation.field("y_at")[: 2 * n].copy())
+        rates.append(simulation.field("dy_at")[: 2 * n].copy())
+    y, dy = np.array(states), np.array(rates)
+    names = tuple(f"{body.name}.{c}" for body in linked.bodies for c in ("x", "y", "angle"))
+    motion = KinematicMotion(names, np.array(time), y[:, :n], y[:, n:], dy[:, n:])
+    table = {name: np.array([one[name] for one in read]) for name in read[0]}
+    return table, quasi_static(configurations(linkage(linked), motion))
 
 
 MODEL = Model(

@@ -21,8 +21,12 @@ def compliance_section(found: Sequence[Compliance]) -> str:
     if not found:
         return ""
     rows = [
-        [name.replace("_", " "), *(engineering(getattr(one, name), unit).removesuffix(" 1") for one in found)]
+        [name.replace("_", " "), *(_cell(getattr(one, name), unit) for one in found)]
         for name, unit in COMPLIANCE_UNITS.items()
     ]
     headings = ["quantity", *(one.case for one in found)]
     return section("Compliance", table(headings, rows, numeric=range(1, len(headings))), note=_NOTE)
+
+
+def _cell(value: float, unit: str) -> str:
+    return f"{value:.4g}" if unit == "1" else engineering(value, unit)

@@ -5,10 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from mechanism_fmu.elastodynamics import configurations, linkage, quasi_static
-from mechanism_fmu.kinematics import KinematicMotion
 from mechanism_fmu.simulation import Simulation
-from tests.path_generator import DEFLECTIONS, IMPERIAL, MEMBERS, built
+from tests.path_generator import DEFLECTIONS, IMPERIAL, MEMBERS, built, cycle
 
 
 @pytest.mark.parametrize(
@@ -30,39 +28,24 @@ def test_case_2_of_the_paper(angle, expected):
 
 
 @pytest.fixture(scope="module")
-def cycle():
-    """Outputs every 10 deg of a cycle, and what the flexibility approach makes of the motion that the engine had there.
+def compared():
+    """Outputs every 10 deg of a cycle, and the same by the flexibility approach.
 
-    Two ways to the same: three displacements of every node here, released rotations and joints eliminated there.
+    Two ways to it: three displacements of every node here, released rotations and joints eliminated there.
     """
-    mechanism = built(IMPERIAL)
-    simulation = Simulation(mechanism)
-    n = 3 * len(mechanism.bodies)
-    read, time, states, rates = [], [], [], []
-    for step in range(36):
-        if step:
-            simulation.advance(step * math.radians(10) / IMPERIAL["speed"])
-        read.append(simulation.read())
-        time.append(simulation.time)
-        states.append(simulation.field("y_at")[: 2 * n].copy())
-        rates.append(simulation.field("dy_at")[: 2 * n].copy())
-    y, dy = np.array(states), np.array(rates)
-    names = tuple(f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle"))
-    motion = KinematicMotion(names, np.array(time), y[:, :n], y[:, n:], dy[:, n:])
-    table = {name: np.array([one[name] for one in read]) for name in read[0]}
-    return table, quasi_static(configurations(linkage(mechanism), motion))
+    return cycle(IMPERIAL, 36)
 
 
 @pytest.mark.parametrize("place", [f"{member}.{end}" for member in MEMBERS for end in ("start", "end")])
-def test_every_end_gives_way_as_by_the_flexibility_approach(cycle, place):
-    table, expected = cycle
+def test_every_end_gives_way_as_by_the_flexibility_approach(compared, place):
+    table, expected = compared
     found = np.stack([table[f"{place.replace('.', '_')}_{q}"] for q in DEFLECTIONS], axis=1)
     np.testing.assert_allclose(found, expected.deflection(place), rtol=1e-10, atol=1e-13)
 
 
 @pytest.mark.parametrize("member", MEMBERS)
-def test_forces_and_stresses_are_those_of_the_flexibility_approach(cycle, member):
-    table, expected = cycle
+def test_forces_and_stresses_are_those_of_the_flexibility_approach(compared, member):
+    table, expected = compared
     number = [e.member.name for e in expected.configurations.linkage.elements].index(member)
     for k, effort in enumerate(("axial_force", "start_moment", "end_moment")):
         scale = np.abs(expected.section_forces[:, :, k]).max()

@@ -162,3 +162,4 @@ def test_the_section_has_a_column_for_each_load():
     assert text.count("<tr>") == 1 + len(COMPLIANCE_UNITS)
     assert ">contact force<" in text
     assert ">impact<" in text
+    assert f">{found[0].lost_part:.4g}<" in text

@@ -39,8 +39,10 @@ def _place(block: Array, node: int, axis: int) -> float:
     i = nodes(block).body[node]
     place: float = nodes(block).place[node, axis]
     if axis == 0:
-        return at.x[i] + place
-    return at.y[i] + place
+        place += at.x[i]
+    else:
+        place += at.y[i]
+    return place
 
 
 @jit

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mechanism_fmu.engine.block import motion, parts
+from mechanism_fmu.engine.block import elastic, motion, parts
 from mechanism_fmu.engine.block.layout import FIELDS, GIVEN_SIZES, SIZES, allocate, field_of
 from mechanism_fmu.engine.compiler.subset import entry
 
@@ -26,17 +26,24 @@ NAMES = (
     "loads",
     "stages",
     "options",
+    "members",
+    "nodes",
+    "ties",
+    "couples",
+    "lumps",
+    "beams",
+    "structure",
 )
 
 
 def look(name):
-    return getattr(parts if hasattr(parts, name) else motion, name)
+    return next(getattr(module, name) for module in (parts, motion, elastic) if hasattr(module, name))
 
 
 def compiled(lines):
     """A compiled function of (block, found) with these lines: attributes must be literal to be compiled."""
     source = "\n    ".join(["def read(block, found):", *lines])
-    namespace = {**vars(parts), **vars(motion)}
+    namespace = {**vars(parts), **vars(motion), **vars(elastic)}
     exec(source, namespace)
     return entry(namespace["read"])
 
