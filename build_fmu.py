@@ -13,6 +13,8 @@ import typer
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from mechanism_fmu.model import Mechanism
+
 # Everything else is imported where it is used: --help must not wait for numba.
 
 _USAGE_ERROR = 2
@@ -113,6 +115,35 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
     return path
+
+
+def mechanism(model: str, **parameters: float) -> Mechanism:
+    """The description of a model's mechanism, for those who analyse it without its FMU.
+
+    Args:
+        model: name of a ready-made model, or file of your own; `built` says more of what is wrong with that.
+        parameters: values that differ from the defaults.
+
+    Raises:
+        typer.Exit: there is no such mechanism; the reason has been said.
+    """
+    import models
+    from mechanism_fmu.fmu.own.find import find
+    from mechanism_fmu.fmu.own.load import load
+    from mechanism_fmu.model import MechanismError
+
+    try:
+        module = models.load(model) if model in models.available() else load(find(model))
+        return module.MODEL.build(module.MODEL.values(**parameters))
+    except MechanismError as error:
+        _messages().print(str(error), style="red", markup=False)
+        raise typer.Exit(_USAGE_ERROR) from None
+
+
+def models_that_bend() -> list[str]:
+    """Names of the ready-made linkages with elastic members."""
+    found = {name: mechanism(name) for name in model_names()}
+    return [name for name, one in found.items() if one.members and not one.contacts]
 
 
 def model_names() -> list[str]:

@@ -292,6 +292,54 @@ def optimise(
 
 
 @main.command()
+def ked(
+    model: Annotated[
+        str,
+        typer.Argument(
+            metavar="NAME|FILE", help="Ready-made linkage, or file of your own, with members.", show_default=False
+        ),
+    ],
+    speed: Annotated[
+        str | None,
+        typer.Option(
+            metavar="VALUE[UNIT]", help="Of the crank, e.g. '500 rpm'.", show_default="the model's at the start"
+        ),
+    ] = None,
+    step: Annotated[
+        float, typer.Option(metavar="DEG", help="Of the crank's angle in the tables; 360 is a multiple.")
+    ] = 1.0,
+    damping: Annotated[float, typer.Option(metavar="RATIO", help="Of each mode of the periodic motion.")] = 0.02,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE[UNIT]", help="Set a parameter; repeat it for more."),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="ked_NAME"),
+    ] = None,
+) -> None:
+    """Bend a linkage over a turn of its crank at constant speed, and write cycle.csv, summary.json and report.html.
+
+    The links bend under the inertia of the rigid motion (quasi-statically), and in the periodic motion that follows
+    from it (elastodynamically): path deviation, stresses, natural frequencies, critical speeds, input torque. The FMU
+    is built, too, and its elastic outputs are compared. See docs/ked.md.
+
+    Try:
+
+        mechanism-fmu ked four_bar_path_generator
+
+        mechanism-fmu ked four_bar_path_generator --speed "600 rpm" --set "arm_depth=16 mm" -o result
+
+    Exit code: 0 all well, 1 a verdict failed, 2 wrong use.
+    """
+    from .ked.command import run_ked
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_ked(model, speed, step, damping, settings or [], output))
+
+
+@main.command()
 def validate(fmu: FmuPath) -> None:
     """Check an FMU: the file, its default values, a run, saving and restoring of its state, reset.
 

@@ -50,7 +50,7 @@ class Result:
 
 
 def write_result(result: Result, folder: Path) -> list[Path]:
-    """Write cycle.csv (units in its headings), cycle.parquet (the same, with plain names) and summary.json, in SI units.
+    """Write cycle.csv (units in its headings), cycle.parquet (the same, plain names) and summary.json, in SI units.
 
     Raises:
         UsageError: the disk refuses.

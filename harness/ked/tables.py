@@ -88,7 +88,7 @@ def narrow_columns(found: Solution) -> list[int]:
 
 
 def frequency_rows(found: Solution) -> Shown:
-    """Of the lowest modes: least, mean and largest frequency, and speeds at which a harmonic of the crank meets them."""
+    """Of the lowest modes: least, mean and largest frequency, and speeds at which harmonics of the crank meet them."""
     headings = ["mode", "least [Hz]", "mean [Hz]", "largest [Hz]"]
     headings += [f"h={h + 1} [rpm]" for h in range(_HARMONICS)]
     rows = []

@@ -1,0 +1,150 @@
+"""What the command `ked` does."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.markup import escape
+
+import build_fmu
+from mechanism_fmu.elastodynamics import LinkageError, crank_of
+
+from ..assignments import parse_value, start_values
+from ..checks import all_passed
+from ..description import Description, Value, Variable
+from ..errors import UsageError
+from ..fmu import open_fmu
+from ..occupied import alone_in
+from ..report.ked_report import write_ked_report
+from ..terminal import FAILED, console, show_checks, show_files, show_progress, show_table
+from .agreement import agreement
+from .files import Result, write_result
+from .solve import prepared, solved, swept
+from .tables import cycle_rows, frequency_rows, largest_rows, narrow_columns
+
+#: Rows of the turn that fit a terminal, and its width below which columns are left out.
+_MOST_ROWS, _NARROW = 36, 120
+#: The finest step [deg]: what is finer takes long, and no curve shows it.
+_FINEST = 0.1
+#: A reference that no variable of an FMU has.
+_NO_REFERENCE = -1
+
+
+def run_ked(
+    model: str, speed: str | None, step: float, damping: float, settings: Sequence[str], folder: Path | None
+) -> int:
+    """Bend a linkage over a turn, tell and write what comes of it, and return the exit code."""
+    samples = _samples(step)
+    if not 0.0 <= damping < 1.0:
+        raise UsageError(f"The damping ratio is {damping:g}; give one from 0 to below 1, e.g. 0.02 for 2 %.")
+    if model in build_fmu.model_names():
+        _refuse_rigid(build_fmu.mechanism(model), model)
+    folder = Path(f"ked_{Path(model).stem}") if folder is None else folder
+    with alone_in(folder, waits=False):
+        console.print(f"Building the FMU of {escape(model)} into {escape(str(folder))} ...", soft_wrap=True)
+        with open_fmu(build_fmu.built(model, folder)) as fmu:
+            parameters = _parameters(settings, fmu.description)
+            mechanism = build_fmu.mechanism(model, **{name: float(value) for name, value in parameters.items()})
+            _refuse_rigid(mechanism, model)
+            turning = _speed(speed, mechanism, fmu.description)
+            with show_progress("Position, deflection and vibration over the turn ...") as progress:
+                turned = prepared(mechanism, turning, damping, samples)
+                found = solved(turned, turning, damping, samples)
+                progress("The same positions in the FMU ...", 0.1)
+                agreed = agreement(fmu, mechanism, found, parameters)
+                sweep = swept(turned, turning, lambda text, done: progress(text, 0.2 + 0.8 * done))
+            result = Result(fmu, fmu.description.text, parameters, found, sweep, agreed)
+            files = [*write_result(result, folder), write_ked_report(result, folder / "report.html")]
+    _show(result)
+    show_files(files)
+    return 0 if all_passed(result.checks) else FAILED
+
+
+def _refuse_rigid(mechanism: Any, model: str) -> None:
+    """Refuse a mechanism without members.
+
+    Raises:
+        UsageError: it has none; the message tells which models have.
+    """
+    if mechanism.members:
+        return
+    ready = ", ".join(build_fmu.models_that_bend())
+    raise UsageError(
+        f"The links of {model} are rigid: its mechanism has no members, so nothing bends. Linkages with members: "
+        f"{ready}. In a file of your own, give Mechanism(..., members=...); see docs/ked.md."
+    )
+
+
+def _samples(step: float) -> int:
+    """Angles of a turn.
+
+    Raises:
+        UsageError: the step is too fine, or 360 deg are no multiple of it.
+    """
+    samples = round(360 / step) if step > 0.0 else 0
+    if step < _FINEST or samples < 8 or abs(samples * step - 360) > 1e-9 * 360:
+        raise UsageError(
+            f"--step {step:g} deg cannot be: give one from {_FINEST:g} to 45 of which 360 is a multiple, e.g. 1 or 5."
+        )
+    return samples
+
+
+def _parameters(settings: Sequence[str], description: Description) -> dict[str, Value]:
+    values = start_values(settings, description)
+    for name in values:
+        if description.variable(name).causality != "parameter":
+            raise UsageError(f"'{name}' is an input: the turn has its own speed and torque. Set parameters only.")
+    return values
+
+
+def _speed(text: str | None, mechanism: Any, description: Description) -> float:
+    """Speed of the crank [rad/s]: what is asked for, or that of the mechanism at the start.
+
+    Raises:
+        UsageError: it is no speed, or not positive.
+    """
+    if text is not None:
+        variable = Variable("speed", _NO_REFERENCE, "Real", "parameter", unit="rad/s", display_unit="rpm")
+        alone = Description(description.model, "", "", {"speed": variable}, description.units)
+        speed = float(parse_value(text, variable, alone))
+    else:
+        try:
+            crank = crank_of(mechanism)
+        except LinkageError as error:
+            raise UsageError(str(error)) from error
+        speed = next(float(body.start_rate[2]) for body in mechanism.bodies if body.name == crank)
+    if not (0.0 < speed < math.inf):
+        raise UsageError(f"The crank's speed is {speed:g} rad/s; give a positive one with --speed, e.g. '500 rpm'.")
+    return speed
+
+
+def _show(result: Result) -> None:
+    """The turn in the terminal."""
+    found = result.solution
+    console.print(
+        f"[bold]{escape(result.text)}[/]: {escape(found.place)} at {found.rpm:.6g} rpm, "
+        f"damping ratio {found.damping:g}",
+        soft_wrap=True,
+    )
+    shown = cycle_rows(found)
+    shown = shown.every(math.ceil(len(shown.rows) / _MOST_ROWS))
+    if console.width < _NARROW:
+        shown = shown.without(narrow_columns(found))
+    title = "A turn: dx, dy, dev ed and stresses elastodynamic, dev qs quasi-static"
+    show_table(title, shown.headings, shown.rows, numeric=range(len(shown.headings)))
+    frequencies, largest = frequency_rows(found), largest_rows(found)
+    title = "Natural frequencies over the turn, and critical speeds: harmonic h of the crank meets the mean"
+    show_table(title, frequencies.headings, frequencies.rows, numeric=range(len(frequencies.headings)))
+    show_table("Largest over the turn", largest.headings, largest.rows, numeric=(1, 2, 3, 5))
+    torque = found.rigid.fluctuation
+    console.print(
+        f"Input torque: {torque.least:.4g} to {torque.largest:.4g} N.m; between its extremes, the "
+        f"energy that it has given beyond its mean varies by {torque.energy:.4g} J.",
+        soft_wrap=True,
+    )
+    show_checks(result.checks)
+    for note in result.notes:
+        console.print(f"[yellow]Note:[/] {escape(note)}", soft_wrap=True)
