@@ -2,8 +2,8 @@
 
 Independent of the library. The motion is that of one freedom (`eksergian`), with half of each link's mass at either of
 its ends. The deflection delta = B^T F B P of the path point is the paper's Case 2, whose transfer matrix B is written
-out with the misprint of its sixth column put right (a moment on the coupler loads crank and rocker, too); P are the inertia
-forces of path point, crank pin and rocker pin.
+out, with the misprint of its sixth column put right (a moment on the coupler loads crank and rocker, too); P are the
+inertia forces of path point, crank pin and rocker pin.
 
 Source: A. G. Erdman, G. N. Sandor, R. G. Oakberg, J. Engineering for Industry 94 (1972), eqs (10) to (13).
 
@@ -51,7 +51,7 @@ def half(length: float) -> float:
 
 def points(theta: float) -> tuple[Course, Point, Point, Point]:
     """The coupler's angle, path point, crank pin and rocker pin, with two derivatives by the crank's angle."""
-    phi, psi = _LINKAGE.angles(theta)
+    phi, _ = _LINKAGE.angles(theta)
     pin = along(CRANK, Course(theta, 1.0, 0.0))
     return phi, along(ARM, phi._replace(value=phi.value + TILT), pin), pin, along(COUPLER, phi, pin)
 

@@ -332,7 +332,7 @@ def ked(
 
     Exit code: 0 all well, 1 a verdict failed, 2 wrong use.
     """
-    from .ked.command import run_ked
+    from .ked_command import run_ked
     from .terminal import user_errors
 
     with user_errors():

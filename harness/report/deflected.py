@@ -48,8 +48,8 @@ def deflected_data(found: Solution) -> dict[str, Any]:
     """What the script needs, as JSON.
 
     Keys: `view`, the box [m] of the rigid motion; `times`, the exaggeration at first; `degrees` of the frames;
-    `members`, each with `start` and `end` (x, y of all frames, one after the other [m]), and `static` and `dynamic` (six
-    displacements of its ends a frame); `path`, `rigid` [m], and its `static` and `dynamic` deflection.
+    `members`, each with `start` and `end` (x, y of all frames, one after the other [m]), and `static` and `dynamic`
+    (six displacements of its ends a frame); `path`, `rigid` [m], and its `static` and `dynamic` deflection.
     """
     frames = np.arange(0, len(found.angle), math.ceil(len(found.angle) / _MOST_FRAMES))
     starts, ends = found.rigid.starts[frames], found.rigid.ends[frames]

@@ -28,7 +28,6 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.four_bar import form
 
-
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),
     torque_input("drive", "crank"),

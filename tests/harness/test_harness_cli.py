@@ -39,6 +39,7 @@ COMMANDS = [
     [],
     ["build"],
     ["demo"],
+    ["ked"],
     ["machine"],
     ["machine", "check"],
     ["machine", "container"],

@@ -65,6 +65,22 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "impossible": {"rocker_length": 0.4},
         "impacts": False,
     },
+    # Its links bend: outputs that the accelerations of the very instant decide.
+    "four_bar_path_generator": {
+        "rough": {
+            "crossed": True,
+            "crank_angle_start": 1.0,
+            "crank_speed_start": 30.0,
+            "arm_angle": -1.0,
+            "arm_depth": 8e-3,
+            "drive_stiffness": 20.0,
+            "drive_damping": 2.0,
+        },
+        "inputs": {"drive_torque": (-2.0, 2.0), "drive_speed": (40.0, 60.0)},
+        "until": 0.5,
+        "impossible": {"rocker_length": 0.6},
+        "impacts": False,
+    },
     "gear_train": {
         "rough": {
             "pinion_angle_start": 1.0,

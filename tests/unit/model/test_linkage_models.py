@@ -10,6 +10,7 @@ from derivatives import assert_derivatives_agree
 from mechanism_fmu.model import MechanismError
 from mechanism_fmu.simulation import Simulation
 from models.four_bar.model import MODEL as FOUR_BAR
+from models.four_bar_path_generator.model import MODEL as PATH_GENERATOR
 from models.slider_crank.model import MODEL as SLIDER_CRANK
 
 POINTS = [
@@ -17,6 +18,7 @@ POINTS = [
     pytest.param(SLIDER_CRANK, {"crank_length": 0.3, "crank_angle_start": 2.8}, id="slider-crank that swings"),
     pytest.param(FOUR_BAR, {"crank_angle_start": 0.7, "gravity": 9.81, "spring_stiffness": 0.1}, id="four-bar, open"),
     pytest.param(FOUR_BAR, {"crank_angle_start": 4.0, "crossed": 1, "crank_length": 0.3}, id="four-bar, crossed"),
+    pytest.param(PATH_GENERATOR, {"crank_angle_start": 0.7, "arm_angle": -1.0, "arm_depth": 8e-3}, id="path generator"),
 ]
 
 
@@ -28,7 +30,8 @@ def test_derivatives_agree_with_differences(model, point):
 
 @pytest.mark.parametrize("degrees", range(-180, 541, 15))
 @pytest.mark.parametrize(
-    ("model", "point"), [(SLIDER_CRANK, {"offset": 0.06}), (FOUR_BAR, {}), (FOUR_BAR, {"crossed": 1})]
+    ("model", "point"),
+    [(SLIDER_CRANK, {"offset": 0.06}), (FOUR_BAR, {}), (FOUR_BAR, {"crossed": 1}), (PATH_GENERATOR, {})],
 )
 def test_it_can_start_at_any_angle_just_there(model, point, degrees):
     """Assembly moves nothing: the start is exact."""

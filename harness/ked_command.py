@@ -12,18 +12,18 @@ from rich.markup import escape
 import build_fmu
 from mechanism_fmu.elastodynamics import LinkageError, crank_of
 
-from ..assignments import parse_value, start_values
-from ..checks import all_passed
-from ..description import Description, Value, Variable
-from ..errors import UsageError
-from ..fmu import open_fmu
-from ..occupied import alone_in
-from ..report.ked_report import write_ked_report
-from ..terminal import FAILED, console, show_checks, show_files, show_progress, show_table
-from .agreement import agreement
-from .files import Result, write_result
-from .solve import prepared, solved, swept
-from .tables import cycle_rows, frequency_rows, largest_rows, narrow_columns
+from .assignments import parse_value, start_values
+from .checks import all_passed
+from .description import Description, Value, Variable
+from .errors import UsageError
+from .fmu import open_fmu
+from .ked.agreement import agreement
+from .ked.files import Result, write_result
+from .ked.solve import prepared, solved, swept
+from .ked.tables import cycle_rows, frequency_rows, largest_rows, narrow_columns
+from .occupied import alone_in
+from .report.ked_report import write_ked_report
+from .terminal import FAILED, console, show_checks, show_files, show_progress, show_table
 
 #: Rows of the turn that fit a terminal, and its width below which columns are left out.
 _MOST_ROWS, _NARROW = 36, 120
