@@ -1,0 +1,185 @@
+"""The command `ked`: the paper's path generator, in the units of its tables."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+from chromium import PROGRAM, chromium, opened
+from typer.testing import CliRunner
+
+import build_fmu
+from harness.cli import main
+from harness.fmu import open_fmu
+from harness.ked.agreement import agreement
+from harness.ked.files import Result, write_result
+from harness.ked.solve import prepared, solved, swept
+from harness.ked.tables import cycle_rows, narrow_columns
+from harness.report.ked_report import write_ked_report
+
+INCH, POUND_FORCE = 0.0254, 0.45359237 * 9.80665
+SPEED = 500 * math.pi / 30
+
+
+@pytest.fixture(scope="module")
+def mechanism():
+    return build_fmu.mechanism("four_bar_path_generator")
+
+
+@pytest.fixture(scope="module")
+def turned(mechanism):
+    return prepared(mechanism, SPEED, 0.02, 360)
+
+
+@pytest.fixture(scope="module")
+def solution(turned):
+    return solved(turned, SPEED, 0.02, 360)
+
+
+@pytest.fixture(scope="module")
+def result(native_four_bar_path_generator_fmu: Path, mechanism, turned, solution):
+    with open_fmu(native_four_bar_path_generator_fmu) as fmu:
+        agreed = agreement(fmu, mechanism, solution, {})
+        return Result(fmu, "Path generator", {}, solution, swept(turned, SPEED, lambda *_: None), agreed)
+
+
+def test_largest_deviations_are_the_oracles(solution):
+    """Over the continuous turn, quasi-static and periodic at 500 rpm with 2 % damping."""
+    assert solution.static.largest_deviation == pytest.approx(0.0744696716 * INCH, rel=1e-9)
+    assert math.degrees(solution.static.largest_at) == pytest.approx(13.309, abs=1e-3)
+    assert solution.dynamic.largest_deviation == pytest.approx(0.0939424413 * INCH, rel=1e-9)
+    assert math.degrees(solution.dynamic.largest_at) == pytest.approx(9.6056, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("degrees", "x", "y", "torque"),
+    [(30, 0.0577198319228, -0.0239236983318, -44.65658864), (60, 0.0197192762558, -0.0126183323705, 58.03112767)],
+)
+def test_case_2_of_the_paper_in_si_units(solution, degrees, x, y, torque):
+    row = int(np.flatnonzero(solution.degrees == degrees)[0])
+    # the paper's g has eight digits
+    assert solution.static.deflection[row, :2] == pytest.approx((x * INCH, y * INCH), rel=1e-8)
+    assert solution.rigid.torque[row] == pytest.approx(torque * INCH * POUND_FORCE, rel=1e-8)
+
+
+def test_frequencies_at_60_degrees_are_the_oracles(solution):
+    assert solution.frequencies[60, :3] == pytest.approx((78.22308, 242.84855, 1732.59658), abs=6e-6)
+
+
+def test_a_coarse_table_has_every_tenth_row_of_a_fine_one(mechanism, solution):
+    coarse = solved(prepared(mechanism, SPEED, 0.02, 36), SPEED, 0.02, 36)
+    np.testing.assert_allclose(coarse.dynamic.deflection, solution.dynamic.deflection[::10], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(coarse.rigid.torque, solution.rigid.torque[::10], rtol=1e-12)
+    assert coarse.static.largest_deviation == solution.static.largest_deviation
+
+
+def test_the_fmu_agrees_in_all_positions(result):
+    assert result.agreement.positions == 24
+    assert {"path_deviation", "path_x_elastic", "arm_stress", "rocker_bar_stress"} <= set(result.agreement.differences)
+    assert max(result.agreement.differences.values()) < 1e-10
+    assert all(check.passed for check in result.checks)
+
+
+def test_another_linkage_than_the_fmus_does_not_agree(result, mechanism, native_four_bar_path_generator_fmu):
+    thicker = build_fmu.mechanism("four_bar_path_generator", arm_depth=0.0128)
+    other = solved(prepared(thicker, SPEED, 0.02, 36), SPEED, 0.02, 36)
+    with open_fmu(native_four_bar_path_generator_fmu) as fmu:
+        found = agreement(fmu, mechanism, other, {})
+    assert not found.checks[0].passed
+    assert found.differences["path_deviation"] > 1e-3
+
+
+def test_an_fmu_that_cannot_be_put_into_positions_is_not_compared(mechanism, solution):
+    mine = SimpleNamespace(description=SimpleNamespace(variables={"crank_angle_start": None}, model="Mine"))
+    found = agreement(mine, mechanism, solution, {})
+    assert found.checks == ()
+    assert found.refusal.endswith("it lacks crank_speed_start")
+    silent = agreement(
+        SimpleNamespace(description=description), replace(mechanism, inputs=(), outputs=()), solution, {}
+    )
+    assert silent.refusal.endswith(
+        "it lacks crank_speed_start, an input of the torque on 'crank', outputs of elastic members"
+    )
+
+
+def test_sweep_meets_the_turn_at_its_speed_and_grows_with_the_square(result):
+    sweep, found = result.sweep, result.solution
+    here = int(np.argmin(np.abs(sweep.speed - SPEED)))
+    assert sweep.speed[here] == pytest.approx(SPEED, rel=1e-12)
+    assert sweep.dynamic[here] == pytest.approx(found.dynamic.deviation.max(), rel=1e-6)
+    np.testing.assert_allclose(sweep.static / sweep.speed**2, found.static.deviation.max() / SPEED**2, rtol=1e-12)
+
+
+def test_files_hold_the_turn(result, tmp_path):
+    files = write_result(result, tmp_path)
+    assert [file.name for file in files] == ["cycle.csv", "cycle.parquet", "summary.json"]
+    table, plain = pd.read_csv(files[0]), pd.read_parquet(files[1])
+    assert table.columns[0] == "crank_angle [rad]"
+    assert len(table) == len(plain) == 360
+    np.testing.assert_array_equal(plain["quasi_static_deviation"], result.solution.static.deviation)
+    np.testing.assert_array_equal(table["quasi_static_deviation [m]"], plain["quasi_static_deviation"])
+    summary = json.loads(files[2].read_text())
+    assert summary["elastodynamic"]["largest_deviation"] == result.solution.dynamic.largest_deviation
+    assert max(summary["agreement_with_fmu"]["differences"].values()) < 1e-10
+    assert summary["units"] == {name.split(" [")[0]: name.split(" [")[1][:-1] for name in table}
+
+
+def test_rows_for_people_are_in_millimetres_and_megapascals(solution):
+    shown = cycle_rows(solution)
+    row = dict(zip(shown.headings, shown.rows[30], strict=True))
+    assert row["phi [deg]"] == "30"
+    assert float(row["dev qs [mm]"]) == pytest.approx(25.4 * math.hypot(0.0577198319, 0.0239236983), abs=5e-5)
+    narrow = shown.without(narrow_columns(solution))
+    assert narrow.headings == ["phi [deg]", "dev qs [mm]", "dev ed [mm]", "crank_bar [MPa]", "torque [N.m]"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["four_bar"], "Linkages with members: four_bar_path_generator."),
+        (["four_bar_path_generator", "--step", "7"], "--step 7 deg cannot be"),
+        (["four_bar_path_generator", "--damping", "2"], "The damping ratio is 2"),
+        (["nothing_of_the_kind"], "There is no model 'nothing_of_the_kind'"),
+    ],
+)
+def test_wrong_use_is_said(arguments, said, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = CliRunner().invoke(main, ["ked", *arguments])
+    assert found.exit_code == 2
+    assert said in " ".join(found.output.split())
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="no chromium is installed (on Debian: apt install chromium)")
+def test_the_reader_exaggerates_the_deflection_in_the_report(result, tmp_path):
+    path = write_ked_report(result, tmp_path / "report.html")
+    tip = "document.querySelector('.bent').getAttribute('points').split(' ').pop().split(',').map(Number)"
+    with chromium(tmp_path / "profile") as browser, opened(browser, path, 1200) as page:
+        assert page.errors == []
+        assert page.requests == [path.resolve().as_uri()]
+        assert page.value("document.querySelectorAll('.plot .main-svg').length") >= 6
+        once, twice = (
+            (page.value(_exaggerate(factor)), page.value(tip), page.value(RIGID_TIP))[1:] for factor in (50, 100)
+        )
+        assert once[1] == twice[1]
+        assert np.subtract(twice[0], twice[1]) == pytest.approx(2 * np.subtract(once[0], once[1]), abs=0.05)
+        assert math.hypot(*np.subtract(once[0], once[1])) > 5
+        page.click(".deflected .play")
+        page.wait_until(f"{tip}.join() !== '{','.join(map(repr, twice[0]))}'")
+        assert page.value("document.querySelector('.play').textContent") == "Pause"
+    with chromium(tmp_path / "profile") as browser, opened(browser, path, 360) as page:
+        assert page.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+
+
+RIGID_TIP = "['x2', 'y2'].map((k) => Number(document.querySelector('.deflected line').getAttribute(k)))"
+
+
+def _exaggerate(factor: int) -> str:
+    """Moves the slider."""
+    return (
+        f"(() => {{ const s = document.querySelector('.times'); s.value = {factor};"
+        " s.dispatchEvent(new Event('input')); return s.value; })()"
+    )
