@@ -98,9 +98,7 @@ def test_an_fmu_that_cannot_be_put_into_positions_is_not_compared(mechanism, sol
     found = agreement(mine, mechanism, solution, {})
     assert found.checks == ()
     assert found.refusal.endswith("it lacks crank_speed_start")
-    silent = agreement(
-        SimpleNamespace(description=description), replace(mechanism, inputs=(), outputs=()), solution, {}
-    )
+    silent = agreement(mine, replace(mechanism, inputs=(), outputs=()), solution, {})
     assert silent.refusal.endswith(
         "it lacks crank_speed_start, an input of the torque on 'crank', outputs of elastic members"
     )
@@ -153,6 +151,7 @@ def test_wrong_use_is_said(arguments, said, tmp_path, monkeypatch):
     assert said in " ".join(found.output.split())
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PROGRAM is None, reason="no chromium is installed (on Debian: apt install chromium)")
 def test_the_reader_exaggerates_the_deflection_in_the_report(result, tmp_path):
     path = write_ked_report(result, tmp_path / "report.html")
