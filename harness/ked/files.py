@@ -76,8 +76,10 @@ def summary(result: Result, units: dict[str, str]) -> dict[str, Any]:
         "elastodynamic": _largest(found, found.dynamic),
         "input_torque": asdict(found.rigid.fluctuation),
         "natural_frequencies": [
-            {"least": float(column.min()), "mean": float(mean) / (2 * math.pi), "largest": float(column.max())}
-            for column, mean in zip(found.frequencies.T[: found.modes], found.critical[:, 0], strict=False)
+            {"least": least, "mean": mean / (2 * math.pi), "largest": largest}
+            for (least, largest), mean in zip(
+                found.frequency_range[: found.modes].tolist(), found.critical[: found.modes, 0].tolist(), strict=True
+            )
         ],
         "critical_speeds": found.critical[: found.modes].tolist(),
         "sweep": {name: values.tolist() for name, values in vars(result.sweep).items()},
@@ -92,5 +94,5 @@ def _largest(found: Solution, bent: Bent) -> dict[str, Any]:
     return {
         "largest_deviation": bent.largest_deviation,
         "at_crank_angle": bent.largest_at,
-        "largest_stress": dict(zip(found.members, bent.stress.max(axis=0).tolist(), strict=True)),
+        "largest_stress": dict(zip(found.members, bent.largest_stress.tolist(), strict=True)),
     }

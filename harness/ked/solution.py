@@ -25,6 +25,8 @@ class Bent:
         ends: (along, left, rotation) of start and end of each member, shape (angles, members, 6) [m, m, rad].
         largest_deviation: over the continuous turn [m].
         largest_at: the crank's angle there [rad].
+        largest_stress: in each member, of all calculated angles, shape (members,) [Pa].
+        stress_at: the crank's angle there, shape (members,) [rad].
     """
 
     deflection: FloatArray
@@ -32,6 +34,8 @@ class Bent:
     ends: FloatArray
     largest_deviation: float
     largest_at: float
+    largest_stress: FloatArray
+    stress_at: FloatArray
 
     @property
     def deviation(self) -> FloatArray:
@@ -80,6 +84,7 @@ class Solution:
         angle: of the crank, ascending from 0 on [rad], shape (angles,).
         rigid, static, dynamic: the rigid motion, bent by its inertia, and bent in periodic motion.
         frequencies: of the linkage frozen at each angle, ascending, shape (angles, modes) [Hz]; infinite without mass.
+        frequency_range: the least and the largest of all calculated angles, shape (modes, 2) [Hz].
         critical: speeds at which harmonic h of the crank meets mode i, shape (modes, harmonics) [rad/s].
         residual: what is left of the equations of the periodic motion.
         notes: what is to be said of the calculation.
@@ -94,6 +99,7 @@ class Solution:
     static: Bent
     dynamic: Bent
     frequencies: FloatArray
+    frequency_range: FloatArray
     critical: FloatArray
     residual: float
     notes: tuple[str, ...]

@@ -113,6 +113,7 @@ def solved(turned: Turn, speed: float, damping: float, samples: int) -> Solution
         static=_bent(turned, cycle.displacement[:-1], cycle.stress[:-1], order),
         dynamic=_bent(turned, moving, stress_of(cycle.configurations, _closed(moving))[:-1], order),
         frequencies=modes.hertz[order],
+        frequency_range=np.column_stack([modes.hertz.min(axis=0), modes.hertz.max(axis=0)]),
         critical=critical_speeds(modes, _HARMONICS),
         residual=response.residual,
         notes=notes,
@@ -160,11 +161,14 @@ def _bent(turned: Turn, u: FloatArray, stress: FloatArray, order: npt.NDArray[np
     part, largest = peak(deflection[:, :2])
     first = int(np.flatnonzero(turned.order == 0)[0])
     ends = turned.cycle.configurations.ends[:-1]
+    worst = np.argmax(stress, axis=0)
     return Bent(
         deflection=deflection[order],
         stress=stress[order],
         ends=np.einsum("teim,tm->tei", np.broadcast_to(ends, (len(u), *ends.shape[1:])), u)[order],
         largest_deviation=largest,
+        largest_stress=stress.max(axis=0),
+        stress_at=turned.angle[np.argsort(turned.order)[worst]],
         largest_at=(turned.angle[first] + 2 * math.pi * part) % (2 * math.pi),
     )
 

@@ -83,7 +83,7 @@ def cycle_rows(found: Solution) -> Shown:
 
 def narrow_columns(found: Solution) -> list[int]:
     """Columns of `cycle_rows` that a narrow terminal can do without: path and deflection, and the smaller stresses."""
-    largest = int(np.argmax(found.dynamic.stress.max(axis=0)))
+    largest = int(np.argmax(found.dynamic.largest_stress))
     return [1, 2, 3, 4, *(7 + k for k in range(len(found.members)) if k != largest)]
 
 
@@ -93,10 +93,10 @@ def frequency_rows(found: Solution) -> Shown:
     headings += [f"h={h + 1} [rpm]" for h in range(_HARMONICS)]
     rows = []
     for mode in range(min(_MODES, found.modes)):
-        hertz = found.frequencies[:, mode]
+        least, largest = found.frequency_range[mode]
         mean = found.critical[mode, 0] / (2 * math.pi)
         critical = (f"{speed * 30 / math.pi:.0f}" for speed in found.critical[mode, :_HARMONICS])
-        rows.append([f"{mode + 1}", f"{hertz.min():.2f}", f"{mean:.2f}", f"{hertz.max():.2f}", *critical])
+        rows.append([f"{mode + 1}", f"{least:.2f}", f"{mean:.2f}", f"{largest:.2f}", *critical])
     return Shown(headings, rows)
 
 
@@ -104,15 +104,15 @@ def largest_rows(found: Solution) -> Shown:
     """The largest deviation and stress of both solutions, and where they are."""
     rows = []
     for kind, bent in (("quasi-static", found.static), ("elastodynamic", found.dynamic)):
-        row, member = np.unravel_index(int(np.argmax(bent.stress)), bent.stress.shape)
+        member = int(np.argmax(bent.largest_stress))
         rows.append(
             [
                 kind,
                 f"{1e3 * bent.largest_deviation:.5f}",
                 f"{math.degrees(bent.largest_at):.3f}",
-                f"{1e-6 * bent.stress[row, member]:.2f}",
-                found.members[int(member)],
-                f"{found.degrees[row]:g}",
+                f"{1e-6 * bent.largest_stress[member]:.2f}",
+                found.members[member],
+                f"{round(math.degrees(bent.stress_at[member]), 9):g}",
             ]
         )
     return Shown(["", "deviation [mm]", "at [deg]", "stress [MPa]", "in", "at [deg]"], rows)

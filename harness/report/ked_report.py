@@ -78,8 +78,8 @@ def _figures(found: Solution) -> list[tuple[str, str]]:
     for kind, bent in (("quasi-static", found.static), ("elastodynamic", found.dynamic)):
         at = math.degrees(bent.largest_at)
         figures.append((f"largest deviation, {kind}, at {at:.2f}°", engineering(bent.largest_deviation, "m", 5)))
-    member = int(np.argmax(found.dynamic.stress.max(axis=0)))
-    stress = engineering(float(found.dynamic.stress.max()), "Pa")
+    member = int(np.argmax(found.dynamic.largest_stress))
+    stress = engineering(float(found.dynamic.largest_stress[member]), "Pa")
     figures.append((f"largest stress, elastodynamic, in {found.members[member]}", stress))
     figures.append(("input torque", f"{torque.least:.3g} … {torque.largest:.3g} N.m"))
     return figures
@@ -112,7 +112,7 @@ def _over_the_turn(found: Solution) -> list[Plot]:
             [Curve(kind, _round(1e3 * at[:, 0]), _round(1e3 * at[:, 1]), colour) for kind, at, colour in shown],
             to_scale=True,
         ),
-        Plot("Largest stress of each member, elastodynamic", _ANGLE, "stress [MPa]", stresses),
+        Plot("Stress of the members, elastodynamic", _ANGLE, "stress [MPa]", stresses),
         Plot(
             "Torque that keeps the speed",
             _ANGLE,

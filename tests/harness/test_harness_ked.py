@@ -75,6 +75,9 @@ def test_a_coarse_table_has_every_tenth_row_of_a_fine_one(mechanism, solution):
     np.testing.assert_allclose(coarse.dynamic.deflection, solution.dynamic.deflection[::10], rtol=0, atol=1e-15)
     np.testing.assert_allclose(coarse.rigid.torque, solution.rigid.torque[::10], rtol=1e-12)
     assert coarse.static.largest_deviation == solution.static.largest_deviation
+    np.testing.assert_array_equal(coarse.static.largest_stress, solution.static.stress.max(axis=0))
+    np.testing.assert_allclose(coarse.static.stress_at, solution.angle[solution.static.stress.argmax(axis=0)])
+    np.testing.assert_array_equal(coarse.frequency_range[:3, 0], solution.frequencies[:, :3].min(axis=0))
 
 
 def test_the_fmu_agrees_in_all_positions(result):
