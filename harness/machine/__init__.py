@@ -5,7 +5,7 @@
 - `algorithms`: how it takes a step, a file each; `algorithm` chooses, `cautions` says what one cannot do
 - what looks on: `record` (`growing_table`, `recorded`), `impacts` (`watched`, `impact_times`), `bonds` (`port`),
   `statistics`
-- `remote` (`far_side`): a component in a process of its own
+- `remote`: a component in a process of its own
 - `file`: a machine in TOML; `ssp` and `container`: for other tools
 """
 

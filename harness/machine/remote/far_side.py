@@ -19,11 +19,11 @@ from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
 from typing import Any
 
-from ..errors import FmuError, HarnessError
-from ..fmu.slave import MessageHandler
-from ..messages import LogMessage
-from ..processes import serve_only
-from .component import Component, Reals
+from ...errors import FmuError, HarnessError
+from ...fmu.slave import MessageHandler
+from ...messages import LogMessage
+from ...processes import serve_only
+from ..component import Component, Reals
 
 #: Makes a component that tells its messages to the given function; can be pickled.
 Opener = Callable[[MessageHandler], AbstractContextManager[Component]]
