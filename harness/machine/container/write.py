@@ -21,8 +21,8 @@ from ...description import Description, Variable
 from ...errors import UsageError
 from ...recorder import recorded_variables
 from ..connection import Connection, Link, linked
-from ..file.described import described
 from ..file.plan import Plan
+from ..structure import structure_of
 from .description import Exposed, container_description
 from .gains import CHANNELS, GUID, NAME, factor_reference, gains_entries, in_reference, offset_reference, out_reference
 from .order import in_order
@@ -67,7 +67,7 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
     """
     require_name(path)
     stem = path.stem
-    machine = described({name: part.description for name, part in parts.items()}).description
+    machine = structure_of({name: part.description for name, part in parts.items()}).description
     links = [linked(connection, machine) for connection in plan.connections]
     for name in dict.fromkeys(end for link in links for end in (link.source, link.target)):
         if machine.variables[name].elements > 1:
@@ -95,7 +95,7 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
             )
         for channel, link in enumerate(scaled):
             exposed += _of_channel(channel, link, len(names), machine)
-        whole = described({name: part.description for name, part in parts.items()}, plan.connections).description
+        whole = structure_of({name: part.description for name, part in parts.items()}, plan.connections).description
         token = f"{{{uuid.UUID(_fingerprint(entries, plan, exposed))}}}"
         description = container_description(stem, token, plan, exposed, whole)
         configuration = {
@@ -162,7 +162,7 @@ def _readable(variable: Variable, parts: Mapping[str, Part]) -> bool:
 
 def left_out(plan: Plan, parts: Mapping[str, Part]) -> list[str]:
     """Numbers of the machine that the container does not have, because fmpy's does not know their types."""
-    machine = described({name: part.description for name, part in parts.items()}).description
+    machine = structure_of({name: part.description for name, part in parts.items()}).description
     return [variable.name for variable in _wanted(plan, machine) if not _readable(variable, parts)]
 
 

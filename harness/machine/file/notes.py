@@ -9,7 +9,7 @@ from ...numbers import shown
 from ..bonds import Bond, pushes
 from ..connection import Connection
 from ..extrapolation import Extrapolation
-from .described import described
+from ..structure import structure_of
 from .plan import BondPlan, Plan, Scheme
 
 
@@ -21,7 +21,7 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
         descriptions: of its components' FMUs.
         driven: inputs that the table of inputs drives.
     """
-    machine = described(descriptions, plan.connections)
+    machine = structure_of(descriptions, plan.connections)
     found = [
         f"{', '.join(cycle)} follow each other: a cycle. A fixed step shows what one of them does to the others "
         "only in the next step."
