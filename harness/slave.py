@@ -26,7 +26,7 @@ class Slave(Observable, Protocol):
 
     1. `set`: start values of parameters and inputs
     2. `initialize`
-    3. as often as there are steps: `set` and `set_slopes` (inputs), then `step`
+    3. as often as there are steps: `set` (inputs), then `step`
     4. `terminate`
 
     Every method raises `FmuError` when the unit refuses or fails; the master then calls nothing more.
@@ -37,9 +37,6 @@ class Slave(Observable, Protocol):
 
     def initialize(self, start_time: float, stop_time: float) -> None:
         """Fix the parameters and find a consistent state at `start_time` [s]; no step will end behind `stop_time`."""
-
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """Let inputs change linearly in the next step, by so much in a second; for units that take slopes."""
 
     def step(self, time: float, size: float) -> None:
         """Advance by `size` [s] from `time`, where the last step ended; a step that is not completed is an error."""

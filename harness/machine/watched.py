@@ -109,10 +109,6 @@ class Watched:
         """Set variables by name."""
         self.component.set(values)
 
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """Let inputs change linearly in the next step."""
-        self.component.set_slopes(slopes)
-
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`; how many impacts a step had is asked by many, so it is kept."""
         if names != IMPACTS:

@@ -48,11 +48,6 @@ class RemoteComponent:
         self._trips.order("set", dict(values))
         self._trips.changed(values)
 
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """Let inputs change linearly in the next step."""
-        self._trips.order("set_slopes", dict(slopes))
-        self._trips.slopes_changed()
-
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`."""
         return list(self._trips.ask("get", tuple(names)))

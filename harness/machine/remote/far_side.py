@@ -82,7 +82,6 @@ class _Servant:
     def __init__(self, component: Component) -> None:
         self.component = component
         self.set = component.set
-        self.set_slopes = component.set_slopes
         self.enter_initialization = component.enter_initialization
         self.exit_initialization = component.exit_initialization
         self.advance = component.advance
