@@ -1,7 +1,7 @@
 """Machines: several FMUs that exchange outputs and inputs (docs/machines.md).
 
 - `structure`: who follows whom, known before any component is there (`loops`, `order`)
-- `machine`: parts and their exchange (`component`, `part`, `signals`, `connection`, `extrapolation`); `run`;
+- `machine`: parts and their exchange (`component`, `part`, `signals`, `connection`, `extrapolation`, `names`); `run`;
   `initialization`, `driven` (inputs of a table)
 - `algorithms`: how it takes a step, a file each; `algorithm` chooses, `cautions` says what one cannot do
 - what looks on: `record` (`growing_table`, `recorded`), `impacts` (`watched`, `impact_times`), `bonds` (`port`),

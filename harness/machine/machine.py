@@ -13,6 +13,7 @@ from .connection import Connection, Link
 from .driven import Driven
 from .extrapolation import Extrapolation
 from .initialization import initialize
+from .names import own_of, part_of
 from .part import Part
 from .structure import structure_of
 
@@ -246,15 +247,11 @@ class Machine:
 
 def _connected(name: str, component: Component, links: Sequence[Link]) -> Part:
     """A part with its connected outputs and inputs."""
-    own = [link for link in links if _part(link.source) == name]
-    sources = {link.source.partition(".")[2]: "" for link in own}
-    sources |= {link.source.partition(".")[2]: link.rate.partition(".")[2] for link in own if link.rate}
-    targets = [link.target.partition(".")[2] for link in links if _part(link.target) == name]
+    own = [link for link in links if part_of(link.source) == name]
+    sources = {own_of(link.source): "" for link in own}
+    sources |= {own_of(link.source): own_of(link.rate) for link in own if link.rate}
+    targets = [own_of(link.target) for link in links if part_of(link.target) == name]
     return Part(component, list(sources), list(sources.values()), targets)
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]
 
 
 def _by_part(names: Sequence[str]) -> dict[str, list[str]]:

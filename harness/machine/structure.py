@@ -9,6 +9,7 @@ from ..description import Description, Variable
 from ..errors import UsageError
 from .connection import Connection, Link, linked
 from .loops import loops
+from .names import part_of
 from .order import dependency_order
 from .part_units import units_of_parts
 
@@ -59,7 +60,7 @@ def structure_of(
         if not variables[link.target].settable:
             raise UsageError(f"{link.target} has two connections; an input can have only one.")
         variables[link.target] = replace(variables[link.target], causality="output")
-    edges = [(_part(link.source), _part(link.target)) for link in links]
+    edges = [(part_of(link.source), part_of(link.target)) for link in links]
     order, cycles = dependency_order(list(descriptions), edges)
     return Structure(whole, links, order, cycles, loops(links, descriptions))
 
@@ -67,7 +68,3 @@ def structure_of(
 def _variables(part: str, description: Description) -> Iterator[Variable]:
     for variable in description.variables.values():
         yield replace(variable, name=f"{part}.{variable.name}")
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]

@@ -22,6 +22,7 @@ from ...errors import UsageError
 from ...recorder import recorded_variables
 from ..connection import Connection, Link, linked
 from ..file.plan import Plan
+from ..names import part_of
 from ..structure import structure_of
 from .description import Exposed, container_description
 from .gains import CHANNELS, GUID, NAME, factor_reference, gains_entries, in_reference, offset_reference, out_reference
@@ -156,7 +157,7 @@ def _components(parts: Mapping[str, Part], scaled: bool) -> list[dict[str, str]]
 
 def _readable(variable: Variable, parts: Mapping[str, Part]) -> bool:
     """Whether fmpy's container has the functions for its type; it takes an Int64 of FMI 3.0 for an Int32, and fails."""
-    fmi = parts[variable.name.partition(".")[0]].description.fmi
+    fmi = parts[part_of(variable.name)].description.fmi
     return variable.elements == 1 and (fmi == 2 or variable.fmi_type in _TYPES.values())
 
 
@@ -188,7 +189,7 @@ def _exposed(plan: Plan, machine: Description, parts: Mapping[str, Part]) -> lis
             if variable.name in values:
                 value = values[variable.name]
                 start = ("true" if value else "false") if variable.type == "Boolean" else repr(value)
-            component = names.index(variable.name.partition(".")[0])
+            component = names.index(part_of(variable.name))
             exposed.append(Exposed(replace(variable, start=start), component, variable.reference))
     return exposed
 
@@ -234,7 +235,7 @@ def _connections(
     found = []
     for link in in_order(links, machine):
         source, target = machine.variables[link.source], machine.variables[link.target]
-        first, last = (names.index(v.name.partition(".")[0]) for v in (source, target))
+        first, last = (names.index(part_of(v.name)) for v in (source, target))
         if link in scaled:
             channel = scaled.index(link)
             found.append(_connection(first, source.reference, len(names), in_reference(channel)))
