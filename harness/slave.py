@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 from .description import Description, Value
@@ -17,6 +17,14 @@ class Observable(Protocol):
 
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`."""
+
+
+def whole_step(advance: Callable[[float, float], float], time: float, size: float) -> None:
+    """Take a step of `size` [s] from `time` by `advance`, which tells the time reached: it may return early."""
+    end = time + size
+    reached = advance(time, size)
+    while reached < end:
+        reached = advance(reached, end - reached)
 
 
 class Slave(Observable, Protocol):

@@ -17,6 +17,7 @@ from fmpy.fmi1 import FMICallException
 from ..description import Description, Value
 from ..errors import FmuError, UsageError
 from ..messages import LogMessage, Status
+from ..slave import whole_step
 from .batches import Batch, batches
 from .element_reals import ElementReals
 from .raw_reals import Call, RawReals, doubles, nothing
@@ -130,10 +131,7 @@ class FmuSlave(ABC):
 
     def step(self, time: float, size: float) -> None:
         """Advance from `time` by `size` [s], going on where the FMU returns early."""
-        end = time + size
-        reached = self.advance(time, size)
-        while reached < end:
-            reached = self.advance(reached, end - reached)
+        whole_step(self.advance, time, size)
 
     def advance(self, time: float, size: float) -> float:
         """Take a step, or a part of it where the FMU returns early; the time reached [s].

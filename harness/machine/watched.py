@@ -11,6 +11,7 @@ from time import perf_counter_ns
 from typing import Any, Protocol
 
 from ..description import Value
+from ..slave import whole_step
 from .component import Component, Reals
 from .machine import Machine
 
@@ -77,9 +78,7 @@ class Watched:
 
     def step(self, time: float, size: float) -> None:
         """Advance by `size` [s] from `time`, however often the component returns early."""
-        reached, end = time, time + size
-        while reached < end:
-            reached = self.advance(reached, end - reached)
+        whole_step(self.advance, time, size)
 
     def save(self, state: Any = None) -> tuple[Any, list[Any]]:
         """A snapshot of the component and of what the watchers know."""

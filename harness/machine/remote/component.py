@@ -7,6 +7,7 @@ from typing import Any
 
 from ...description import Description, Value
 from ...messages import LogMessage
+from ...slave import whole_step
 from .link import Link
 from .reals import RemoteReals
 from .round_trips import RoundTrips
@@ -69,9 +70,7 @@ class RemoteComponent:
 
     def step(self, time: float, size: float) -> None:
         """Advance by `size` [s] from `time`, however often the component returns early."""
-        reached, end = time, time + size
-        while reached < end:
-            reached = self.advance(reached, end - reached)
+        whole_step(self.advance, time, size)
 
     def advance(self, time: float, size: float) -> float:
         """As `step`, but the component may return early; the time reached [s]."""
