@@ -62,7 +62,7 @@ def structure_of(
         variables[link.target] = replace(variables[link.target], causality="output")
     edges = [(part_of(link.source), part_of(link.target)) for link in links]
     order, cycles = dependency_order(list(descriptions), edges)
-    return Structure(whole, links, order, cycles, loops(links, descriptions))
+    return Structure(whole, links, order, cycles, loops(links, whole))
 
 
 def _variables(part: str, description: Description) -> Iterator[Variable]:

@@ -6,7 +6,7 @@ import json
 import re
 import uuid
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,13 +20,13 @@ from mechanism_fmu.fmu.native.universal import universal
 from ...description import Description, Variable
 from ...errors import UsageError
 from ...recorder import recorded_variables
-from ..connection import Connection, Link, linked
+from ..connection import Connection, Link
 from ..file.plan import Plan
+from ..loops import in_order
 from ..names import part_of
 from ..structure import structure_of
 from .description import Exposed, container_description
 from .gains import CHANNELS, GUID, NAME, factor_reference, gains_entries, in_reference, offset_reference, out_reference
-from .order import in_order
 
 _BINARIES = Path(container_fmu.__file__).with_name("binaries")
 _PLATFORMS = {
@@ -68,8 +68,10 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
     """
     require_name(path)
     stem = path.stem
-    machine = structure_of({name: part.description for name, part in parts.items()}).description
-    links = [linked(connection, machine) for connection in plan.connections]
+    descriptions = {name: part.description for name, part in parts.items()}
+    machine = structure_of(descriptions).description
+    connected = structure_of(descriptions, plan.connections)
+    links = connected.links
     for name in dict.fromkeys(end for link in links for end in (link.source, link.target)):
         if machine.variables[name].elements > 1:
             raise UsageError(f"{name} is an element of an array, which fmpy's container cannot connect.")
@@ -96,9 +98,8 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
             )
         for channel, link in enumerate(scaled):
             exposed += _of_channel(channel, link, len(names), machine)
-        whole = structure_of({name: part.description for name, part in parts.items()}, plan.connections).description
         token = f"{{{uuid.UUID(_fingerprint(entries, plan, exposed))}}}"
-        description = container_description(stem, token, plan, exposed, whole)
+        description = container_description(stem, token, plan, exposed, connected.description)
         configuration = {
             "containerVersion": container_fmu.__version__,
             "instantiationToken": token,
@@ -226,7 +227,7 @@ def _variable(exposed: Exposed) -> dict[str, Any]:
 
 def _connections(
     connections: tuple[Connection, ...],
-    links: list[Link],
+    links: Sequence[Link],
     scaled: list[Link],
     names: list[str],
     machine: Description,
