@@ -73,8 +73,8 @@ def reactions(configurations: Configurations, forces: FloatArray) -> Reactions:
     if joints and not np.all(settled):
         raise LinkageError(
             f"At t = {configurations.pose.time[np.argmin(settled)]:.9g} s friction does not settle in {_ROUNDS} "
-            f"rounds: a joint ({', '.join(one.joint for one in joints)}) is about to lock itself. Make friction smaller, or "
-            "leave this position out."
+            f"rounds: a joint ({', '.join(one.joint for one in joints)}) is about to lock itself. Make friction "
+            "smaller, or leave this position out."
         )
     rates = configurations.pose.velocity[:, :-1].reshape(len(rows), -1)
     drives = {joint.name for joint in configurations.linkage.mechanism.joints if is_driver(joint)}
