@@ -23,7 +23,9 @@ from harness.machine.component import Component
 from harness.machine.connection import Connection
 from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.remote import RemoteComponent, remote
+from harness.machine.remote import remote
+from harness.machine.remote.component import RemoteComponent
+from harness.machine.remote.far_side import Request
 from harness.machine.run import run_machine
 from harness.master import Ending
 from harness.messages import LogMessage, Status
@@ -75,13 +77,13 @@ def test_a_machine_runs_as_if_its_parts_were_here(start: Any, algorithm: str, ex
 def trips(component: RemoteComponent, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """What is asked of a component from now on."""
     asked: list[str] = []
-    send = component._send
+    ask = component._link.ask
 
-    def spy(call: str, *rest: Any) -> None:
-        asked.append(call)
-        send(call, *rest)
+    def spy(request: Request, limit: float) -> Any:
+        asked.append(request[1])
+        return ask(request, limit)
 
-    monkeypatch.setattr(component, "_send", spy)
+    monkeypatch.setattr(component._link, "ask", spy)
     return asked
 
 
@@ -218,7 +220,7 @@ if __name__ == "__main__":
         remote("two", WheelOpener("two"), folder=waiting) as two,
     ):
         one.initialize(0.0, 1.0)
-        one._send("advance", (0.0, 0.1), ())
+        one._link.send(((), "advance", (0.0, 0.1), ()))
         print(one.process.pid, two.process.pid, flush=True)
         time.sleep(600.0)
 """

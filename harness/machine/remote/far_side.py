@@ -19,11 +19,11 @@ from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
 from typing import Any
 
-from ..errors import FmuError, HarnessError
-from ..fmu.slave import MessageHandler
-from ..messages import LogMessage
-from ..processes import serve_only
-from .component import Component, Reals
+from ...errors import FmuError, HarnessError
+from ...fmu.slave import MessageHandler
+from ...messages import LogMessage
+from ...processes import serve_only
+from ..component import Component, Reals
 
 #: Makes a component that tells its messages to the given function; can be pickled.
 Opener = Callable[[MessageHandler], AbstractContextManager[Component]]
@@ -82,7 +82,6 @@ class _Servant:
     def __init__(self, component: Component) -> None:
         self.component = component
         self.set = component.set
-        self.set_slopes = component.set_slopes
         self.enter_initialization = component.enter_initialization
         self.exit_initialization = component.exit_initialization
         self.advance = component.advance
