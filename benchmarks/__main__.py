@@ -14,7 +14,7 @@ from rich.console import Console
 from mechanism_fmu.fmu.start import CACHE_VARIABLE
 from mechanism_fmu.model import MechanismError
 
-from . import acceleration, bending, cams, cycle, fmu_step, fmus, impacts, master, startup, step
+from . import acceleration, bending, cams, cycle, elastodynamics, fmu_step, fmus, impacts, master, startup, step
 from .c_limit import compare as c_limit
 from .c_limit.library import NoCompilerError
 from .native_surface import compare as native_surface
@@ -65,23 +65,23 @@ def _compare(folder: Path, progress: Console) -> list[Comparison]:
     comparisons += impacts.compare(_ROUNDS)
     progress.print("5/11  one simulated second of the free ratchet")
     comparisons += cycle.compare(_ROUNDS)
-    progress.print("6/11  the same algorithm by hand in C")
+    progress.print("6/11  a linkage that bends")
+    comparisons += elastodynamics.compare(_ROUNDS) + bending.compare(_ROUNDS)
+    progress.print("7/11  the same algorithm by hand in C")
     try:
         comparisons += c_limit.compare(folder, _ROUNDS)
     except NoCompilerError as error:
         progress.print(f"     left out: {error}")
-    progress.print("7/11  the native FMU, from C (builds it; a first build compiles the engine ahead of time)")
+    progress.print("8/11  the native FMU, from C (builds it; a first build compiles the engine ahead of time)")
     try:
         comparisons += native_surface.compare(folder, _ROUNDS)
     except (NoCompilerError, MechanismError) as error:
         progress.print(f"     left out: {error}")
-    progress.print("8/11  a machine of native FMUs")
+    progress.print("9/11  a machine of native FMUs")
     try:
         comparisons += master.compare(folder, _ROUNDS)
     except MechanismError as error:
         progress.print(f"     left out: {error}")
-    progress.print("9/11  a linkage that bends")
-    comparisons += bending.compare(_ROUNDS)
     progress.print("10/11  start of the FMU by pythonfmu (and one that compiles the engine)")
     ratchet, plain = fmus.build_ratchet(folder), fmus.build_plain(folder)
     starts = startup.compare(ratchet, folder, cache)

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from ..kinematics import KinematicMotion
 from .constraints import constraint_rows, guided
-from .elements import FloatArray
+from .elements import FloatArray, block_diagonal
 from .elimination import independent_basis
-from .freedoms import RELEASED, named_place
+from .freedoms import RELEASED
 from .linkage import Linkage
+from .places import named_place
 from .pose import Pose, left, pose_of
 from .transfer import transfer_matrix
 
@@ -62,7 +62,7 @@ class Configurations:
     @cached_property
     def compatibility(self) -> FloatArray:
         """C of d = C u, shape (times, n, m): element deformations from the free displacements."""
-        deformation = np.asarray(block_diag(*(element.deformation for element in self.linkage.elements)))
+        deformation = block_diagonal(element.deformation for element in self.linkage.elements)
         ends = self.ends
         return deformation @ ends.reshape(len(ends), -1, ends.shape[-1])
 

@@ -11,8 +11,9 @@ from numpy.typing import ArrayLike
 from .configuration import Configurations
 from .elements import FloatArray
 from .errors import LinkageError
-from .freedoms import RELEASED, named_place
+from .freedoms import RELEASED
 from .masses import inertia_forces, system_forces
+from .places import named_place
 from .reactions import Reactions, power_of, reactions
 from .stresses import largest_stress, section_forces
 

@@ -7,10 +7,10 @@ equations are the paper's.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from ..model import Section
 
@@ -53,7 +53,7 @@ def bent_coupler(cantilever_length: float, supported_length: float, section: Sec
     the first one's moment; the angle is no matter of F, but of how forces are transferred.
     """
     first = cantilever(cantilever_length, section, young)
-    return np.asarray(block_diag(first, supported_beam(supported_length, section, young)))
+    return block_diagonal((first, supported_beam(supported_length, section, young)))
 
 
 def torsion_shaft(length: float, polar_moment: float, shear_modulus: float) -> FloatArray:
@@ -67,3 +67,13 @@ def spatial_link(length: float, section: Section, young: float) -> FloatArray:
     diag(l/AE, l^3/3EI): it bends in one plane only, from the revolute joint on, as a cantilever without end moment.
     """
     return cantilever(length, section, young)[:2, :2]
+
+
+def block_diagonal(matrices: Iterable[FloatArray]) -> FloatArray:
+    """One matrix with others along its diagonal and zeros beside them."""
+    blocks = [*matrices]
+    ends = np.cumsum([(0, 0), *(block.shape for block in blocks)], axis=0)
+    found = np.zeros(ends[-1])
+    for block, (row, column) in zip(blocks, ends, strict=False):
+        found[row : row + block.shape[0], column : column + block.shape[1]] = block
+    return found

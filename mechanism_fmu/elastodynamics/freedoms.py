@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..model import AngleDriver, Mechanism, Revolute, RevoluteTranslational, Translational, TranslationalDriver
-from .errors import LinkageError
 from .locks import attachments, rubbing_pins, welds
-from .places import Place, find_places, place_of
+from .places import Place, find_places, named_place, place_of
 
 IntArray = np.ndarray[Any, np.dtype[np.int64]]
 
@@ -109,16 +108,3 @@ def _kept(
                 kept.add(number)
     kept |= {n for n, place in enumerate(places) if len(place.names) > 1 or n not in jointed}
     return kept | {named_place(places, name) for name in loaded}
-
-
-def named_place(places: tuple[Place, ...], name: str) -> int:
-    """The number of a place by one of its names.
-
-    Raises:
-        LinkageError: there is none.
-    """
-    for number, place in enumerate(places):
-        if name in place.names:
-            return number
-    known = ", ".join(name for place in places[1:] for name in place.names)
-    raise LinkageError(f"There is no place {name!r}; there are {known}.")

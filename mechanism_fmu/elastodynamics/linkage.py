@@ -8,10 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from ..model import Mechanism, Member
-from .elements import FloatArray, cantilever, supported_beam, two_force_member
+from .elements import FloatArray, block_diagonal, cantilever, supported_beam, two_force_member
 from .errors import LinkageError
 from .freedoms import RELEASED, Freedoms, find_freedoms
 from .places import place_of
@@ -105,7 +104,7 @@ class Linkage:
     @cached_property
     def flexibility(self) -> FloatArray:
         """F of all elements, block diagonal, shape (n, n): it does not depend on the configuration."""
-        return np.asarray(block_diag(*(element.flexibility for element in self.elements)))
+        return block_diagonal(element.flexibility for element in self.elements)
 
 
 def linkage(mechanism: Mechanism, loaded: Iterable[str] = ()) -> Linkage:

@@ -77,6 +77,19 @@ def place_of(places: tuple[Place, ...], mechanism: Mechanism, part: str, body: s
     return found
 
 
+def named_place(places: tuple[Place, ...], name: str) -> int:
+    """The number of a place by one of its names.
+
+    Raises:
+        LinkageError: there is none.
+    """
+    for number, place in enumerate(places):
+        if name in place.names:
+            return number
+    known = ", ".join(name for place in places[1:] for name in place.names)
+    raise LinkageError(f"There is no place {name!r}; there are {known}.")
+
+
 def ends_of_joint(joint: Joint) -> tuple[tuple[str, Point], tuple[str, Point]]:
     """Body and point i, and body and point j, of a joint that has points."""
     return (joint.body_i, getattr(joint, "point_i", (0.0, 0.0))), (joint.body_j, getattr(joint, "point_j", (0.0, 0.0)))

@@ -60,23 +60,20 @@ def reactions(configurations: Configurations, forces: FloatArray) -> Reactions:
             friction does not settle: a joint is about to lock itself.
     """
     rows, owners = _rigid_rows(configurations)
-    inverse = _inverse(rows, configurations.pose.time)
     joints = rubbing_joints(configurations)
     friction = np.zeros_like(forces)
-    multipliers = -(inverse @ _on_bodies(configurations, forces)[:, :, None])[:, :, 0]
-    for _ in range(_ROUNDS):
-        if not joints:
-            break
+    multipliers = _solved(rows, _on_bodies(configurations, forces), configurations.pose.time)
+    for _ in range(_ROUNDS if joints else 0):
         friction = _friction(joints, owners, multipliers, forces.shape)
         last = multipliers
-        multipliers = -(inverse @ _on_bodies(configurations, forces + friction)[:, :, None])[:, :, 0]
-        change = np.abs(multipliers - last).max(axis=1)
-        if np.all(change <= _SETTLED * np.abs(multipliers).max()):
+        multipliers = _solved(rows, _on_bodies(configurations, forces + friction), configurations.pose.time)
+        settled = np.abs(multipliers - last).max(axis=1) <= _SETTLED * np.abs(multipliers).max()
+        if np.all(settled):
             break
-    else:
+    if joints and not np.all(settled):
         raise LinkageError(
-            f"At t = {configurations.pose.time[np.argmax(change)]:.9g} s friction does not settle in {_ROUNDS} rounds: "
-            f"a joint ({', '.join(one.joint for one in joints)}) is about to lock itself. Make friction smaller, or "
+            f"At t = {configurations.pose.time[np.argmin(settled)]:.9g} s friction does not settle in {_ROUNDS} "
+            f"rounds: a joint ({', '.join(one.joint for one in joints)}) is about to lock itself. Make friction smaller, or "
             "leave this position out."
         )
     rates = configurations.pose.velocity[:, :-1].reshape(len(rows), -1)
@@ -121,8 +118,8 @@ def _rigid_rows(configurations: Configurations) -> tuple[FloatArray, tuple[str, 
     return rows.reshape(*rows.shape[:2], -1), tuple(owners)
 
 
-def _inverse(rows: FloatArray, time: FloatArray) -> FloatArray:
-    """(Phi_q^T)^-1, shape (times, rows, 3 bodies); of least norm where rows say the same."""
+def _solved(rows: FloatArray, loads: FloatArray, time: FloatArray) -> FloatArray:
+    """Lambda of Phi_q^T lambda + loads = 0, shape (times, rows); of least norm where rows say the same."""
     count, coordinates = rows.shape[1:]
     transposed = np.swapaxes(rows, 1, 2)
     if count < coordinates:
@@ -131,9 +128,9 @@ def _inverse(rows: FloatArray, time: FloatArray) -> FloatArray:
             "driver, or name a coordinate in `Mechanism.held`."
         )
     if count > coordinates:
-        return np.linalg.pinv(transposed)
+        return -(np.linalg.pinv(transposed) @ loads[:, :, None])[:, :, 0]
     try:
-        return np.linalg.inv(transposed)
+        return -np.linalg.solve(transposed, loads[:, :, None])[:, :, 0]
     except np.linalg.LinAlgError:
         worst = float(time[np.argmin(np.linalg.svd(rows, compute_uv=False)[:, -1])])
         raise LinkageError(
@@ -147,6 +144,8 @@ def _on_bodies(configurations: Configurations, forces: FloatArray) -> FloatArray
     pose = configurations.pose
     loads = np.zeros((len(pose.time), len(pose.bodies), 3))
     for number, place in enumerate(configurations.linkage.freedoms.places):
+        if not forces[:, number].any():
+            continue
         k = pose.bodies.index(place.body)
         arm = left(pose.turned(place.body, place.point))
         loads[:, k] += forces[:, number]

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import block_diag
 
-from .elements import FloatArray
+from .elements import FloatArray, block_diagonal
 from .linkage import Linkage
 
 
@@ -15,7 +14,7 @@ def section_forces(linkage: Linkage, element_forces: FloatArray) -> FloatArray:
     Tension N is positive, and so are moments that bend the element to its left, seen from its start; between the ends
     they change in proportion to the way.
     """
-    matrix = np.asarray(block_diag(*(element.section_forces for element in linkage.elements)))
+    matrix = block_diagonal(element.section_forces for element in linkage.elements)
     return (element_forces @ matrix.T).reshape(len(element_forces), -1, 3)
 
 

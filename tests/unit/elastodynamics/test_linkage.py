@@ -85,7 +85,7 @@ def test_drivers_hold_the_mechanism_and_without_them_its_held_coordinates():
         np.testing.assert_array_equal(configurations(linkage(other), still(other)).transfer, one)
     other = configurations(linkage(replace(held, held=("follower.angle",))), still(held))
     assert "follower_bar.transverse" in other.linkage.coordinates
-    with pytest.raises(LinkageError, match="'coupler.angle' turns 'coupler' against 'ground', which have 0 pins"):
+    with pytest.raises(LinkageError, match=r"'coupler\.angle' turns 'coupler' against 'ground', which have 0 pins"):
         linkage(replace(held, held=("coupler.angle",)))
 
 

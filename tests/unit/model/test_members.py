@@ -38,7 +38,10 @@ def test_the_engine_reads_nothing_of_members():
         ({"members": (replace(BAR, young=math.inf),)}, ["young = inf Pa", "finite"]),
         ({"members": (replace(BAR, density=-1.0),)}, ["density = -1 kg/m3", "not negative"]),
         ({"members": (replace(BAR, section=Section(0.0, 1e-9, 0.01)),)}, ["area of its section = 0 m2"]),
-        ({"members": (replace(BAR, section=Section(1e-4, math.nan, 0.01)),)}, ["second_moment of its section = nan m4"]),
+        (
+            {"members": (replace(BAR, section=Section(1e-4, math.nan, 0.01)),)},
+            ["second_moment of its section = nan m4"],
+        ),
         ({"members": (replace(BAR, section=Section(1e-4, 1e-9, -0.01)),)}, ["depth of its section = -0.01 m"]),
         ({"members": (replace(BAR, end=BAR.start),)}, ["(-0.5, 0)", "no length", "two different"]),
         ({"members": (replace(BAR, end=(math.inf, 0.0)),)}, ["(inf, 0)", "finite ends"]),
