@@ -3,16 +3,23 @@
 `linkage` makes a structure of a mechanism with members, `configurations` follows it along a motion: compatibility,
 transfer of forces, flexibility and stiffness in all configurations at once. `quasi_static` bends it by the inertia of
 the rigid motion and by loads, with stresses, reactions, input torque and power.
+
+`elastic_cycle` makes the equations of a linkage that swings (docs/elastodynamics-dynamics.md), `periodic_response` is
+their steady state; `lightest` looks for the lightest design.
 """
 
 from .configuration import Configurations, configurations
+from .consistent import consistent_load, consistent_mass
 from .cycle import Cycle, Power, quasi_static
-from .dynamics import deflection_of, elastic_cycle, stress_of
+from .dynamics import MassModel, deflection_of, elastic_cycle, stress_of
 from .elastic_cycle import ElasticCycle
 from .elements import bent_coupler, cantilever, spatial_link, supported_beam, torsion_shaft, two_force_member
 from .errors import LinkageError
+from .feedback import Feedback, fed_back
 from .fluctuation import Fluctuation, torque_fluctuation
 from .frequencies import InstantaneousModes, instantaneous_modes
+from .gear_tooth import GearTooth
+from .judgement import Judgement, judge_quasi_static, judge_steady_state, member_mass, rigid_path
 from .linkage import Element, Linkage, linkage
 from .masses import inertia_forces, lumps, mass_matrix, system_forces
 from .peak import peak
@@ -20,8 +27,12 @@ from .periodic import PeriodicResponse, periodic_response
 from .ports import ElasticPorts, elastic_ports
 from .reactions import Reactions, power_of, reactions
 from .simulated import simulated_motion
-from .speeds import critical_speeds
+from .speeds import SpeedSweep, critical_speeds, speed_sweep
 from .stresses import largest_stress, section_forces
+from .stretch_rotation import deformed_links, planar_deformation, planar_operator, spatial_deformation, spatial_operator
+from .synthesis import Synthesis, lightest
+from .tapered import VaryingBeam, tapered_cantilever, tapered_end_moment
+from .transient import Transient, growth_per_period, transient
 from .turn import DRIVE, crank_of, turn
 
 __all__ = [
@@ -31,40 +42,66 @@ __all__ = [
     "ElasticCycle",
     "ElasticPorts",
     "Element",
+    "Feedback",
     "Fluctuation",
+    "GearTooth",
     "InstantaneousModes",
+    "Judgement",
     "Linkage",
     "LinkageError",
+    "MassModel",
     "PeriodicResponse",
     "Power",
     "Reactions",
+    "SpeedSweep",
+    "Synthesis",
+    "Transient",
+    "VaryingBeam",
     "bent_coupler",
     "cantilever",
     "configurations",
+    "consistent_load",
+    "consistent_mass",
     "crank_of",
     "critical_speeds",
     "deflection_of",
+    "deformed_links",
     "elastic_cycle",
     "elastic_ports",
+    "fed_back",
+    "growth_per_period",
     "inertia_forces",
     "instantaneous_modes",
+    "judge_quasi_static",
+    "judge_steady_state",
     "largest_stress",
+    "lightest",
     "linkage",
     "lumps",
     "mass_matrix",
+    "member_mass",
     "peak",
     "periodic_response",
+    "planar_deformation",
+    "planar_operator",
     "power_of",
     "quasi_static",
     "reactions",
+    "rigid_path",
     "section_forces",
     "simulated_motion",
+    "spatial_deformation",
     "spatial_link",
+    "spatial_operator",
+    "speed_sweep",
     "stress_of",
     "supported_beam",
     "system_forces",
+    "tapered_cantilever",
+    "tapered_end_moment",
     "torque_fluctuation",
     "torsion_shaft",
+    "transient",
     "turn",
     "two_force_member",
 ]

@@ -83,5 +83,5 @@ def stress_of(configurations: Configurations, displacement: FloatArray) -> Float
     """
     linkage = configurations.linkage
     deformation = (configurations.compatibility @ displacement[:, :, None])[:, :, 0]
-    element_forces = np.linalg.solve(linkage.flexibility, deformation.T).T
+    element_forces = np.asarray(np.linalg.solve(linkage.flexibility, deformation.T).T)
     return largest_stress(linkage, section_forces(linkage, element_forces))

@@ -48,7 +48,8 @@ def fed_back(cycle: ElasticCycle) -> Feedback:
     speed = 2.0 * math.pi / cycle.period
     static = cycle.static()
     whole = cycle.size(static)
-    u, best, changes = static, static, []
+    u = best = static
+    changes: list[float] = []
     while len(changes) < _MOST_ROUNDS:
         new = _once_more(cycle, u, speed)
         changes.append(cycle.size(new - u) / whole if whole > 0.0 else 0.0)

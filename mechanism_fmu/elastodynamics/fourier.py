@@ -34,7 +34,7 @@ def evaluate(series: ComplexArray, angles: FloatArray, derivative: int = 0) -> F
 
 def even_angles(count: int) -> FloatArray:
     """The angles 2 pi j / count [rad], shape (count,)."""
-    return 2.0 * math.pi / count * np.arange(count)
+    return np.asarray(2.0 * math.pi / count * np.arange(count))
 
 
 def resampled(samples: FloatArray, count: int) -> FloatArray:

@@ -41,7 +41,7 @@ class InstantaneousModes:
         """
         zeta = np.asarray(ratio, dtype=float)
         if not np.all((zeta >= 0.0) & (zeta < 1.0)):
-            raise ValueError(f"the damping ratio is {ratio}, but must be 0 or more and below 1; 2 % is 0.02.")
+            raise ValueError(f"the damping ratio is {zeta}, but must be 0 or more and below 1; 2 % is 0.02.")
         # Z^T K Z = 1, so K Z is the inverse of Z^T.
         left = np.linalg.inv(self.shapes).swapaxes(-1, -2)
         return np.asarray((left * (2.0 * zeta / self.omega)[:, None, :]) @ left.swapaxes(-1, -2))

@@ -16,7 +16,7 @@ class GearTooth:
     """A tooth from its root to the place where the mating tooth pushes, with flanks straight between the two.
 
     The gear body is rigid. For l of 0.75 h_0 to 3 h_0 and h_1 of h_0/2 to h_0, the deflection is up to 4 % and the
-    rotation up to 5.5 % more than those of a plate of finite elements, clamped at its root so that it cannot warp there;
+    rotation up to 5.5 % more than those of a plate of finite elements, clamped at its root so that it cannot warp;
     axial compression differs by 5 % at most, the whole along the normal of a flank by 10 %. The stress is plane: of
     teeth much wider than high, give E / (1 - nu^2) for E and nu / (1 - nu) for nu.
 

@@ -9,9 +9,9 @@ import numpy as np
 from .cycle import Cycle
 from .dynamics import MassModel, deflection_of, elastic_cycle, stress_of
 from .elements import FloatArray
-from .freedoms import named_place
 from .linkage import Linkage
 from .periodic import periodic_response
+from .places import named_place
 
 
 @dataclass(frozen=True)

@@ -103,5 +103,5 @@ def _left_over(cycle: ElasticCycle, series: ComplexArray) -> float:
     angles, speed = even_angles(cycle.samples), 2.0 * math.pi / cycle.period
     u, v, a = (evaluate(series, angles, k)[..., None] * speed**k for k in range(3))
     rest = cycle.mass @ a + cycle.damping @ v + cycle.stiffness @ u - cycle.load[..., None]
-    bent = cycle.size(u[..., 0])
-    return cycle.size(np.linalg.solve(cycle.stiffness, rest)[..., 0]) / bent if bent > 0.0 else 0.0
+    bent, wrong = cycle.size(u[..., 0]), cycle.size(np.asarray(np.linalg.solve(cycle.stiffness, rest)[..., 0]))
+    return wrong / bent if bent > 0.0 else 0.0

@@ -49,7 +49,7 @@ def spatial_operator(stretch: npt.ArrayLike, rotation: npt.ArrayLike) -> FloatAr
     cross = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1).reshape(*theta.shape[:-1], 3, 3)
     # sin a / a and (1 - cos a) / a^2, both smooth at 0; numpy's sinc has the factor pi inside.
     turn = np.eye(3) + np.sinc(angle / np.pi) * cross + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * (cross @ cross)
-    return (1.0 + np.asarray(stretch, dtype=float))[..., None, None] * turn
+    return np.asarray((1.0 + np.asarray(stretch, dtype=float))[..., None, None] * turn)
 
 
 def planar_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:

@@ -138,7 +138,7 @@ class _Search:
             method="SLSQP",
             options={"ftol": _SETTLED, "maxiter": 100},
         )
-        return np.clip(found.x, 0.0, 1.0)
+        return np.asarray(np.clip(found.x, 0.0, 1.0))
 
     def _slopes(self, function: Callable[[FloatArray], FloatArray | float], x: FloatArray) -> FloatArray:
         """Derivatives by each coordinate, shape (n, ...), away from the nearer bound."""

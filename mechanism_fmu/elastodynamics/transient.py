@@ -53,7 +53,7 @@ def transient(
         np.zeros(cycle.load.shape[1]) if x is None else np.asarray(x, dtype=float) for x in (displacement, velocity)
     )
     found = _integrated(cycle.resampled(steps), periods, u, v)
-    time = cycle.period / steps * np.arange(periods * steps + 1)
+    time = np.asarray(cycle.period / steps * np.arange(periods * steps + 1))
     return Transient(time, *found)
 
 

@@ -1,4 +1,4 @@
-"""The examples of docs/elastodynamics-dynamics.md, which follow each other in one file, print what stands below them."""
+"""The examples of docs/elastodynamics-dynamics.md, in one file, print what stands below them."""
 
 import contextlib
 import io

@@ -9,7 +9,7 @@ import pytest
 from rich.console import Console
 
 import models
-from benchmarks import acceleration, cams, elastodynamics, fmu_step, fmus, reference, step
+from benchmarks import acceleration, bending, cams, elastodynamics, fmu_step, fmus, reference, step
 from benchmarks.c_limit import compare as c_limit
 from benchmarks.c_limit.library import Limit, NoCompilerError, build, export
 from benchmarks.table import as_json, table, this_machine
@@ -42,6 +42,11 @@ def test_what_does_not_agree_is_refused(other: float) -> None:
     require_agreement("x", [1.0, 2.0], [1.05, 2.0], 0.06)
     with pytest.raises(DisagreementError, match="differ by"):
         require_agreement("x", [1.0, 2.0], [other, 2.0], 0.06)
+
+
+@pytest.mark.slow
+def test_the_periodic_motion_of_a_linkage_agrees_with_its_direct_integration() -> None:
+    assert [c.case for c in bending.compare(1)] == ["direct integration of 12 turns"]
 
 
 def test_engine_and_plain_program_agree_and_are_timed() -> None:

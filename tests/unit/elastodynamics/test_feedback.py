@@ -3,10 +3,10 @@ import warnings
 import numpy as np
 import pytest
 
-from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.feedback import fed_back
 from mechanism_fmu.elastodynamics.periodic import periodic_response
+from tests import bending_four_bar as four_bar
 
 
 def one_mass(ratio, samples=33):

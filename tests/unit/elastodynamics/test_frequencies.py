@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
+from tests import bending_four_bar as four_bar
 from tests.elastodynamics_oracle import oracle
 
 

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.periodic import TOLERANCE, periodic_response
+from tests import bending_four_bar as four_bar
 from tests.elastodynamics_oracle import oracle
 
 

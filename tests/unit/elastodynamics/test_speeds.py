@@ -3,10 +3,10 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
 from mechanism_fmu.elastodynamics.speeds import critical_speeds, speed_sweep
+from tests import bending_four_bar as four_bar
 
 
 def test_critical_speeds_are_mean_frequencies_over_harmonics():

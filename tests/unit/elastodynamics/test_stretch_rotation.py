@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.stretch_rotation import (
     deformed_links,
     planar_deformation,
@@ -14,6 +13,7 @@ from mechanism_fmu.elastodynamics.stretch_rotation import (
     spatial_deformation,
     spatial_operator,
 )
+from tests import bending_four_bar as four_bar
 
 SEEDS = st.integers(0, 10**6)
 

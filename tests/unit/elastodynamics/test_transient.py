@@ -3,10 +3,10 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks import bending_by_hand as four_bar
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
 from mechanism_fmu.elastodynamics.periodic import periodic_response
 from mechanism_fmu.elastodynamics.transient import growth_per_period, transient
+from tests import bending_four_bar as four_bar
 
 
 def swinging(ratio=0.05, samples=8):

@@ -78,7 +78,7 @@ def transfer(phi: float) -> FloatArray:
     beta = lam + ALPHA
     m = np.array([-ARM * math.sin(beta), ARM * math.cos(beta), 1.0])
     N = m / (COUPLER * math.sin(psi - lam))
-    rows = [
+    rows: list[npt.ArrayLike] = [
         (math.cos(beta), math.sin(beta), 0.0),
         (-math.sin(beta), math.cos(beta), 0.0),
         (0.0, 0.0, 1.0),
@@ -89,7 +89,7 @@ def transfer(phi: float) -> FloatArray:
         N,
     ]
     B = np.zeros((8, 8))
-    B[:, :3] = rows
+    B[:, :3] = np.array([np.asarray(row) for row in rows])
     B[3:, 5] = B[3:, 2]  # A moment on the coupler does the same wherever it acts on it.
     B[3:5, 3:5] = [[math.cos(phi), math.sin(phi)], [-math.sin(phi), math.cos(phi)]]
     oblique = np.array([[math.cos(lam), math.cos(psi)], [math.sin(lam), math.sin(psi)]])
@@ -118,7 +118,7 @@ def stiffness(phi: FloatArray) -> FloatArray:
 def cycle(rpm: float, samples: int, ratio: float = 0.02) -> ElasticCycle:
     """Case 3 at constant speed: a turn with `ratio` of damping in every mode."""
     speed = rpm * math.pi / 30
-    phi = 2 * math.pi / samples * np.arange(samples)
+    phi = np.asarray(2 * math.pi / samples * np.arange(samples))
     K, M = stiffness(phi), masses()
     C = instantaneous_modes(K, M).damping(ratio)
     return ElasticCycle(2 * math.pi / speed, M, C, K, -accelerations(phi, speed) @ M)
