@@ -54,7 +54,7 @@ def test_sliders_close_too():
 
 def test_a_crank_that_cannot_turn_is_refused_with_the_angle():
     with pytest.raises(LinkageError, match=r"The crank cannot turn fully: near \d"):
-        turn(path_generator(coupler_length=0.16, crank_angle_start=0.0), SPEED, 360)
+        turn(path_generator(coupler_length=0.15), SPEED, 360)
 
 
 def test_joints_that_repeat_each_other_are_refused():
