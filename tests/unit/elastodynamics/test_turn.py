@@ -60,9 +60,7 @@ def test_a_crank_that_cannot_turn_is_refused_with_the_angle():
 def test_joints_that_repeat_each_other_are_refused():
     mechanism = path_generator()
     again = Revolute("again", "crank", mechanism.joints[0].point_i, "ground", (0.0, 0.0))
-    with pytest.raises(
-        LinkageError, match="6 joints, .* give 11 rows, but 3 bodies have 9"
-    ):
+    with pytest.raises(LinkageError, match=r"6 joints, .* give 11 rows, but 3 bodies have 9"):
         turn(replace(mechanism, joints=(*mechanism.joints, again)), SPEED, 360)
 
 
