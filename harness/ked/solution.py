@@ -107,7 +107,8 @@ class Solution:
     @property
     def degrees(self) -> FloatArray:
         """The crank's angles [deg]; whole numbers are so, whatever the radians have lost."""
-        return np.round(np.degrees(self.angle), 9)
+        degrees: FloatArray = np.degrees(self.angle)
+        return degrees.round(9)
 
     @property
     def modes(self) -> int:

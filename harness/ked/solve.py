@@ -191,14 +191,9 @@ def _rigid(turned: Turn, order: npt.NDArray[np.int64]) -> Rigid:
         starts=starts,
         ends=ends,
         torque=torque[order],
-        fluctuation=torque_fluctuation(_crank_angle(turned), torque),
+        fluctuation=torque_fluctuation(np.linspace(0.0, 2 * math.pi, len(torque)), torque),
         power_gap=float(np.abs(power.balance).max()) / most if most > 0.0 else 0.0,
     )
-
-
-def _crank_angle(turned: Turn) -> FloatArray:
-    """Of the turn as it comes, its end included [rad]."""
-    return np.linspace(0.0, 2 * math.pi, len(turned.order) + 1)
 
 
 def _closed(u: FloatArray) -> FloatArray:
