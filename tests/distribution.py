@@ -32,6 +32,7 @@ JUST_IN_TIME = (
     "tests/unit/engine/test_views.py",
     "tests/unit/kinematics/",
     "tests/unit/test_benchmarks.py",
+    "tests/analytic/test_cam_dynamics.py",
     "tests/analytic/test_kinematics_cams.py",
     "tests/analytic/test_kinematics_linkages.py",
     "tests/analytic/test_slides_cam.py",

@@ -10,4 +10,4 @@
 - `file`: a machine in TOML; `ssp` and `container`: for other tools
 """
 
-__all__ = ["algorithms", "component", "connection", "extrapolation", "machine", "run"]
+__all__ = ["algorithms", "component", "connection", "extrapolation", "machine", "remote", "run"]

@@ -115,6 +115,7 @@ class Page:
         end = time.monotonic() + _PATIENCE
         while not self.value(script):
             assert time.monotonic() < end, f"not in {_PATIENCE:g} s: {script}"
+            time.sleep(0.02)  # the page needs the processor
 
     def click(self, selector: str) -> None:
         """Press the mouse on an element, as a reader does."""
