@@ -64,8 +64,7 @@ def _by_stiffness(generator: PathGenerator, motion: KinematicMotion, k: int) -> 
     accelerations = np.zeros(12)
     accelerations[[0, 1]], accelerations[[4, 5]], accelerations[[7, 8]] = pin, path, end
     accelerations[[3, 6]] = coupler[2]
-    displacement: FloatArray = np.linalg.solve(stiffness, -masses * accelerations)
-    return displacement[4:7]
+    return np.asarray(np.linalg.solve(stiffness, -masses * accelerations)[4:7], dtype=np.float64)
 
 
 def _relative(length: float, angle: float, rate: float, acceleration: float) -> FloatArray:

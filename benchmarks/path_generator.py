@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -72,7 +70,8 @@ class PathGenerator:
         crank = lumped_body((self._member("crank_bar", "crank", (self.crank, 0.0)),))
         follower = lumped_body((self._member("follower_bar", "follower", (self.follower, 0.0)),))
         parts = {"crank": crank, "coupler": coupler, "follower": follower}
-        angles = dict(zip(parts, (self.start, *self._angles(np.array(self.start))), strict=True))
+        on_coupler, on_follower = self._angles()
+        angles = {"crank": self.start, "coupler": on_coupler, "follower": on_follower}
         at = {"crank": origin, "coupler": _along(self.crank, self.start), "follower": (self.ground, 0.0)}
 
         def point(body: str, x: float = 0.0) -> tuple[float, float]:
@@ -83,7 +82,7 @@ class PathGenerator:
             c, s = math.cos(angles[name]), math.sin(angles[name])
             x, y = part.centre
             place = at[name][0] + c * x - s * y, at[name][1] + s * x + c * y
-            bodies.append(Body(name, part.mass, part.inertia, (*place, float(angles[name]))))
+            bodies.append(Body(name, part.mass, part.inertia, (*place, angles[name])))
         return Mechanism(
             bodies=tuple(bodies),
             joints=(
@@ -106,15 +105,14 @@ class PathGenerator:
     def _member(self, name: str, body: str, end: tuple[float, float]) -> Member:
         return Member(name, body, (0.0, 0.0), end, self.section, self.young, self.density)
 
-    def _angles(self, crank: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Angles of coupler and follower [rad], open branch."""
-        x, y = self.ground - self.crank * np.cos(crank), -self.crank * np.sin(crank)
-        diagonal = np.hypot(x, y)
-        towards = np.arctan2(y, x)
+    def _angles(self) -> tuple[float, float]:
+        """Angles of coupler and follower at the start [rad], open branch."""
+        x, y = self.ground - self.crank * math.cos(self.start), -self.crank * math.sin(self.start)
+        diagonal = math.hypot(x, y)
         cosine = (self.coupler**2 + diagonal**2 - self.follower**2) / (2 * self.coupler * diagonal)
-        coupler = towards + np.arccos(cosine)
-        end_x, end_y = self.coupler * np.cos(coupler) - x, self.coupler * np.sin(coupler) - y
-        return coupler, np.arctan2(end_y, end_x)
+        coupler = math.atan2(y, x) + math.acos(cosine)
+        end = self.coupler * math.cos(coupler) - x, self.coupler * math.sin(coupler) - y
+        return coupler, math.atan2(end[1], end[0])
 
 
 def _along(distance: float, angle: float) -> tuple[float, float]:

@@ -72,7 +72,7 @@ def _choice(
 
 def _solved(matrices: FloatArray, right: FloatArray, owners: tuple[str, ...]) -> FloatArray:
     try:
-        solution: FloatArray = np.linalg.solve(matrices, right)
+        solution = np.asarray(np.linalg.solve(matrices, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         solution = np.full_like(right, np.inf)
     if not np.abs(solution).max(initial=0.0) < _LARGEST:

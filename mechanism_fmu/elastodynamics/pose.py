@@ -89,4 +89,5 @@ def pose_of(mechanism: Mechanism, motion: KinematicMotion) -> Pose:
         tables.append(np.hstack([table[:, : len(names)], rest]).reshape(len(table), -1, 3))
     angle = tables[0][:, :, 2]
     bodies = (*(body.name for body in mechanism.bodies), GROUND)
-    return Pose(bodies, motion.time, *tables, np.cos(angle), np.sin(angle))
+    position, velocity, acceleration = tables
+    return Pose(bodies, motion.time, position, velocity, acceleration, np.cos(angle), np.sin(angle))

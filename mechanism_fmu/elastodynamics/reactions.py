@@ -88,7 +88,8 @@ def power_of(configurations: Configurations, forces: FloatArray) -> FloatArray:
     """Power of forces at the places, shape (times, places, 3), moving as the rigid mechanism does: (times,) [W]."""
     pose = configurations.pose
     loads = _on_bodies(configurations, forces)
-    return np.einsum("tk,tk->t", loads, pose.velocity[:, :-1].reshape(loads.shape))
+    power: FloatArray = np.einsum("tk,tk->t", loads, pose.velocity[:, :-1].reshape(loads.shape))
+    return power
 
 
 def _solved(rows: FloatArray, loads: FloatArray, time: FloatArray) -> FloatArray:
@@ -103,7 +104,7 @@ def _solved(rows: FloatArray, loads: FloatArray, time: FloatArray) -> FloatArray
     if count > coordinates:
         return -(np.linalg.pinv(transposed) @ loads[:, :, None])[:, :, 0]
     try:
-        return -np.linalg.solve(transposed, loads[:, :, None])[:, :, 0]
+        return -np.asarray(np.linalg.solve(transposed, loads[:, :, None]), dtype=np.float64)[:, :, 0]
     except np.linalg.LinAlgError:
         worst = float(time[np.argmin(np.linalg.svd(rows, compute_uv=False)[:, -1])])
         raise LinkageError(
