@@ -16,7 +16,7 @@ _ROUNDING = re.compile(r"\d\.\de-\d\d( of [^;]*)?")
 @pytest.mark.slow  # tests/harness/test_harness_ked.py has the numbers
 def test_the_command_prints_what_the_page_says(tmp_path: Path) -> None:
     text = PAGE.read_text(encoding="utf-8")
-    found = re.search(r"```text\n\$ (mechanism-fmu ked .*)\n(.*?)```", text, re.DOTALL)
+    found = re.search(r"```text\n\$ (mechanism-fmu ked [^\n]*)\n(.*?)```", text, re.DOTALL)
     assert found is not None
     run = subprocess.run(
         [sys.executable, "-c", "from harness.cli import main; main()", *found[1].split()[1:]],
