@@ -134,10 +134,11 @@ def mechanism(model: str, **parameters: float) -> Mechanism:
 
     try:
         module = models.load(model) if model in models.available() else load(find(model))
-        return module.MODEL.build(module.MODEL.values(**parameters))
+        described: Mechanism = module.MODEL.build(module.MODEL.values(**parameters))
     except MechanismError as error:
         _messages().print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR) from None
+    return described
 
 
 def models_that_bend() -> list[str]:

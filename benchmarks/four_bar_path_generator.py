@@ -94,16 +94,18 @@ def _transfer(theta: float) -> FloatArray:
     moment = np.array([-ARM * y, ARM * x, 1.0])
     rocker = moment / (COUPLER * math.sin(psi - phi))
     transfer = np.zeros((8, 8))
-    transfer[:, :3] = [
-        (x, y, 0.0),
-        (-y, x, 0.0),
-        (0.0, 0.0, 1.0),
-        np.array([math.cos(theta), math.sin(theta), 0.0]) - rocker * math.cos(psi - theta),
-        np.array([-math.sin(theta), math.cos(theta), 0.0]) - rocker * math.sin(psi - theta),
-        moment,
-        -rocker * math.cos(psi - phi),
-        rocker,
-    ]
+    transfer[:, :3] = np.vstack(
+        [
+            (x, y, 0.0),
+            (-y, x, 0.0),
+            (0.0, 0.0, 1.0),
+            np.array([math.cos(theta), math.sin(theta), 0.0]) - rocker * math.cos(psi - theta),
+            np.array([-math.sin(theta), math.cos(theta), 0.0]) - rocker * math.sin(psi - theta),
+            moment,
+            -rocker * math.cos(psi - phi),
+            rocker,
+        ]
+    )
     transfer[3:, 5] = transfer[3:, 2]
     transfer[3:5, 3:5] = [[math.cos(theta), math.sin(theta)], [-math.sin(theta), math.cos(theta)]]
     # a force on the rocker pin: along coupler and rocker

@@ -40,7 +40,7 @@ class Bent:
     @property
     def deviation(self) -> FloatArray:
         """How far the place is off its rigid path, shape (angles,) [m]."""
-        return np.hypot(self.deflection[:, 0], self.deflection[:, 1])
+        return np.asarray(np.hypot(self.deflection[:, 0], self.deflection[:, 1]), dtype=np.float64)
 
 
 @dataclass(frozen=True)

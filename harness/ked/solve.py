@@ -89,7 +89,8 @@ def prepared(mechanism: Any, speed: float, damping: float, samples: int) -> Turn
     crank = pose.bodies.index(elastic_ports(mechanism).crank)
     steps = np.round(pose.position[:-1, crank, 2] / (2 * math.pi / count)).astype(np.int64) % count
     order = np.argsort(steps)
-    return Turn(cycle, equations, places[0], order, steps[order] * (2 * math.pi / count))
+    angle: FloatArray = steps[order].astype(np.float64) * (2 * math.pi / count)
+    return Turn(cycle, equations, places[0], order, angle)
 
 
 def solved(turned: Turn, speed: float, damping: float, samples: int) -> Solution:

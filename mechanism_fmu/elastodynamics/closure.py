@@ -85,9 +85,7 @@ def _residual(mechanism: Mechanism, pose: Pose, angles: FloatArray) -> FloatArra
         )
         for row in translation_rows(joint, pose):
             found.append(dot(row[:, 3:5], between))
-        if isinstance(joint, Distance):
-            found[-1] = found[-1] - joint.length
-        if isinstance(joint, RevoluteTranslational):
+        if isinstance(joint, (Distance, RevoluteTranslational)):
             found[-1] = found[-1] - joint.distance
         if isinstance(joint, Translational):
             along_i, along_j = pose.turned(joint.body_i, joint.axis_i), pose.turned(joint.body_j, joint.axis_j)

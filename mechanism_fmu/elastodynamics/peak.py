@@ -7,7 +7,7 @@ import math
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from .fourier import FloatArray, coefficients, evaluate, even_angles
+from .fourier import ComplexArray, FloatArray, coefficients, evaluate, even_angles
 
 #: Of the interval between two samples, to which the place of the maximum is found.
 _FINENESS = 1e-6
@@ -33,5 +33,5 @@ def peak(samples: FloatArray) -> tuple[float, float]:
     return angle / (2 * math.pi) % 1.0, largest
 
 
-def _norm(series: FloatArray, angle: float) -> float:
+def _norm(series: ComplexArray, angle: float) -> float:
     return float(np.linalg.norm(evaluate(series, np.array([angle]))[0]))

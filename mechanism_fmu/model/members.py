@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from .body import Point
 from .conditions import length
-from .functions import Number
+from .functions import Number, is_plain
 
 
 @dataclass(frozen=True)
@@ -104,8 +104,15 @@ def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> Lu
     mass: Number = sum(part for part, _ in lumps)
     centre = tuple(sum(part * point[k] for part, point in lumps) / mass for k in range(2))
 
+    places: list[tuple[Point, Point]] = []
+
     def moved(point: Point) -> Point:
-        return point[0] - centre[0], point[1] - centre[1]
+        # the same place for the same point: of symbolic numbers, equal ones calculated twice are two
+        for known, place in places:
+            if all(a is b or (is_plain(a) and is_plain(b) and a == b) for a, b in zip(known, point, strict=True)):
+                return place
+        places.append((point, (point[0] - centre[0], point[1] - centre[1])))
+        return places[-1][1]
 
     inertia: Number = sum(disk.inertia for disk in disks)
     for part, point in lumps:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from benchmarks.four_bar import FourBar
 from mechanism_fmu.elastodynamics import LinkageError, crank_of, elastic_ports, peak, turn
 from mechanism_fmu.elastodynamics.closure import closed_at
-from mechanism_fmu.model import AngleDriver, Revolute, XDriver, polynomial_motion
+from mechanism_fmu.model import AngleDriver, Distance, Revolute, XDriver, polynomial_motion
 from models.four_bar.model import MODEL as RIGID
 from models.four_bar_path_generator.model import MODEL
 from models.slider_crank.model import MODEL as SLIDER_CRANK
@@ -93,3 +93,20 @@ def test_a_peak_between_samples_is_found(phase, size, count):
     place, largest = peak(samples)
     assert largest == pytest.approx(3 + size, rel=1e-10)
     assert math.remainder(2 * math.pi * place - phase, 2 * math.pi) == pytest.approx(0.0, abs=2e-5)
+
+
+def test_rods_close_at_their_length():
+    """The coupler's bar as a massless rod between two bodies: crank and rocker turn as with the coupler."""
+    whole = path_generator()
+    joints = whole.joints
+    rod = Distance("rod", "crank", joints[1].point_j, "rocker", joints[2].point_i, 0.254)
+    bodies = tuple(body for body in whole.bodies if body.name != "coupler")
+    driver = AngleDriver("drive", "crank", polynomial_motion(0.0, 1.0))
+    mechanism = replace(
+        whole, bodies=bodies, joints=(joints[0], joints[3], rod, driver), members=(), disks=(), outputs=()
+    )
+    angles = np.radians(np.arange(30.0, 391.0, 20.0))
+    q, rate = closed_at(replace(mechanism, held=()), angles)
+    known = [FourBar(0.254, 0.1016, 0.254, 0.2032).angles(angle)[1] for angle in angles]
+    np.testing.assert_allclose(np.cos(q[:, 5]), [math.cos(course.value) for course in known], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rate[:, 5], [course.rate for course in known], rtol=0, atol=1e-12)
