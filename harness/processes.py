@@ -28,14 +28,20 @@ def starting_from(module: str) -> BaseContext:
     return context
 
 
-def serve_only(folder: Path | None) -> None:
+def serve_only(folder: Path | None) -> threading.Thread:
     """To be called first in such a process: Ctrl-C is for the one that leads, and without that one nobody goes on.
 
     Args:
         folder: to be removed when the one that leads was killed, and cannot do so any more.
+
+    Returns:
+        What ends this process after the one that leads. Who finds that one gone must wait for it (`join`): a process
+        that ends by itself leaves the folder half removed.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, args=(folder,), daemon=True).start()
+    end = threading.Thread(target=_end_with_parent, args=(folder,), daemon=True)
+    end.start()
+    return end
 
 
 def _end_with_parent(folder: Path | None) -> None:

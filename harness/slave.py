@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 from .description import Description, Value
@@ -19,6 +19,14 @@ class Observable(Protocol):
         """Values of variables, in the order of `names`."""
 
 
+def whole_step(advance: Callable[[float, float], float], time: float, size: float) -> None:
+    """Take a step of `size` [s] from `time` by `advance`, which tells the time reached: it may return early."""
+    end = time + size
+    reached = advance(time, size)
+    while reached < end:
+        reached = advance(reached, end - reached)
+
+
 class Slave(Observable, Protocol):
     """One instance of a co-simulation unit, as a master sees it.
 
@@ -26,7 +34,7 @@ class Slave(Observable, Protocol):
 
     1. `set`: start values of parameters and inputs
     2. `initialize`
-    3. as often as there are steps: `set` and `set_slopes` (inputs), then `step`
+    3. as often as there are steps: `set` (inputs), then `step`
     4. `terminate`
 
     Every method raises `FmuError` when the unit refuses or fails; the master then calls nothing more.
@@ -37,9 +45,6 @@ class Slave(Observable, Protocol):
 
     def initialize(self, start_time: float, stop_time: float) -> None:
         """Fix the parameters and find a consistent state at `start_time` [s]; no step will end behind `stop_time`."""
-
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """Let inputs change linearly in the next step, by so much in a second; for units that take slopes."""
 
     def step(self, time: float, size: float) -> None:
         """Advance by `size` [s] from `time`, where the last step ended; a step that is not completed is an error."""

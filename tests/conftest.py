@@ -15,11 +15,15 @@ from tests import compiled_engine, distribution
 from tests.once import once
 
 # How long an example takes says nothing while other tests run beside it.
-# A quarter of the usual number of examples: they are others in each run, and there are many runs.
-settings.register_profile("untimed", deadline=None, max_examples=25)
+# Half the usual number of examples: they are others in each run, and there are many runs.
+settings.register_profile("untimed", deadline=None, max_examples=50)
 settings.load_profile("untimed")
 
 compiled_engine.use_it()
+
+# Processes that run tests side by side leave each other a processor: a linear algebra of many threads, which wait for
+# each other by spinning, takes ten times as long then.
+os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", MKL_NUM_THREADS="1")
 
 # What is printed is the same whatever terminal the tests have; a console reads these when it is made.
 os.environ.update(COLUMNS="200", LINES="50")

@@ -6,17 +6,23 @@ import hashlib
 import json
 import re
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any
 
-from mechanism_fmu import __version__
+from mechanism_fmu import __version__, stress
 
+from .. import tooth_damage, tooth_stress
 from ..fmu import Fmu
+from .of_impacts import wants_stress
 from .task import Design, Task
 from .variation import Axis
 
 _DESIGNS = "designs"
+#: Where stress and damage of impacts are calculated.
+_STRESS_CODE = (Path(stress.__file__).parent, *map(Path, (tooth_stress.__file__, tooth_damage.__file__)))
+_DESCRIPTION = "modelDescription.xml"
 _DATE = re.compile(rb'generationDateAndTime="[^"]*"')
 
 
@@ -64,7 +70,11 @@ def identity(
     return Identity(
         {
             "fmu": dict(fmu),
-            "mechanism_fmu": __version__,  # the stresses are the harness's own
+            # The stresses are no FMU's: they change with the code.
+            "mechanism_fmu": {
+                "version": __version__,
+                "stress": code_of(_STRESS_CODE) if wants_stress(task) else None,
+            },
             "run": {
                 "start": task.grid.start,
                 "stop": task.grid.stop,
@@ -93,14 +103,23 @@ def contents(fmu: Fmu) -> dict[str, str]:
 
     Whoever edits an FMU seldom gives it another GUID.
     """
-    found = hashlib.sha256()
     with zipfile.ZipFile(fmu.path) as archive:
-        for name in sorted(archive.namelist()):
-            content = archive.read(name)
-            if name == "modelDescription.xml":
-                content = _DATE.sub(b"", content)
-            found.update(name.encode() + hashlib.sha256(content).digest())
-    return {"model": fmu.description.model, "guid": fmu.description.guid, "sha256": found.hexdigest()}
+        files = {name: archive.read(name) for name in sorted(archive.namelist())}
+    files[_DESCRIPTION] = _DATE.sub(b"", files[_DESCRIPTION])
+    return {"model": fmu.description.model, "guid": fmu.description.guid, "sha256": _files_digest(files.items())}
+
+
+def code_of(places: Iterable[Path]) -> str:
+    """SHA-256 of Python files, and of those in folders; where the places lie does not matter."""
+    paths = [(place.parent, path) for place in places for path in (sorted(place.rglob("*.py")) or [place])]
+    return _files_digest((path.relative_to(root).as_posix(), path.read_bytes()) for root, path in paths)
+
+
+def _files_digest(files: Iterable[tuple[str, bytes]]) -> str:
+    found = hashlib.sha256()
+    for name, content in files:
+        found.update(name.encode() + hashlib.sha256(content).digest())
+    return found.hexdigest()
 
 
 def _signals(task: Task) -> str:

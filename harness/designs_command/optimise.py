@@ -27,12 +27,13 @@ from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_agai
 def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
     """Look for the best design of a file, go on where it stopped, and write history, optimum and report."""
     folder = Path(path.stem) if folder is None else folder
-    with prepared(path) as (file, fmu):
+    with prepared(path) as (file, fmu, built):
         optimum = read_optimum(file, fmu.description)
         known = identity(contents(fmu), optimum.task, optimum.axes, optimum.how)
         with alone_in(folder):
             store = Store(folder, known, optimum.axes, optimum.task.quantities)
-            keep_built(fmu, file, folder)
+            if built:
+                keep_built(fmu, folder)
             what = "largest" if optimum.goal.largest else "smallest"
             console.print(
                 f"[bold]{escape(optimum.title)}[/]: the {what} {escape(optimum.goal.objective.column)} in up to "

@@ -30,25 +30,24 @@ ENDING = "Ending: designs on their way are awaited and kept; Ctrl-C again to bre
 
 
 @contextmanager
-def prepared(path: Path) -> Iterator[tuple[TomlFile, Fmu]]:
-    """The file of a command, and its FMU.
+def prepared(path: Path) -> Iterator[tuple[TomlFile, Fmu, bool]]:
+    """The file of a command, its FMU, and whether that was built for it, from a ready-made model.
 
     Raises:
         UsageError: the file says no FMU, or there is none.
     """
     file = TomlFile.read(path)
-    with _fmu_file(source(file)) as found, open_fmu(found) as fmu:
-        yield file, fmu
+    wanted = source(file)
+    with _fmu_file(wanted) as found, open_fmu(found) as fmu:
+        yield file, fmu, wanted.path is None
 
 
-def keep_built(fmu: Fmu, file: TomlFile, folder: Path) -> None:
-    """Leave the FMU of a ready-made model beside its results, once these are known to be its own.
+def keep_built(fmu: Fmu, folder: Path) -> None:
+    """Leave an FMU that was built beside its results, once these are known to be its own.
 
     Raises:
         UsageError: the disk refuses.
     """
-    if source(file).path is not None:
-        return
     place = folder / "fmu"
     try:
         place.mkdir(exist_ok=True)

@@ -28,12 +28,13 @@ _MOST_SHOWN = 10
 def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
     """Run the designs of a file that are not there yet, keep them as they come, and write table and report."""
     folder = Path(path.stem) if folder is None else folder
-    with prepared(path) as (file, fmu):
+    with prepared(path) as (file, fmu, built):
         sweep = read_sweep(file, fmu.description)
         known = identity(contents(fmu), sweep.task, sweep.axes, sweep.how, sweep.designs)
         with alone_in(folder):
             store = Store(folder, known, sweep.axes, sweep.task.quantities)
-            keep_built(fmu, file, folder)
+            if built:
+                keep_built(fmu, folder)
             with crew_of(fmu, sweep.task, workers, scheduler, fast) as crew:
                 progress, table = _performed(sweep, store, crew)
             return _ending(fmu, sweep, store, progress, table)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, MutableSequence, Sequence
 from typing import Protocol
 
 from ..description import Value
-from ..errors import FmuError
+from ..errors import FmuError, UsageError
 
 
 class Accessible(Protocol):
@@ -21,6 +21,9 @@ class Accessible(Protocol):
 
     def failure(self, function: str, reason: str) -> FmuError:
         """What to raise for an answer that cannot be used."""
+
+    def no_slopes(self, names: Sequence[str]) -> UsageError:
+        """What to raise for slopes of inputs that it does not take."""
 
 
 class ElementReals:
@@ -56,5 +59,9 @@ class ElementReals:
         return False
 
     def write_slopes(self) -> None:
-        """There are no slopes of inputs."""
-        raise NotImplementedError("its description says that it takes no slopes")
+        """FMUs with such variables take no slopes.
+
+        Raises:
+            UsageError: always.
+        """
+        raise self._owner.no_slopes(self._names)

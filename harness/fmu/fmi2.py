@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from ctypes import byref, c_double, c_int, c_size_t, c_uint, c_void_p
 from functools import partial
 from typing import Any
@@ -19,7 +19,7 @@ from fmpy.fmi2 import (
 from ..description import Value
 from ..messages import Status
 from .batches import Batch
-from .raw_reals import Call, RawReals, doubles, nothing
+from .raw_reals import RawReals
 from .slave import FmuSlave
 
 
@@ -28,33 +28,10 @@ class Fmi2Slave(FmuSlave):
 
     _FMI, _STATE = "fmi2", "FMUstate"
 
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """Let inputs change linearly in the next step, by so much in a second; for FMUs that take slopes."""
-        references = [self.description.variable(name).reference for name in slopes]
-        values, first = list(slopes.values()), [1] * len(slopes)
-        self._call("fmi2SetRealInputDerivatives", self._instance.setRealInputDerivatives, references, first, values)
-
     def reals(self, names: Sequence[str]) -> RawReals:
         """Bind Real variables."""
-        count = len(names)
-        numbers = doubles(count)
-        references = (c_uint * count)(*(self.description.variable(name).reference for name in names))
-        first = (c_int * count)(*[1] * count)
-        plain = c_void_p(self._instance.component), references, c_size_t(count)
-
-        def call(name: str, *arguments: Any) -> Call:
-            return Call(name, partial(self._raw(name), *plain, *arguments) if count else nothing)
-
-        return RawReals(
-            self,
-            names,
-            numbers,
-            (
-                call("fmi2GetReal", numbers[1]),
-                call("fmi2SetReal", numbers[1]),
-                call("fmi2GetRealOutputDerivatives", first, numbers[1]) if self.description.gives_slopes else None,
-                call("fmi2SetRealInputDerivatives", first, numbers[1]) if self.description.takes_slopes else None,
-            ),
+        return self._raw_reals(
+            names, ("fmi2GetReal", "fmi2SetReal", "fmi2GetRealOutputDerivatives", "fmi2SetRealInputDerivatives")
         )
 
     def advance(self, time: float, size: float) -> float:

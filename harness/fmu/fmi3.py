@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from ctypes import byref, c_bool, c_double, c_int, c_size_t, c_uint, c_void_p
+from ctypes import byref, c_bool, c_double, c_size_t, c_void_p
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ from fmpy.fmi3 import FMU3Slave
 from ..description import Description, Value
 from .batches import Batch
 from .element_reals import ElementReals
-from .raw_reals import Call, RawReals, doubles, nothing
+from .raw_reals import RawReals
 from .slave import FmuSlave, MessageHandler
 
 #: So often an FMU may ask for one more update of its discrete states.
@@ -54,35 +54,13 @@ class Fmi3Slave(FmuSlave):
         else:
             super().set(values)
 
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """FMI 3.0 has no slopes of inputs."""
-        raise NotImplementedError("its description says that it takes no slopes")
-
     def reals(self, names: Sequence[str]) -> RawReals | ElementReals:
         """Bind Real variables."""
         variables = [self.description.variable(name) for name in names]
         if any(variable.elements > 1 or variable.fmi_type != "Float64" for variable in variables):
             return ElementReals(self, names)
-        count = len(names)
-        numbers = doubles(count)
-        references = (c_uint * count)(*(variable.reference for variable in variables))
-        plain = c_void_p(self._instance.component), references, c_size_t(count)
-        first = (c_int * count)(*[1] * count)
-        size = c_size_t(count)
-
-        def call(name: str, *arguments: Any) -> Call:
-            return Call(name, partial(self._raw(name), *plain, *arguments, size) if count else nothing)
-
-        return RawReals(
-            self,
-            names,
-            numbers,
-            (
-                call("fmi3GetFloat64", numbers[1]),
-                call("fmi3SetFloat64", numbers[1]),
-                call("fmi3GetOutputDerivatives", first, numbers[1]) if self.description.gives_slopes else None,
-                None,
-            ),
+        return self._raw_reals(
+            names, ("fmi3GetFloat64", "fmi3SetFloat64", "fmi3GetOutputDerivatives", ""), c_size_t(len(names))
         )
 
     def _load(self, **where: str) -> Any:

@@ -9,7 +9,7 @@ from ctypes import Array, c_double
 from dataclasses import dataclass
 from typing import Protocol
 
-from ..errors import FmuError
+from ..errors import FmuError, UsageError
 from ..messages import LogMessage, Status
 
 #: Statuses beyond it are refusals; a plain number, which is compared fast.
@@ -28,6 +28,9 @@ class Owner(Protocol):
 
     def failure(self, function: str, reason: str) -> FmuError:
         """What to raise for an answer that cannot be used."""
+
+    def no_slopes(self, names: Sequence[str]) -> UsageError:
+        """What to raise for slopes of inputs that it does not take."""
 
     def quietly(self, call: Callable[[], int]) -> int:
         """Call a function without showing what it says."""
@@ -125,10 +128,15 @@ class RawReals:
         return True
 
     def write_slopes(self) -> None:
-        """Let inputs change by `values` [unit/s] in the next step."""
+        """Let inputs change by `values` [unit/s] in the next step.
+
+        Raises:
+            UsageError: the FMU takes no slopes.
+            FmuError: it refuses.
+        """
         call = self._put_slopes
         if call is None:
-            raise NotImplementedError("its description says that it takes no slopes")
+            raise self._owner.no_slopes(self._names)
         said = len(self._messages)
         status = call.function()
         if status > _WARNING:

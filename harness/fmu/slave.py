@@ -6,19 +6,21 @@ import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from ctypes import c_int
+from ctypes import c_int, c_size_t, c_uint, c_void_p
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
 from fmpy.fmi1 import FMICallException
 
 from ..description import Description, Value
-from ..errors import FmuError
+from ..errors import FmuError, UsageError
 from ..messages import LogMessage, Status
+from ..slave import whole_step
 from .batches import Batch, batches
 from .element_reals import ElementReals
-from .raw_reals import RawReals
+from .raw_reals import Call, RawReals, doubles, nothing
 
 #: Receives every message of an FMU at once.
 MessageHandler = Callable[[LogMessage], None]
@@ -103,10 +105,6 @@ class FmuSlave(ABC):
         return values
 
     @abstractmethod
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """Let inputs change linearly in the next step, by so much in a second; for FMUs that take slopes."""
-
-    @abstractmethod
     def reals(self, names: Sequence[str]) -> RawReals | ElementReals:
         """Bind Real variables."""
 
@@ -133,10 +131,7 @@ class FmuSlave(ABC):
 
     def step(self, time: float, size: float) -> None:
         """Advance from `time` by `size` [s], going on where the FMU returns early."""
-        end = time + size
-        reached = self.advance(time, size)
-        while reached < end:
-            reached = self.advance(reached, end - reached)
+        whole_step(self.advance, time, size)
 
     def advance(self, time: float, size: float) -> float:
         """Take a step, or a part of it where the FMU returns early; the time reached [s].
@@ -226,6 +221,13 @@ class FmuSlave(ABC):
         text = f"{self.name} failed {self._when()} ({function}): {reason}."
         return FmuError(text, instance=self.name, time=self._time if self._initialized else None)
 
+    def no_slopes(self, names: Sequence[str]) -> UsageError:
+        """What to raise for slopes of inputs where `Description.takes_slopes` says that there are none."""
+        return UsageError(
+            f"{self.name} takes no slopes of inputs, here of {', '.join(names)}: FMUs of FMI 3.0 do not, nor those of "
+            "FMI 2.0 without canInterpolateInputs. Write values before each step instead."
+        )
+
     def quietly(self, call: Callable[[], int]) -> int:
         """Call a function of the FMU; what it says is kept, but shown to nobody."""
         on_message, self._on_message = self._on_message, discard_message
@@ -249,6 +251,32 @@ class FmuSlave(ABC):
     @abstractmethod
     def _exit(self) -> None:
         """Leave it."""
+
+    def _raw_reals(self, names: Sequence[str], functions: tuple[str, str, str, str], *last: Any) -> RawReals:
+        """Variables that are single numbers of double precision.
+
+        Args:
+            names: theirs.
+            functions: those that get and set values, get derivatives of outputs, and set those of inputs.
+            last: what this version of FMI gives them behind all else.
+        """
+        count = len(names)
+        numbers, room = doubles(count)
+        references = (c_uint * count)(*(self.description.variable(name).reference for name in names))
+        plain = c_void_p(self._instance.component), references, c_size_t(count)
+        first = (c_int * count)(*[1] * count)
+
+        def call(name: str, *arguments: Any) -> Call:
+            return Call(name, partial(self._raw(name), *plain, *arguments, room, *last) if count else nothing)
+
+        get, put, get_slopes, put_slopes = functions
+        calls = (
+            call(get),
+            call(put),
+            call(get_slopes, first) if self.description.gives_slopes else None,
+            call(put_slopes, first) if self.description.takes_slopes else None,
+        )
+        return RawReals(self, names, (numbers, room), calls)
 
     def _returned(self, begin: float, reached: float, end: float) -> float:
         """Note where the FMU has returned from a step; the time reached."""

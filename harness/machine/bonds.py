@@ -18,6 +18,7 @@ from ..si import BASE_UNITS
 from ..slave import Observable
 from .connection import Connection
 from .machine import Machine
+from .names import own_of, part_of
 from .port import Port, effort_taken, effort_told, power
 from .watched import watched
 
@@ -120,8 +121,8 @@ def bond_summary(energies: Mapping[str, BondEnergy]) -> dict[str, dict[str, floa
 def _ends(machine: Machine, name: str, bond: Bond) -> tuple[Port, Port]:
     """The driving and the driven side of a bond, each watching its part."""
     flow, effort = bond.flow, bond.effort
-    driving, driven = _part(flow.source), _part(flow.target)
-    if (_part(effort.source), _part(effort.target)) != (driven, driving):
+    driving, driven = part_of(flow.source), part_of(flow.target)
+    if (part_of(effort.source), part_of(effort.target)) != (driven, driving):
         raise UsageError(
             f"Bond '{name}': its flow goes from {driving} to {driven}, so its effort must go from {driven} to "
             f"{driving}, but it is {effort}."
@@ -140,8 +141,8 @@ def _ends(machine: Machine, name: str, bond: Bond) -> tuple[Port, Port]:
     giving = effort_taken if works[0] else power
     taking = effort_told if works[1] else power
     watchers = [watched(machine, part).watchers for part in (driving, driven)]
-    giver = Port(machine.parts[driving], _own(effort.target), _own(flow.source), giving, -scales[0])
-    taker = Port(machine.parts[driven], _own(flow.target), _own(effort.source), taking, turned * scales[1])
+    giver = Port(machine.parts[driving], own_of(effort.target), own_of(flow.source), giving, -scales[0])
+    taker = Port(machine.parts[driven], own_of(flow.target), own_of(effort.source), taking, turned * scales[1])
     watchers[0].append(giver)
     watchers[1].append(taker)
     return giver, taker
@@ -174,11 +175,3 @@ def _energy_unit(
 
 def _percent(made: float, most: float) -> str:
     return f"{100.0 * made / most:.2g}" if most > 0.0 else "-"
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]
-
-
-def _own(name: str) -> str:
-    return name.partition(".")[2]

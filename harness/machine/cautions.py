@@ -44,7 +44,7 @@ def loop_cautions(machine: Machine, time: float) -> list[LogMessage]:
     """A warning of loops without delay that a run until `time` [s] has left unsolved."""
     if not machine.unsettled:
         return []
-    inputs = "; ".join(", ".join(loop) for loop in machine.loops)
+    inputs = "; ".join(", ".join(loop) for loop in machine.structure.loops)
     return [
         _warning(
             "machine",

@@ -9,6 +9,7 @@ from ..description import Description, Variable
 from ..errors import UsageError
 from ..numbers import shown
 from ..units import UnitMismatchError
+from .names import part_of
 from .part_units import converted
 
 
@@ -82,7 +83,7 @@ def _rate(connection: Connection, source: Variable, where: str, description: Des
     rate = _end(connection.rate, where, description)
     if rate.causality != "output" or rate.type != "Real":
         raise UsageError(f"{where}: the rate is no Real output, but {_what(rate)}.")
-    if rate.name.partition(".")[0] != source.name.partition(".")[0]:
+    if part_of(rate.name) != part_of(source.name):
         raise UsageError(f"{where}: the rate '{rate.name}' is of another part than the source.")
     try:
         factor = description.units.convert(1.0, rate.unit, f"{source.unit}/s") if rate.unit and source.unit else 1.0
@@ -97,7 +98,7 @@ def _rate(connection: Connection, source: Variable, where: str, description: Des
 
 
 def _end(name: str, where: str, description: Description) -> Variable:
-    parts = dict.fromkeys(known.partition(".")[0] for known in description.variables)
+    parts = dict.fromkeys(part_of(known) for known in description.variables)
     part, dot, _ = name.partition(".")
     if not dot or part not in parts:
         raise UsageError(f"{where}: '{name}' is none of <part>.<variable>; parts: {', '.join(parts)}.")

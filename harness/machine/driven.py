@@ -8,6 +8,7 @@ from functools import lru_cache
 from ..clock import SECOND, seconds
 from ..description import Value
 from ..inputs import InputSignals
+from .names import own_of, part_of
 from .part import Part
 
 
@@ -22,10 +23,9 @@ class Driven:
         """Bind inputs, which have their values at `start` [ns] already."""
         self._at = lru_cache(maxsize=4)(lambda time: signals.at(seconds(time)))
         names = [variable.name for variable in signals.variables]
-        self.parts = tuple(part for part in parts if any(name.partition(".")[0] == part for name in names))
+        self.parts = tuple(part for part in parts if any(part_of(name) == part for name in names))
         self._driven = {
-            part: _Inputs(parts[part], [name for name in names if name.partition(".")[0] == part])
-            for part in self.parts
+            part: _Inputs(parts[part], [name for name in names if part_of(name) == part]) for part in self.parts
         }
         for inputs in self._driven.values():
             inputs.knows(self._at(start))
@@ -53,7 +53,7 @@ class _Inputs:
     def __init__(self, part: Part, names: Sequence[str]) -> None:
         description = part.component.description
         self._component = part.component
-        variables = {name: description.variables[name.partition(".")[2]] for name in names}
+        variables = {name: description.variables[own_of(name)] for name in names}
         # In FMI 3.0, what is not continuous changes in the event mode only.
         reals = {n: v for n, v in variables.items() if v.type == "Real" and (v.continuous or description.fmi < 3)}
         self._real_names = tuple(reals)

@@ -9,6 +9,7 @@ from ..errors import FmuError
 from ..messages import Status
 from .component import Component
 from .connection import Link
+from .names import own_of, part_of
 from .part import Part
 
 
@@ -37,8 +38,8 @@ def initialize(
     """
     known: dict[str, float] = {}
     for group in groups:
-        to = [link for link in links if _part(link.target) in group]
-        within = [link.source for link in to if _part(link.source) in group]
+        to = [link for link in links if part_of(link.target) in group]
+        within = [link.source for link in to if part_of(link.source) in group]
         known |= _declared(parts, within)
         for name in group:
             parts[name].component.enter_initialization(start_time, stop_time)
@@ -60,7 +61,7 @@ def initialize(
 
 def _declared(parts: Mapping[str, Part], sources: Sequence[str]) -> dict[str, float]:
     """What the descriptions say that outputs start with."""
-    variables = {source: parts[_part(source)].component.description.variables[_own(source)] for source in sources}
+    variables = {source: parts[part_of(source)].component.description.variables[own_of(source)] for source in sources}
     return {source: float(variable.start) for source, variable in variables.items() if variable.start is not None}
 
 
@@ -75,23 +76,15 @@ def _told_early(component: Component, name: str, sources: Sequence[str]) -> dict
 
 
 def _outputs(component: Component, name: str, sources: Sequence[str]) -> dict[str, float]:
-    own = [source for source in dict.fromkeys(sources) if _part(source) == name]
+    own = [source for source in dict.fromkeys(sources) if part_of(source) == name]
     if not own:
         return {}
-    values = zip(own, map(float, component.get([_own(source) for source in own])), strict=True)
+    values = zip(own, map(float, component.get([own_of(source) for source in own])), strict=True)
     return {source: value for source, value in values if math.isfinite(value)}
 
 
 def _tell(parts: Mapping[str, Part], values: Mapping[str, float]) -> None:
     for name, part in parts.items():
-        own = {_own(target): value for target, value in values.items() if _part(target) == name}
+        own = {own_of(target): value for target, value in values.items() if part_of(target) == name}
         if own:
             part.component.set(own)
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]
-
-
-def _own(name: str) -> str:
-    return name.partition(".")[2]

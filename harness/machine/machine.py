@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
 
 from ..clock import SECOND
-from ..description import Description, Value, Variable
+from ..description import Value
 from ..errors import UsageError
 from ..inputs import InputSignals
-from ..slave import Slave
-from ..units import Units
 from .component import Component
-from .connection import Connection, Link, linked
+from .connection import Connection, Link
 from .driven import Driven
 from .extrapolation import Extrapolation
 from .initialization import initialize
-from .loops import loops
-from .order import dependency_order
+from .names import own_of, part_of
 from .part import Part
-from .part_units import units_of_parts
+from .structure import structure_of
 
 _NOTHING: Mapping[str, Sequence[float]] = {}
 
@@ -36,12 +32,12 @@ class Machine:
     """Components as one unit, whose variables are theirs with the part's name before them: "ratchet.wheel_angle".
 
     Attributes:
-        description: of it, as if it were one FMU; a connected input is an output, since nobody else may set it.
+        structure: how the components hang together.
+        description: of the machine, as if it were one FMU (`Structure.description`).
         parts: by name, each behind those that it follows.
-        cycles: groups of parts that follow each other.
-        loops: groups of connected inputs that follow each other without any delay (`loops.loops`).
         point: number of the run's communication point that is reached; None between two, where an algorithm may stop.
-        unsettled: how often an exchange has ended though such a loop was still changing inputs beyond rounding.
+        unsettled: how often an exchange has ended though a loop without delay (`Structure.loops`) was still changing
+            inputs beyond rounding.
         extrapolation: of inputs between communication points.
     """
 
@@ -57,24 +53,15 @@ class Machine:
         Raises:
             UsageError: a connection that cannot be; the message says which and why.
         """
-        variables = {v.name: v for name, c in components.items() for v in _variables(name, c.description)}
-        self.description = Description(model, model, "", variables, _units(components))
-        links = [linked(connection, self.description) for connection in connections]
-        for link in links:
-            if not variables[link.target].settable:
-                raise UsageError(f"{link.target} has two connections; an input can have only one.")
-            variables[link.target] = replace(variables[link.target], causality="output")
-        edges = [(_part(link.source), _part(link.target)) for link in links]
-        order, self.cycles = dependency_order(list(components), edges)
-        self.loops = loops(links, {name: component.description for name, component in components.items()})
+        descriptions = {name: component.description for name, component in components.items()}
+        self.structure = structure_of(descriptions, connections, model)
+        self.description = self.structure.description
+        links = self.structure.links
         self.unsettled = 0
         self.point: int | None = 0
-        together = {name: tuple(cycle) for cycle in self.cycles for name in cycle}
-        self._groups = list(dict.fromkeys(together.get(name, (name,)) for name in order))
-        self._links = links
         self.extrapolation = extrapolation
         self._holds = extrapolation is Extrapolation.CONSTANT
-        self.parts = {name: _connected(name, components[name], links) for name in order}
+        self.parts = {name: _connected(name, components[name], links) for name in self.structure.order}
         # What a step looks at, without detours.
         self._outputs = {name: part.outputs for name, part in self.parts.items()}
         for outputs in self._outputs.values():
@@ -119,7 +106,7 @@ class Machine:
 
     def initialize(self, start_time: float, stop_time: float) -> None:
         """Initialize the parts, each with the outputs of those that it follows, and exchange until nothing changes."""
-        initialize(self.parts, self._links, self._groups, start_time, stop_time)
+        initialize(self.parts, self.structure.links, self.structure.groups, start_time, stop_time)
         self.exchange(round(start_time * SECOND))
 
     def terminate(self) -> None:
@@ -148,7 +135,7 @@ class Machine:
             for outputs in self._outputs.values():
                 outputs.read(time)
         names: Iterable[str] = self._wires
-        for _ in self._links:
+        for _ in self.structure.links:
             changed = [name for name in names if self._write(name)]
             if not changed:
                 return
@@ -260,20 +247,11 @@ class Machine:
 
 def _connected(name: str, component: Component, links: Sequence[Link]) -> Part:
     """A part with its connected outputs and inputs."""
-    own = [link for link in links if _part(link.source) == name]
-    sources = {link.source.partition(".")[2]: "" for link in own}
-    sources |= {link.source.partition(".")[2]: link.rate.partition(".")[2] for link in own if link.rate}
-    targets = [link.target.partition(".")[2] for link in links if _part(link.target) == name]
+    own = [link for link in links if part_of(link.source) == name]
+    sources = {own_of(link.source): "" for link in own}
+    sources |= {own_of(link.source): own_of(link.rate) for link in own if link.rate}
+    targets = [own_of(link.target) for link in links if part_of(link.target) == name]
     return Part(component, list(sources), list(sources.values()), targets)
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]
-
-
-def _variables(part: str, description: Description) -> Iterator[Variable]:
-    for variable in description.variables.values():
-        yield replace(variable, name=f"{part}.{variable.name}")
 
 
 def _by_part(names: Sequence[str]) -> dict[str, list[str]]:
@@ -283,7 +261,3 @@ def _by_part(names: Sequence[str]) -> dict[str, list[str]]:
         part, _, own = name.partition(".")
         parts.setdefault(part, []).append(own)
     return parts
-
-
-def _units(slaves: Mapping[str, Slave]) -> Units:
-    return units_of_parts({part: slave.description.units for part, slave in slaves.items()})

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from ..description import Variable
 from ..si import BASE_UNITS, Measure, parse_unit
 from ..units import UnitMismatchError, Units
+from .names import part_of
 
 #: Tools write so many digits at least.
 _SAME = 1e-9
@@ -54,11 +55,11 @@ def converted(value: float, source: Variable, target: Variable, units: Units) ->
         return value
     if not isinstance(units, PartUnits) or units.disputed.isdisjoint((source.unit, target.unit)):
         return units.convert(value, source.unit, target.unit)
-    given, wanted = (units.parts[_part(end.name)].meaning(end.unit) for end in (source, target))
+    given, wanted = (units.parts[part_of(end.name)].meaning(end.unit) for end in (source, target))
     if given is None or wanted is None or given.exponents != wanted.exponents:
         raise UnitMismatchError(
-            f"unit '{source.unit}', as {_part(source.name)} defines it, does not measure the same quantity as "
-            f"'{target.unit}', as {_part(target.name)} does"
+            f"unit '{source.unit}', as {part_of(source.name)} defines it, does not measure the same quantity as "
+            f"'{target.unit}', as {part_of(target.name)} does"
         )
     if source.unit == target.unit and _same(given, wanted):
         return value
@@ -85,7 +86,3 @@ def _with_radians(defined: Mapping[str, Measure]) -> dict[str, Measure]:
 
 def _without_radians(measure: Measure) -> tuple[int, ...]:
     return (*measure.exponents[:_RADIAN], *measure.exponents[_RADIAN + 1 :])
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]

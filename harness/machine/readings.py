@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ..description import Variable
 from .component import Component, Reals
 from .machine import Machine
+from .names import own_of, part_of
 
 
 @dataclass(frozen=True)
@@ -38,15 +39,11 @@ def readings(machine: Machine, variables: Sequence[Variable]) -> list[Reading]:
     """What to read, and how: a reading for each part that has some of the variables, bound before the run."""
     groups = []
     for part in machine.parts:
-        own = [variable for variable in variables if variable.name.partition(".")[0] == part]
+        own = [variable for variable in variables if part_of(variable.name) == part]
         reals = [variable.name for variable in own if variable.type == "Real"]
         others = [variable.name for variable in own if variable.type != "Real"]
         if own:
             component = machine.parts[part].component
-            bound = component.reals([_own(name) for name in reals]) if reals else None
-            groups.append(Reading((*reals, *others), component, bound, tuple(map(_own, others))))
+            bound = component.reals([own_of(name) for name in reals]) if reals else None
+            groups.append(Reading((*reals, *others), component, bound, tuple(map(own_of, others))))
     return groups
-
-
-def _own(name: str) -> str:
-    return name.partition(".")[2]

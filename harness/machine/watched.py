@@ -11,6 +11,7 @@ from time import perf_counter_ns
 from typing import Any, Protocol
 
 from ..description import Value
+from ..slave import whole_step
 from .component import Component, Reals
 from .machine import Machine
 
@@ -77,9 +78,7 @@ class Watched:
 
     def step(self, time: float, size: float) -> None:
         """Advance by `size` [s] from `time`, however often the component returns early."""
-        reached, end = time, time + size
-        while reached < end:
-            reached = self.advance(reached, end - reached)
+        whole_step(self.advance, time, size)
 
     def save(self, state: Any = None) -> tuple[Any, list[Any]]:
         """A snapshot of the component and of what the watchers know."""
@@ -108,10 +107,6 @@ class Watched:
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name."""
         self.component.set(values)
-
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """Let inputs change linearly in the next step."""
-        self.component.set_slopes(slopes)
 
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`; how many impacts a step had is asked by many, so it is kept."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ..machine.connection import changes
-from ..machine.file.described import described
 from ..machine.prepared import Prepared
 from ..machine.recorded import chosen
+from ..machine.structure import structure_of
 from ..terminal import console, show_table, show_wide_table
 from .prepare import prepared
 from .run import show_notes
@@ -21,7 +21,7 @@ def check_file(name: str) -> int:
 
 def _show(machine: Prepared) -> None:
     plan = machine.plan
-    order = list(described(machine.descriptions, plan.connections).parts)
+    order = structure_of(machine.descriptions, plan.connections).order
     rows = []
     for name in order:
         fmu = machine.fmus[name]

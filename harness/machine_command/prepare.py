@@ -15,10 +15,10 @@ from ..fmu import Fmu, open_fmu
 from ..fmu.workspace import temporary_folder
 from ..inputs import read_inputs
 from ..machine.file.components import components
-from ..machine.file.described import described
 from ..machine.file.plan import ComponentPlan, Source
 from ..machine.file.read import read_plan
 from ..machine.prepared import Prepared
+from ..machine.structure import structure_of
 from ..terminal import console
 from ..toml_file import TomlFile
 
@@ -65,7 +65,7 @@ def prepared(name: str, table: Path | None = None) -> Iterator[Prepared]:
         descriptions = {name: fmu.description for name, fmu in fmus.items()}
         plan = read_plan(file, parts, descriptions)
         plan = plan if table is None else replace(plan, inputs=table)
-        whole = described(descriptions, plan.connections).description
+        whole = structure_of(descriptions, plan.connections).description
         inputs = (
             None if plan.inputs is None else read_inputs(plan.inputs, whole, 0.0, plan.policy.stop_time, plan.sources)
         )

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from ..machine.names import own_of, part_of
 from ..machine.order import dependency_order
 from ..machine.performed import MachineRun
 from .modes import Contact, contacts_among
@@ -27,7 +28,7 @@ _SIZE = [300, 230]
 def in_power_flow(run: MachineRun) -> list[str]:
     """The components in the order in which power passes over bonds; where none says so, as they take their steps."""
     bonds = run.machine.plan.bonds
-    pairs = [(_part(bond.flow.source), _part(bond.flow.target)) for bond in bonds]
+    pairs = [(part_of(bond.flow.source), part_of(bond.flow.target)) for bond in bonds]
     return dependency_order(list(run.statistics), pairs)[0]
 
 
@@ -93,12 +94,12 @@ def _picture(run: MachineRun, name: str, table: pd.DataFrame) -> dict[str, Any] 
 
 def _contacts(run: MachineRun, name: str, table: pd.DataFrame) -> list[Contact]:
     """Those of a component, by the names that their variables have in the machine."""
-    outputs = [v for v in run.machine.description.of("output") if v.name in table and _part(v.name) == name]
+    outputs = [v for v in run.machine.description.of("output") if v.name in table and part_of(v.name) == name]
     return contacts_among(outputs)
 
 
 def _own(contact: Contact) -> Contact:
-    return Contact(contact.name.partition(".")[2], contact.variable, contact.colour)
+    return Contact(own_of(contact.name), contact.variable, contact.colour)
 
 
 def _lamp(contact: Contact, table: pd.DataFrame) -> dict[str, Any]:
@@ -118,7 +119,3 @@ def _all_impacts(run: MachineRun) -> tuple[list[float], Sequence[str]]:
     """Times of all impacts that are shown, in their order, and which component each is of."""
     pairs = sorted((time, name) for name in run.by_component for time in rounded(_struck(run, name), 9))
     return [time for time, _ in pairs], [name for _, name in pairs]
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from ..description import Variable
+from ..machine.names import own_of, part_of
 from ..machine.performed import MachineRun
 from .interactive import interactive
 from .machine_animation import in_power_flow
@@ -47,7 +48,7 @@ def signals_sections(run: MachineRun) -> list[str]:
     moving = [variable for variable in variables if _moves(curves[variable.name][1])]
     sections: list[str] = []
     for name in in_power_flow(run):
-        own = [variable for variable in moving if variable.name.partition(".")[0] == name]
+        own = [variable for variable in moving if part_of(variable.name) == name]
         drawn = [*_plots(run, name, own, curves), *_bands(run, own, curves)]
         if drawn:
             sections.append(section(f"Signals of {name}", charts(*drawn), note="" if sections else _NOTE))
@@ -149,12 +150,12 @@ def _bands(
     for lane in lanes:
         times, values = curves[lane.variable]
         spans = joined(intervals(times, values != 0.0), end * _INVISIBLE)
-        own = lane.name.partition(".")[2]
+        own = own_of(lane.name)
         x = [edge for begin, close in spans.tolist() for edge in (begin, close, None)]
         y = [own if edge is not None else None for edge in x]
         line = {"color": lane.colour, "width": 14}
         data.append({"type": "scatter", "mode": "lines", "name": own, "x": x, "y": y, "line": line})
-    names = [lane.name.partition(".")[2] for lane in lanes]
+    names = [own_of(lane.name) for lane in lanes]
     axis = {"type": "category", "categoryarray": names, "range": [len(names) - 0.5, -0.5], "fixedrange": True}
     heading = {"title": {"text": "Active contacts", "font": {"size": 15}, "xref": "paper", "x": 0, "xanchor": "left"}}
     axes: dict[str, Any] = {"xaxis": {"title": {"text": "time [s]"}, "range": [0.0, end]}, "yaxis": axis}
@@ -180,4 +181,4 @@ def _short(values: FloatArray) -> FloatArray:
 
 
 def _own(variable: Variable) -> str:
-    return variable.name.partition(".")[2]
+    return own_of(variable.name)

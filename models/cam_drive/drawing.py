@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from models.icon import icon_axes
+from models.pictures import rewrite
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import radius_at, timing
@@ -75,13 +76,6 @@ def _outline(values: SimpleNamespace, theta: float) -> list[Point]:
     ]
 
 
-def main() -> None:
-    """Rewrite the drawing and the icon."""
-    folder = Path(__file__).parent
-    values = MODEL.values()
-    (folder / "drawing.svg").write_text(drawing(values), encoding="utf-8")
-    icon(values, folder / "model.png")
-
-
 if __name__ == "__main__":
-    main()
+    shown = MODEL.values()
+    rewrite(__file__, drawing(shown), icon, shown)

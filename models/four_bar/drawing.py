@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from models.icon import icon_axes
+from models.pictures import rewrite
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import start
@@ -83,13 +84,6 @@ def _links(view: View, values: SimpleNamespace) -> list[str]:
     ]
 
 
-def main() -> None:
-    """Rewrite the drawing and the icon."""
-    folder = Path(__file__).parent
-    values = MODEL.values(crank_angle_start=_CRANK_ANGLE)
-    (folder / "drawing.svg").write_text(drawing(values), encoding="utf-8")
-    icon(values, folder / "model.png")
-
-
 if __name__ == "__main__":
-    main()
+    shown = MODEL.values(crank_angle_start=_CRANK_ANGLE)
+    rewrite(__file__, drawing(shown), icon, shown)

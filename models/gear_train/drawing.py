@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from models.icon import icon_axes
+from models.pictures import rewrite
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import pairing
@@ -73,13 +74,6 @@ def _arms(centre: Point, radius: float, angle: float) -> list[Point]:
     ]
 
 
-def main() -> None:
-    """Rewrite the drawing and the icon."""
-    folder = Path(__file__).parent
-    values = MODEL.values(pinion_angle_start=math.radians(60))
-    (folder / "drawing.svg").write_text(drawing(values), encoding="utf-8")
-    icon(values, folder / "model.png")
-
-
 if __name__ == "__main__":
-    main()
+    shown = MODEL.values(pinion_angle_start=math.radians(60))
+    rewrite(__file__, drawing(shown), icon, shown)

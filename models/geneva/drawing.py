@@ -13,6 +13,7 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import Wheel
 from models.icon import icon_axes
+from models.pictures import rewrite
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import geneva
@@ -95,13 +96,6 @@ def _outlines(values: SimpleNamespace, theta: float) -> tuple[list[Point], list[
     return rim, [polar((values.centre_distance, 0.0), number(r), theta + number(t)) for r, t in disc.outline]
 
 
-def main() -> None:
-    """Rewrite the drawing and the icon."""
-    folder = Path(__file__).parent
-    values = MODEL.values()
-    (folder / "drawing.svg").write_text(drawing(values), encoding="utf-8")
-    icon(values, folder / "model.png")
-
-
 if __name__ == "__main__":
-    main()
+    shown = MODEL.values()
+    rewrite(__file__, drawing(shown), icon, shown)

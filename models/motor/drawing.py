@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from models.icon import icon_axes
+from models.pictures import rewrite
 from models.svg import HALO, INK, Point, View, polar, sheet
 
 from .model import MODEL
@@ -94,13 +95,6 @@ def _text(x: float, y: float, text: str) -> str:
     return f'<text x="{x:g}" y="{y:g}" {HALO}>{text}</text>'
 
 
-def main() -> None:
-    """Rewrite the drawing and the icon."""
-    folder = Path(__file__).parent
-    values = MODEL.values()
-    (folder / "drawing.svg").write_text(drawing(values), encoding="utf-8")
-    icon(values, folder / "model.png")
-
-
 if __name__ == "__main__":
-    main()
+    shown = MODEL.values()
+    rewrite(__file__, drawing(shown), icon, shown)

@@ -13,6 +13,7 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model.sawtooth import wheel_outline
 from models.icon import icon_axes
+from models.pictures import rewrite
 from models.svg import INK, Point, View, polar, sheet
 
 from .model import MODEL
@@ -163,13 +164,6 @@ def _range(start: float, end: float) -> list[float]:
     return [start + (end - start) * k / 100 for k in range(101)]
 
 
-def main() -> None:
-    """Rewrite the drawing and the icon."""
-    folder = Path(__file__).parent
-    values = MODEL.values()
-    (folder / "drawing.svg").write_text(drawing(values), encoding="utf-8")
-    icon(values, folder / "model.png")
-
-
 if __name__ == "__main__":
-    main()
+    shown = MODEL.values()
+    rewrite(__file__, drawing(shown), icon, shown)

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from models.icon import icon_axes
+from models.pictures import rewrite
 from models.svg import INK, Point, View, polar, sheet
 
 from .geometry import start
@@ -89,12 +90,6 @@ def _guides(view: View, values: SimpleNamespace, at: Point) -> list[str]:
     return parts
 
 
-def main() -> None:
-    """Rewrite the drawing and the icon."""
-    folder = Path(__file__).parent
-    (folder / "drawing.svg").write_text(drawing(MODEL.values(**_SHOWN)), encoding="utf-8")
-    icon(MODEL.values(rod_length=0.11, crank_angle_start=math.radians(60)), folder / "model.png")
-
-
 if __name__ == "__main__":
-    main()
+    at = MODEL.values(rod_length=0.11, crank_angle_start=math.radians(60))
+    rewrite(__file__, drawing(MODEL.values(**_SHOWN)), icon, at)

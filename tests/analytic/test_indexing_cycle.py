@@ -140,7 +140,7 @@ SENSIBLE = st.fixed_dictionaries(
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=15)
+@settings(deadline=None, max_examples=25)
 @given(SENSIBLE, st.floats(80.0, 88.0), st.floats(4.0, 12.0), st.floats(1.0, 10.0))
 def test_any_sensible_ratchet_runs_without_penetration_or_gain_of_energy(changes, mean, amplitude, hardness):
     drive = Drive(int(changes.pop("tooth_count")), math.degrees(changes.pop("tooth_slope_angle")), mean, amplitude)

@@ -44,7 +44,6 @@ def memory():
 
 
 @pytest.mark.slow
-@pytest.mark.endurance
 @pytest.mark.skipif(sys.platform == "win32", reason="needs the resource module")
 def test_a_million_impacts_neither_drift_nor_grow():
     simulation = Simulation(rattling_pawl())

@@ -35,7 +35,6 @@ def run(ratchet, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.endurance
 def test_without_its_library_it_compiles_and_gives_the_same_bits(ratchet, run, tmp_path, monkeypatch):
     # A cache of its own: the engine's files there are those of this FMU.
     monkeypatch.setenv("MECHANISM_FMU_CACHE", str(tmp_path / "cache"))

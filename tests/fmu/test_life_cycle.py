@@ -73,7 +73,6 @@ print(resident() - before, len(sys.path) - path)
 
 
 @pytest.mark.slow
-@pytest.mark.endurance
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs /proc to see the memory of a process")
 def test_two_thousand_instances_do_not_grow(ratchet):
     done = subprocess.run(

@@ -96,9 +96,6 @@ class FakeSlave:
     def set(self, values: Mapping[str, Value]) -> None:
         self.values.update(values)
 
-    def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        raise AssertionError("its description says that it takes no slopes")
-
     def get(self, names: Sequence[str]) -> list[Value]:
         return [self.values[name] for name in names]
 

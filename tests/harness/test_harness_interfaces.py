@@ -15,7 +15,8 @@ from harness.machine import record
 from harness.machine.bonds import Bonds
 from harness.machine.component import Component, Reals
 from harness.machine.impacts import Impacts
-from harness.machine.remote import RemoteComponent, RemoteReals
+from harness.machine.remote.component import RemoteComponent
+from harness.machine.remote.reals import RemoteReals
 from harness.machine.watched import Watched
 from harness.observers import Observer
 from harness.recorder import Recorder

@@ -19,10 +19,10 @@ from harness.machine import frames
 from harness.machine.connection import Connection
 from harness.machine.cycles import cycles_of
 from harness.machine.extrapolation import Extrapolation
-from harness.machine.file.described import described
 from harness.machine.file.plan import BondPlan, ComponentPlan, Plan, Policy, Recording, Scheme, Source
 from harness.machine.performed import MachineRun
 from harness.machine.prepared import Prepared
+from harness.machine.structure import structure_of
 from harness.machine_command import performed
 from harness.machine_command.files import summary
 from harness.report import machine_signals
@@ -84,7 +84,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
             if name not in plain:
                 (folder / "resources" / "drawing.json").write_text(json.dumps(DRAWING))
             fmus[name] = Fmu(Path(f"{name}.fmu"), description(restores=True), folder)
-        whole = described({name: fmu.description for name, fmu in fmus.items()}, plan.connections).description
+        whole = structure_of({name: fmu.description for name, fmu in fmus.items()}, plan.connections).description
         return performed.perform(Prepared(plan, fmus, whole, None), tmp_path)
 
     return perform

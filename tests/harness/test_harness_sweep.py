@@ -6,27 +6,42 @@ import signal
 import time
 import zipfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing import forkserver
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from cheap_designs import DEADLY, FAILING, TROUBLED, axis, cheap_sweep, run_cheap, run_until_killed, store_of, work_of
+from cheap_designs import (
+    DEADLY,
+    FAILING,
+    SQUARE,
+    TROUBLED,
+    axis,
+    cheap_sweep,
+    run_cheap,
+    run_until_killed,
+    store_of,
+    work_of,
+)
 from fake_slave import fake_description
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import qmc
 
+from harness.clock import TimeGrid
+from harness.designs import identity as identities
 from harness.designs import sampling
-from harness.designs.identity import contents
+from harness.designs import store as stores
+from harness.designs.identity import code_of, contents, identity
 from harness.designs.ranges import range_cells
-from harness.designs.store import failures
+from harness.designs.store import Store, failures
 from harness.designs.sweep import Progress, perform_sweep
-from harness.designs.task import Design, Result, Task
+from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.ways import Way
 from harness.designs.workers import Processes, Work, here
 from harness.errors import UsageError
@@ -145,6 +160,51 @@ def test_killed_between_the_table_and_the_removal_of_parts_nothing_is_twice(tmp_
     assert store.finish()["design"].to_pylist() == [1, 2, 3]
 
 
+class Killed(BaseException):
+    """Nothing that the code under test could catch as an error."""
+
+
+def test_many_parts_become_one_and_a_kill_at_any_moment_of_it_loses_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stores, "_MOST_LOOSE", 5)
+    sweep = cheap_sweep(5)
+    pairs = [(design, Result(design.number, "cheap", (design.number / 3,))) for design in sweep.designs]
+    rename, unlink, calls = os.replace, Path.unlink, 0
+    left: list[int] = []
+
+    def keep(store: Store) -> None:
+        for pair in pairs:
+            store.append([pair])
+
+    def deadly(call: Any, of: int) -> Any:
+        def called(*arguments: Any, **options: Any) -> Any:
+            nonlocal calls
+            if calls == of:
+                raise Killed
+            calls += 1
+            return call(*arguments, **options)
+
+        return called
+
+    for moment in range(10):  # five parts are renamed, then the one of all, then four are removed
+        folder, calls = tmp_path / f"{moment}", 0
+        store = store_of(sweep, folder)
+        with monkeypatch.context() as patch:
+            patch.setattr(os, "replace", deadly(rename, moment))
+            patch.setattr(Path, "unlink", deadly(unlink, moment))
+            with pytest.raises(Killed):
+                keep(store)
+        left.append(parts(folder))
+        there = store_of(sweep, folder).pairs()
+        assert there == {d.number: (d.values, result) for d, result in pairs[:moment]}
+    assert left == [0, 1, 2, 3, 4, 5, 5, 4, 3, 2]
+    store = store_of(sweep, tmp_path / "whole")
+    keep(store)
+    assert parts(tmp_path / "whole") == 1
+    assert len(store.pairs()) == 5
+
+
 def test_what_fails_and_what_kills_its_process_is_recorded_and_the_rest_goes_on(tmp_path: Path) -> None:
     sweep = cheap_sweep(20)
     with Processes(work_of(sweep, tmp_path, TROUBLED), 2) as processes:
@@ -220,6 +280,24 @@ class File:
 
     path: Path
     description = fake_description()
+
+
+def test_stresses_of_other_code_are_not_mixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    one, other = (tmp_path / name / "stress" for name in ("one", "other"))
+    for folder in (one, other):
+        (folder / "beams").mkdir(parents=True)
+        (folder / "beams" / "wedge.py").write_text("ROOT = 2.5")
+    assert code_of([one]) == code_of([other])
+    (other / "beams" / "wedge.py").write_text("ROOT = 2.6")
+    stress = Quantity(When.FIRST_IMPACT, "stress_max", "Real", "Pa")
+    task = Task(TimeGrid.of(1.0, 0.1), {}, None, (stress,))
+    found = []
+    for folder in (one, other):
+        monkeypatch.setattr(identities, "_STRESS_CODE", (folder,))
+        found.append(identity({}, task, (), ("sweep", {})))
+    assert found[0].changed(found[1].topics) == ["mechanism_fmu"]
+    without = identity({}, replace(task, quantities=(SQUARE,)), (), ("sweep", {}))
+    assert without.topics["mechanism_fmu"]["stress"] is None
 
 
 def test_an_edited_fmu_is_another_one_and_one_made_again_is_not(tmp_path: Path) -> None:

@@ -189,7 +189,6 @@ def test_a_cluster_gives_what_this_machine_gives(slider_crank_fmu: Path, tmp_pat
 
 
 @pytest.mark.slow
-@pytest.mark.endurance
 def test_two_thousand_designs_killed_ten_times(native_slider_crank_fmu: Path, tmp_path: Path) -> None:
     """With -9, at any moment: what was kept is never run again, and the table is the undisturbed one's."""
     path, out = file_of(tmp_path, native_slider_crank_fmu, 2000), tmp_path / "killed"

@@ -6,7 +6,7 @@ import json
 import re
 import uuid
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,12 +20,13 @@ from mechanism_fmu.fmu.native.universal import universal
 from ...description import Description, Variable
 from ...errors import UsageError
 from ...recorder import recorded_variables
-from ..connection import Connection, Link, linked
-from ..file.described import described
+from ..connection import Connection, Link
 from ..file.plan import Plan
+from ..loops import in_order
+from ..names import part_of
+from ..structure import structure_of
 from .description import Exposed, container_description
 from .gains import CHANNELS, GUID, NAME, factor_reference, gains_entries, in_reference, offset_reference, out_reference
-from .order import in_order
 
 _BINARIES = Path(container_fmu.__file__).with_name("binaries")
 _PLATFORMS = {
@@ -67,8 +68,10 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
     """
     require_name(path)
     stem = path.stem
-    machine = described({name: part.description for name, part in parts.items()}).description
-    links = [linked(connection, machine) for connection in plan.connections]
+    descriptions = {name: part.description for name, part in parts.items()}
+    machine = structure_of(descriptions).description
+    connected = structure_of(descriptions, plan.connections)
+    links = connected.links
     for name in dict.fromkeys(end for link in links for end in (link.source, link.target)):
         if machine.variables[name].elements > 1:
             raise UsageError(f"{name} is an element of an array, which fmpy's container cannot connect.")
@@ -95,9 +98,8 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
             )
         for channel, link in enumerate(scaled):
             exposed += _of_channel(channel, link, len(names), machine)
-        whole = described({name: part.description for name, part in parts.items()}, plan.connections).description
         token = f"{{{uuid.UUID(_fingerprint(entries, plan, exposed))}}}"
-        description = container_description(stem, token, plan, exposed, whole)
+        description = container_description(stem, token, plan, exposed, connected.description)
         configuration = {
             "containerVersion": container_fmu.__version__,
             "instantiationToken": token,
@@ -156,13 +158,13 @@ def _components(parts: Mapping[str, Part], scaled: bool) -> list[dict[str, str]]
 
 def _readable(variable: Variable, parts: Mapping[str, Part]) -> bool:
     """Whether fmpy's container has the functions for its type; it takes an Int64 of FMI 3.0 for an Int32, and fails."""
-    fmi = parts[variable.name.partition(".")[0]].description.fmi
+    fmi = parts[part_of(variable.name)].description.fmi
     return variable.elements == 1 and (fmi == 2 or variable.fmi_type in _TYPES.values())
 
 
 def left_out(plan: Plan, parts: Mapping[str, Part]) -> list[str]:
     """Numbers of the machine that the container does not have, because fmpy's does not know their types."""
-    machine = described({name: part.description for name, part in parts.items()}).description
+    machine = structure_of({name: part.description for name, part in parts.items()}).description
     return [variable.name for variable in _wanted(plan, machine) if not _readable(variable, parts)]
 
 
@@ -188,7 +190,7 @@ def _exposed(plan: Plan, machine: Description, parts: Mapping[str, Part]) -> lis
             if variable.name in values:
                 value = values[variable.name]
                 start = ("true" if value else "false") if variable.type == "Boolean" else repr(value)
-            component = names.index(variable.name.partition(".")[0])
+            component = names.index(part_of(variable.name))
             exposed.append(Exposed(replace(variable, start=start), component, variable.reference))
     return exposed
 
@@ -225,7 +227,7 @@ def _variable(exposed: Exposed) -> dict[str, Any]:
 
 def _connections(
     connections: tuple[Connection, ...],
-    links: list[Link],
+    links: Sequence[Link],
     scaled: list[Link],
     names: list[str],
     machine: Description,
@@ -234,7 +236,7 @@ def _connections(
     found = []
     for link in in_order(links, machine):
         source, target = machine.variables[link.source], machine.variables[link.target]
-        first, last = (names.index(v.name.partition(".")[0]) for v in (source, target))
+        first, last = (names.index(part_of(v.name)) for v in (source, target))
         if link in scaled:
             channel = scaled.index(link)
             found.append(_connection(first, source.reference, len(names), in_reference(channel)))

@@ -1,7 +1,7 @@
 """The file of a machine: read as a whole, checked against its components, and written.
 
 Internal. `components`, then `read` (all of it: `connections`, `running`) make a `plan`; `notes` says what is no
-mistake, `write` makes a file of a plan. `described` is a machine of descriptions alone.
+mistake, `write` makes a file of a plan.
 """
 
 __all__: list[str] = []

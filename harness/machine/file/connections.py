@@ -9,6 +9,7 @@ from ...errors import UsageError
 from ...toml_file import Section, TomlFile
 from ...toml_values import as_text, parsed
 from ..connection import Connection, linked
+from ..names import own_of, part_of
 from .plan import BondPlan
 
 
@@ -68,13 +69,13 @@ def _checked(
     ends = {"from": connection.source, "to": connection.target, "rate": connection.rate}
     sound = True
     for key, end in ends.items():
-        if end and _part(end) not in names:
+        if end and part_of(end) not in names:
             section.wrong(key, f"'{end}' is none of <component>.<variable>; components: {', '.join(names)}")
             sound = False
-        elif end and _part(end) in known and end not in description.variables:
+        elif end and part_of(end) in known and end not in description.variables:
             section.wrong(key, no_variable(end, description))
             sound = False
-        elif end and _part(end) not in known:
+        elif end and part_of(end) not in known:
             sound = False
     if not sound:
         return False
@@ -89,7 +90,7 @@ def _checked(
 def no_variable(name: str, description: Description) -> str:
     """That a component has no such variable, with those most like it."""
     part, _, own = name.partition(".")
-    of_part = {v.name.partition(".")[2]: v for v in description.variables.values() if _part(v.name) == part}
+    of_part = {own_of(v.name): v for v in description.variables.values() if part_of(v.name) == part}
     try:
         Description(part, "", "", of_part).variable(own)
     except UsageError as error:
@@ -122,10 +123,10 @@ def bonds(file: TomlFile, connected: Sequence[Connection], complete: bool) -> li
         if flow is None or effort is None:
             continue
         there, back = (flow.source, flow.target), (effort.target, effort.source)
-        if [_part(end) for end in there] != [_part(end) for end in back]:
+        if [part_of(end) for end in there] != [part_of(end) for end in back]:
             section.wrong("effort", f"'{effort}' does not go back between the components of '{flow}'")
             continue
-        found.append(BondPlan(name or f"{_part(flow.source)} to {_part(flow.target)}", flow, effort, reaction))
+        found.append(BondPlan(name or f"{part_of(flow.source)} to {part_of(flow.target)}", flow, effort, reaction))
     for name in {bond.name for bond in found}:
         if [bond.name for bond in found].count(name) > 1:
             file.wrong(("bond",), f"two bonds have the name '{name}'; give them others by name = ")
@@ -141,7 +142,3 @@ def _bonded(
     if complete:
         section.wrong(key, f"'{name}' is no connected input; there are: {', '.join(by_target) or 'none'}")
     return None
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]

@@ -9,7 +9,8 @@ from ...numbers import shown
 from ..bonds import Bond, pushes
 from ..connection import Connection
 from ..extrapolation import Extrapolation
-from .described import described
+from ..names import own_of, part_of
+from ..structure import structure_of
 from .plan import BondPlan, Plan, Scheme
 
 
@@ -21,7 +22,7 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
         descriptions: of its components' FMUs.
         driven: inputs that the table of inputs drives.
     """
-    machine = described(descriptions, plan.connections)
+    machine = structure_of(descriptions, plan.connections)
     found = [
         f"{', '.join(cycle)} follow each other: a cycle. A fixed step shows what one of them does to the others "
         "only in the next step."
@@ -62,7 +63,7 @@ def _without_units(connections: Sequence[Connection], machine: Description) -> l
 
 def _pushed(bond: BondPlan) -> str:
     effort = bond.effort
-    driving, driven = _part(effort.target), _part(effort.source)
+    driving, driven = part_of(effort.target), part_of(effort.source)
     meaning = f"the reaction on {driving} (reaction = true)" if bond.reaction else f"the torque or force on {driven}"
     also = "" if bond.reaction else " An output that is the reaction itself needs reaction = true below [[bond]]."
     return (
@@ -76,7 +77,7 @@ def _free_inputs(plan: Plan, machine: Description, driven: Sequence[str]) -> lis
     free: dict[str, list[Variable]] = {}
     for variable in machine.of("input"):
         if variable.name not in known:
-            free.setdefault(variable.name.partition(".")[0], []).append(variable)
+            free.setdefault(part_of(variable.name), []).append(variable)
     return [
         f"Inputs of {part} that follow nobody and are not set keep their start values: "
         f"{', '.join(_kept(variable, machine) for variable in variables)}."
@@ -85,7 +86,7 @@ def _free_inputs(plan: Plan, machine: Description, driven: Sequence[str]) -> lis
 
 
 def _kept(variable: Variable, machine: Description) -> str:
-    name = variable.name.partition(".")[2]
+    name = own_of(variable.name)
     if variable.start is None:
         return name
     if variable.type != "Real":
@@ -97,7 +98,7 @@ def _extrapolation(plan: Plan, descriptions: Mapping[str, Description]) -> list[
     kind = plan.policy.extrapolation
     if kind is Extrapolation.CONSTANT:
         return []
-    targets = {_part(connection.target) for connection in plan.connections}
+    targets = {part_of(connection.target) for connection in plan.connections}
     held = [name for name, description in descriptions.items() if name in targets and not description.takes_slopes]
     found = []
     if held:
@@ -115,8 +116,4 @@ def _extrapolation(plan: Plan, descriptions: Mapping[str, Description]) -> list[
 
 
 def _has_no_slope(connection: Connection, descriptions: Mapping[str, Description]) -> bool:
-    return not connection.rate and not descriptions[_part(connection.source)].gives_slopes
-
-
-def _part(name: str) -> str:
-    return name.partition(".")[0]
+    return not connection.rate and not descriptions[part_of(connection.source)].gives_slopes

@@ -8,10 +8,10 @@ from ...clock import TimeGrid
 from ...description import Description
 from ...toml_file import TomlFile
 from ..connection import Connection
+from ..structure import structure_of
 from . import running
 from .components import with_values
 from .connections import bonds, connections
-from .described import described
 from .plan import ComponentPlan, Plan, Policy, Scheme
 
 TABLES = ("title", "component", "connect", "bond", "run", "record")
@@ -32,7 +32,7 @@ def read_plan(file: TomlFile, components: Sequence[ComponentPlan], descriptions:
     title = file.data.get("title", file.path.stem)
     if not isinstance(title, str):
         file.wrong(("title",), "must be a text in quotes")
-    whole = described(descriptions).description
+    whole = structure_of(descriptions).description
     complete = len(descriptions) == len(components)
     names = [component.name for component in components]
     connected = connections(file, whole, descriptions, names)
@@ -45,7 +45,7 @@ def read_plan(file: TomlFile, components: Sequence[ComponentPlan], descriptions:
         for component in components
     ]
     policy, section = running.policy(file)
-    machine = described(descriptions, _one_each(connected)).description if complete else whole
+    machine = structure_of(descriptions, _one_each(connected)).description if complete else whole
     table, driven = running.input_table(section, machine, policy.stop_time if policy else None, sources)
     material = running.material(section)
     section.done()

@@ -12,9 +12,9 @@ from mechanism_fmu.fmu.archive import write_archive
 from ...description import Description, Variable
 from ...errors import UsageError
 from ..connection import Connection, linked
-from ..file.described import described
 from ..file.plan import ComponentPlan, Plan
 from ..recorded import chosen
+from ..structure import structure_of
 from . import own
 from .xml import OSP, TOOL, TYPES, annotation, child, root, to_bytes, unit_elements, value_element
 
@@ -34,7 +34,7 @@ def write_ssp(plan: Plan, fmus: Mapping[str, tuple[Path, Description]], path: Pa
     """
     files = _fmu_names({name: file for name, (file, _) in fmus.items()})
     descriptions = {name: description for name, (_, description) in fmus.items()}
-    machine = described(descriptions).description
+    machine = structure_of(descriptions).description
     entries: dict[str, bytes] = {}
     try:
         for name, (file, _) in fmus.items():

@@ -12,9 +12,9 @@ from ...description import Description, Value, read_description
 from ...errors import UsageError
 from ...results import write_bytes, write_text
 from ..connection import Connection, linked
-from ..file.described import described
 from ..file.plan import ComponentPlan, Plan, Policy, Recording, Source
 from ..file.write import machine_toml
+from ..structure import structure_of
 from . import own
 from .structure import SspComponent, SspConnection, Structure, read_structure
 
@@ -70,7 +70,7 @@ def _imported(structure: Structure, path: Path, folder: Path) -> Imported:
         )
         for c in structure.components.values()
     )
-    machine = described(descriptions).description
+    machine = structure_of(descriptions).description
     connections = tuple(_connection(c, names, machine) for c in structure.connections)
     plan = _plan(structure, components, connections, descriptions, folder, notes)
     file = folder / f"{path.stem}.toml"

@@ -168,8 +168,8 @@ def random_calls(folder: str) -> None:
                 case _:
                     slave.doStep(slave.getRealStatus(2), dice.choice([1e-3, 0.05]))
 
-        refusals = sum(refused(lambda: call(dice.choice([a, b, c]))) for _ in range(1000))
-        assert 125 < refusals < 875, refusals
+        refusals = sum(refused(lambda: call(dice.choice([a, b, c]))) for _ in range(2000))
+        assert 250 < refusals < 1750, refusals
         for state in states:
             a.slave.freeFMUstate(state)
         found = []
@@ -229,6 +229,6 @@ def memory(folder: str) -> None:
             for _ in range(100):
                 call()
             before = _resident()
-            for _ in range(300):
+            for _ in range(500):
                 call()
-            print(call.__name__, (_resident() - before) / 300)
+            print(call.__name__, (_resident() - before) / 500)

@@ -82,7 +82,7 @@ def test_any_sequence_of_calls_ends_where_its_history_leads(subject):
     with Instance(subject.fmu) as one, Instance(subject.fmu, "other") as other:
         run_state_machine_as_test(
             lambda: Session(subject, one, other),
-            settings=settings(max_examples=30, stateful_step_count=25, deadline=None),
+            settings=settings(max_examples=80, stateful_step_count=25, deadline=None),
         )
 
 

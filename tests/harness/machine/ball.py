@@ -40,8 +40,6 @@ class Ball:
     def set(self, values: Mapping[str, Value]) -> None:
         assert not values
 
-    set_slopes = set
-
     def get(self, names: Sequence[str]) -> list[Value]:
         known = {"x": self.x, "v": self.v, "impacts_in_step": len(self.hits)}
         known["impacts[1].time"] = self.hits[0] if self.hits else 0.0

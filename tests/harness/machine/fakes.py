@@ -185,7 +185,7 @@ class WheelReals:
 
 @dataclass(frozen=True)
 class WheelOpener:
-    """Makes a wheel in the other process (`far_side.Opener`)."""
+    """Makes a wheel in the other process (`remote.far_side.Opener`)."""
 
     name: str = "wheel"
     impacts: tuple[float, ...] = ()

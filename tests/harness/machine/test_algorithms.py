@@ -79,8 +79,8 @@ def test_gauss_seidel_needs_no_extrapolation_where_nothing_goes_round() -> None:
 
 def test_what_goes_round_is_found_and_told() -> None:
     machine = two_masses(Extrapolation.CONSTANT)
-    assert machine.cycles == [["one", "two"]]
-    assert Machine({"one": mass("one")}).cycles == []
+    assert machine.structure.cycles == [["one", "two"]]
+    assert Machine({"one": mass("one")}).structure.cycles == []
 
 
 @pytest.mark.parametrize("extrapolation", Extrapolation)

@@ -14,9 +14,9 @@ from harness.errors import UsageError
 from harness.fmu import open_fmu
 from harness.machine.connection import Link
 from harness.machine.container import gains
-from harness.machine.container.order import in_order
 from harness.machine.container.write import Part, left_out, write_container
 from harness.machine.file.plan import Plan
+from harness.machine.loops import in_order
 from harness.master import Ending, run_fixed_step
 from harness.recorder import Recorder
 from mechanism_fmu.fmu.archive import read_entries

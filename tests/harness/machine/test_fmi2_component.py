@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from harness.errors import FmuError
+from harness.errors import FmuError, UsageError
 from harness.fmu import open_fmu
 from harness.fmu.slave import FmuSlave
 from harness.messages import LogMessage, Status
@@ -72,7 +72,7 @@ def test_what_cannot_be_told_in_the_initialization_mode_is_shown_once_when_it_en
     assert len(shown) == 1
 
 
-def test_slopes_of_inputs_are_those_set_by_name(native_ratchet_fmu: Path) -> None:
+def test_slopes_of_inputs_are_those_set_by_fmpy(native_ratchet_fmu: Path) -> None:
     places = []
     with open_fmu(native_ratchet_fmu) as fmu:
         for bound in (False, True):
@@ -84,10 +84,17 @@ def test_slopes_of_inputs_are_those_set_by_name(native_ratchet_fmu: Path) -> Non
                         torque.values[0] = 5e-3
                         torque.write_slopes()
                     else:
-                        slave.set_slopes({"drive_torque": 5e-3})
+                        reference = fmu.description.variable("drive_torque").reference
+                        slave._instance.setRealInputDerivatives([reference], [1], [5e-3])
                     slave.step(k * 0.01, 0.01)
                 places.append(slave.get(["wheel_angle", "wheel_speed"]))
     assert places[0] == places[1]
+
+
+def test_slopes_of_inputs_are_refused_where_there_are_none() -> None:
+    inputs = Fake2().reals(["a", "b"])
+    with pytest.raises(UsageError, match=r"pump takes no slopes of inputs, here of a, b: .* Write values before each"):
+        inputs.write_slopes()
 
 
 def test_slopes_of_outputs_are_told_where_they_exist(ratchet: FmuSlave, shown: list[LogMessage]) -> None:

@@ -27,7 +27,7 @@ def test_a_loop_is_told_and_warned_of_unless_it_settles(gain: float, offset: flo
     machine = wheels(
         Connection("one.drag", "two.torque", gain=gain), Connection("two.drag", "one.torque", offset=offset)
     )
-    assert machine.loops == [["two.torque", "one.torque"]]
+    assert machine.structure.loops == [["two.torque", "one.torque"]]
     warnings = unsettled(machine)
     if offset:
         assert len(warnings) == 1
@@ -43,8 +43,8 @@ def test_a_cycle_with_a_delay_is_no_loop() -> None:
     two.description.variables["led"] = Variable("led", 99, "Real", "input", unit="rad/s")
     parts = {"one": Wheel("one"), "two": two}
     machine = Machine(parts, [Connection("one.speed", "two.led"), Connection("two.drag", "one.torque")])
-    assert machine.cycles == [["one", "two"]]
-    assert machine.loops == []
+    assert machine.structure.cycles == [["one", "two"]]
+    assert machine.structure.loops == []
     assert unsettled(machine) == []
 
 
@@ -52,4 +52,4 @@ def test_an_output_that_tells_no_dependencies_may_follow_any_input() -> None:
     silent = Wheel("one")
     silent.description.variables["angle"] = Variable("angle", 1, "Real", "output", unit="N.m")
     machine = Machine({"one": silent}, [Connection("one.angle", "one.torque")])
-    assert machine.loops == [["one.torque"]]
+    assert machine.structure.loops == [["one.torque"]]

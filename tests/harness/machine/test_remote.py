@@ -23,7 +23,9 @@ from harness.machine.component import Component
 from harness.machine.connection import Connection
 from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.remote import RemoteComponent, remote
+from harness.machine.remote import remote
+from harness.machine.remote.component import RemoteComponent
+from harness.machine.remote.far_side import Request
 from harness.machine.run import run_machine
 from harness.master import Ending
 from harness.messages import LogMessage, Status
@@ -75,13 +77,13 @@ def test_a_machine_runs_as_if_its_parts_were_here(start: Any, algorithm: str, ex
 def trips(component: RemoteComponent, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """What is asked of a component from now on."""
     asked: list[str] = []
-    send = component._send
+    ask = component._link.ask
 
-    def spy(call: str, *rest: Any) -> None:
-        asked.append(call)
-        send(call, *rest)
+    def spy(request: Request, limit: float) -> Any:
+        asked.append(request[1])
+        return ask(request, limit)
 
-    monkeypatch.setattr(component, "_send", spy)
+    monkeypatch.setattr(component._link, "ask", spy)
     return asked
 
 
@@ -212,31 +214,39 @@ from pathlib import Path
 from tests.harness.machine.fakes import Trouble, WheelOpener
 
 if __name__ == "__main__":
-    folder = Path(sys.argv[1])
-    with remote("one", WheelOpener("one", trouble=Trouble(0.0, "hang")), folder=folder) as one:
+    hanging, waiting = (Path(folder) for folder in sys.argv[1:])
+    with (
+        remote("one", WheelOpener("one", trouble=Trouble(0.0, "hang")), folder=hanging) as one,
+        remote("two", WheelOpener("two"), folder=waiting) as two,
+    ):
         one.initialize(0.0, 1.0)
-        print(one.process.pid, flush=True)
-        one.advance(0.0, 0.1)
+        one._link.send(((), "advance", (0.0, 0.1), ()))
+        print(one.process.pid, two.process.pid, flush=True)
+        time.sleep(600.0)
 """
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no signal 9 there")
 def test_no_process_outlives_the_one_that_leads(tmp_path: Path) -> None:
-    """Not even one that hangs; and the extracted FMU goes with it."""
-    script, extracted = tmp_path / "leader.py", tmp_path / "extracted"
+    """Neither one that hangs nor one that waits; and the extracted FMUs go with them, whole."""
+    script, folders = tmp_path / "leader.py", [tmp_path / "hanging", tmp_path / "waiting"]
     script.write_text(LEADER, encoding="utf-8")
-    extracted.mkdir()
-    command = [sys.executable, str(script), str(extracted)]
+    for folder in folders:
+        folder.mkdir()
+        for k in range(400):  # their removal takes longer than the end of a process
+            (folder / f"{k}.txt").touch()
+    command = [sys.executable, str(script), *map(str, folders)]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as leader:
         assert leader.stdout is not None
-        number = int(leader.stdout.readline())
+        numbers = [int(number) for number in leader.stdout.readline().split()]
         leader.kill()
+    assert len(numbers) == 2
     began = clock.monotonic()
-    while is_alive(number) and clock.monotonic() < began + 60.0:
+    while any(map(is_alive, numbers)) and clock.monotonic() < began + 60.0:
         clock.sleep(0.02)
-    assert not is_alive(number)
-    assert not extracted.exists()
+    assert not any(map(is_alive, numbers))
+    assert not any(folder.exists() for folder in folders)
 
 
 def is_alive(number: int) -> bool:

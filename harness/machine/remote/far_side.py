@@ -19,11 +19,11 @@ from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
 from typing import Any
 
-from ..errors import FmuError, HarnessError
-from ..fmu.slave import MessageHandler
-from ..messages import LogMessage
-from ..processes import serve_only
-from .component import Component, Reals
+from ...errors import FmuError, HarnessError
+from ...fmu.slave import MessageHandler
+from ...messages import LogMessage
+from ...processes import serve_only
+from ..component import Component, Reals
 
 #: Makes a component that tells its messages to the given function; can be pickled.
 Opener = Callable[[MessageHandler], AbstractContextManager[Component]]
@@ -41,7 +41,14 @@ def serve(pipe: Pipe, name: str, opener: Opener, folder: Path | None) -> None:
         opener: makes it.
         folder: to be removed when the other side's process was killed.
     """
-    serve_only(folder)
+    end = serve_only(folder)
+    try:
+        _have_component(pipe, name, opener)
+    except (EOFError, ConnectionError):  # nobody is there any more
+        end.join()
+
+
+def _have_component(pipe: Pipe, name: str, opener: Opener) -> None:
     messages: list[LogMessage] = []
     try:
         with opener(messages.append) as component:
@@ -49,7 +56,7 @@ def serve(pipe: Pipe, name: str, opener: Opener, folder: Path | None) -> None:
             _obey(pipe, _Servant(component), messages)
         _send(pipe, True, None, [], messages)
     except (EOFError, ConnectionError):
-        return  # nobody is there any more
+        raise
     except Exception as error:
         _send(pipe, False, _told(error, name), [], messages)
 
@@ -75,7 +82,6 @@ class _Servant:
     def __init__(self, component: Component) -> None:
         self.component = component
         self.set = component.set
-        self.set_slopes = component.set_slopes
         self.enter_initialization = component.enter_initialization
         self.exit_initialization = component.exit_initialization
         self.advance = component.advance
