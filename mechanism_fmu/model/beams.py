@@ -51,8 +51,11 @@ def _check_beside(member: Member, mechanism: Mechanism) -> None:
     for contact in mechanism.contacts:
         if isinstance(contact, (AngleStop, AngleLock)):
             continue  # a couple, at the hinge as all others
-        at_tip = isinstance(contact, PointLineContact) and contact.body_i == member.body
-        if member.body in (contact.body_i, contact.body_j) and not (at_tip and same_point(contact.point_i, member.end)):
+        if isinstance(contact, PointLineContact) and contact.body_i == member.body:
+            beside = not same_point(contact.point_i, member.end)
+        else:
+            beside = member.body in (contact.body_i, contact.body_j)
+        if beside:
             raise MechanismError(
                 f"{type(contact).__name__} {contact.name!r} pushes body {member.body!r} beside the end of member "
                 f"{member.name!r}, where {' and '.join(OF_BEAM)} would be wrong; let the member end at the point of a "
