@@ -107,7 +107,7 @@ class Solution:
     @property
     def degrees(self) -> FloatArray:
         """The crank's angles [deg]; whole numbers are so, whatever the radians have lost."""
-        return np.round(np.degrees(self.angle), 9)
+        return np.round(np.degrees(self.angle), 9).astype(np.float64)
 
     @property
     def modes(self) -> int:
