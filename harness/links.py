@@ -103,8 +103,9 @@ class Links:
         The force is that of a linear spring that takes up the energy m v^2 / 2 of the closing motion, F = v sqrt(k m)
         (as in W. Goldsmith, Impact, London 1960). m is the mass that the impact itself shows, impulse over closing
         speed and 1 + e; k is the stiffness of the pawl along the face's normal, without crank and tooth, which would
-        make the chain softer: an upper bound of F. Across the pawl its inertia balances the force, as in a uniform bar;
-        the crank takes the hinge's force as if it came slowly, and so does the lost motion.
+        make the chain softer: an upper bound of F. Across the pawl its inertia balances the force, as in a uniform bar.
+        The crank takes no more than the closing energy gives: it and the lost motion are those of the chain of pawl and
+        crank, a smaller force in the same proportions on both.
         """
         time = impacts["time"].to_numpy()
         angle = [np.interp(time, results["time"], results[f"{body}_angle"]) for body in ("crank", "pawl", "wheel")]
@@ -114,9 +115,13 @@ class Links:
         flexibility = along**2 * self.pawl.axial + across**2 * ENERGY * self.pawl.bending
         blow = impacts["impulse"].to_numpy() / (1.0 + self.values["restitution"])
         push = np.sqrt(impacts["closing_speed"].to_numpy() * blow / flexibility)
-        force, side = push * face, push * across
-        hinge = push * (along * _unit(angle[1]) - HINGE * across * _left(angle[1]))
-        stretch, shift, motion = self._lost(angle[0], angle[1], turned, force, hinge)
+        side = push * across
+        hinge = along * _unit(angle[1]) - HINGE * across * _left(angle[1])  # by a force of 1 N
+        give = _dot(hinge, _left(angle[0])) ** 2 * self.crank.bending / 3
+        give += _dot(hinge, _unit(angle[0])) ** 2 * self.crank.axial
+        chain = np.sqrt(impacts["closing_speed"].to_numpy() * blow / (flexibility + give))
+        _, shift, motion = self._lost(angle[0], angle[1], turned, chain * face, chain * hinge)
+        stretch = push * along * self.pawl.axial
         worst = int(push.argmax())
         bent = (
             float(DEFLECTION * self.pawl.bending * side[worst]),

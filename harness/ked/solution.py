@@ -107,8 +107,7 @@ class Solution:
     @property
     def degrees(self) -> FloatArray:
         """The crank's angles [deg]; whole numbers are so, whatever the radians have lost."""
-        degrees: FloatArray = np.degrees(self.angle)
-        return degrees.round(9)
+        return np.round(np.degrees(self.angle), 9).astype(np.float64)
 
     @property
     def modes(self) -> int:

@@ -182,12 +182,11 @@ def _rigid(turned: Turn, order: npt.NDArray[np.int64]) -> Rigid:
         for points in ([m.start for m in members], [m.end for m in members])
     )
     name, _, end = turned.place.rpartition(".")
-    number = [m.name for m in members].index(name)
     torque = cycle.reactions.of(DRIVE)[:, 0]
     power = cycle.power
     most = max(float(np.abs(part).max()) for part in (power.drives, power.kinetic))
     return Rigid(
-        path=(starts if end == "start" else ends)[:, number],
+        path=(starts if end == "start" else ends)[:, [m.name for m in members].index(name)],
         starts=starts,
         ends=ends,
         torque=torque[order],

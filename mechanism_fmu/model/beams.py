@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .. import codes
+from .contacts import AngleLock, AngleStop, PointLineContact
 from .errors import MechanismError
 from .functions import Number
 from .joints import Revolute
@@ -25,7 +26,7 @@ def hinge(member: Member, mechanism: Mechanism) -> tuple[int, int]:
     """First row of the revolute joint at the start of a member, and 1 where its body is body i of it, else -1.
 
     Raises:
-        MechanismError: there is none, or the body has other joints or members.
+        MechanismError: there is none, the body has other joints or members, or contacts or disks beside its ends.
     """
     row, found, joints = 0, None, 0
     for joint in mechanism.joints:
@@ -41,7 +42,31 @@ def hinge(member: Member, mechanism: Mechanism) -> tuple[int, int]:
             f"its start (give `member.start` to both), with nothing else on its body {member.body!r}; read its stress "
             f"and its ends as parts of a linkage instead."
         )
+    _check_beside(member, mechanism)
     return found
+
+
+def _check_beside(member: Member, mechanism: Mechanism) -> None:
+    """The bar's couple is found by moments about its tip, with all mass on it spread evenly or at its ends."""
+    for contact in mechanism.contacts:
+        if isinstance(contact, (AngleStop, AngleLock)):
+            continue  # a couple, at the hinge as all others
+        if isinstance(contact, PointLineContact) and contact.body_i == member.body:
+            beside = not same_point(contact.point_i, member.end)
+        else:
+            beside = member.body in (contact.body_i, contact.body_j)
+        if beside:
+            raise MechanismError(
+                f"{type(contact).__name__} {contact.name!r} pushes body {member.body!r} beside the end of member "
+                f"{member.name!r}, where {' and '.join(OF_BEAM)} would be wrong; let the member end at the point of a "
+                f"PointLineContact (give `member.end` to it)."
+            )
+    for disk in mechanism.disks:
+        if disk.body == member.body and not any(same_point(disk.point, end) for end in (member.start, member.end)):
+            raise MechanismError(
+                f"Disk {disk.name!r} stands beside the ends of member {member.name!r}, where {' and '.join(OF_BEAM)} "
+                f"would be wrong; give `member.start` or `member.end` to it."
+            )
 
 
 def beam_data(member: Member, mechanism: Mechanism) -> tuple[Number, ...]:

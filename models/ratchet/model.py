@@ -26,6 +26,7 @@ from mechanism_fmu.model import (
     Torque,
     TorsionSpring,
 )
+from mechanism_fmu.model.body import Point
 from mechanism_fmu.model.functions import cos, sin
 from mechanism_fmu.model.part_bodies import rotor_body
 
@@ -61,7 +62,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Torque("pawl_spring", "pawl", "crank", torque=values.pawl_spring_torque),
             Damper("wheel_damper", "wheel", damping=values.wheel_damping),
         ),
-        contacts=_contacts(values),
+        contacts=_contacts(values, pawl.end),
         patterns=(_teeth(values),),
         inputs=INPUTS,
         outputs=OUTPUTS,
@@ -119,9 +120,9 @@ def _members(values: SimpleNamespace) -> tuple[Member, Member]:
     )
 
 
-def _contacts(values: SimpleNamespace) -> tuple[Contact, ...]:
+def _contacts(values: SimpleNamespace, tip: Point) -> tuple[Contact, ...]:
     geometry = tooth(values)
-    tip, root = (values.pawl_length / 2, 0.0), (values.wheel_inner_radius, 0.0)
+    root = (values.wheel_inner_radius, 0.0)
     free = 1 - values.guided
     return (
         PointLineContact(

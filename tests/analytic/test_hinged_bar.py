@@ -11,6 +11,7 @@ import models
 from mechanism_fmu.model import (
     GROUND,
     Body,
+    Disk,
     Force,
     Mechanism,
     MechanismError,
@@ -22,6 +23,7 @@ from mechanism_fmu.model import (
     Torque,
     hinged_beam_outputs,
 )
+from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.simulation import Simulation
 
 LENGTH, MASS, YOUNG, GRAVITY = 0.6, 2.0, 2.1e11, 9.81
@@ -114,6 +116,19 @@ def test_only_a_bar_on_one_hinge_has_a_tip():
             MechanismError, match=r"Member 'beam': tip_deflection and bending_stress .* on one revolute"
         ):
             Simulation(Mechanism(outputs=outputs, **parts))
+
+
+def test_what_pushes_or_weighs_beside_the_tip_is_refused():
+    """Moments about the tip say nothing of a force in the middle: it would come out as a couple at the hinge."""
+    middle = PointLineContact("stop", "rod", (0.0, 0.0), GROUND, (0.0, 0.0), (0.0, -1.0), closed=True)
+    surface = PointLineContact("rest", GROUND, (LENGTH, 0.0), "rod", (0.0, 0.0), (0.0, 1.0))
+    for contact, said in ((middle, "PointLineContact 'stop'"), (surface, "PointLineContact 'rest'")):
+        with pytest.raises(MechanismError, match=f"{said} pushes body 'rod' beside the end of member 'beam'"):
+            compile_mechanism(bar(contacts=(contact,)))
+    with pytest.raises(MechanismError, match=r"Disk 'lump' stands beside the ends of member 'beam'"):
+        compile_mechanism(bar(disks=(Disk("lump", "rod", (0.0, 0.0), 0.1),)))
+    at_tip = Disk("tip", "rod", (LENGTH / 2, 0.0), 0.1)
+    assert compile_mechanism(bar(disks=(at_tip,))).beam_body.tolist() == [0]
 
 
 def pawl_from_the_tip(values, parameters, rates):

@@ -142,6 +142,24 @@ def test_an_impact_is_a_spring_that_takes_up_the_closing_energy():
     assert found.pawl_shortening == pytest.approx(abs(along) * found.force * PAWL / (2.06e11 * area), rel=1e-12)
 
 
+def test_an_impact_puts_no_more_energy_into_pawl_and_crank_than_it_has():
+    """The crank's part, from its pin's deflection, and the pawl's under the same force are the closing energy."""
+    (found,) = compliance_of(VALUES, results(0, 1.0).assign(contact_force=0.0), pd.DataFrame([blow(0.06, 8e-3)]))
+    face = normals(0)[1]
+    pawl, left = np.array([math.cos(GAMMA), math.sin(GAMMA)]), np.array([-math.sin(GAMMA), math.cos(GAMMA)])
+    hinge = (face @ pawl) * pawl - 0.5 * (face @ left) * left
+    across = abs(hinge @ [-math.sin(PHI), math.cos(PHI)])
+    along = abs(hinge @ [math.cos(PHI), math.sin(PHI)])
+    crank, area = 2.06e11 * 5e-3 * 20e-3**3 / 12, 5e-3 * 20e-3
+    force = found.crank_deflection / (across * 0.11**3 / (3 * crank))
+    section, bending = 6e-3 * 15e-3, 2.06e11 * 6e-3 * 15e-3**3 / 12
+    energy = (face @ pawl) ** 2 * PAWL / (2.06e11 * section) + (face @ left) ** 2 * 2 / 105 * PAWL**3 / bending
+    energy += across**2 * 0.11**3 / (3 * crank) + along**2 * 0.11 / (2.06e11 * area)
+    assert 0.5 * energy * force**2 == pytest.approx(0.5 * 8e-3 / 1.2 * 0.06, rel=1e-12)
+    assert force < found.force
+    assert found.crank_stress == pytest.approx(across * force * 0.11 * 6 / (5e-3 * 20e-3**2), rel=1e-12)
+
+
 def test_nothing_is_said_of_what_is_not_described_or_not_loaded():
     loaded = results(0, -1.0)
     assert compliance_of({k: v for k, v in VALUES.items() if k != "pawl_width"}, loaded, NO_IMPACTS) == ()
