@@ -14,7 +14,8 @@ from .links import Links, Loaded
 
 #: The parameters by which an FMU describes such a ratchet.
 PARAMETERS = (
-    *("crank_length", "crank_width", "crank_depth", "pawl_length", "pawl_width", "pawl_depth", "elastic_modulus"),
+    *("crank_length", "crank_width", "crank_depth", "crank_stiffness"),
+    *("pawl_length", "pawl_width", "pawl_depth", "pawl_stiffness"),
     *("wheel_inner_radius", "tooth_pitch", "tooth_slope_angle", "tooth_apex_angle", "restitution"),
 )
 #: The outputs that it needs.

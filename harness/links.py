@@ -24,22 +24,17 @@ LARGEST_MOMENT, ENERGY, DEFLECTION, HINGE = 1 / math.sqrt(27), 2 / 105, 7 / 120,
 
 @dataclass(frozen=True)
 class Bar:
-    """A link of rectangular cross section: length l, area A, second moment I, section modulus W [m], and E [Pa]."""
+    """A link of rectangular cross section: length l, width w, depth h [m], and flexibility along it, l / EA [m/N]."""
 
     length: float
     width: float
     depth: float
-    young: float
-
-    @property
-    def axial(self) -> float:
-        """Flexibility along it, l / EA [m/N]."""
-        return self.length / (self.young * self.width * self.depth)
+    axial: float
 
     @property
     def bending(self) -> float:
         """The l^3 / EI of it [m/N]: three times the flexibility across it, as a cantilever."""
-        return 12 * self.length**3 / (self.young * self.width * self.depth**3)
+        return 12 * (self.length / self.depth) ** 2 * self.axial
 
     @property
     def stress(self) -> float:
@@ -77,9 +72,11 @@ class Links:
 
     def __init__(self, values: Mapping[str, float]) -> None:
         self.values = values
-        young = values["elastic_modulus"]
-        self.crank = Bar(values["crank_length"], values["crank_width"], values["crank_depth"], young)
-        self.pawl = Bar(values["pawl_length"], values["pawl_width"], values["pawl_depth"], young)
+        length, depth = values["crank_length"], values["crank_depth"]
+        # the FMU gives the crank's stiffness across it: l^3 / 3 EI = (2 l / h)^2 l / EA
+        crank = (depth / (2 * length)) ** 2 / values["crank_stiffness"]
+        self.crank = Bar(length, values["crank_width"], depth, crank)
+        self.pawl = Bar(values["pawl_length"], values["pawl_width"], values["pawl_depth"], 1 / values["pawl_stiffness"])
 
     def held(self, results: pd.DataFrame) -> Loaded:
         """Of communication points at which the face pushes, that with the most lost motion.

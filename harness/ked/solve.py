@@ -28,6 +28,7 @@ from mechanism_fmu.elastodynamics import (
     stress_of,
     torque_fluctuation,
     turn,
+    unlike_bodies,
 )
 
 from ..errors import UsageError
@@ -117,7 +118,7 @@ def solved(turned: Turn, speed: float, damping: float, samples: int) -> Solution
         frequency_range=np.column_stack([modes.hertz.min(axis=0), modes.hertz.max(axis=0)]),
         critical=critical_speeds(modes, _HARMONICS),
         residual=response.residual,
-        notes=notes,
+        notes=(*unlike_bodies(cycle.configurations.linkage.mechanism), *notes),
     )
 
 

@@ -34,6 +34,7 @@ from .synthesis import Synthesis, lightest
 from .tapered import VaryingBeam, tapered_cantilever, tapered_end_moment
 from .transient import Transient, growth_per_period, transient
 from .turn import DRIVE, crank_of, turn
+from .unlike import unlike_bodies
 
 __all__ = [
     "DRIVE",
@@ -104,4 +105,5 @@ __all__ = [
     "transient",
     "turn",
     "two_force_member",
+    "unlike_bodies",
 ]

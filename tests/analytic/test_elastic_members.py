@@ -2,10 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mechanism_fmu.elastodynamics import LinkageError, configurations, linkage
+from mechanism_fmu.kinematics import KinematicMotion
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -160,25 +163,49 @@ def test_friction_loads_the_members_where_it_acts():
     assert abs(pull) > 100.0
 
 
-def test_at_a_toggle_what_gives_way_is_huge_and_finite():
-    """Two bars in line between fixed hinges hold nothing across them, until they are stretched."""
+def shallow(slope):
+    """Two bars between fixed hinges, which sag at the pin in their middle by an angle; half of a weight hangs there."""
+    x, y = math.cos(slope) / 2, -math.sin(slope) / 2
 
     def mechanism(outputs):
         members = tuple(Member(f"bar{k}", f"arm{k}", (-0.5, 0.0), (0.5, 0.0), SECTION, YOUNG, DENSITY) for k in (0, 1))
         return Mechanism(
-            bodies=tuple(Body(f"arm{k}", 1.0, 0.1, (0.5 + k, 0.0, 0.0)) for k in (0, 1)),
+            bodies=(Body("arm0", 1.0, 0.1, (x, y, -slope)), Body("arm1", 1.0, 0.1, (3 * x, y, slope))),
             joints=(
                 Revolute("left", "arm0", (-0.5, 0.0), GROUND, (0.0, 0.0)),
                 Revolute("middle", "arm0", (0.5, 0.0), "arm1", (-0.5, 0.0)),
-                Revolute("right", "arm1", (0.5, 0.0), GROUND, (2.0, 0.0)),
+                Revolute("right", "arm1", (0.5, 0.0), GROUND, (4 * x, 0.0)),
             ),
             forces=(Force("weight", "arm0", (0.0, -10.0)),),
             members=members,
             outputs=tuple(outputs),
         )
 
-    found = read(mechanism, "bar0", "bar1")
+    return mechanism
+
+
+def test_two_shallow_bars_sink_with_the_square_of_their_slope():
+    """N = F / 2 sin(slope) in each, and the pin sinks by N l / EA sin(slope); F is half of the weight."""
+    slope = 1e-3
+    found = read(shallow(slope), "bar0", "bar1")
+    pull = 5.0 / (2 * math.sin(slope))
+    assert found["bar0.axial_force"] == pytest.approx(pull, rel=1e-8)
+    sunk = pull / (YOUNG * SECTION.area * math.sin(slope))
+    assert found["bar0.end.y_deflection"] == pytest.approx(-sunk, rel=1e-8)
+
+
+def test_at_a_toggle_what_gives_way_is_huge_and_finite():
+    """Two bars in line hold nothing across them, until they are stretched: no number may pass for a deflection."""
+    found = read(shallow(0.0), "bar0", "bar1")
     assert all(map(math.isfinite, found.values()))
+    assert found["bar0.stress"] > 1e6 * YOUNG
+    assert found["bar0.end.deviation"] > 1e6
+    flat = shallow(0.0)([])
+    here = np.array([[value for body in flat.bodies for value in body.start]])
+    names = tuple(f"{body.name}.{c}" for body in flat.bodies for c in ("x", "y", "angle"))
+    still = KinematicMotion(names, np.zeros(1), here, np.zeros_like(here), np.zeros_like(here))
+    with pytest.raises(LinkageError, match="bar0"):
+        _ = configurations(linkage(flat), still).transfer
 
 
 def test_contacts_and_redundant_joints_are_refused_with_the_reason():

@@ -20,7 +20,6 @@ VALUES = {
     "pawl_length": 0.1,
     "pawl_width": 6e-3,
     "pawl_depth": 15e-3,
-    "elastic_modulus": 2.06e11,
     "wheel_inner_radius": 0.1,
     "tooth_pitch": 2 * math.pi / 10,
     "tooth_slope_angle": math.pi / 2,
@@ -36,6 +35,9 @@ GAMMA = math.atan2(ROOT[1] - PIN[1], ROOT[0] - PIN[0])
 #: A pawl that just reaches the root.
 PAWL = math.hypot(ROOT[0] - PIN[0], ROOT[1] - PIN[1])
 VALUES["pawl_length"] = PAWL
+#: Of steel bars: 3 E I / a^3 across the crank, E A / b along the pawl.
+VALUES["crank_stiffness"] = 3 * 2.06e11 * (5e-3 * 20e-3**3 / 12) / 0.11**3
+VALUES["pawl_stiffness"] = 2.06e11 * (6e-3 * 15e-3) / PAWL
 NO_IMPACTS = pd.DataFrame(columns=["time", "closing_speed", "impulse", "tooth", "contact"])
 
 

@@ -138,6 +138,16 @@ def test_rows_for_people_are_in_millimetres_and_megapascals(solution):
     assert narrow.headings == ["phi [deg]", "dev qs [mm]", "dev ed [mm]", "crank_bar [MPa]", "torque [N.m]"]
 
 
+@pytest.mark.parametrize("change", [{"mass": 2.0}, {"inertia": 0.1}])
+def test_a_body_that_its_members_do_not_make_up_is_named(mechanism, solution, change):
+    assert solution.notes == ()
+    crank, coupler, rocker = mechanism.bodies
+    other = replace(mechanism, bodies=(crank, replace(coupler, **change), rocker))
+    (note,) = solved(prepared(other, SPEED, 0.02, 8), SPEED, 0.02, 8).notes
+    assert "Body 'coupler' has" in note
+    assert "lumped_body" in note
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

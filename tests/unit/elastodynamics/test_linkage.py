@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 
 from benchmarks.path_generator import PathGenerator
-from mechanism_fmu.elastodynamics import LinkageError, configurations, linkage, mass_matrix, quasi_static
+from mechanism_fmu.elastodynamics import (
+    LinkageError,
+    configurations,
+    linkage,
+    mass_matrix,
+    quasi_static,
+    unlike_bodies,
+)
 from mechanism_fmu.kinematics import KinematicMotion, analyse
 from mechanism_fmu.model import (
     GROUND,
@@ -242,3 +249,27 @@ def test_rigid_bodies_that_are_held_twice_are_refused():
     mechanism = arm(bodies=(*arm().bodies, Body("wheel", 1.0, 1.0, (3.0, 0.0, 0.0))), joints=(*joints, angle, *twice))
     with pytest.raises(LinkageError, match="say the same of rigid parts"):
         configurations(linkage(mechanism), still(mechanism))
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        (Body("arm", 1.57, 0.3925, (0.5, 0.0, 0.0)), None),
+        (Body("arm", 1.57 * 1.005, 0.3925, (0.5, 0.0, 0.0)), None),
+        (Body("arm", 1.6, 0.3925, (0.5, 0.0, 0.0)), "1.6 kg and 0.3925 kg.m2, its members and disks have 1.57 kg"),
+        (Body("arm", 1.57, 1.57 / 12, (0.5, 0.0, 0.0)), "0.3925 kg.m2"),  # mass spread along the bar
+    ],
+)
+def test_a_body_whose_mass_its_members_do_not_have_is_named(body, said):
+    """A steel bar of 1 m, 10 x 20 mm: 1.57 kg, half of it 0.5 m from the centre at either end."""
+    member = Member("bar", "arm", (-0.5, 0.0), (0.5, 0.0), SECTION, 2e11, 7850.0)
+    found = unlike_bodies(arm(bodies=(body,), members=(member,)))
+    assert (said in found[0]) if said else found == ()
+
+
+def test_a_centre_beside_that_of_the_members_is_named():
+    assert (
+        "with their centre 500 mm beside"
+        in unlike_bodies(arm(bodies=(Body("arm", 1.57, 0.785),), members=(bar("bar", "arm"),)))[0]
+    )
+    assert unlike_bodies(arm(members=(), held=())) == ()  # a rigid body has its own mass
