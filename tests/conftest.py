@@ -1,3 +1,4 @@
+import gc
 import os
 import subprocess
 import sys
@@ -65,6 +66,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """The order in which all tests are handed out."""
     if one_of_several(config):
         items[:] = distribution.ordered(items)
+
+
+def pytest_collection_finish() -> None:
+    """What has been collected stays: the search for garbage, which compilers cause often, need not see it."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -124,5 +124,7 @@ def test_energy_lost_is_the_impulse_times_the_mean_closing_speed(restitution):
 def test_duplicated_joint_rows_change_nothing(copies):
     mechanism = ratchet(relative_tolerance=PRECISE)
     again = tuple(replace(joint, name=f"{joint.name}{k}") for k in range(copies - 1) for joint in mechanism.joints)
-    found = at_first_impact(replace(mechanism, joints=mechanism.joints + again))
+    # How a bar bends on hinges that share its force is refused: these outputs are left out.
+    outputs = tuple(output for output in mechanism.outputs if not output.source.startswith("pawl_beam."))
+    found = at_first_impact(replace(mechanism, joints=mechanism.joints + again, outputs=outputs))
     assert found == pytest.approx(base_case(relative_tolerance=PRECISE), rel=1e-10, abs=1e-11)

@@ -91,7 +91,7 @@ def reports(ratchet_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> dict
         "run": Report(write_report(run, folder / "report.html"), charts=4),
         "study": Report(write_study_report(study, figures, folder / "study.html"), charts=14),
         "sweep": Report(_designs(run_sweep, SWEEP, ratchet_fmu, folder / "sweep"), charts=2),
-        "machine": Report(_machine(ratchet_fmu, folder / "machine"), charts=20, pictures=2),
+        "machine": Report(_machine(ratchet_fmu, folder / "machine"), charts=22, pictures=2),
         "optimum": Report(_designs(run_optimise, OPTIMUM, ratchet_fmu, folder / "optimum"), charts=3),
     }
 

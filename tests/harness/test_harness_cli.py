@@ -105,7 +105,9 @@ def test_wrong_arguments_are_wrong_use(arguments: list[str]) -> None:
 def test_build_knows_its_models(tmp_path: Path) -> None:
     code, text = invoke("build", "gearbox", "-o", tmp_path)
     assert code == 2
-    known = "cam_drive, four_bar, gear_train, geneva, motor, ratchet, rotary_table, slider_crank"
+    known = (
+        "cam_drive, four_bar, four_bar_path_generator, gear_train, geneva, motor, ratchet, rotary_table, slider_crank"
+    )
     assert f"There is no model 'gearbox'; there are: {known}" in text
     code, text = invoke("build", "--list")
     assert code == 0

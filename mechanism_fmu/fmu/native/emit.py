@@ -8,6 +8,7 @@ To be run in a process of its own, because numba must be imported for a generic 
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from pathlib import Path
@@ -35,7 +36,10 @@ def object_file(codes: list[str], target: Target) -> bytes:
             symbol.visibility = "hidden"  # several FMUs in one process must not see each other's engine
         elif not symbol.is_declaration:
             symbol.linkage = "internal"
-    passes = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=3))
+    tuning = llvm.create_pipeline_tuning_options(speed_level=3)
+    # The engine's loops go over a handful of rows: wide copies of them are only longer, to load and to compile.
+    tuning.loop_vectorization = tuning.loop_interleaving = False
+    passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
     emitted: bytes = machine.emit_object(module)
     return emitted
@@ -43,6 +47,7 @@ def object_file(codes: list[str], target: Target) -> bytes:
 
 def main(folder: Path) -> None:
     """Write the object of every target, each by one rename."""
+    gc.disable()  # numba makes millions of objects here, of which hardly any go: looking for them takes long
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     parts = len(EXPORTS) + len(TARGETS)
