@@ -7,13 +7,15 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from mechanism_fmu.elastodynamics import SpeedSweep
+
 from ..checks import Check
 from ..description import Value
 from ..fmu import Fmu
 from ..results import write_binary, write_json, write_with_units
 from ..versions import versions
 from .agreement import Agreement
-from .solution import Bent, Solution, Sweep, solution_checks
+from .solution import Bent, Solution, solution_checks
 from .tables import cycle_table
 
 
@@ -34,7 +36,7 @@ class Result:
     text: str
     parameters: dict[str, Value]
     solution: Solution
-    sweep: Sweep
+    sweep: SpeedSweep
     agreement: Agreement
 
     @property

@@ -64,15 +64,6 @@ class Rigid:
 
 
 @dataclass(frozen=True)
-class Sweep:
-    """Largest deviation of the periodic motion and of the quasi-static one at each speed [rad/s, m, m]."""
-
-    speed: FloatArray
-    dynamic: FloatArray
-    static: FloatArray
-
-
-@dataclass(frozen=True)
 class Solution:
     """A turn at constant speed.
 

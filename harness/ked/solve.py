@@ -17,6 +17,7 @@ from mechanism_fmu.elastodynamics import (
     ElasticCycle,
     LinkageError,
     PeriodicResponse,
+    SpeedSweep,
     critical_speeds,
     deflection_of,
     elastic_cycle,
@@ -32,7 +33,7 @@ from mechanism_fmu.elastodynamics import (
 )
 
 from ..errors import UsageError
-from .solution import Bent, FloatArray, Rigid, Solution, Sweep
+from .solution import Bent, FloatArray, Rigid, Solution
 
 #: The turn is calculated at so many angles at least: the series through them is to be exact.
 _LEAST = 360
@@ -122,7 +123,7 @@ def solved(turned: Turn, speed: float, damping: float, samples: int) -> Solution
     )
 
 
-def swept(turned: Turn, speed: float, progress: Callable[[str, float], None]) -> Sweep:
+def swept(turned: Turn, speed: float, progress: Callable[[str, float], None]) -> SpeedSweep:
     """Largest deviations at speeds around one.
 
     Raises:
@@ -137,7 +138,7 @@ def swept(turned: Turn, speed: float, progress: Callable[[str, float], None]) ->
         moving = turned.deflection(response.samples(turned.equations.samples))
         dynamic.append(np.linalg.norm(moving[:, :2], axis=1).max())
         progress(f"Speed {number + 1} of {_SPEEDS}", (number + 1) / _SPEEDS)
-    return Sweep(speed * factors, np.array(dynamic), static * factors**2)
+    return SpeedSweep(speed * factors, np.array(dynamic), static * factors**2)
 
 
 def _periodic(equations: ElasticCycle) -> tuple[PeriodicResponse, tuple[str, ...]]:

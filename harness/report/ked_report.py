@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
+from mechanism_fmu.elastodynamics import SpeedSweep
+
 from ..ked.files import Result
-from ..ked.solution import FloatArray, Solution, Sweep
+from ..ked.solution import FloatArray, Solution
 from ..ked.tables import Shown, cycle_rows, frequency_rows, largest_rows
 from ..numbers import engineering, in_display_unit
 from ..results import write_text
@@ -132,7 +134,7 @@ def _frequencies(found: Solution) -> Plot:
     return Plot("Natural frequencies", _ANGLE, "lg frequency [Hz]", curves)
 
 
-def _sweep(sweep: Sweep) -> Plot:
+def _sweep(sweep: SpeedSweep) -> Plot:
     rpm = sweep.speed * 30 / math.pi
     return Plot(
         "Largest deviation at other speeds",
