@@ -7,8 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from mechanism_fmu.elastodynamics import SpeedSweep
-
 from ..ked.files import Result
 from ..ked.solution import FloatArray, Solution
 from ..ked.tables import Shown, cycle_rows, frequency_rows, largest_rows
@@ -51,7 +49,7 @@ def ked_report(result: Result) -> str:
         section("Deviation, stress, torque", charts(*(chart(interactive(plot)) for plot in _over_the_turn(found)))),
         section(
             "Natural frequencies and critical speeds",
-            charts(*(chart(interactive(plot)) for plot in (_frequencies(found), _sweep(result.sweep)))),
+            charts(*(chart(interactive(plot)) for plot in (_frequencies(found), _sweep(result)))),
             _table(frequency_rows(found)),
             note="Of the linkage frozen in each position. A critical speed of h = 1, 2, ... is where that multiple of "
             "the crank's speed meets the mean frequency of the mode.",
@@ -134,7 +132,8 @@ def _frequencies(found: Solution) -> Plot:
     return Plot("Natural frequencies", _ANGLE, "lg frequency [Hz]", curves)
 
 
-def _sweep(sweep: SpeedSweep) -> Plot:
+def _sweep(result: Result) -> Plot:
+    sweep = result.sweep
     rpm = sweep.speed * 30 / math.pi
     return Plot(
         "Largest deviation at other speeds",

@@ -11,6 +11,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from multiprocessing import Process
 from pathlib import Path
 
 import llvmlite.binding as llvm
@@ -45,21 +46,32 @@ def object_file(codes: list[str], target: Target) -> bytes:
     return emitted
 
 
-def main(folder: Path) -> None:
-    """Write the object of every target, each by one rename."""
-    gc.disable()  # numba makes millions of objects here, of which hardly any go: looking for them takes long
+def _write_object(codes: list[str], target: Target, folder: Path) -> None:
+    """Write the object of a target by one rename; to be run in a process of its own, too."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
+    temporary = folder / f".{target.name}.{os.getpid()}"
+    temporary.write_bytes(object_file(codes, target))
+    os.replace(temporary, folder / f"{target.name}.o")
+
+
+def main(folder: Path) -> None:
+    """Write the objects of all targets, on as many processors as there are."""
+    gc.disable()  # numba makes millions of objects here, of which hardly any go: looking for them takes long
     parts = len(EXPORTS) + len(TARGETS)
     codes: list[str] = []
     for done, name in enumerate(EXPORTS):
         print(done, parts, f"compiling {name}", flush=True)
         codes.append(intermediate_code(name))
-    for done, target in enumerate(TARGETS, len(EXPORTS)):
+    # Each ends by itself, even if this process is killed.
+    writers = [Process(target=_write_object, args=(codes, target, folder)) for target in TARGETS]
+    for writer in writers:
+        writer.start()
+    for done, (target, writer) in enumerate(zip(TARGETS, writers, strict=True), len(EXPORTS)):
         print(done, parts, f"optimising for {target.name}", flush=True)
-        temporary = folder / f".{target.name}.{os.getpid()}"
-        temporary.write_bytes(object_file(codes, target))
-        os.replace(temporary, folder / f"{target.name}.o")
+        writer.join()
+        if writer.exitcode != 0:
+            raise SystemExit(f"Optimising for {target.name} ended with exit code {writer.exitcode}.")
 
 
 if __name__ == "__main__":
