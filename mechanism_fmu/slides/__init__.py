@@ -20,7 +20,7 @@ __all__ = [
     "cam_tangent",
     "carried_gear",
     "falling_gear",
-    "roller_tangent",
     "rolled_angle",
+    "roller_tangent",
     "tangents_of_the_rows",
 ]

@@ -1,7 +1,7 @@
 """Example 3.4.1 of the ME451 slides: gear 2 falls around gear 1, which is fixed to the ground.
 
-The slides give phi_1 = 0, theta_1 = pi/6, theta_2 = 7 pi/6, R_1 = 1, R_2 = 2 and ask for phi_2 when the line of centres,
-the carrier, stands vertically. They give neither mass nor time: `carried_gear` needs none, `falling_gear` takes a disc.
+The slides give phi_1 = 0, theta_1 = pi/6, theta_2 = 7 pi/6, R_1 = 1, R_2 = 2 and ask for phi_2 when the line of
+centres, the carrier, stands vertically. They give neither mass nor time: `carried_gear` needs none, `falling_gear` takes a disc.
 """
 
 from __future__ import annotations
@@ -32,10 +32,14 @@ from ..simulation import Simulation
 
 FloatArray = npt.NDArray[np.float64]
 
-#: Radii of the pitch circles R_1 and R_2 [m].
-RADIUS_1, RADIUS_2 = 1.0, 2.0
-#: The marks theta_1 and theta_2, where the gears met when they were assembled [rad].
-MARK_1, MARK_2 = math.pi / 6, 7 * math.pi / 6
+#: Radius of the pitch circle of gear 1, R_1 [m].
+RADIUS_1 = 1.0
+#: Radius of the pitch circle of gear 2, R_2 [m].
+RADIUS_2 = 2.0
+#: The mark theta_1 of gear 1, where both met when they were assembled [rad].
+MARK_1 = math.pi / 6
+#: The mark theta_2 of gear 2 [rad].
+MARK_2 = 7 * math.pi / 6
 #: Distance of the centres [m].
 CARRIER = RADIUS_1 + RADIUS_2
 

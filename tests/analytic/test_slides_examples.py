@@ -1,4 +1,4 @@
-"""The worked examples of the ME451 slides (`mechanism_fmu.slides`): example 3.4.1, and the tangents of cam and roller."""
+"""The worked examples of the ME451 slides, `mechanism_fmu.slides`: example 3.4.1, and the tangents of cam and roller."""
 
 import cmath
 import math
@@ -13,8 +13,8 @@ from mechanism_fmu.slides import (
     cam_tangent,
     carried_gear,
     falling_gear,
-    roller_tangent,
     rolled_angle,
+    roller_tangent,
     tangents_of_the_rows,
 )
 
