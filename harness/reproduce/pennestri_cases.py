@@ -198,7 +198,9 @@ ROWS = (
     Row("P-others", "claim, section 5.1", "The other angles look alike.", "in words", (FIGURES,), _others),
     Row("P-fig9", "Fig. 9", "Tooth shapes.", "drawing lost", (FIGURES,), _fig9, STUDY),
     Row("P-fig10", "Fig. 10", "Stress along the tooth.", "drawing lost", (FIGURES,), _fig10, STUDY),
-    Row("P-place", "claim, section 5.1", "The maximum is at about 40 % of the length.", "40 %", (PAPER,), _place, STUDY),
+    Row(
+        "P-place", "claim, section 5.1", "The maximum is at about 40 % of the length.", "40 %", (PAPER,), _place, STUDY
+    ),
     Row("P-fig11", "Fig. 11", "Maximum stress.", "drawing lost", (FIGURES,), _fig11, STUDY),
     Row(
         "P-maxima",
