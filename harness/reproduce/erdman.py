@@ -164,11 +164,15 @@ def _bent(_bench: Bench) -> Found:
 
 
 def _gear_tooth(_bench: Bench) -> Found:
-    tooth = GearTooth(0.012, 0.012, 0.006, 0.03, 2.07e11, 0.3)
-    return Found(
-        "compression, bending and shear of a tapered cantilever; in words only there, formulas are this project's",
-        Verdict.HOLDS,
-        (f"l = h_0 = 12 mm, h_1 = 6 mm, 30 mm wide, ν = {tooth.poisson:g}",),
+    """A tooth of even thickness: bending, and the rest of it is shear."""
+    l, h, b, young, nu = 0.012, 0.012, 0.03, 2.07e11, 0.3
+    across = float(GearTooth(l, h, h, b, young, nu).flexibility()[1, 1])
+    bending = l**3 / (3 * young * b * h**3 / 12)
+    shear = (across - bending) / (2 * (1 + nu) * l / (young * b * h))
+    return judged(
+        abs(shear - 1.2) < 0.05,
+        f"even tooth of 12 × 12 × 30 mm: bending {1e9 * bending:.4f} nm/N and shear {shear:.3f} l/GA = "
+        f"{1e9 * (across - bending):.4f} nm/N; formulas are this project's",
     )
 
 

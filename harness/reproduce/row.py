@@ -18,6 +18,7 @@ class Verdict(StrEnum):
     DOES_NOT_HOLD = "does not hold"
     ERRATUM = "erratum"
     TAKEN_OVER = "taken over"
+    CHOICE = "choice"
     NOT_DETERMINED = "not determined"
     FAILED = "FAILED"
 
