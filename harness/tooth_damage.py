@@ -114,9 +114,9 @@ def damage_row(damage: SequenceDamage, card: MaterialCard) -> list[str]:
 def damage_note(damage: SequenceDamage, tooth: WedgeTooth) -> str:
     """What the numbers stand for, and whether they may be believed."""
     note = (
-        f"All jumps of the wheel's speed on one tooth that still rings from those before, at x/l = {damage.position:.4f}, "
-        "by converged modes, of which the paper's two give 22 % less; rainflow cycles, Goodman, Miner; smooth specimens, "
-        f"no notch at the root (docs/stress.md). {beam_theory_note(tooth)}"
+        "All jumps of the wheel's speed on one tooth that still rings from those before, at x/l = "
+        f"{damage.position:.4f}, by converged modes (the paper's two give 22 % less); rainflow cycles, Goodman, "
+        f"Miner; smooth specimens, no notch at the root (docs/stress.md). {beam_theory_note(tooth)}"
     )
     if damage.yield_safety < 1:
         note += " The stress is beyond the yield strength: a tooth yields there, and these numbers no longer hold."

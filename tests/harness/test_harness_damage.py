@@ -22,7 +22,16 @@ from harness.fmu import open_fmu
 from harness.report.run_report import run_report
 from harness.results import write_run
 from harness.tooth_damage import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row, stress_history
-from mechanism_fmu.stress import CARDS, STEEL, STEEL_CARD, WedgeTooth, maximum_stress, ritz_modes, sequence_damage
+from mechanism_fmu.stress import (
+    CARDS,
+    STEEL,
+    STEEL_CARD,
+    WedgeTooth,
+    converged_modes,
+    maximum_stress,
+    ritz_modes,
+    sequence_damage,
+)
 
 TOOTH = WedgeTooth(length=0.033, apex_angle=0.61)
 PERIOD = 2 * math.pi / ritz_modes(TOOTH, STEEL)[0].natural_frequency
@@ -82,7 +91,7 @@ def test_material_changes_stress_and_strength() -> None:
     assert other.damage is not None
     assert other.damage.damage < steel.damage.damage
     assert other.damage.yield_safety > 3 * steel.damage.yield_safety
-    assert ", 42CrMo4, two Ritz modes" in run_report(other)
+    assert ", 42CrMo4, the paper's two Ritz modes" in run_report(other)
 
 
 def test_impacts_of_one_instant_count_once_and_instants_of_one_time_each() -> None:
@@ -148,8 +157,13 @@ def test_terminal_and_report_show_one_line(tmp_path: Path, capsys: pytest.Captur
         assert "smooth specimens, no notch at the root" in text
         assert all(cell in text for cell in row)
     assert "Bäumel" in report
-    # 1 m/s is about 30 MPa.
-    assert run.damage.stress == pytest.approx(maximum_stress(TOOTH, STEEL, 1.0).stress)
+    # 1 m/s is about 40 MPa.
+    assert run.damage.stress == pytest.approx(maximum_stress(TOOTH, STEEL, 1.0, converged_modes(TOOTH, STEEL)).stress)
+    for text in (shown, report):
+        assert "Length over root height is" in text
+    tooth = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["tooth"]
+    assert tooth["length_over_root_height"] == pytest.approx(1 / math.tan(TOOTH.apex_angle))
+    assert "beam theory" in tooth["beam_theory"]
     assert "beyond the yield strength" not in report
 
 
