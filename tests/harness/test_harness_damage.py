@@ -91,7 +91,7 @@ def test_material_changes_stress_and_strength() -> None:
     assert other.damage is not None
     assert other.damage.damage < steel.damage.damage
     assert other.damage.yield_safety > 3 * steel.damage.yield_safety
-    assert ", 42CrMo4, the paper's two Ritz modes" in run_report(other)
+    assert ", 42CrMo4, the paper's two Ritz modes" in html.unescape(run_report(other))
 
 
 def test_impacts_of_one_instant_count_once_and_instants_of_one_time_each() -> None:
