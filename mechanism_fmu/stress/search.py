@@ -25,6 +25,9 @@ _GRID_ERROR = 0.01
 #: no longer set the pace of the grid.
 _HEARD = 1e-5
 
+#: Times that are looked at together, so that little damping takes no more memory.
+_BLOCK = 4096
+
 #: A located maximum may lie this many cells away from its grid point.
 _REACH = 2
 
@@ -49,10 +52,20 @@ def largest_stress(field: BendingField) -> StressPoint:
     cells = max(_CELLS_OF_LENGTH, _CELLS_OF_MODE * len(field.frequencies))
     x = np.linspace(0.0, field.length, cells + 1)
     t = _times(field, x, _horizon(field, x))
-    stress = np.abs(field.stress(x, t))
-    highest_around = sliding_window_view(np.pad(stress, 1), (3, 3)).max(axis=(2, 3))
-    candidates = np.argwhere((stress == highest_around) & (stress > (1 - _GRID_ERROR) * stress.max()))
     steps = np.diff(t, append=2 * t[-1] - t[-2])
+    bounds, decay = field.stress_bounds(x), field.damping_ratio * field.frequencies
+    largest = 0.0
+    peaks: list[tuple[float, int, int]] = []
+    for begin in range(0, len(t), _BLOCK):
+        if (1 + _GRID_ERROR) * (bounds @ np.exp(-decay * t[begin])).max() < largest:
+            break
+        margin = min(begin, 1)  # so that peaks at either end of a block have their neighbours
+        stress = np.abs(field.stress(x, t[begin - margin : begin + _BLOCK + 1]))
+        highest_around = sliding_window_view(np.pad(stress, 1), (3, 3)).max(axis=(2, 3))
+        largest = max(largest, float(stress.max()))
+        found = np.argwhere((stress == highest_around) & (stress > (1 - _GRID_ERROR) * largest))
+        peaks += [(stress[i, j], i, begin - margin + j) for i, j in found]
+    candidates = {(i, j) for height, i, j in peaks if height > (1 - _GRID_ERROR) * largest}
     return max(_locate(field, (x[i], t[j]), (field.length / cells, steps[j])) for i, j in candidates)
 
 
@@ -99,5 +112,5 @@ def _locate(field: BendingField, centre: tuple[float, float], cell: tuple[float,
     # TNC, and no scaling by it: cells are the right unit, and its small problem starts no threads of a BLAS.
     options = {"ftol": 1e-15, "gtol": 1e-9, "xtol": 1e-7, "scale": np.ones(2), "offset": np.zeros(2)}
     found = minimize(descent, start, jac=True, method="TNC", bounds=bounds, options=options)
-    x, t = (c + size * float(at) for c, size, at in zip(centre, cell, found.x, strict=True))
+    x, t = (float(c + size * at) for c, size, at in zip(centre, cell, found.x, strict=True))
     return StressPoint(abs(float(found.fun * scale)), x, t)
