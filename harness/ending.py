@@ -78,8 +78,8 @@ def _show_impacts(run: Run) -> None:
 
 
 def _show_damage(run: Run) -> None:
-    if run.damage is None:
+    if run.damage is None or run.tooth is None:
         return
     row = damage_row(run.damage, run.experiment.material)
     show_table("Fatigue of the tooth", HEADINGS, [row], numeric=range(1, len(HEADINGS)))
-    console.print(f"[dim]{escape(damage_note(run.damage))}[/]", soft_wrap=True)
+    console.print(f"[dim]{escape(damage_note(run.damage, run.tooth))}[/]", soft_wrap=True)

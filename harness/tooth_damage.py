@@ -10,7 +10,15 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from mechanism_fmu.stress import MaterialCard, Ringing, SequenceDamage, WedgeTooth, material_card, sequence_damage
+from mechanism_fmu.stress import (
+    MaterialCard,
+    Ringing,
+    SequenceDamage,
+    WedgeTooth,
+    beam_theory_note,
+    material_card,
+    sequence_damage,
+)
 
 from .errors import UsageError
 from .impacts import one_of_each_instant
@@ -103,11 +111,12 @@ def damage_row(damage: SequenceDamage, card: MaterialCard) -> list[str]:
     ]
 
 
-def damage_note(damage: SequenceDamage) -> str:
+def damage_note(damage: SequenceDamage, tooth: WedgeTooth) -> str:
     """What the numbers stand for, and whether they may be believed."""
     note = (
-        f"All impacts on one tooth that still rings from those before, at x/l = {damage.position:.4f}; two Ritz modes, "
-        "rainflow cycles, Goodman, Miner; smooth specimens, no notch at the root (docs/stress.md)."
+        "All jumps of the wheel's speed on one tooth that still rings from those before, at x/l = "
+        f"{damage.position:.4f}, by converged modes (the paper's two give 22 % less); rainflow cycles, Goodman, "
+        f"Miner; smooth specimens, no notch at the root (docs/stress.md). {beam_theory_note(tooth)}"
     )
     if damage.yield_safety < 1:
         note += " The stress is beyond the yield strength: a tooth yields there, and these numbers no longer hold."

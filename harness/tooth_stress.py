@@ -5,12 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from mechanism_fmu.stress import STEEL, Material, MaximumStress, WedgeTooth, bending_stress, maximum_stress
+from mechanism_fmu.stress import (
+    STEEL,
+    Material,
+    MaximumStress,
+    WedgeTooth,
+    beam_theory_note,
+    bending_stress,
+    maximum_stress,
+    slenderness,
+)
 
 from .description import Value
 from .errors import FmuError
@@ -45,6 +55,18 @@ def tooth_of(parameters: Mapping[str, Value]) -> WedgeTooth | None:
         return WedgeTooth(length=float(length), apex_angle=float(apex_angle))
     except ValueError as error:
         raise FmuError(f"The FMU's tooth_length and tooth_apex_angle describe no tooth: {error}") from error
+
+
+def tooth_summary(tooth: WedgeTooth | None) -> dict[str, Any] | None:
+    """The tooth as a beam, and how far beam theory covers it, ready for JSON; None without a tooth."""
+    if tooth is None:
+        return None
+    return {
+        "length": tooth.length,
+        "apex_angle": tooth.apex_angle,
+        "length_over_root_height": slenderness(tooth),
+        "beam_theory": beam_theory_note(tooth),
+    }
 
 
 def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth, material: Material = STEEL) -> pd.DataFrame:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Mapping
 
 import pandas as pd
 
@@ -40,10 +41,15 @@ def severity_section(impacts: pd.DataFrame, units: Mapping[str, str]) -> str:
     """
     if not {"stress_max", "velocity", "closing_speed"} <= set(impacts) or impacts["stress_max"].notna().sum() < 2:
         return ""
-    most = float(impacts["stress_max"].max())
-    rows = [_row(name, part, units, most) for name, part in _groups(impacts)]
+    measures = [name for name in _MEASURES if name in impacts]
+    contacts = sorted(set(impacts["contact"].tolist())) if "contact" in impacts else []
+    rows = []
+    for name in measures:
+        for contact in contacts if name in _BY_CONTACT and contacts else [None]:
+            part = impacts if contact is None else impacts[impacts["contact"] == contact]
+            rows.append(_row(name, contact, part, units, float(impacts["stress_max"].max())))
     headings = ["largest by", "its value", "time [s]", "jump v_I", "stress left", "of the largest stress"]
-    plots = [_against(name, impacts, units) for name in ("closing_speed", "energy_lost") if name in impacts]
+    plots = [_against(name, impacts, contacts, units) for name in ("closing_speed", "energy_lost") if name in measures]
     return section(
         "Which impact stresses the tooth most",
         table(headings, rows, numeric=range(1, len(headings))),
@@ -52,53 +58,33 @@ def severity_section(impacts: pd.DataFrame, units: Mapping[str, str]) -> str:
     )
 
 
-def _groups(impacts: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
-    """Each measure with the impacts among which it can be compared."""
-    for name in _MEASURES:
-        if name not in impacts:
-            continue
-        if name in _BY_CONTACT and "contact" in impacts:
-            for _, part in impacts.groupby("contact"):
-                yield name, part
-        else:
-            yield name, impacts
-
-
-def _row(name: str, part: pd.DataFrame, units: Mapping[str, str], most: float) -> list[str]:
-    sizes = part[name].abs()
-    worst = part.loc[sizes.idxmax()] if sizes.notna().any() else part.iloc[0]
-    label = _MEASURES[name]
-    if name in _BY_CONTACT and "contact" in part:
-        label += f", contact {int(worst['contact'])}"
-    held = pd.isna(worst["stress_max"])
-    # the buffer's unit is that of points on lines; of a stop it is another
-    unit = units[name] if name not in _BY_CONTACT else ""
-    value = engineering(abs(float(worst[name])), unit) if unit else f"{abs(float(worst[name])):.4g}"
+def _row(name: str, contact: int | None, part: pd.DataFrame, units: Mapping[str, str], most: float) -> list[str]:
+    """The largest of the impacts `part`; `most` is the largest stress of all [Pa]."""
+    place = int(part[name].abs().fillna(-1.0).to_numpy().argmax())
+    size, time, velocity, stress = (
+        float(part[column].iloc[place]) for column in (name, "time", "velocity", "stress_max")
+    )
+    # The unit in the buffer is that of points on lines; stops and locks have another one.
+    value = f"{abs(size):.4g}" if contact is not None else engineering(abs(size), units[name])
     return [
-        label,
+        _MEASURES[name] + ("" if contact is None else f", contact {contact}"),
         value,
-        f"{worst['time']:.9g}",
-        engineering(float(worst["velocity"]), units["velocity"]),
-        str(worst["remark"]) if held else engineering(float(worst["stress_max"]), "Pa"),
-        "–" if held or most == 0 else f"{worst['stress_max'] / most:.1%}",
+        f"{time:.9g}",
+        engineering(velocity, units["velocity"]),
+        str(part["remark"].iloc[place]) if math.isnan(stress) else engineering(stress, "Pa"),
+        "–" if math.isnan(stress) or most == 0.0 else f"{stress / most:.1%}",
     ]
 
 
-def _against(name: str, impacts: pd.DataFrame, units: Mapping[str, str]) -> Plot:
+def _against(name: str, impacts: pd.DataFrame, contacts: list[int], units: Mapping[str, str]) -> Plot:
     """Stress over another measure, a colour for each contact."""
     strong = impacts.dropna(subset=["stress_max"]).nlargest(_MOST_POINTS, "stress_max")
-    parts = strong.groupby("contact") if "contact" in strong else [("", strong)]
+    parts = {f"contact {contact}": strong[strong["contact"] == contact] for contact in contacts} or {"impacts": strong}
     curves = [
-        Curve(
-            f"contact {contact}" if contact != "" else "impacts",
-            part[name].abs(),
-            part["stress_max"],
-            COLOURS[k % len(COLOURS)],
-            line=False,
-            dots=True,
-        )
-        for k, (contact, part) in enumerate(parts)
+        Curve(label, part[name].abs(), part["stress_max"], COLOURS[k % len(COLOURS)], line=False, dots=True)
+        for k, (label, part) in enumerate(parts.items())
+        if len(part)
     ]
-    unit = "contact's own unit" if name in _BY_CONTACT else units[name]
+    unit = "each contact's own unit" if name in _BY_CONTACT and contacts else units[name]
     label = f"{_MEASURES[name]} [{unit}]"
     return Plot(f"Stress against {_MEASURES[name]}", label, "largest bending stress [Pa]", curves, from_zero=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from mechanism_fmu.stress import MaterialCard, WedgeTooth
+from mechanism_fmu.stress import MaterialCard, WedgeTooth, beam_theory_note
 
 from ..numbers import engineering
 from ..tooth_stress import StressField, stress_field, worst_impact
@@ -33,8 +33,9 @@ def stress_section(
         f"The impact with the largest stress: t = {worst['time']:.9g} s, "
         f"v_I = {engineering(float(worst['velocity']), 'm/s')};"
         f" wedge of length {tooth.length * 1e3:.4g} mm and apex angle {tooth.apex_angle:.4g} rad,"
-        f" {card.name}, two Ritz modes."
+        f" {card.name}, the paper's two Ritz modes."
     )
+    note += f" {beam_theory_note(tooth)}"
     note += " v_I is the length of the tooth times the jump of the wheel's speed at that instant."
     plots = stress_plots(stress_field(tooth, worst["velocity"], card.material))
     return section(heading, charts(*(chart(interactive(plot, height=400)) for plot in plots)), note=note)
