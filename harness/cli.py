@@ -340,6 +340,37 @@ def ked(
 
 
 @main.command()
+def reproduce(
+    rows: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[ID ...]", help="Beginnings of rows' ids, e.g. P-eq7.", show_default="all rows"),
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the files.")] = Path(
+        "papers-reproduced"
+    ),
+) -> None:
+    """Work every equation, table, figure, example and claim of the three documents anew, each with a verdict.
+
+    Writes papers-reproduced.md (docs/papers-reproduced.md is what it wrote), report.html, rows.csv and the figures.
+    With ids, only the rows that begin so, with their worked numbers: P of Pennestrì, Valentini, Vita; E of Erdman,
+    Sandor, Oakberg; S of the ME451 slides; X for errata, C for choices.
+
+    Try:
+
+        mechanism-fmu reproduce
+
+        mechanism-fmu reproduce P-eq7 E-eq13 S-3.4.1
+
+    Exit code: 0 all well, 1 a row is not what it should be, 2 wrong use.
+    """
+    from .reproduce_command import run_reproduce
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_reproduce(rows or [], output))
+
+
+@main.command()
 def validate(fmu: FmuPath) -> None:
     """Check an FMU: the file, its default values, a run, saving and restoring of its state, reset.
 

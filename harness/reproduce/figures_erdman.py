@@ -140,10 +140,10 @@ def fig4_case1(bench: Bench) -> str:
         *_force(v, p["P"], math.pi / 2, "P₂", (0, -12)),
         v.arc(p["P"], 0.8, -2.4, -0.4),
         v.text(p["P"], "P₃", 14, 30),
-        *_along(v, p["A"], p["P"], arm, "x₁, x₂, x₃", -16),
-        *_along(v, p["A0"], p["A"], phi, "x₄, x₅", -32),
-        *_along(v, p["A"], p["B"], coupler, "x₆, x₇", 22),
-        *_along(v, p["B0"], p["B"], psi, "x₈", 24),
+        *_along(v, p["A"], p["P"], arm, "x₁, x₂, x₃", 22, True),
+        *_along(v, p["A0"], p["A"], phi, "x₄, x₅", 12, True),
+        *_along(v, p["A"], p["B"], coupler, "x₆, x₇", 8),
+        *_along(v, p["B0"], p["B"], psi, "x₈", 0),
         label((230, 385), "x₁, x₄, x₇, x₈ axial; x₂, x₅ transverse; x₃, x₆ rotations", 13),
         label((230, 405), "order of this project; the document's arrows are lost", 13),
     ]
@@ -162,7 +162,7 @@ def fig7_case2(bench: Bench) -> str:
         *_force(v, p["P"], math.pi / 2, "P₂", (0, -12)),
         v.arc(p["P"], 0.8, -2.4, -0.4),
         v.text(p["P"], "P₃", 14, 30),
-        *_force(v, p["A"], phi, "P₄", (6, -10)),
+        *_force(v, p["A"], phi, "P₄", (22, 4)),
         *_force(v, p["A"], phi + math.pi / 2, "P₅", (-12, -6)),
         v.arc(p["A"], 0.8, -2.6, -0.6),
         v.text(p["A"], "P₆", 22, 26),
@@ -178,8 +178,10 @@ def _force(v: View, at: Point, angle: float, text: str, shift: Point) -> list[st
     return [v.arrow(polar(at, 0.45, angle), end, ACCENT), v.text(end, text, *shift)]
 
 
-def _along(v: View, start: Point, end: Point, angle: float, text: str, dx: float) -> list[str]:
+def _along(v: View, start: Point, end: Point, angle: float, text: str, dx: float, across: bool = False) -> list[str]:
+    """Arrows of an element's coordinates beside its middle, the name on the other side."""
     middle = _middle(start, end)
-    ahead, across = polar(middle, 1.2, angle), polar(middle, 1.0, angle + math.pi / 2)
-    more = [v.arrow(middle, across, SOFT)] if "," in text else []
-    return [v.arrow(middle, ahead, ACCENT), *more, v.text(middle, text, dx, 20)]
+    base = polar(middle, 0.4, angle + math.pi / 2)
+    more = [v.arrow(base, polar(base, 1.1, angle + math.pi / 2), ACCENT)] if across else []
+    named = polar(middle, 0.75, angle - math.pi / 2)
+    return [v.arrow(base, polar(base, 1.3, angle), ACCENT), *more, v.text(named, text, dx, 0)]

@@ -72,12 +72,12 @@ def fig04_nomenclature() -> str:
         v.line([pin, (pin[0] + 0.045, pin[1])], SOFT, 0.8, "5 3"),
         v.arc(pin, 0.026, 0.0, gamma, "γ", 12),
         v.size((0, 0), hinge, "d = 0.130", -58),
-        v.text(((hinge[0] + pin[0]) / 2, pin[1] / 2), "a = 0.110", 44),
+        v.text(((hinge[0] + pin[0]) / 2, pin[1] / 2), "a = 0.110", 40, 22),
         v.text(((pin[0] + tip[0]) / 2, (pin[1] + tip[1]) / 2), "b = 0.100", 0, 17),
         v.text((root[0] / 2, root[1] / 2), "r = 0.100", -38),
         v.arc(hinge, 0.062, PHI - 0.5, PHI + 0.25, ""),
         v.text(polar(hinge, 0.074, PHI - 0.35), "1 N mm", 22),
-        v.text((-0.06, -0.055), "spring 15 N mm/rad"),
+        v.text((-0.035, -0.062), "spring 15 N mm/rad"),
         label(
             (265, 530),
             f"start: φ = 77°, ψ = 75°, γ = {gamma / _DEG:.2f}° solved at nt = 10, β₀ = 90°; lengths in m",
@@ -148,10 +148,10 @@ def fig06_beam() -> str:
 def fig07_shapes() -> str:
     """Both shapes with what the wedge leaves out."""
     parts = [
-        *_shape_of(10, 90, View((40, 250), 3200), "l = F"),
-        *_shape_of(10, 105, View((355, 250), 2900), "l = L cos α"),
+        *_shape_of(10, 90, View((30, 270), 4300), "l = F"),
+        *_shape_of(10, 105, View((365, 270), 3900), "l = L cos α"),
     ]
-    return sheet(640, 330, "Shapes of ratchet wheel tooth", parts)
+    return sheet(700, 345, "Shapes of ratchet wheel tooth", parts)
 
 
 def _shape_of(count: int, angle: float, v: View, named: str) -> list[str]:
