@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -32,6 +32,6 @@ class Finding:
     evidence: str
 
 
-def with_verdict(findings: Iterable[Finding], verdict: Verdict) -> tuple[Finding, ...]:
-    """Those of the findings that have this verdict."""
-    return tuple(finding for finding in findings if finding.verdict is verdict)
+def verdict_of(criteria: Sequence[bool]) -> Verdict:
+    """Of a claim that says several things: it holds when all are true, and does not hold when none is."""
+    return Verdict.HOLDS if all(criteria) else Verdict.HOLDS_IN_PART if any(criteria) else Verdict.DOES_NOT_HOLD
