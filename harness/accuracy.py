@@ -67,8 +67,8 @@ def _beam(teeth: Sequence[PlaneTooth]) -> Finding:
         verdict_of([_small(frequency), _small(static)]),
         f"eq (15) is {_range(tooth.beam_to_wedge_frequency for tooth in teeth)} times the first frequency of the same "
         f"wedge in plane stress, {_range(tooth.beam_to_tooth_frequency for tooth in teeth)} times that of the whole "
-        f"tooth (most at nt = {most.tooth_count}, beta_0 = {most.slope_angle_deg} deg); stress at x/l = {PLACE:g}, wedge "
-        f"in plane stress over beam: {_range(tooth.static_wedge for tooth in teeth)} under a given load, "
+        f"tooth (most at nt = {most.tooth_count}, beta_0 = {most.slope_angle_deg} deg); stress at x/l = {PLACE:g}, "
+        f"wedge in plane stress over beam: {_range(tooth.static_wedge for tooth in teeth)} under a given load, "
         f"{_range(tooth.impact_wedge for tooth in teeth)} after an impact (first mode); length over root height "
         f"{_range(tooth.slenderness for tooth in teeth)}, below 1 for {stubby} of {len(teeth)}",
     )

@@ -70,7 +70,7 @@ def show_findings(heading: str, findings: Iterable[Finding]) -> None:
     """What became of the claims of a source, one line each."""
     console.print(f"[bold]{escape(heading)}[/]")
     for finding in findings:
-        verdict = f"[{_VERDICT_STYLES[finding.verdict]}]{finding.verdict:<13}[/]"
+        verdict = f"[{_VERDICT_STYLES[finding.verdict]}]{finding.verdict:<14}[/]"
         console.print(f"{verdict} {escape(finding.claim)}  [dim]{escape(finding.evidence)}[/]", soft_wrap=True)
 
 
