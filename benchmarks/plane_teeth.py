@@ -1,7 +1,7 @@
 """Command: `python -m benchmarks.plane_teeth`, from the root of the repository: writes harness/plane_teeth.csv.
 
 The paper's 20 teeth as plates of finite elements, whole and as the right-angled triangle that the paper makes of them,
-beside its beam. It shows how far the meshes agree, and takes a minute and a half. Needs scikit-fem (extra `test`).
+beside its beam. It shows how far the meshes agree, and takes a minute. Needs scikit-fem (extra `test`).
 """
 
 from __future__ import annotations

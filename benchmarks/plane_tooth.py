@@ -120,7 +120,7 @@ def solve(plate: Plate, refinement: int, places: Sequence[float]) -> PlateSoluti
 
 def _mesh(plate: Plate, refinement: int) -> Any:
     corners = np.array([plate.face_root, plate.apex, plate.slope_root]).T
-    mesh = MeshTri(corners, np.array([[0], [1], [2]])).refined(2)
+    mesh = _strips(corners)
     for _ in range(_HALVINGS):
         nearest = [np.argmin(np.hypot(*(mesh.p - corners[:, [corner]]))) for corner in (0, 2)]
         mesh = mesh.refined(np.nonzero(np.isin(mesh.t, nearest).any(axis=0))[0])
@@ -131,6 +131,24 @@ def _mesh(plate: Plate, refinement: int) -> Any:
         return np.asarray(np.abs(across[0] * (x[0] - corners[0, 0]) + across[1] * (x[1] - corners[1, 0])) < 1e-9)
 
     return mesh.refined(refinement).with_boundaries({"root": on_root})
+
+
+def _strips(corners: FloatArray) -> Any:
+    """Two right-angled triangles, by the height over the slope, the one at the root in strips about as wide as high.
+
+    A tooth of small slope is much longer along the root than high; elements of that shape would be poor.
+    """
+    face_root, apex, slope_root = corners.T
+    along = slope_root - apex
+    foot = apex + along * ((face_root - apex) @ along) / (along @ along)
+    number = max(2, round(np.hypot(*(slope_root - foot)) / np.hypot(*(face_root - foot))))
+    towards = np.arange(number)[:, None] / number
+    ends = [start * (1 - towards) + slope_root * towards for start in (face_root, foot)]
+    lower, last = np.arange(number - 1), 2 * number
+    upper = number + lower
+    strips = [np.array([lower, upper, lower + 1]), np.array([lower + 1, upper, upper + 1])]
+    tips = np.array([[number - 1, last - 1, last], [0, number, last + 1]]).T
+    return MeshTri(np.vstack([*ends, slope_root, apex]).T, np.hstack([*strips, tips]))
 
 
 def _stiffness(u: Any, v: Any, w: Any) -> Any:

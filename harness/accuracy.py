@@ -51,9 +51,9 @@ def _wedge(teeth: Sequence[PlaneTooth]) -> Finding:
         'A right-angled triangle stands for the tooth "without accuracy loss": what it leaves out "can be regarded as '
         'rigid without introducing a great error"',
         verdict_of([_small(frequency), _small(static), _small(impact)]),
-        f"finite elements (plane stress) of {len(teeth)} teeth, whole tooth against wedge: first frequency "
-        f"{_percent(frequency)}; stress at x/l = {PLACE:g} {_percent(static)} under a given load, {_percent(impact)} "
-        f"after an impact (first mode); up to {_SMALL:.0%} counts as small",
+        f"finite elements (plane stress) of the teeth of {len(teeth)} wheels, whole tooth against wedge: first "
+        f"frequency {_percent(frequency)}; stress at x/l = {PLACE:g} {_percent(static)} under a given load, "
+        f"{_percent(impact)} after an impact (first mode); up to {_SMALL:.0%} counts as small",
     )
 
 
