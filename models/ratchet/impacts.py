@@ -1,4 +1,4 @@
-"""What the ratchet tells of an impact and of an event, as fields of `mechanism_fmu.model.port_builders`."""
+"""What the ratchet reports of an impact and of an event, as fields of `mechanism_fmu.model.port_builders`."""
 
 from __future__ import annotations
 
@@ -24,25 +24,34 @@ def _speeds(moment: str, field: str) -> tuple[Output, ...]:
     )
 
 
-#: Of the last impact.
+#: Of the last impact. What all impacts of one instant share stands behind what is the contact's own.
 LAST_IMPACT = (
-    Output("velocity", "velocity", f"{_VELOCITY} at the {{impact}}", "m/s", nominal=1e-3),
-    Output("energy_lost", "energy_lost", "Energy lost at the instant of the {impact}", "J", nominal=1e-4),
-    Output("closing_speed", "closing_speed", "Normal closing speed just before the {impact}", "m/s", nominal=0.1),
-    Output("impulse", "impulse", "Impulse on the struck contact at the {impact}", "N.s", nominal=0.01),
-    Output("slope_impulse", "impulse:slope", "Impulse on the tooth slope at the {impact}", "N.s", nominal=0.01),
-    *_speeds("after", "speed"),
-    *_speeds("before", "speed_before"),
     whole_output("tooth", "tooth", "Index of the tooth struck at the {impact}; -1 before the first"),
     whole_output("contact", "contact", f"{_CONTACTS} at the {{impact}}; -1 before the first"),
+    Output(
+        "closing_speed",
+        "closing_speed",
+        "Normal closing speed just before the {impact} (holding pawl: rad/s)",
+        "m/s",
+        nominal=0.1,
+    ),
+    Output("impulse", "impulse", "Impulse on the struck contact at the {impact}", "N.s", nominal=0.01),
+    Output("slope_impulse", "impulse:slope", "Impulse on the tooth slope at the {impact}", "N.s", nominal=0.01),
+    Output("energy_lost", "energy_lost", "Energy lost at the instant of the {impact}", "J", nominal=1e-4),
+    *_speeds("before", "speed_before"),
+    *_speeds("after", "speed"),
+    Output("velocity", "velocity", f"{_VELOCITY} at the {{impact}}", "m/s", nominal=1e-3),
 )
 
 #: Of each impact of the last communication step.
 IMPACT = (
     Output("time", "time", "Time of {impact}", "s"),
-    whole_output("instant", "instant", "Number of the instant, shared by all its impacts, of {impact}"),
-    Output("velocity", "velocity", f"{_VELOCITY} at the instant, of {{impact}}", "m/s", nominal=1e-3),
-    Output("closing_speed", "closing_speed", "Normal closing speed of {impact}", "m/s", nominal=0.1),
+    whole_output("instant", "instant", "Number of the instant, the same for all its impacts, of {impact}"),
+    whole_output("tooth", "tooth", "Index of the tooth struck of {impact}"),
+    whole_output("contact", "contact", f"{_CONTACTS} of {{impact}}"),
+    Output(
+        "closing_speed", "closing_speed", "Normal closing speed of {impact} (holding pawl: rad/s)", "m/s", nominal=0.1
+    ),
     Output(
         "impulse",
         "impulse",
@@ -51,10 +60,9 @@ IMPACT = (
         nominal=0.01,
     ),
     Output("energy_lost", "energy_lost", "Energy lost at the instant of {impact}", "J", nominal=1e-4),
-    speed_output("wheel_speed", "speed:wheel", "Wheel speed just after the instant of {impact}", nominal=0.1),
-    speed_output("wheel_speed_before", "speed_before:wheel", "Wheel speed just before it, of {impact}", nominal=0.1),
-    whole_output("tooth", "tooth", "Index of the tooth struck of {impact}"),
-    whole_output("contact", "contact", f"{_CONTACTS} of {{impact}}"),
+    speed_output("wheel_speed_before", "speed_before:wheel", "Wheel speed before the instant of {impact}", nominal=0.1),
+    speed_output("wheel_speed", "speed:wheel", "Wheel speed after the instant of {impact}", nominal=0.1),
+    Output("velocity", "velocity", f"{_VELOCITY} at the instant of {{impact}}", "m/s", nominal=1e-3),
 )
 
 #: Of each event of the last communication step.
