@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from mechanism_fmu.stress import WedgeTooth
+from mechanism_fmu.stress import WedgeTooth, slenderness
 
 #: Units of the fields of `Wheel`, and of its slenderness.
 WHEEL_UNITS = {
@@ -63,8 +63,8 @@ class Wheel:
 
     @property
     def slenderness(self) -> float:
-        """Length of the tooth over the height of its root, 1 / tan(alpha) [-]: a beam has several."""
-        return 1.0 / math.tan(self.tooth_apex_angle)
+        """Length of the tooth over the height of its root [-]."""
+        return slenderness(self.tooth)
 
     def cells(self) -> list[str]:
         """A row of the printed table: teeth, beta_0 [deg], t_I [s], omega(t_I+) [rad/s], v_I [m/s], sigma_max [Pa]."""
