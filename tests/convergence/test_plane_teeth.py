@@ -81,8 +81,8 @@ def test_frequencies_of_the_base_case_in_steel():
     unit = math.sqrt(STEEL.youngs_modulus / STEEL.density) / chord / (2 * math.pi) / 1e3
     beam = beam_frequency(shape(10, 90).beam) * unit
     assert beam == pytest.approx(109.1, abs=0.05)
-    assert beam / row.beam_to_wedge_frequency == pytest.approx(40.1, abs=0.1)
-    assert beam / row.beam_to_tooth_frequency == pytest.approx(37.5, abs=0.1)
+    assert beam / row.beam_to_wedge_frequency == pytest.approx(40.1, abs=0.05)
+    assert beam / row.beam_to_tooth_frequency == pytest.approx(37.45, abs=0.05)
 
 
 def test_the_file_has_the_20_wheels_and_says_how_it_was_made():
