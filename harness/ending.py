@@ -28,6 +28,7 @@ _IMPACT_COLUMNS = {
     "stress_max": "sigma_max",
 }
 _MOST_IMPACTS = 20
+_LARGE = 1e4
 
 
 def show_ending(run: Run, files: Sequence[Path], more_checks: Sequence[Check] = ()) -> int:
@@ -64,10 +65,7 @@ def _show_impacts(run: Run) -> None:
         return
     columns = [name for name in _IMPACT_COLUMNS if name in run.impacts.columns]
     shown_impacts = run.impacts[columns].head(_MOST_IMPACTS)
-    rows = [
-        [f"{time:.9g}", *(WHEEL_HELD if math.isnan(value) else f"{value:.4g}" for value in rest)]
-        for time, *rest in shown_impacts.itertuples(index=False)
-    ]
+    rows = [[f"{time:.9g}", *map(_cell, rest)] for time, *rest in shown_impacts.itertuples(index=False)]
     title = f"Impacts: {len(run.impacts)}" + (
         f", the first {_MOST_IMPACTS}" if len(run.impacts) > _MOST_IMPACTS else ""
     )
@@ -75,6 +73,13 @@ def _show_impacts(run: Run) -> None:
     show_table(title, headings, rows, numeric=range(len(columns)))
     if run.tooth is None:
         console.print("[dim]No stress: the FMU does not describe a tooth (tooth_length, tooth_apex_angle).[/]")
+
+
+def _cell(value: float) -> str:
+    """Four digits; a stress of more has no power of ten."""
+    if math.isnan(value):
+        return WHEEL_HELD
+    return f"{value:.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
 
 
 def _show_damage(run: Run) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
@@ -23,7 +23,7 @@ _MEASURES = {
 }
 #: Contacts have their own units of these: a stop's are rad/s and N.m.s.
 _BY_CONTACT = ("closing_speed", "impulse")
-#: The charts show no more impacts than this.
+#: The charts show no more impacts of a contact than this.
 _MOST_POINTS = 2000
 
 _NOTE = (
@@ -32,22 +32,24 @@ _NOTE = (
 )
 
 
-def severity_section(impacts: pd.DataFrame, units: Mapping[str, str]) -> str:
+def severity_section(impacts: pd.DataFrame, units: Mapping[str, str], names: Sequence[str] = ()) -> str:
     """The largest impact by each measure and the stress that it leaves; "" for less than two impacts with stresses.
 
     Args:
         impacts: as of `tooth_stress.with_stress`.
         units: of its columns.
+        names: of the contacts, in the order of their numbers; () when they are not known.
     """
     if not {"stress_max", "velocity", "closing_speed"} <= set(impacts) or impacts["stress_max"].notna().sum() < 2:
         return ""
     measures = [name for name in _MEASURES if name in impacts]
-    contacts = sorted(set(impacts["contact"].tolist())) if "contact" in impacts else []
+    contacts = _named(impacts, names)
     rows = []
     for name in measures:
-        for contact in contacts if name in _BY_CONTACT and contacts else [None]:
-            part = impacts if contact is None else impacts[impacts["contact"] == contact]
-            rows.append(_row(name, contact, part, units, float(impacts["stress_max"].max())))
+        parts = contacts if name in _BY_CONTACT and contacts else {"": impacts}
+        rows += [
+            _row(name, contact, part, units, float(impacts["stress_max"].max())) for contact, part in parts.items()
+        ]
     headings = ["largest by", "its value", "time [s]", "jump v_I", "stress left", "of the largest stress"]
     plots = [_against(name, impacts, contacts, units) for name in ("closing_speed", "energy_lost") if name in measures]
     return section(
@@ -58,16 +60,25 @@ def severity_section(impacts: pd.DataFrame, units: Mapping[str, str]) -> str:
     )
 
 
-def _row(name: str, contact: int | None, part: pd.DataFrame, units: Mapping[str, str], most: float) -> list[str]:
+def _named(impacts: pd.DataFrame, names: Sequence[str]) -> dict[str, pd.DataFrame]:
+    """The impacts of each contact by its name; {} where contacts are not reported."""
+    if "contact" not in impacts:
+        return {}
+    numbers = sorted({int(number) for number in impacts["contact"]})
+    labels = {number: names[number] if 0 <= number < len(names) else f"contact {number}" for number in numbers}
+    return {label: impacts[impacts["contact"] == number] for number, label in labels.items()}
+
+
+def _row(name: str, contact: str, part: pd.DataFrame, units: Mapping[str, str], most: float) -> list[str]:
     """The largest of the impacts `part`; `most` is the largest stress of all [Pa]."""
     place = int(part[name].abs().fillna(-1.0).to_numpy().argmax())
     size, time, velocity, stress = (
         float(part[column].iloc[place]) for column in (name, "time", "velocity", "stress_max")
     )
     # The unit in the buffer is that of points on lines; stops and locks have another one.
-    value = f"{abs(size):.4g}" if contact is not None else engineering(abs(size), units[name])
+    value = f"{abs(size):.4g}" if contact else engineering(abs(size), units[name])
     return [
-        _MEASURES[name] + ("" if contact is None else f", contact {contact}"),
+        _MEASURES[name] + (f", {contact}" if contact else ""),
         value,
         f"{time:.9g}",
         engineering(velocity, units["velocity"]),
@@ -76,15 +87,14 @@ def _row(name: str, contact: int | None, part: pd.DataFrame, units: Mapping[str,
     ]
 
 
-def _against(name: str, impacts: pd.DataFrame, contacts: list[int], units: Mapping[str, str]) -> Plot:
+def _against(name: str, impacts: pd.DataFrame, contacts: Mapping[str, pd.DataFrame], units: Mapping[str, str]) -> Plot:
     """Stress over another measure, a colour for each contact."""
-    strong = impacts.dropna(subset=["stress_max"]).nlargest(_MOST_POINTS, "stress_max")
-    parts = {f"contact {contact}": strong[strong["contact"] == contact] for contact in contacts} or {"impacts": strong}
-    curves = [
-        Curve(label, part[name].abs(), part["stress_max"], COLOURS[k % len(COLOURS)], line=False, dots=True)
-        for k, (label, part) in enumerate(parts.items())
-        if len(part)
-    ]
+    curves = []
+    for k, (label, part) in enumerate((contacts or {"impacts": impacts}).items()):
+        strong = part.dropna(subset=["stress_max"]).nlargest(_MOST_POINTS, "stress_max")
+        if len(strong):
+            colour = COLOURS[k % len(COLOURS)]
+            curves.append(Curve(label, strong[name].abs(), strong["stress_max"], colour, line=False, dots=True))
     unit = "each contact's own unit" if name in _BY_CONTACT and contacts else units[name]
     label = f"{_MEASURES[name]} [{unit}]"
     return Plot(f"Stress against {_MEASURES[name]}", label, "largest bending stress [Pa]", curves, from_zero=True)

@@ -2,6 +2,7 @@
 
 import json
 import math
+from html import escape
 from pathlib import Path
 
 import numpy as np
@@ -231,9 +232,19 @@ def test_the_study_command_writes_table_and_figures(ratchet_fmu: Path, tmp_path:
     assert summary["units"]["stress_max"] == "Pa"
     assert summary["parameters"]["tooth_count"][::5] == [10, 15, 20, 25]
     assert summary["versions"]["model"] == "Ratchet"
+    assert [finding["verdict"] for finding in summary["findings"]] == [
+        "holds in part",
+        "does not hold",
+        "holds in part",
+    ]
+    slenderness = [1 / math.tan(wheel["tooth_apex_angle"]) for wheel in summary["wheels"]]
+    assert [wheel["slenderness"] for wheel in summary["wheels"]] == pytest.approx(slenderness, rel=1e-12)
+    assert list(table["slenderness"]) == pytest.approx(slenderness, rel=1e-12)
     page = (tmp_path / "study.html").read_text(encoding="utf-8")
     for heading in ("Wheel shapes", "Tooth shapes", "Stress along the tooth", "Maximum bending stress"):
         assert f"<h2>{heading}" in page
+    for finding in summary["findings"]:
+        assert f"{escape(finding['claim'])}</td><td>{finding['verdict']}</td>" in page
     for name in ("fig08_wheels", "fig09_teeth", "fig10_stress", "fig11_maximum"):
         assert (tmp_path / f"{name}.svg").read_bytes() == (DOCS / "case-studies" / f"{name}.svg").read_bytes()
         assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
