@@ -15,7 +15,7 @@ import build_fmu
 from mechanism_fmu import codes
 from mechanism_fmu.elastodynamics import Configurations, turn
 from mechanism_fmu.kinematics.equations import Equations, Rows
-from mechanism_fmu.model import Mechanism
+from mechanism_fmu.model import Mechanism, PointLineContact
 from mechanism_fmu.model.sawtooth import Sawtooth, sawtooth
 from mechanism_fmu.simulation import Simulation
 
@@ -175,6 +175,6 @@ def velocities(angles: Any, rates: Any) -> FloatArray:
 def closed_ratchet(mechanism: Mechanism, q: FloatArray) -> tuple[Equations, Mechanism]:
     """The rows of the ratchet with slope and face closed, near q."""
     bodies = tuple(replace(b, start=tuple(q[3 * k : 3 * k + 3])) for k, b in enumerate(mechanism.bodies))
-    contacts = tuple(replace(c, closed=1.0) if c.name in ("slope", "face") else c for c in mechanism.contacts)
+    contacts = tuple(replace(c, closed=True) if isinstance(c, PointLineContact) else c for c in mechanism.contacts)
     closed = replace(mechanism, bodies=bodies, contacts=contacts, held=())
     return Equations(closed, 0.0), closed

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
-from mechanism_fmu.stress import STEEL, ModeScaling, WedgeTooth, maximum_stress, ritz_modes
+from mechanism_fmu.stress import STEEL, ModeScaling, maximum_stress, ritz_modes
 
 from ..paper import SLOPE_ANGLES_DEG, TOOTH_COUNTS
 from .bench import AFTER_IMPACT, CRANK, Bench, tooth
@@ -54,7 +55,8 @@ def _table2(bench: Bench) -> Found:
 
 def _base(_bench: Bench) -> Found:
     return Found(
-        "base case nt = 10, β₀ = 90°: the paper does not say whose wheel Table 2 is; mass and inertia say it (X-inertia)",
+        "base case nt = 10, β₀ = 90°: the paper does not say whose wheel Table 2 is; mass and inertia say it "
+        "(X-inertia)",
         _CHOICE,
     )
 
@@ -65,9 +67,11 @@ def _scale(bench: Bench) -> Found:
     taken = maximum_stress(tooth_, STEEL, speed)
     return judged(
         taken.position < projected.position,
-        f"a_1 = 1 in both modes: C = {taken.coefficient:.6f} at x/l = {taken.position:.3f}, the paper's 40 %; scaled by "
+        f"a_1 = 1 in both modes: C = {taken.coefficient:.6f} at x/l = {taken.position:.3f}, the paper's 40 %; "
+        f"scaled by "
         f"projection C = {projected.coefficient:.6f} at {projected.position:.3f}",
-        "seven scales are compared in docs/decisions/003-mode-scaling.md; comparisons between wheels do not depend on it",
+        "seven scales are compared in docs/decisions/003-mode-scaling.md; comparisons between wheels do not "
+        "depend on it",
         verdict=_CHOICE,
     )
 
@@ -81,11 +85,7 @@ def _length(bench: Bench) -> Found:
             beam = float(shape.slope_length) * math.cos(float(shape.apex_angle))
             wheel = bench.wheel(count, angle)
             other[count, angle] = wheel.stress_max * beam / wheel.tooth_length
-    rises = all(
-        other[count, b] > other[count, a]
-        for count in TOOTH_COUNTS
-        for a, b in zip(SLOPE_ANGLES_DEG, SLOPE_ANGLES_DEG[1:], strict=False)
-    )
+    rises = all(other[count, b] > other[count, a] for count in TOOTH_COUNTS for a, b in pairwise(SLOPE_ANGLES_DEG))
     return Found(
         f"l = F while α* < 90°, else L cos α: the leg of the right-angled triangle that lies within the tooth. With "
         f"l = L cos α for all, σ_max(10, 90°) would be {other[10, 90]:.1f} Pa, and the claim that it rises with β₀ "
@@ -101,11 +101,13 @@ def _velocity(bench: Bench) -> Found:
     closing[90] = float(first["closing_speed"])
     jump = bench.base.impact_velocity
     return Found(
-        f"v_I = l (ω(t_I+) − ω(t_I−)), {jump:.6e} m/s in the base case. The pawl's closing speed, {closing[90]:.6f} m/s, "
+        f"v_I = l (ω(t_I+) − ω(t_I−)), {jump:.6e} m/s in the base case. The pawl's closing speed, "
+        f"{closing[90]:.6f} m/s, "
         "does not depend on nt and would not give the claims of Fig. 11; ω(t_I+) l is right for a wheel at rest only",
         _CHOICE,
         (
-            "it is the velocity of the free end against the root of every tooth of a wheel whose rate jumps; the push at "
+            "it is the velocity of the free end against the root of every tooth of a wheel whose rate jumps; the "
+            "push at "
             "the root of the struck tooth is outside this law",
         ),
     )
@@ -191,7 +193,8 @@ CHOICES = (
         "“the path of the pawl tip”",
         ("models/ratchet/model.py",),
         lambda _b: _simple(
-            "both hold on both sides, as in the paper (guided); before the impact the slope, with e = 0 afterwards both",
+            "both hold on both sides, as in the paper (guided); before the impact the slope, with e = 0 afterwards "
+            "both",
             "free pawl with one-sided contacts: `--set guided=false`, docs/decisions/005-one-sided-contacts.md",
         ),
     ),

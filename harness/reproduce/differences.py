@@ -23,7 +23,9 @@ def joint_deviations(
 
     Args:
         equations: rows at any coordinates, whether they close or not.
-        q, rate, acceleration: shape (coordinates,).
+        q: coordinates of the motion at the instant, shape (coordinates,).
+        rate: their rates there, shape (coordinates,).
+        acceleration: held during the motion, shape (coordinates,).
         time: of the drivers [s].
     """
     rows = equations.at(q, time, rate)

@@ -97,7 +97,8 @@ _TERMS = (
         "Kineto-elastodynamic synthesis",
         "a mechanism for prescribed motion and stress at its speed, of elastic members with mass",
         _SYNTHESIS,
-        "`lightest`: least mass within limits of deviation and stress; the document's method lies beyond the pages at hand",
+        "`lightest`: least mass within limits of deviation and stress; the document's method is beyond the pages "
+        "at hand",
         Verdict.HOLDS_IN_PART,
         _KED,
     ),

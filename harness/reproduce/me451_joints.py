@@ -90,7 +90,8 @@ def five_steps(kind: str, removed: int) -> Callable[[Bench], Found]:
             Verdict.REPRODUCED if right else Verdict.FAILED,
             (
                 "1 allows, 2 Φ, 3 Φ_q, 4 ν, 5 γ stand in the docstring and on the joint's page",
-                f"sizes of the parts: harness/reproduce/me451_joints.py; two bodies in general position, moving at random",
+                "sizes of the parts: harness/reproduce/me451_joints.py; two bodies in general position, moving at "
+                "random",
             ),
         )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
@@ -45,7 +46,8 @@ def _thickness(bench: Bench) -> Found:
     return within(
         abs(thin.stress / wheel.stress_max - 1),
         1e-9,
-        f"b = 0.02 m; a tooth of 0.002 m has the same σ_max = {thin.stress:.2f} Pa: A, I and W are all proportional to b",
+        f"b = 0.02 m; a tooth of 0.002 m has the same σ_max = {thin.stress:.2f} Pa: A, I and W are all "
+        f"proportional to b",
     )
 
 
@@ -116,7 +118,7 @@ def _falls(bench: Bench) -> Found:
     falls = [
         1 - bench.wheel(after, angle).stress_max / bench.wheel(before, angle).stress_max
         for angle in SLOPE_ANGLES_DEG
-        for before, after in zip(TOOTH_COUNTS, TOOTH_COUNTS[1:], strict=False)
+        for before, after in pairwise(TOOTH_COUNTS)
     ]
     return judged(
         min(falls) > 0,
@@ -129,7 +131,7 @@ def _rises(bench: Bench) -> Found:
     rises = [
         bench.wheel(count, after).stress_max / bench.wheel(count, before).stress_max - 1
         for count in TOOTH_COUNTS
-        for before, after in zip(SLOPE_ANGLES_DEG, SLOPE_ANGLES_DEG[1:], strict=False)
+        for before, after in pairwise(SLOPE_ANGLES_DEG)
     ]
     return judged(
         min(rises) > 0,
@@ -177,7 +179,7 @@ def _others(bench: Bench) -> Found:
     falls = all(
         heights[before, angle] > heights[after, angle]
         for angle in SLOPE_ANGLES_DEG
-        for before, after in zip(TOOTH_COUNTS, TOOTH_COUNTS[1:], strict=False)
+        for before, after in pairwise(TOOTH_COUNTS)
     )
     return judged(
         falls,

@@ -107,7 +107,9 @@ def _geometry(bench: Bench) -> Found:
 
 
 def _slope(bench: Bench) -> Found:
-    ratios = [bench.parameter("tooth_slope_length", w) / float(tooth(w.tooth_count, 90).chord) for w in _wheels(bench)]
+    ratios = [
+        bench.parameter("tooth_slope_length", w) / float(tooth(w.tooth_count, 90).chord) for w in bench.study.wheels
+    ]
     worst = max(abs(ratio / SLOPE_RATIO - 1) for ratio in ratios)
     return within(
         worst,
@@ -116,12 +118,8 @@ def _slope(bench: Bench) -> Found:
     )
 
 
-def _wheels(bench: Bench) -> tuple[object, ...]:
-    return bench.study.wheels
-
-
 def alpha_star(count: int, angle_deg: float) -> float:
-    """alpha + alpha_2 [deg]."""
+    """Alpha + alpha_2 [deg]."""
     shape = tooth(count, angle_deg)
     return math.degrees(float(shape.apex_angle) + float(shape.chord_angle))
 
@@ -147,9 +145,9 @@ def _fig7(bench: Bench) -> Found:
 
 
 def _length(bench: Bench) -> Found:
-    l = {case: 1e3 * bench.wheel(*case).tooth_length for case in ((10, 90), (10, 105), (25, 85))}
+    lengths = {case: 1e3 * bench.wheel(*case).tooth_length for case in ((10, 90), (10, 105), (25, 85))}
     return Found(
-        "l(nt, β₀) = " + ", ".join(f"{value:.4f} mm at {case[0]}, {case[1]}°" for case, value in l.items()),
+        "l(nt, β₀) = " + ", ".join(f"{value:.4f} mm at {case[0]}, {case[1]}°" for case, value in lengths.items()),
         Verdict.REPRODUCED,
         ("how Fig. 7 is read: choice C-length",),
     )
@@ -166,8 +164,8 @@ def _velocity(bench: Bench) -> Found:
         f"base case: v_I = l (ω(t_I+) − ω(t_I−)) = {bench.base.impact_velocity:.6e} m/s (choice C-velocity)",
         f"l = {1e3 * bench.base.tooth_length:.4f} mm, ω jumps from {bench.impact.before[8]:.9f} to "
         f"{bench.impact.after[8]:.9f} rad/s",
-        f"l ω(t_I+) alone, right for a wheel at rest only, would be {bench.base.tooth_length * bench.impact.after[8]:.6e}"
-        " m/s",
+        "l ω(t_I+) alone, right for a wheel at rest only, would be "
+        f"{bench.base.tooth_length * bench.impact.after[8]:.6e} m/s",
     )
 
 

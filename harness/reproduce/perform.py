@@ -9,11 +9,17 @@ from ..errors import UsageError
 from . import (
     choices,
     erdman,
+    erdman_claims,
+    erdman_elements,
     erdman_terms,
     errata,
-    me451_examples,
+    me451_cams,
+    me451_gears,
     me451_joints,
+    pennestri_beam,
     pennestri_cases,
+    pennestri_claims,
+    pennestri_impact,
     pennestri_motion,
     pennestri_ratchet,
     pennestri_stress,
@@ -25,13 +31,19 @@ from .row import Document, Result, Row, Verdict
 #: All rows of the documents, in their order.
 ROWS: tuple[Row, ...] = (
     *pennestri_motion.ROWS,
+    *pennestri_impact.ROWS,
     *pennestri_stress.ROWS,
     *pennestri_ratchet.ROWS,
+    *pennestri_beam.ROWS,
+    *pennestri_claims.ROWS,
     *pennestri_cases.ROWS,
-    *erdman.ROWS,
     *erdman_terms.ROWS,
+    *erdman_elements.ROWS,
+    *erdman.ROWS,
+    *erdman_claims.ROWS,
     *me451_joints.ROWS,
-    *me451_examples.ROWS,
+    *me451_gears.ROWS,
+    *me451_cams.ROWS,
 )
 ERRATA: tuple[Row, ...] = errata.ERRATA
 CHOICES: tuple[Row, ...] = choices.CHOICES
@@ -80,8 +92,8 @@ def chosen(asked: Sequence[str]) -> tuple[Row, ...]:
     for name in asked:
         if not any(_begins(row.id, name) for row in everything):
             raise UsageError(
-                f"No row's id begins with '{name}'. Give P (Pennestrì), E (Erdman), S (slides), X (errata), C (choices), "
-                "or more of an id, e.g. P-eq7, E-eq13, S-3.4.1, X-gamma; without any, all rows are worked."
+                f"No row's id begins with '{name}'. Give P (Pennestrì), E (Erdman), S (slides), X (errata), "
+                "C (choices), or more of an id, e.g. P-eq7, E-eq13, S-3.4.1, X-gamma; without any, all rows are worked."
             )
     return tuple(row for row in everything if any(_begins(row.id, name) for name in asked))
 

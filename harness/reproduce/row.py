@@ -33,7 +33,7 @@ class Document(StrEnum):
     @property
     def short(self) -> str:
         """As the page calls it."""
-        return {"P": "Pennestrì, Valentini, Vita", "E": "Erdman, Sandor, Oakberg", "S": "ME451 slides"}[self.value]
+        return {"P": "Pennestrì et al.", "E": "Erdman et al.", "S": "ME451"}[self.value]
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,134 @@
+"""What the abstract and the introduction of Erdman, Sandor and Oakberg promise, and Case 3."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+import build_fmu
+from mechanism_fmu.elastodynamics import (
+    deflection_of,
+    deformed_links,
+    elastic_cycle,
+    periodic_response,
+    quasi_static,
+    turn,
+)
+
+from .bench import Bench
+from .row import Found, Row, Verdict, judged
+
+KED = "mechanism-fmu ked four_bar_path_generator"
+
+
+def _case3(_bench: Bench) -> Found:
+    return Found("named (“three cases”) and not described in the pages at hand", Verdict.NOT_DETERMINED)
+
+
+def _operators(_bench: Bench) -> Found:
+    link, u = np.array([0.3, 0.1]), np.array([2e-3, -1e-3])
+    errors = [float(np.linalg.norm(deformed_links(link, u / k) - link - u / k)) for k in (1, 2)]
+    order = math.log2(errors[0] / errors[1])
+    return judged(
+        abs(order - 2) < 0.02,
+        f"derived beyond the pages at hand; this project's own agree with linear theory to order {order:.2f}",
+        f"link (0.3, 0.1) m, u = (2, −1) mm: off by {errors[0]:.3e} m, half of u: {errors[1]:.3e} m",
+        verdict=Verdict.NOT_DETERMINED,
+    )
+
+
+def _speeds(_bench: Bench) -> Found:
+    mechanism = build_fmu.mechanism("four_bar_path_generator")
+    largest = {}
+    for rpm in (50, 500):
+        cycle = quasi_static(turn(mechanism, rpm * math.pi / 30, 360))
+        static = float(cycle.deviation("arm.end").max())
+        equations = elastic_cycle(cycle, 0.02)
+        response = periodic_response(equations).samples(equations.samples)
+        moved = np.vstack([response, response[:1]])
+        dynamic = deflection_of(cycle.configurations, moved, "arm.end")[:, :2]
+        largest[rpm] = static, float(np.linalg.norm(dynamic, axis=1).max())
+    slow, fast = largest[50], largest[500]
+    return judged(
+        abs(fast[0] / slow[0] - 100) < 1e-3,
+        f"path generator: {1e6 * slow[1]:.1f} µm at 50 rpm, {1e3 * fast[1]:.2f} mm at 500 rpm (quasi-static "
+        f"{1e3 * fast[0]:.2f} mm: as the square of the speed)",
+        "elastodynamic, 2 % damping of each mode, at each degree",
+    )
+
+
+def _planar(_bench: Bench) -> Found:
+    return Found(
+        "any planar linkage of revolute joints, guides, rods and drivers; no gears, no cams; of spatial ones only the "
+        "elements (6), (9) and the operators",
+        Verdict.HOLDS_IN_PART,
+    )
+
+
+def _beyond(text: str) -> Found:
+    return Found(f"beyond the pages at hand; {text}", Verdict.NOT_DETERMINED)
+
+
+ROWS = (
+    Row("E-case3", "Case 3", "The third model.", "named", ("docs/elastodynamics-dynamics.md",), _case3),
+    Row(
+        "E-speed",
+        "claim, introduction",
+        "Elasticity matters at high speed, not at low.",
+        "in words",
+        ("mechanism_fmu/elastodynamics/periodic.py",),
+        _speeds,
+        KED,
+    ),
+    Row(
+        "E-any",
+        "claim, abstract",
+        "Applies to any planar or spatial mechanism.",
+        "in words",
+        ("mechanism_fmu/elastodynamics/linkage.py",),
+        _planar,
+    ),
+    Row(
+        "E-friction",
+        "claim, abstract",
+        "Coulomb and viscous friction are indicated.",
+        "announced",
+        ("mechanism_fmu/elastodynamics/friction.py",),
+        lambda _bench: _beyond("what is done here is this project's: docs/elastodynamics.md, Friction"),
+    ),
+    Row(
+        "E-operators",
+        "claim, abstract",
+        "Stretch–rotation operators are derived.",
+        "announced",
+        ("mechanism_fmu/elastodynamics/stretch_rotation.py",),
+        _operators,
+    ),
+    Row(
+        "E-synthesis",
+        "claim, introduction",
+        "A general method of synthesis.",
+        "announced",
+        ("mechanism_fmu/elastodynamics/synthesis.py",),
+        lambda _bench: _beyond("`lightest` is this project's"),
+    ),
+    Row(
+        "E-fluctuation",
+        "claim, abstract",
+        "Inertia fluctuations, power input and output.",
+        "announced",
+        ("mechanism_fmu/elastodynamics/fluctuation.py", "mechanism_fmu/elastodynamics/reactions.py"),
+        lambda _bench: _beyond("torque fluctuation and power balance are this project's"),
+        KED,
+    ),
+    Row(
+        "E-example",
+        "claim, abstract",
+        "A numerical example.",
+        "announced",
+        ("models/four_bar_path_generator/model.py",),
+        lambda _bench: _beyond("an example with 10, 4, 10, 8, 6 in at 500 rpm is this project's"),
+        KED,
+    ),
+)
