@@ -12,11 +12,11 @@ import build_fmu
 
 from .fmu import Fmu, open_fmu
 from .occupied import alone_in
-from .report.reproduce_report import write_reproduce_report
 from .reproduce.bench import Bench
 from .reproduce.figures import write_figures
 from .reproduce.page import FIGURE_FOLDER, frame, markdown, summary_rows
 from .reproduce.perform import Reproduction, chosen, perform
+from .reproduce.report import write_reproduce_report
 from .reproduce.row import Document, Row
 from .results import prepare_folder, write_text
 from .terminal import FAILED, console, show_files, show_progress, show_table

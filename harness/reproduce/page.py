@@ -26,16 +26,16 @@ _INTRODUCTION = """\
 # The papers reproduced
 
 Three documents are at the root of this project. Below is every equation, table, figure, example and claim of theirs:
-what it says, what this project finds, and whether the two agree. One command works it all out anew and writes this page,
-a report and the figures; a test compares:
+what it says, what this project finds, and whether the two agree. One command works it all out anew and writes this
+page, a report and the figures; a test compares:
 
 ```sh
 mechanism-fmu reproduce -o papers-reproduced/
 mechanism-fmu reproduce P-eq7 E-eq13 S-3.4.1        # some rows only, with their worked numbers
 ```
 
-What is at hand are the documents' texts, without their drawings, and of Erdman, Sandor and Oakberg only the first pages,
-which end with eq (14).
+What is at hand are the documents' texts, without their drawings, and of Erdman, Sandor and Oakberg only the first
+pages, which end with eq (14).
 """
 
 _MEANINGS = {

@@ -16,7 +16,7 @@ def _eq4(bench: Bench) -> Found:
     right = np.zeros(len(hit.mass) + len(hit.jacobian))
     right[-1] = -(hit.jacobian[-1] @ hit.before)
     solved = np.linalg.solve(augmented(hit.mass, hit.jacobian), right)
-    jump: FloatArray = solved[:9]
+    jump = np.asarray(solved[:9], dtype=np.float64)
     wanted = hit.after - hit.before
     p = -solved[-1]
     return within(

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
-from ..reproduce.figures import FIGURES
-from ..reproduce.page import summary_rows
-from ..reproduce.perform import Reproduction
-from ..reproduce.row import Document, Result, Verdict
+from ..report.page import cards, page, section, table
 from ..results import write_text
-from .page import cards, page, section, table
+from .figures import FIGURES
+from .page import summary_rows
+from .perform import Reproduction
+from .row import Document, Result, Verdict
 
 _HEADINGS = ("id", "place", "what it says", "printed", "this project", "verdict", "shown by")
 _COLOURS = {
