@@ -30,10 +30,10 @@ def _eq4(bench: Bench) -> Found:
 
 def _fig1(bench: Bench) -> Found:
     hit = bench.impact
+    row = ", ".join(f"{value:.4f}" for value in hit.jacobian[-1, 3:6])
     return judged(
         abs(hit.gap) < 1e-9,
-        f"s of the tip from the face, ∂s/∂q = {np.array2string(hit.jacobian[-1, 3:6], precision=4)} "
-        "for x, y, γ of the pawl at t_I; s(t_I) = 0",
+        f"s of the tip from the face, ∂s/∂q = ({row}) for x, y, γ of the pawl at t_I; s(t_I) = 0",
         "the row of the gap is the last of A_21; positive s: open; drawn as fig01_gap.svg",
         verdict=Verdict.REPRODUCED,
     )
