@@ -99,7 +99,7 @@ def five_steps(kind: str, removed: int) -> Callable[[Bench], Found]:
 
 
 def _joint(key: str, place: str, says: str, printed: str, file: str, removed: int) -> Row:
-    code = (f"{JOINTS}/{file}.py", f"{ROWS_OF_JOINTS}/{file}.py", f"docs/joints/{file}.md")
+    code = (f"{JOINTS}/{file}.py", f"{ROWS_OF_JOINTS}/{file.removeprefix('internal_')}.py", f"docs/joints/{file}.md")
     return Row(f"S-{key}", place, says, printed, code, five_steps(key, removed))
 
 
