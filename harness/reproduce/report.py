@@ -55,12 +55,18 @@ def reproduce_report(made: Reproduction) -> str:
         drawn = [f for f in FIGURES if f.name in made.figures and f.row.startswith(document.value)]
         if drawn:
             pictures = "".join(
-                f"<figure>{made.figures[f.name]}<figcaption>{escape(f'{f.place}: {f.caption}')}</figcaption></figure>"
+                f"<figure>{_fitting(made.figures[f.name])}"
+                f"<figcaption>{escape(f'{f.place}: {f.caption}')}</figcaption></figure>"
                 for f in drawn
             )
             body.append(section(f"{document.short}: figures", f'<div class="charts">{pictures}</div>'))
     subtitle = "every equation, table, figure, example and claim of three documents"
     return page("The papers reproduced", subtitle if made.whole else "some rows", body)
+
+
+def _fitting(svg: str) -> str:
+    """A drawing that is no wider than its place."""
+    return svg.replace("<svg ", '<svg style="max-width:100%;height:auto" ', 1)
 
 
 def _verdict(result: Result) -> str:
