@@ -44,6 +44,24 @@ class Bent:
 
 
 @dataclass(frozen=True)
+class Largest:
+    """The largest magnitude of all calculated angles, which may be more than those of the tables.
+
+    Attributes:
+        value: in the unit of the quantity.
+        at: the crank's angle there [rad].
+    """
+
+    value: float
+    at: float
+
+    @property
+    def degrees(self) -> float:
+        """The crank's angle [deg]; a whole number is so, whatever the radians have lost."""
+        return round(math.degrees(self.at), 9)
+
+
+@dataclass(frozen=True)
 class Rigid:
     """The rigid motion.
 
@@ -56,6 +74,9 @@ class Rigid:
         shaking: force and moment on the frame, by its joints; rows are the angles.
         shaking_gap: how far off that is what Newton's laws make of the motion, in parts of the largest.
         joints: what they carry, and their friction; rows are the angles.
+        largest_shaking: force [N] and moment [N m].
+        largest_forces: in the joints, in their order [N].
+        largest_friction: in the joints, in their order [N m of pins, N of sliders].
         lost_energy: by friction in each joint in a turn, in their order, shape (joints,) [J].
         flywheel: that was asked for; its speeds are those of the angles.
     """
@@ -69,6 +90,9 @@ class Rigid:
     shaking: Shaking
     shaking_gap: float
     joints: tuple[JointForce, ...]
+    largest_shaking: tuple[Largest, Largest]
+    largest_forces: tuple[Largest, ...]
+    largest_friction: tuple[Largest, ...]
     lost_energy: FloatArray
     flywheel: Flywheel | None
 

@@ -39,7 +39,7 @@ from mechanism_fmu.elastodynamics import (
 )
 
 from ..errors import UsageError
-from .solution import Bent, FloatArray, Rigid, Solution
+from .solution import Bent, FloatArray, Largest, Rigid, Solution
 
 #: The turn is calculated at so many angles at least: the series through them is to be exact.
 _LEAST = 360
@@ -212,6 +212,12 @@ def _rigid(turned: Turn, order: npt.NDArray[np.int64], speed: float, fluctuation
     about = crank_hinge(cycle.configurations.linkage.mechanism)
     on_frame = shaking(cycle, about)
     joints = joint_forces(cycle.configurations, cycle.reactions)
+
+    def largest(values: FloatArray) -> Largest:
+        sizes = np.abs(values[:-1])
+        worst = int(np.argmax(sizes))
+        return Largest(float(sizes[worst]), float(turned.angle[np.argsort(turned.order)[worst]]))
+
     try:
         wheel = None if fluctuation is None else flywheel(angle, torque, speed, fluctuation)
     except LinkageError as error:
@@ -228,6 +234,9 @@ def _rigid(turned: Turn, order: npt.NDArray[np.int64], speed: float, fluctuation
         joints=tuple(
             replace(j, force=j.force[order], friction=j.friction[order], lost_power=j.lost_power[order]) for j in joints
         ),
+        largest_shaking=(largest(np.linalg.norm(on_frame.force, axis=1)), largest(on_frame.moment)),
+        largest_forces=tuple(largest(joint.force) for joint in joints),
+        largest_friction=tuple(largest(joint.friction) for joint in joints),
         lost_energy=np.array([np.trapezoid(joint.lost_power, pose.time) for joint in joints]),
         flywheel=None if wheel is None else replace(wheel, speed=wheel.speed[order]),
     )

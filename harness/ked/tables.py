@@ -9,7 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from ..description import Description
+from ..numbers import in_display_unit
 from .solution import Rigid, Solution
+from .synthesis import Synthesised
 
 #: Modes whose frequencies are shown, and harmonics of the crank that may meet them.
 _MODES, _HARMONICS = 3, 6
@@ -55,7 +58,7 @@ def cycle_table(found: Solution) -> tuple[pd.DataFrame, dict[str, str]]:
 
 
 def _frame_columns(rigid: Rigid) -> dict[str, tuple[object, str]]:
-    """Forces on the frame and in the joints, and what was asked for besides: friction, and the speed with a flywheel."""
+    """Forces on the frame and in the joints, and what was asked for besides: friction, the speed with a flywheel."""
     columns: dict[str, tuple[object, str]] = {
         "shaking_force_x": (rigid.shaking.force[:, 0], "N"),
         "shaking_force_y": (rigid.shaking.force[:, 1], "N"),
@@ -150,23 +153,23 @@ def joint_rows(found: Solution) -> Shown:
     if found.rigid.rubs:
         headings += ["largest friction", "", "lost in a turn [J]"]
     rows = []
-    for joint, lost in zip(found.rigid.joints, found.rigid.lost_energy.tolist(), strict=True):
-        at = int(np.argmax(joint.force))
-        row = [joint.joint, f"{joint.force[at]:.2f}", f"{found.degrees[at]:g}"]
-        if found.rigid.rubs:
-            row += [f"{np.abs(joint.friction).max():.4g}", "N.m" if joint.turning else "N", f"{lost:.4g}"]
+    rigid = found.rigid
+    parts = zip(rigid.joints, rigid.largest_forces, rigid.largest_friction, rigid.lost_energy.tolist(), strict=True)
+    for joint, force, friction, lost in parts:
+        row = [joint.joint, f"{force.value:.2f}", f"{force.degrees:g}"]
+        if rigid.rubs:
+            row += [f"{friction.value:.4g}", "N.m" if joint.turning else "N", f"{lost:.4g}"]
         rows.append(row)
     return Shown(headings, rows)
 
 
 def frame_sentence(found: Solution) -> str:
     """The largest shaking force and moment, and where."""
-    rigid, force = found.rigid, found.rigid.shaking_force
-    moment = np.abs(rigid.shaking.moment)
-    x, y = (1e3 * float(c) for c in rigid.shaking.about)
+    force, moment = found.rigid.largest_shaking
+    x, y = (1e3 * float(c) for c in found.rigid.shaking.about)
     return (
-        f"On the frame: shaking force up to {force.max():.4g} N at {found.degrees[force.argmax()]:g} deg; shaking "
-        f"moment about ({x:g}, {y:g}) mm up to {moment.max():.4g} N.m at {found.degrees[moment.argmax()]:g} deg."
+        f"On the frame: shaking force up to {force.value:.4g} N at {force.degrees:g} deg; shaking moment about "
+        f"({x:g}, {y:g}) mm up to {moment.value:.4g} N.m at {moment.degrees:g} deg."
     )
 
 
@@ -193,3 +196,21 @@ def friction_sentence(found: Solution) -> str:
         f"Friction takes {lost:.4g} J in a turn, {lost * found.speed / (2 * math.pi):.4g} W at this speed: the mean of "
         f"the input torque is {found.rigid.fluctuation.mean:.4g} N.m."
     )
+
+
+def synthesis_rows(found: Synthesised, description: Description) -> Shown:
+    """Each parameter, the mass, and how much of the limits is used, before and after."""
+    rows = []
+    for bound, before, after in zip(found.bounds, found.start.tolist(), found.design.tolist(), strict=True):
+        (old, unit), (new, _) = (in_display_unit(value, bound.name, description) for value in (before, after))
+        least, largest = (in_display_unit(value, bound.name, description)[0] for value in (bound.least, bound.largest))
+        rows.append([bound.name, old, new, unit, f"{least} .. {largest}"])
+    before, after, limits = found.before, found.after, found.limits
+    rows.append(["mass of all members", f"{before.mass:.5g}", f"{after.mass:.5g}", "kg", ""])
+    for what, factor, unit, limit in (
+        ("deviation", 1e3, "mm", limits.deviation),
+        ("stress", 1e-6, "MPa", limits.stress),
+    ):
+        old, new = (f"{factor * getattr(judged, what).max():.5g}" for judged in (before, after))
+        rows.append([f"largest {what}", old, new, unit, "" if limit is None else f"at most {factor * limit:g}"])
+    return Shown(["", "before", "after", "unit", "allowed"], rows)
