@@ -129,8 +129,8 @@ def _frame(rigid: Rigid) -> dict[str, Any]:
         else {
             "coefficient_of_fluctuation": wheel.coefficient,
             "inertia": wheel.inertia,
-            "least_speed": float(wheel.speed.min()),
-            "largest_speed": float(wheel.speed.max()),
+            "least_speed": rigid.flywheel_speeds[0],
+            "largest_speed": rigid.flywheel_speeds[1],
         },
     }
 

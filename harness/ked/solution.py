@@ -79,6 +79,7 @@ class Rigid:
         largest_friction: in the joints, in their order [N m of pins, N of sliders].
         lost_energy: by friction in each joint in a turn, in their order, shape (joints,) [J].
         flywheel: that was asked for; its speeds are those of the angles.
+        flywheel_speeds: the least and the largest of all calculated angles [rad/s]; that of the crank without flywheel.
     """
 
     path: FloatArray
@@ -95,6 +96,7 @@ class Rigid:
     largest_friction: tuple[Largest, ...]
     lost_energy: FloatArray
     flywheel: Flywheel | None
+    flywheel_speeds: tuple[float, float]
 
     @property
     def shaking_force(self) -> FloatArray:

@@ -239,6 +239,7 @@ def _rigid(turned: Turn, order: npt.NDArray[np.int64], speed: float, fluctuation
         largest_friction=tuple(largest(joint.friction) for joint in joints),
         lost_energy=np.array([np.trapezoid(joint.lost_power, pose.time) for joint in joints]),
         flywheel=None if wheel is None else replace(wheel, speed=wheel.speed[order]),
+        flywheel_speeds=(speed, speed) if wheel is None else (float(wheel.speed.min()), float(wheel.speed.max())),
     )
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from mechanism_fmu.elastodynamics import (
     Judgement,
     LinkageError,
+    Synthesis,
     crank_of,
     judge_quasi_static,
     judge_steady_state,
@@ -31,7 +32,7 @@ from .options import Limits
 from .solution import FloatArray, Solution
 
 #: Steps of the turn at which designs are judged during the search; the result is calculated anew, finer.
-_SAMPLES = 120
+_SAMPLES = 180
 #: Bounds of a depth unless told, in parts of its value.
 _LEAST, _LARGEST = 0.25, 4.0
 #: By this part a parameter is changed to see what it does.
@@ -41,7 +42,7 @@ _ROUNDS = 4
 #: Beyond what the finer calculation finds too much, the limits are tightened by this part.
 _MARGIN = 1e-5
 #: Judged designs after which the bar of progress is at two thirds.
-_USUAL = 80
+_USUAL = 150
 
 #: A mechanism for values of parameters.
 Describe = Callable[[Mapping[str, Value]], Any]
@@ -128,8 +129,9 @@ def synthesised(
 ) -> Synthesised:
     """The lightest design nearby; its turn, calculated anew by `analyse` in full, keeps to the limits.
 
-    The search judges a turn at few angles. If the full calculation finds more deviation or stress than allowed, the
-    search goes on from there with limits that are so much tighter.
+    The search judges a turn at few angles, and begins where that by the quasi-static solution ends, which is quick. If
+    the full calculation finds more deviation or stress than allowed, the search goes on from there with limits that are
+    so much tighter.
 
     Raises:
         UsageError: there is none within the bounds; the message says how near the best came.
@@ -141,13 +143,13 @@ def synthesised(
     first = np.clip([_at(name, given, told) for name in names], least, largest)
     judged, angle = 0, np.zeros(0)
 
-    def judge(design: FloatArray) -> Judgement:
+    def judge(design: FloatArray, by: JudgedBy = limits.judged_by) -> Judgement:
         nonlocal judged, angle
         mechanism = describe({**given, **dict(zip(names, map(float, design), strict=True))})
         cycle = quasi_static(turn(mechanism, speed, _SAMPLES))
         pose = cycle.configurations.pose
         angle = pose.position[:, pose.bodies.index(crank_of(mechanism)), 2]
-        if limits.judged_by is JudgedBy.QUASI_STATIC:
+        if by is JudgedBy.QUASI_STATIC:
             found = judge_quasi_static(cycle, place)
         else:
             found = judge_steady_state(cycle, place, damping)
@@ -157,25 +159,36 @@ def synthesised(
         progress(text, 1.0 - math.exp(-judged / _USUAL))
         return found
 
-    tight, design, before = np.array([limits.deviation, limits.stress]), first, None
+    def search(by: JudgedBy, begin: FloatArray, deviation: float, stress: float) -> Synthesis:
+        return lightest(lambda design: judge(design, by), begin, least, largest, deviation, stress)
+
+    tight = np.array([limits.deviation, limits.stress])
     with warnings.catch_warnings():
         # that few angles do for a search; what it finds is calculated anew
         warnings.filterwarnings("ignore", message=".*harmonics, all that")
-        for _ in range(_ROUNDS):
-            try:
-                found = lightest(judge, design, least, largest, float(tight[0]), float(tight[1]))
-            except (LinkageError, ValueError) as error:
-                raise UsageError(f"{error} Varied were: {', '.join(names)}.") from error
-            before = before or found.before
-            design = found.design
-            bent = limits.of(analyse(dict(zip(names, map(float, design), strict=True))))
-            used = np.array([bent.largest_deviation, bent.largest_stress.max()])
-            over = used / np.array([limits.deviation, limits.stress])
-            if over.max() <= 1.0:
-                break
-            tight = tight / np.where(over > 1.0, over * (1.0 + _MARGIN), 1.0)
-    assert before is not None
+        try:
+            before = judge(first)
+            design = _nearby(lambda: search(JudgedBy.QUASI_STATIC, first, *tight.tolist()).design, first)
+            for _ in range(_ROUNDS):
+                found = search(limits.judged_by, design, *tight.tolist())
+                design = found.design
+                bent = limits.of(analyse(dict(zip(names, map(float, design), strict=True))))
+                used = np.array([bent.largest_deviation, bent.largest_stress.max()])
+                over = used / np.array([limits.deviation, limits.stress])
+                if over.max() <= 1.0:
+                    break
+                tight = tight / np.where(over > 1.0, over * (1.0 + _MARGIN), 1.0)
+        except (LinkageError, ValueError) as error:
+            raise UsageError(f"{error} Varied were: {', '.join(names)}.") from error
     return Synthesised(tuple(bounds), first, design, angle, before, found.after, judged, limits)
+
+
+def _nearby(search: Callable[[], FloatArray], otherwise: FloatArray) -> FloatArray:
+    """The result of a quick search that another one can begin with, or `otherwise` if it finds nothing."""
+    try:
+        return search()
+    except LinkageError:
+        return otherwise
 
 
 def _understood(text: str, told: Description) -> Bounds:

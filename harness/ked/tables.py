@@ -178,12 +178,11 @@ def flywheel_sentence(found: Solution) -> str:
     wheel = found.rigid.flywheel
     if wheel is None:
         return ""
-    rpm = 30 / math.pi
+    (least, largest), rpm = found.rigid.flywheel_speeds, 30 / math.pi
     return (
         f"Flywheel for a coefficient of fluctuation of {wheel.coefficient:g}: {wheel.inertia:.4g} kg.m2 on the crank "
         f"= {found.rigid.fluctuation.energy:.4g} J / ({wheel.coefficient:g} x ({found.speed:.5g} rad/s)^2). Under a "
-        f"constant drive torque the crank then turns at {wheel.speed.min() * rpm:.5g} to "
-        f"{wheel.speed.max() * rpm:.5g} rpm."
+        f"constant drive torque the crank then turns at {least * rpm:.5g} to {largest * rpm:.5g} rpm."
     )
 
 
