@@ -34,7 +34,7 @@ def frame_plots(found: Solution) -> list[Plot]:
             "Shaking force: hodograph, a mark each 30°",
             "force on the frame, x [N]",
             "force on the frame, y [N]",
-            [Curve("shaking force", *force, COLOURS[0]), _marks(found)],
+            [Curve("shaking force", force[0], force[1], COLOURS[0]), _marks(found)],
             to_scale=True,
             legend=False,
         ),
@@ -102,9 +102,7 @@ def synthesis_plots(found: Synthesised) -> list[Plot]:
             curves.append(Curve(when, angle, factor * values[:-1][order], colour))
         if limit is not None:
             curves.append(Curve("limit", np.array([0.0, 360.0]), np.full(2, factor * limit), _LIMIT))
-        title = (
-            f"Largest {what}, {found.limits.judged_by}" if what == "stress" else f"Deviation, {found.limits.judged_by}"
-        )
+        title = f"{what.capitalize()}, {found.limits.judged_by}"
         plots.append(Plot(title, _ANGLE, f"{what} [{unit}]", curves, from_zero=True))
     return plots
 
