@@ -168,7 +168,9 @@ def synthesised(
         warnings.filterwarnings("ignore", message=".*harmonics, all that")
         try:
             before = judge(first)
-            design = _nearby(lambda: search(JudgedBy.QUASI_STATIC, first, *tight.tolist()).design, first)
+            design = first
+            if limits.judged_by is not JudgedBy.QUASI_STATIC:
+                design = _nearby(lambda: search(JudgedBy.QUASI_STATIC, first, *tight.tolist()).design, first)
             for _ in range(_ROUNDS):
                 found = search(limits.judged_by, design, *tight.tolist())
                 design = found.design
