@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -128,7 +129,8 @@ def _result(
     plain = None if asked.friction is None else analysed(_described(model, parameters))[1]
     progress("The same positions in the FMU ...", searching + 0.1 * (1.0 - searching))
     mechanism = _described(model, parameters)
-    agreed = agreement(fmu, mechanism, found if plain is None else plain, parameters)
+    compared = found if plain is None else plain
+    agreed = replace(agreement(fmu, mechanism, compared, parameters), frictionless=plain is not None)
     begun = searching + 0.2 * (1.0 - searching)
     sweep = swept(turned, speed, lambda text, done: progress(text, begun + (1.0 - begun) * done))
     return Result(fmu, fmu.description.text, parameters, found, sweep, agreed, asked.limits, synthesis, plain)

@@ -7,6 +7,7 @@ import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,8 @@ _NUDGE = 1e-3
 _ROUNDS = 4
 #: Beyond what the finer calculation finds too much, the limits are tightened by this part.
 _MARGIN = 1e-5
+#: To so many digits is a design rounded, as it is shown and written.
+_DIGITS = 9
 #: Judged designs after which the bar of progress is at two thirds.
 _USUAL = 150
 
@@ -127,11 +130,11 @@ def synthesised(
     analyse: Callable[[Mapping[str, Value]], Solution],
     progress: Callable[[str, float], None],
 ) -> Synthesised:
-    """The lightest design nearby; its turn, calculated anew by `analyse` in full, keeps to the limits.
+    """The lightest design nearby, to nine digits; its turn, calculated anew by `analyse` in full, keeps to the limits.
 
-    The search judges a turn at few angles, and begins where that by the quasi-static solution ends, which is quick. If
-    the full calculation finds more deviation or stress than allowed, the search goes on from there with limits that are
-    so much tighter.
+    The search judges a turn at few angles. It begins where that by the quasi-static solution ends, which is quick, or
+    with the design that is given, whichever is nearer to the limits. If the full calculation finds more deviation or
+    stress than allowed, the search goes on from there with limits that are so much tighter.
 
     Raises:
         UsageError: there is none within the bounds; the message says how near the best came.
@@ -162,35 +165,51 @@ def synthesised(
     def search(by: JudgedBy, begin: FloatArray, deviation: float, stress: float) -> Synthesis:
         return lightest(lambda design: judge(design, by), begin, least, largest, deviation, stress)
 
-    tight = np.array([limits.deviation, limits.stress])
+    allowed = np.array([limits.deviation, limits.stress])
+
+    def excess(design: FloatArray) -> float:
+        found = judge(design)
+        return float((np.array([found.deviation.max(), found.stress.max()]) / allowed).max())
+
+    tight = allowed
     with warnings.catch_warnings():
         # that few angles do for a search; what it finds is calculated anew
         warnings.filterwarnings("ignore", message=".*harmonics, all that")
         try:
             before = judge(first)
-            design = first
+            starts = [first]
             if limits.judged_by is not JudgedBy.QUASI_STATIC:
-                design = _nearby(lambda: search(JudgedBy.QUASI_STATIC, first, *tight.tolist()).design, first)
+                quick = _first_found([lambda: search(JudgedBy.QUASI_STATIC, first, *allowed.tolist())], first)
+                starts = sorted([quick, first], key=excess)
             for _ in range(_ROUNDS):
-                found = search(limits.judged_by, design, *tight.tolist())
-                design = found.design
+                tries = [partial(search, limits.judged_by, start, *tight.tolist()) for start in starts]
+                found = _first_found(tries)
+                design = np.clip([float(f"{value:.{_DIGITS}g}") for value in found.tolist()], least, largest)
                 bent = limits.of(analyse(dict(zip(names, map(float, design), strict=True))))
-                used = np.array([bent.largest_deviation, bent.largest_stress.max()])
-                over = used / np.array([limits.deviation, limits.stress])
+                over = np.array([bent.largest_deviation, bent.largest_stress.max()]) / allowed
                 if over.max() <= 1.0:
                     break
-                tight = tight / np.where(over > 1.0, over * (1.0 + _MARGIN), 1.0)
+                tight, starts = tight / np.where(over > 1.0, over * (1.0 + _MARGIN), 1.0), [design]
+            after = judge(design)
         except (LinkageError, ValueError) as error:
             raise UsageError(f"{error} Varied were: {', '.join(names)}.") from error
-    return Synthesised(tuple(bounds), first, design, angle, before, found.after, judged, limits)
+    return Synthesised(tuple(bounds), first, design, angle, before, after, judged, limits)
 
 
-def _nearby(search: Callable[[], FloatArray], otherwise: FloatArray) -> FloatArray:
-    """The result of a quick search that another one can begin with, or `otherwise` if it finds nothing."""
-    try:
-        return search()
-    except LinkageError:
-        return otherwise
+def _first_found(tries: Sequence[Callable[[], Synthesis]], otherwise: FloatArray | None = None) -> FloatArray:
+    """The design of the first search that finds one, or `otherwise`.
+
+    Raises:
+        LinkageError: none does, and there is nothing else; that of the last one.
+    """
+    for number, search in enumerate(tries, start=1):
+        try:
+            return search().design
+        except LinkageError:
+            if number == len(tries) and otherwise is None:
+                raise
+    assert otherwise is not None
+    return otherwise
 
 
 def _understood(text: str, told: Description) -> Bounds:

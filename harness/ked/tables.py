@@ -14,6 +14,8 @@ from ..numbers import in_display_unit
 from .solution import Rigid, Solution
 from .synthesis import Synthesised
 
+#: Of parameters; the search rounds to as many.
+_DIGITS = 9
 #: Modes whose frequencies are shown, and harmonics of the crank that may meet them.
 _MODES, _HARMONICS = 3, 6
 
@@ -201,9 +203,9 @@ def synthesis_rows(found: Synthesised, description: Description) -> Shown:
     """Each parameter, the mass, and how much of the limits is used, before and after."""
     rows = []
     for bound, before, after in zip(found.bounds, found.start.tolist(), found.design.tolist(), strict=True):
-        (old, unit), (new, _) = (in_display_unit(value, bound.name, description) for value in (before, after))
-        least, largest = (in_display_unit(value, bound.name, description)[0] for value in (bound.least, bound.largest))
-        rows.append([bound.name, old, new, unit, f"{least} .. {largest}"])
+        (old, unit), (new, _) = (in_display_unit(value, bound.name, description, _DIGITS) for value in (before, after))
+        ends = (in_display_unit(value, bound.name, description, _DIGITS)[0] for value in (bound.least, bound.largest))
+        rows.append([bound.name, old, new, unit, " .. ".join(ends)])
     before, after, limits = found.before, found.after, found.limits
     rows.append(["mass of all members", f"{before.mass:.5g}", f"{after.mass:.5g}", "kg", ""])
     for what, factor, unit, limit in (
