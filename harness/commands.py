@@ -24,6 +24,7 @@ from .terminal import (
     show_checks,
     show_error,
     show_files,
+    show_findings,
     show_progress,
     show_table,
     show_warning,
@@ -140,6 +141,7 @@ def validate_fmu(path: Path) -> int:
 
 def run_study(folder: Path, path: Path | None) -> int:
     """Run the paper's study and write it."""
+    from .accuracy import ACCURACY
     from .report.paper_figures import paper_figures
     from .report.static import write_static
     from .report.study_report import write_study_report
@@ -155,6 +157,7 @@ def run_study(folder: Path, path: Path | None) -> int:
     for warning in study.warnings:
         console.print(f"[yellow]Warning[/]: {escape(warning)}", soft_wrap=True)
     show_checks(study.checks)
+    show_findings(ACCURACY, study.findings)
     figures = paper_figures(study)
     files = write_study(study, folder)
     for figure in figures:

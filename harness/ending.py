@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from rich.markup import escape
 
 from .checks import Check, all_passed
 from .experiment import Run
+from .impacts import WHEEL_HELD
 from .master import Ending
 from .messages import Status
 from .numbers import shown
@@ -19,13 +21,14 @@ from .tooth_damage import HEADINGS, damage_note, damage_row
 #: Columns of the impacts that fit a terminal, with their headings; the file has all.
 _IMPACT_COLUMNS = {
     "time": "t",
-    "velocity": "v_I",
     "closing_speed": "closing\nspeed",
     "impulse": "impulse",
-    "wheel_speed": "omega",
+    "energy_lost": "energy\nlost",
+    "velocity": "v_I",
     "stress_max": "sigma_max",
 }
 _MOST_IMPACTS = 20
+_LARGE = 1e4
 
 
 def show_ending(run: Run, files: Sequence[Path], more_checks: Sequence[Check] = ()) -> int:
@@ -62,9 +65,7 @@ def _show_impacts(run: Run) -> None:
         return
     columns = [name for name in _IMPACT_COLUMNS if name in run.impacts.columns]
     shown_impacts = run.impacts[columns].head(_MOST_IMPACTS)
-    rows = [
-        [f"{time:.9g}", *(f"{value:.5g}" for value in rest)] for time, *rest in shown_impacts.itertuples(index=False)
-    ]
+    rows = [[f"{time:.9g}", *map(_cell, rest)] for time, *rest in shown_impacts.itertuples(index=False)]
     title = f"Impacts: {len(run.impacts)}" + (
         f", the first {_MOST_IMPACTS}" if len(run.impacts) > _MOST_IMPACTS else ""
     )
@@ -74,9 +75,16 @@ def _show_impacts(run: Run) -> None:
         console.print("[dim]No stress: the FMU does not describe a tooth (tooth_length, tooth_apex_angle).[/]")
 
 
+def _cell(value: float) -> str:
+    """Four digits; a stress of more has no power of ten."""
+    if math.isnan(value):
+        return WHEEL_HELD
+    return f"{value:.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
+
+
 def _show_damage(run: Run) -> None:
-    if run.damage is None:
+    if run.damage is None or run.tooth is None:
         return
     row = damage_row(run.damage, run.experiment.material)
     show_table("Fatigue of the tooth", HEADINGS, [row], numeric=range(1, len(HEADINGS)))
-    console.print(f"[dim]{escape(damage_note(run.damage))}[/]", soft_wrap=True)
+    console.print(f"[dim]{escape(damage_note(run.damage, run.tooth))}[/]", soft_wrap=True)

@@ -30,7 +30,7 @@ from .observers import Observer
 from .recorder import Recorder, recorded_variables
 from .slave import Observable
 from .tooth_damage import DAMAGE_UNITS, damage_of_impacts
-from .tooth_stress import STRESS_UNITS, tooth_of, with_stress
+from .tooth_stress import STRESS_COLUMNS, tooth_of, with_stress
 
 
 @dataclass(frozen=True)
@@ -212,7 +212,7 @@ def default_times(description: Description, stop_time: float | None, step: float
 def _units(
     description: Description, collector: ImpactCollector, impact_columns: list[str]
 ) -> dict[str, dict[str, str]]:
-    impact_units = {name: variable.unit or "1" for name, variable in collector.fields.items()} | STRESS_UNITS
+    impact_units = {name: variable.unit or "1" for name, variable in collector.fields.items()} | STRESS_COLUMNS
     return {
         "results": {"time": "s"} | {v.name: v.unit or "1" for v in recorded_variables(description)},
         "impacts": {name: impact_units[name] for name in impact_columns},

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+import numpy.typing as npt
 import pandas as pd
 
 from .buffers import Buffer
@@ -9,6 +11,12 @@ from .description import Description, Value
 from .slave import Observable
 
 _LOST = "impacts_lost"
+
+#: A wheel whose teeth do not move by more than this share of the closing speed is held in the impact.
+_HELD = 1e-9
+
+#: What is said of such an impact, instead of a stress.
+WHEEL_HELD = "wheel held"
 
 
 class ImpactCollector:
@@ -41,3 +49,28 @@ class ImpactCollector:
     def table(self) -> pd.DataFrame:
         """One row for each impact, in the order of time, with a column for each field."""
         return pd.DataFrame(self._rows, columns=list(self.fields))
+
+
+def one_of_each_instant(impacts: pd.DataFrame) -> pd.DataFrame:
+    """The first row of each instant: impacts of one instant share the jump of the wheel's speed and the energy lost.
+
+    Args:
+        impacts: as of `ImpactCollector.table`. Without a column `instant` every row is an instant of its own.
+    """
+    return impacts.drop_duplicates("instant") if "instant" in impacts else impacts
+
+
+def wheel_held(impacts: pd.DataFrame) -> npt.NDArray[np.bool_]:
+    """Whether the wheel kept its speed though something struck with an impulse, for each row.
+
+    A holding pawl or lock that is closed takes the impulse; then no jump makes the teeth vibrate.
+
+    Args:
+        impacts: as of `ImpactCollector.table`, with `velocity`; without `closing_speed` and `impulse` none is known.
+    """
+    if not {"closing_speed", "impulse"} <= set(impacts):
+        return np.zeros(len(impacts), dtype=bool)
+    velocity, speed, impulse = (
+        impacts[name].abs().to_numpy(dtype=np.float64) for name in ("velocity", "closing_speed", "impulse")
+    )
+    return np.asarray((velocity <= _HELD * speed) & (impulse > 0.0))

@@ -100,7 +100,7 @@ class Links:
         The force is that of a linear spring that takes up the energy m v^2 / 2 of the closing motion, F = v sqrt(k m)
         (as in W. Goldsmith, Impact, London 1960). m is the mass that the impact itself shows, impulse over closing
         speed and 1 + e; k is the stiffness of the pawl along the face's normal, without crank and tooth, which would
-        make the chain softer: an upper bound of F. Across the pawl its inertia balances the force, as in a uniform bar.
+        make the chain softer, and F smaller. Across the pawl its inertia balances the force, as in a uniform bar.
         The crank takes no more than the closing energy gives: it and the lost motion are those of the chain of pawl and
         crank, a smaller force in the same proportions on both.
         """

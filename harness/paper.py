@@ -24,7 +24,8 @@ BASE_CASE = (10, 90)
 _REFERENCE = (
     ("t_I", "time", "s", 0.9399211769, 1e-7),
     ("omega(t_I+)", "wheel_speed", "rad/s", 0.0227388573, 1e-7),
-    ("sigma_max", "stress_max", "Pa", 15547.0, 1e-4),
+    ("v_I", "velocity", "m/s", 5.084569462e-4, 1e-7),
+    ("sigma_max", "stress_max", "Pa", 16080.32, 1e-6),
 )
 
 #: "About 40 % of the length of the tooth from the fixed end."

@@ -19,6 +19,7 @@ from .description import Value
 from .errors import UsageError
 from .experiment import Run
 from .tooth_damage import damage_summary
+from .tooth_stress import tooth_summary
 
 
 def prepare_folder(folder: Path) -> None:
@@ -126,6 +127,7 @@ def summary(run: Run) -> dict[str, Any]:
         "parameters": dict(run.parameters),
         "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost},
         "events": {"collected": len(run.events), "lost": run.events_lost},
+        "tooth": tooth_summary(run.tooth),
         "fatigue": None if run.damage is None else damage_summary(run.damage, experiment.material),
         "compliance": compliance_summary(run.compliance),
         "units": run.units,

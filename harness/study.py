@@ -11,11 +11,13 @@ from pathlib import Path
 
 import pandas as pd
 
+from .accuracy import accuracy_findings
 from .checks import Check
 from .description import Description, Value
 from .drawing import read_drawing
 from .errors import FmuError, UsageError
 from .experiment import Experiment, Run, perform
+from .findings import Finding
 from .fmu import Fmu
 from .paper import BASE_CASE, SLOPE_ANGLES_DEG, TOOTH_COUNTS, study_checks
 from .results import settings, write_json, write_with_units
@@ -45,7 +47,8 @@ class Study:
         parameters: also calculated ones, and inputs at the start, by name, with their values for each wheel.
         base_case: the run of the wheel that Table 2 of the paper belongs to, in fine steps.
         warnings: what the FMU said, once for all that differ in their numbers only, with the wheels concerned.
-        checks: the paper's claims.
+        checks: the paper's claims about its results.
+        findings: what it says of its accuracy, weighed against other computations.
     """
 
     fmu: Path
@@ -56,6 +59,7 @@ class Study:
     base_case: Run
     warnings: tuple[str, ...]
     checks: tuple[Check, ...]
+    findings: tuple[Finding, ...]
 
 
 def ratchet_study(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> Study:
@@ -103,6 +107,7 @@ def ratchet_study(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> Study:
         base_case=runs[cases.index(BASE_CASE)],
         warnings=tuple(map(_told_once, warnings.values())),
         checks=study_checks(wheels),
+        findings=accuracy_findings(wheels),
     )
 
 
@@ -151,13 +156,14 @@ def write_study(study: Study, folder: Path) -> list[Path]:
     Raises:
         UsageError: the disk refuses.
     """
-    rows = [asdict(wheel) for wheel in study.wheels]
+    rows = [asdict(wheel) | {"slenderness": wheel.slenderness} for wheel in study.wheels]
     summary = {
         "versions": versions(study.fmu, study.description),
         "units": WHEEL_UNITS,
         "wheels": rows,
         "parameters": study.parameters,
         "checks": [asdict(check) for check in study.checks],
+        "findings": [asdict(finding) for finding in study.findings],
         "warnings": list(study.warnings),
     }
     units = {name: unit for name, unit in WHEEL_UNITS.items() if unit != "1"}

@@ -16,6 +16,7 @@ from rich.table import Table
 
 from .checks import Check
 from .errors import HarnessError, UsageError
+from .findings import Finding, Verdict
 from .messages import LogMessage, Status
 from .slave import Observable
 
@@ -26,6 +27,8 @@ FAILED, USAGE, INTERRUPTED = 1, 2, 130
 _PATIENCE = 2.0
 #: Nobody sees a bar move more often than this [s].
 _FLICKER = 0.1
+
+_VERDICT_STYLES = {Verdict.HOLDS: "green", Verdict.HOLDS_IN_PART: "yellow", Verdict.DOES_NOT_HOLD: "bold red"}
 
 #: No table is wider.
 _MOST_COLUMNS = 1000
@@ -61,6 +64,14 @@ def show_checks(checks: Iterable[Check]) -> None:
     for check in checks:
         mark = "[green]✓[/]" if check.passed else "[bold red]✗[/]"
         console.print(f"{mark} {escape(check.claim)}  [dim]{escape(check.evidence)}[/]", soft_wrap=True)
+
+
+def show_findings(heading: str, findings: Iterable[Finding]) -> None:
+    """What became of the claims of a source, one line each."""
+    console.print(f"[bold]{escape(heading)}[/]")
+    for finding in findings:
+        verdict = f"[{_VERDICT_STYLES[finding.verdict]}]{finding.verdict:<14}[/]"
+        console.print(f"{verdict} {escape(finding.claim)}  [dim]{escape(finding.evidence)}[/]", soft_wrap=True)
 
 
 def show_files(files: Sequence[Path]) -> None:

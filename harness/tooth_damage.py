@@ -10,9 +10,18 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from mechanism_fmu.stress import MaterialCard, Ringing, SequenceDamage, WedgeTooth, material_card, sequence_damage
+from mechanism_fmu.stress import (
+    MaterialCard,
+    Ringing,
+    SequenceDamage,
+    WedgeTooth,
+    beam_theory_note,
+    material_card,
+    sequence_damage,
+)
 
 from .errors import UsageError
+from .impacts import one_of_each_instant
 from .tooth_stress import as_fmu_error
 
 #: Units of the numbers of a `SequenceDamage`.
@@ -57,8 +66,7 @@ def card_of(name: str) -> MaterialCard:
 def damage_of_impacts(impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard) -> SequenceDamage | None:
     """What all impacts of a run do to one tooth; None without an impact.
 
-    All of them count for one tooth: v_I comes from the wheel's speed, which all its teeth share. See
-    docs/decisions/014.
+    All of them count for one tooth: the jump of the wheel's speed shakes all its teeth alike. See docs/decisions/014.
 
     Raises:
         FmuError: the FMU reports impacts that the stress model does not reach.
@@ -78,12 +86,8 @@ def stress_history(
 
 
 def _jolts(impacts: pd.DataFrame) -> tuple[pd.Series[float], pd.Series[float]]:
-    """Times and v_I of a table of impacts, ascending.
-
-    Impacts of several contacts at one instant are one change of the wheel's speed: the largest counts.
-    """
-    by_size = impacts.assign(size=impacts["velocity"].abs()).sort_values(["time", "size"], kind="stable")
-    jolts = by_size.drop_duplicates("time", keep="last")
+    """Times, ascending, and v_I with sign, once for each instant."""
+    jolts = one_of_each_instant(impacts).sort_values("time", kind="stable")
     return jolts["time"], jolts["velocity"]
 
 
@@ -107,14 +111,13 @@ def damage_row(damage: SequenceDamage, card: MaterialCard) -> list[str]:
     ]
 
 
-def damage_note(damage: SequenceDamage) -> str:
+def damage_note(damage: SequenceDamage, tooth: WedgeTooth) -> str:
     """What the numbers stand for, and whether they may be believed."""
     note = (
-        f"All impacts on one tooth that still rings from those before, at x/l = {damage.position:.4f}; two Ritz modes, "
-        "rainflow cycles, Goodman, Miner; smooth specimens, no notch at the root (docs/stress.md)."
+        "All jumps of the wheel's speed on one tooth that still rings from those before, at x/l = "
+        f"{damage.position:.4f}, by converged modes (the paper's two give 22 % less); rainflow cycles, Goodman, "
+        f"Miner; smooth specimens, no notch at the root (docs/stress.md). {beam_theory_note(tooth)}"
     )
-    if damage.impacts > 1:
-        note += " An upper bound where the wheel already turns when it is struck."
     if damage.yield_safety < 1:
         note += " The stress is beyond the yield strength: a tooth yields there, and these numbers no longer hold."
     return note

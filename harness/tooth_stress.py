@@ -5,21 +5,34 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from mechanism_fmu.stress import STEEL, Material, MaximumStress, WedgeTooth, bending_stress, maximum_stress
+from mechanism_fmu.stress import (
+    STEEL,
+    Material,
+    MaximumStress,
+    WedgeTooth,
+    beam_theory_note,
+    bending_stress,
+    maximum_stress,
+    slenderness,
+)
 
 from .description import Value
 from .errors import FmuError
+from .impacts import WHEEL_HELD, wheel_held
 
 #: The calculated parameters by which an FMU describes a tooth.
 TOOTH = ("tooth_length", "tooth_apex_angle")
 
-#: Units of the columns that `with_stress` adds to the table of impacts.
+#: Units of the numbers that `with_stress` adds to the table of impacts.
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
+#: Those of all columns that it adds; "": a text.
+STRESS_COLUMNS = STRESS_UNITS | {"remark": ""}
 
 _TIMES = 600
 _PLACES = 101
@@ -44,21 +57,44 @@ def tooth_of(parameters: Mapping[str, Value]) -> WedgeTooth | None:
         raise FmuError(f"The FMU's tooth_length and tooth_apex_angle describe no tooth: {error}") from error
 
 
-def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth, material: Material = STEEL) -> pd.DataFrame:
-    """The table of impacts with the largest bending stress after each.
+def tooth_summary(tooth: WedgeTooth | None) -> dict[str, Any] | None:
+    """The tooth as a beam, and how far beam theory covers it, ready for JSON; None without a tooth."""
+    if tooth is None:
+        return None
+    return {
+        "length": tooth.length,
+        "apex_angle": tooth.apex_angle,
+        "length_over_root_height": slenderness(tooth),
+        "beam_theory": beam_theory_note(tooth),
+    }
 
-    Adds `stress_max` [Pa], `stress_position` (x / length, from the root) and `stress_delay` [s] after the impact.
+
+def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth, material: Material = STEEL) -> pd.DataFrame:
+    """The table of impacts with the largest bending stress that each leaves, by |v_I| and the paper's two modes.
+
+    Adds `stress_max` [Pa], `stress_position` (x / length, from the root), `stress_delay` [s] after the impact, and
+    `remark`. Where the wheel is held, its teeth are not shaken: the remark says so, and there is no stress.
 
     Raises:
         FmuError: the FMU reports an impact that the stress model does not reach.
     """
     with as_fmu_error():
         found = [maximum_stress(tooth, material, abs(velocity)) for velocity in impacts["velocity"]]
-    return impacts.assign(
-        stress_max=[maximum.stress for maximum in found],
-        stress_position=[maximum.position for maximum in found],
-        stress_delay=[maximum.time for maximum in found],
-    )
+    held = wheel_held(impacts)
+    numbers = np.array([(maximum.stress, maximum.position, maximum.time) for maximum in found]).reshape(-1, 3)
+    numbers[held] = np.nan
+    added = pd.DataFrame(numbers, columns=list(STRESS_UNITS), index=impacts.index)
+    return impacts.assign(**added, remark=[WHEEL_HELD if one else "" for one in held])
+
+
+def worst_impact(impacts: pd.DataFrame) -> int | None:
+    """The place of the impact with the largest stress, of equal ones the first; None if none left any.
+
+    Args:
+        impacts: as of `with_stress`.
+    """
+    stress = impacts["stress_max"].to_numpy(dtype=np.float64)
+    return None if np.isnan(stress).all() else int(np.nanargmax(stress))
 
 
 @contextmanager

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from mechanism_fmu.stress import WedgeTooth
+from mechanism_fmu.stress import WedgeTooth, slenderness
 
-#: Units of the fields of `Wheel`.
+#: Units of the fields of `Wheel`, and of its slenderness.
 WHEEL_UNITS = {
     "tooth_count": "1",
     "tooth_slope_angle": "rad",
@@ -19,6 +19,7 @@ WHEEL_UNITS = {
     "stress_delay": "s",
     "tooth_length": "m",
     "tooth_apex_angle": "rad",
+    "slenderness": "1",
 }
 
 
@@ -59,6 +60,11 @@ class Wheel:
     def tooth(self) -> WedgeTooth:
         """What the pawl strikes."""
         return WedgeTooth(self.tooth_length, self.tooth_apex_angle)
+
+    @property
+    def slenderness(self) -> float:
+        """Length of the tooth over the height of its root [-]."""
+        return slenderness(self.tooth)
 
     def cells(self) -> list[str]:
         """A row of the printed table: teeth, beta_0 [deg], t_I [s], omega(t_I+) [rad/s], v_I [m/s], sigma_max [Pa]."""

@@ -74,7 +74,7 @@ STOP_PITCH = 1
 # contact_value columns
 RESTITUTION = 0
 FRICTION = 1
-BEAM_LENGTH = 2
+TOOTH_LENGTH = 2  # of the body `contact_toothed` [m]
 GUIDED = 3
 ENABLED = 4
 STARTS_CLOSED = 5
@@ -166,14 +166,16 @@ MEMBER_STRESS = 33
 BEAM_DEFLECTION = 34
 BEAM_STRESS = 35
 
-# columns of an impact record; behind them: impulse of every contact, then all rates before, then after
+# columns of an impact record; behind them: impulse of every contact, then all rates before the instant, then after it
 RECORD_TIME = 0
 RECORD_CONTACT = 1
 RECORD_TOOTH = 2
 RECORD_CLOSING_SPEED = 3
 RECORD_IMPULSE = 4
-RECORD_VELOCITY = 5
-RECORD_CONTACT_IMPULSES = 6
+RECORD_VELOCITY = 5  # l times the jump of the toothed body's rate
+RECORD_INSTANT = 6  # counts instants with impacts from 1: all records of one share jump, rates and energy
+RECORD_ENERGY = 7  # lost at this instant
+RECORD_CONTACT_IMPULSES = 8
 
 #: Impacts of one communication step that are kept, oldest first.
 IMPACT_BUFFER_LENGTH = 8
@@ -232,7 +234,8 @@ PILE = 9  # events that followed each other without progress
 RAMPING = 10  # 1 while an input has a slope
 RANK = 11  # of the active rows since the last event
 FALLING = 12  # 1 when `course.independence_end` was falling at STEP_END
-COUNTERS_LENGTH = 13
+COUNT_INSTANTS = 13  # with impacts, since the start
+COUNTERS_LENGTH = 14
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

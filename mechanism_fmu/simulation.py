@@ -39,12 +39,28 @@ class SimulationError(RuntimeError):
 
 
 class Impact(NamedTuple):
-    """An impact: time [s], name of the contact, normal closing speed before [m/s], impulse [N s]."""
+    """An impact of one contact.
+
+    All impacts of one instant, of several contacts or of several rounds, share `instant`, `velocity` and `energy_lost`:
+    who sums, sums once an instant.
+
+    Attributes:
+        time: [s].
+        contact: its name.
+        closing_speed: normal, before [m/s; rad/s of stops and locks].
+        impulse: normal [N s; N m s of stops and locks].
+        instant: counts instants with impacts, from 1.
+        velocity: v_I [m/s], length of the teeth times the jump of their body's speed; 0 without a body with teeth.
+        energy_lost: [J].
+    """
 
     time: float
     contact: str
     closing_speed: float
     impulse: float
+    instant: int
+    velocity: float
+    energy_lost: float
 
 
 class Event(NamedTuple):
@@ -214,6 +230,9 @@ class Simulation:
                 names[int(record[codes.RECORD_CONTACT])],
                 record[codes.RECORD_CLOSING_SPEED],
                 record[codes.RECORD_IMPULSE],
+                int(record[codes.RECORD_INSTANT]),
+                record[codes.RECORD_VELOCITY],
+                record[codes.RECORD_ENERGY],
             )
             for record in records
         ]

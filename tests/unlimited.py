@@ -31,12 +31,12 @@ STARTS = {
     "start": 0.0,
     "point": 0.5,
     "axis": 1.0,
+    "tooth_length": 0.1,
     "stiffness": 3.0,
     "damping": 0.5,
     "normal": -1.0,
     "restitution": 0.0,
     "row_restitution": 0.0,
-    "beam_length": 0.0,
     "enabled": 1.0,
     "pitch": 0.5,
     "limit": 1.0,
@@ -51,7 +51,9 @@ def _mechanism(values: SimpleNamespace) -> Mechanism:
     normal = (0.0, scaled.normal)
     return Mechanism(
         bodies=(
-            Body("arm", values.mass, scaled.inertia, (scaled.point, 0.0, scaled.start)),
+            Body(
+                "arm", values.mass, scaled.inertia, (scaled.point, 0.0, scaled.start), tooth_length=scaled.tooth_length
+            ),
             Body("slider {100 %}", scaled.mass, values.mass, (0.0, 0.0, 0.0), (scaled.start, 0.0, 0.0)),
         ),
         joints=(
@@ -72,7 +74,6 @@ def _mechanism(values: SimpleNamespace) -> Mechanism:
                 normal,
                 restitution=values.restitution,
                 friction=values.friction,
-                beam_length=scaled.beam_length,
                 guided=values.guided,
                 enabled=scaled.enabled,
             ),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
+import numpy as np
 import pandas as pd
 
 from ..description import Value
@@ -11,8 +13,8 @@ from ..tooth_damage import damage_of_impacts
 from ..tooth_stress import STRESS_UNITS, tooth_of, with_stress
 from .task import Task, When
 
-#: What tells the largest impact, the first of them that the FMU reports: v_I decides the stress.
-_SIZES = ("velocity", "closing_speed", "impulse")
+#: What makes an impact the largest, the first of them that there is.
+_SIZES = ("stress_max", "velocity", "closing_speed", "impulse")
 
 
 def wants_stress(task: Task) -> bool:
@@ -24,7 +26,7 @@ def wants_stress(task: Task) -> bool:
 
 
 def of_impacts(task: Task, table: pd.DataFrame, tooth_values: Mapping[str, Value]) -> dict[str, Value | None]:
-    """What is asked of the impacts, by column; None where there was no impact.
+    """What is asked of the impacts, by column; None where there was no impact, or no stress as the wheel was held.
 
     Args:
         task: of the design.
@@ -47,12 +49,17 @@ def of_impacts(task: Task, table: pd.DataFrame, tooth_values: Mapping[str, Value
     return {
         quantity.column: float(getattr(damage, quantity.name))
         if quantity.when is When.ALL_IMPACTS
-        else table[quantity.name].iloc[rows[quantity.when]].item()
+        else _number(table[quantity.name].iloc[rows[quantity.when]].item())
         for quantity in wanted
     }
 
 
+def _number(value: Value) -> Value | None:
+    """None for the stress of an impact in which the wheel is held."""
+    return None if isinstance(value, float) and math.isnan(value) else value
+
+
 def _largest(table: pd.DataFrame) -> int:
     """Where the largest impact stands; of equal ones the first."""
-    size = next((name for name in _SIZES if name in table), None)
-    return 0 if size is None else int(table[size].abs().to_numpy().argmax())
+    size = next((name for name in _SIZES if name in table and table[name].notna().any()), None)
+    return 0 if size is None else int(np.nanargmax(table[size].abs().to_numpy(dtype=np.float64)))

@@ -43,7 +43,7 @@ _MEANINGS = {
     When.MAX: "the largest at all communication points",
     When.MIN: "the smallest at all communication points",
     When.FIRST_IMPACT: "of the first impact",
-    When.LARGEST_IMPACT: "of the impact with the largest velocity",
+    When.LARGEST_IMPACT: "of the impact that leaves the largest stress (without a tooth: the fastest)",
     When.ALL_IMPACTS: "of all impacts together, on a tooth that still rings from those before",
     When.PARAMETER: "after the initialization",
 }

@@ -21,7 +21,7 @@ from ..numbers import shown
 from ..occupied import alone_in
 from ..results import write_json
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
-from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory
 
 
 def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
@@ -115,6 +115,7 @@ def _ending(fmu: Fmu, optimum: Optimum, history: History, best: Best, near_it: S
     ]
     which = "the best" if best.feasible else "the one that misses the constraints least"
     seen = seen_again(fmu, optimum.task, best.design if best.result.failure is None else None, which)
+    show_beam_theory(optimum.task, seen)
     files += [
         write_optimum_report(optimum, Found(best, near_it, history, table, seen), fmu, store.folder / "report.html"),
     ]

@@ -11,9 +11,12 @@ from pathlib import Path
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from mechanism_fmu.stress import beam_theory_note
+
 from ..clock import seconds
 from ..designs import sweep as sweeps
 from ..designs.in_motion import InMotion, in_motion
+from ..designs.of_impacts import wants_stress
 from ..designs.plan import Source, source
 from ..designs.task import Design, Task
 from ..designs.ways import BY_FMU, by_batch_in
@@ -148,6 +151,12 @@ def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fa
         ) from None
     with connected(scheduler) as client:
         yield partial(on_cluster, client, fmu.path, task, BY_FMU)
+
+
+def show_beam_theory(task: Task, seen: InMotion | None) -> None:
+    """Where stresses are asked for: whether beam theory covers the tooth of the design that is shown."""
+    if wants_stress(task) and seen is not None and seen.run is not None and seen.run.tooth is not None:
+        console.print(f"[dim]The tooth of the design in motion: {beam_theory_note(seen.run.tooth)}[/]", soft_wrap=True)
 
 
 def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:

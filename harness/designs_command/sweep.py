@@ -19,7 +19,7 @@ from ..fmu import Fmu
 from ..interrupt import interruption
 from ..occupied import alone_in
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
-from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory
 
 #: Failed designs that fit a terminal; the file has all.
 _MOST_SHOWN = 10
@@ -61,6 +61,7 @@ def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, tab
     console.print(f"{progress.total} designs, {new} of them run now, {progress.earlier} there before.")
     _show_ranges(sweep, table)
     seen = seen_again(fmu, sweep.task, *design_with_largest(sweep.task.quantities[0], sweep.designs, table))
+    show_beam_theory(sweep.task, seen)
     report = write_sweep_report(sweep, fmu, table, seen, store.folder / "report.html")
     failed = failures(table)
     show_files([store.table_file, store.identity_file, report])

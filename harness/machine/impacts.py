@@ -14,7 +14,7 @@ from ..description import Value
 from ..errors import FmuError, UsageError
 from ..slave import Observable
 from ..tooth_damage import damage_of_impacts
-from ..tooth_stress import STRESS_UNITS, TOOTH, tooth_of, with_stress
+from ..tooth_stress import STRESS_COLUMNS, TOOTH, tooth_of, with_stress
 from .component import Component
 from .machine import Machine
 from .watched import watched
@@ -119,7 +119,7 @@ class _Watch:
         self._counts_lost = _LOST in description.variables
         self._tells_tooth = description.variables.keys() >= set(TOOTH) and "velocity" in self._buffer.fields
         told = {field: variable.unit or "1" for field, variable in self._buffer.fields.items()}
-        self.units = told | (STRESS_UNITS if self._tells_tooth else {})
+        self.units = told | (STRESS_COLUMNS if self._tells_tooth else {})
         self.rows: list[list[Value]] = []
         self._lost = 0
         self._tooth: WedgeTooth | None = None

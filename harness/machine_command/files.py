@@ -19,6 +19,7 @@ from ..machine.statistics import STATISTICS_UNITS
 from ..report.machine_report import write_machine_report
 from ..results import write_json, write_text
 from ..tooth_damage import damage_summary
+from ..tooth_stress import tooth_summary
 
 #: What a run may leave in its folder.
 _NAMES = (*(f"results{suffix}" for suffix in FORMATS), "impacts.csv", "summary.json", "report.html")
@@ -108,5 +109,6 @@ def _component(run: MachineRun, name: str) -> dict[str, Any]:
         "start_values": dict(plan.values),
         "statistics": dict(run.statistics[name]),
         "impacts": None if struck is None else {"collected": len(struck.impacts), "lost": struck.lost},
+        "tooth": None if struck is None else tooth_summary(struck.tooth),
         "fatigue": damage,
     }

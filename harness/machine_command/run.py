@@ -6,6 +6,8 @@ from pathlib import Path
 
 from rich.markup import escape
 
+from mechanism_fmu.stress import beam_theory_note
+
 from ..errors import HarnessError
 from ..machine.bonds import HEADINGS as BOND_HEADINGS
 from ..machine.bonds import bond_rows
@@ -106,5 +108,7 @@ def _show_damage(run: MachineRun) -> None:
         if struck.damage is not None:
             row = damage_row(struck.damage, run.card)
             show_table(f"Fatigue of the tooth of {name}", DAMAGE_HEADINGS, [row], range(1, len(DAMAGE_HEADINGS)))
+            if struck.tooth is not None:
+                console.print(f"[dim]{escape(beam_theory_note(struck.tooth))}[/]", soft_wrap=True)
         if struck.objection:
             console.print(f"[yellow]Warning[/] ({escape(name)}): {escape(struck.objection)}", soft_wrap=True)

@@ -12,8 +12,9 @@ _NOTE = (
     "Crank and pawl give way: with the drive standing still, the wheel stays behind by the lost motion. The effective "
     "tooth resolution is pitch and lost motion: by so much the drive must move the wheel to gain a tooth. The contact "
     "force acts slowly; the impact is that with the largest force, F = v sqrt(k m), with m from impulse and closing "
-    "speed and k of the pawl alone, so an upper bound; crank and lost motion are those of the smaller force of pawl "
-    "and crank in a chain, by the same energy. Both are bars of constant section (models/ratchet/README.md)."
+    "speed and k of the pawl alone (crank and tooth would make it smaller); crank and lost motion are those of the "
+    "smaller force of pawl and crank in a chain, by the same energy. Both are bars of constant section "
+    "(models/ratchet/README.md)."
 )
 
 

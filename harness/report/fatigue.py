@@ -28,7 +28,7 @@ def fatigue_section(
     numbers = table(list(HEADINGS), [damage_row(damage, card)], numeric=range(1, len(HEADINGS)))
     sources = f"{card.text}. {'; '.join(card.sources)}."
     history = chart(_history(impacts, tooth, card, damage.position))
-    return section(heading, numbers, history, note=f"{damage_note(damage)} {sources}")
+    return section(heading, numbers, history, note=f"{damage_note(damage, tooth)} {sources}")
 
 
 def _history(impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard, position: float) -> dict[str, Any]:

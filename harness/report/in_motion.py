@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from mechanism_fmu.stress import beam_theory_note
+
 from ..designs.in_motion import InMotion
 from .animation import HEADING, animation
 from .page import section
@@ -11,5 +13,8 @@ def animation_of_design(seen: InMotion | None) -> str:
     """The section, with the reason when nothing can be seen; "" when the FMU has no drawing."""
     if seen is None:
         return ""
-    drawn = "" if seen.run is None else animation(seen.run, about=seen.told)
-    return drawn or section(HEADING, note=seen.told)
+    told = seen.told
+    if seen.run is not None and seen.run.tooth is not None:
+        told += f" Its tooth: {beam_theory_note(seen.run.tooth)}"
+    drawn = "" if seen.run is None else animation(seen.run, about=told)
+    return drawn or section(HEADING, note=told)

@@ -16,6 +16,7 @@ from .interactive import interactive
 from .machine_animation import in_power_flow
 from .page import chart, section, table
 from .plot import Curve, Plot
+from .severity import severity_section
 from .stress import stress_section
 from .style import IMPACT_COLOUR
 
@@ -61,6 +62,7 @@ def teeth_sections(run: MachineRun) -> list[str]:
             if struck.damage is not None:
                 heading = f"Fatigue of the tooth of {name}"
                 sections.append(fatigue_section(struck.impacts, struck.tooth, run.card, struck.damage, heading))
+            sections.append(severity_section(struck.impacts, run.units["impacts"]))
         sections.append(impacts_section(struck.impacts, run.units["impacts"], f"Impacts of {name}"))
     return sections
 

@@ -23,6 +23,7 @@ from .motion import motion_chart
 from .page import cards, chart, checks_list, page, section, table, versions_section
 from .parameters import Origin, Row, parameters_section
 from .phone import stacked
+from .severity import severity_section
 from .stress import stress_section
 
 
@@ -40,8 +41,14 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
-    body += [animation(run), _motion(run), _stress(run), _fatigue(run), compliance_section(run.compliance)]
-    body += [impacts_section(run.impacts, run.units["impacts"])]
+    body += [
+        animation(run),
+        _motion(run),
+        _stress(run),
+        _severity(run),
+        _fatigue(run),
+    ]
+    body += [compliance_section(run.compliance), impacts_section(run.impacts, run.units["impacts"])]
     body += [modes_section(run), events_section(run)]
     body += [_parameters(run), _messages(run), versions_section(versions(run.fmu, run.description))]
     return page(description.model, subtitle, [part for part in body if part])
@@ -62,7 +69,7 @@ def _key_figures(run: Run) -> list[tuple[str, str]]:
     figures.append(("first impact", f"{run.impacts['time'].iloc[0]:.7g} s"))
     if "velocity" in run.impacts:
         figures.append(("largest impact velocity", engineering(float(run.impacts["velocity"].abs().max()), "m/s")))
-    if "stress_max" in run.impacts:
+    if "stress_max" in run.impacts and run.impacts["stress_max"].notna().any():
         figures.append(("largest bending stress", engineering(float(run.impacts["stress_max"].max()), "Pa")))
     return figures
 
@@ -78,6 +85,10 @@ def _motion(run: Run) -> str:
 
 def _stress(run: Run) -> str:
     return "" if run.tooth is None else stress_section(run.impacts, run.tooth, run.experiment.material)
+
+
+def _severity(run: Run) -> str:
+    return severity_section(run.impacts, run.units["impacts"], run.logic.contacts)
 
 
 def _fatigue(run: Run) -> str:

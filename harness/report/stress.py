@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import pandas as pd
 
-from mechanism_fmu.stress import MaterialCard, WedgeTooth
+from mechanism_fmu.stress import MaterialCard, WedgeTooth, beam_theory_note
 
 from ..numbers import engineering
-from ..tooth_stress import StressField, stress_field
+from ..tooth_stress import StressField, stress_field, worst_impact
 from .interactive import interactive
 from .page import chart, charts, section
 from .plot import Curve, Plot
 from .style import COLOURS, IMPACT_COLOUR
+
+_HELD = (
+    "The wheel was held in every impact: its speed did not jump, so that its teeth do not ring. The push of the pawl "
+    "on the struck tooth's root is not in this stress."
+)
 
 
 def stress_section(
@@ -20,18 +25,18 @@ def stress_section(
     """The stress that the impact leaves which leaves the largest; "" without an impact."""
     if impacts.empty:
         return ""
-    worst = impacts.iloc[int(impacts["stress_max"].to_numpy().argmax())]
+    place = worst_impact(impacts)
+    if place is None:
+        return section(heading, note=_HELD)
+    worst = impacts.iloc[place]
     note = (
         f"The impact with the largest stress: t = {worst['time']:.9g} s, "
         f"v_I = {engineering(float(worst['velocity']), 'm/s')};"
         f" wedge of length {tooth.length * 1e3:.4g} mm and apex angle {tooth.apex_angle:.4g} rad,"
-        f" {card.name}, two Ritz modes."
+        f" {card.name}, the paper's two Ritz modes."
     )
-    if len(impacts) > 1:
-        note += (
-            " v_I is the paper's, wheel speed after the impact times tooth length, meant for a wheel that is struck at "
-            "rest: for later impacts on a wheel that already turns it is an upper bound, not the jump of the speed."
-        )
+    note += f" {beam_theory_note(tooth)}"
+    note += " v_I is the length of the tooth times the jump of the wheel's speed at that instant."
     plots = stress_plots(stress_field(tooth, worst["velocity"], card.material))
     return section(heading, charts(*(chart(interactive(plot, height=400)) for plot in plots)), note=note)
 

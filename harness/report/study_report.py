@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..accuracy import ACCURACY
+from ..findings import Finding
 from ..numbers import engineering
 from ..paper import BASE_CASE
 from ..results import write_text
@@ -17,6 +19,8 @@ from .interactive import interactive
 from .page import cards, chart, charts, checks_list, page, section, table, versions_section
 from .paper_figures import PaperFigure
 from .parameters import Origin, Row, parameters_section, range_shown
+
+_FINDINGS_NOTE = "Findings, not checks: this project computes what the paper computes, and says here how far that goes."
 
 
 def write_study_report(study: Study, figures: Sequence[PaperFigure], path: Path) -> Path:
@@ -40,6 +44,7 @@ def study_report(study: Study, figures: Sequence[PaperFigure]) -> str:
     body = [
         cards(key_figures),
         section("What the paper claims", checks_list(study.checks)),
+        section(ACCURACY, _findings_table(study.findings), note=_FINDINGS_NOTE),
         section("First impact of each wheel", _wheels_table(study.wheels)),
     ]
     for figure in figures:
@@ -53,6 +58,11 @@ def study_report(study: Study, figures: Sequence[PaperFigure]) -> str:
     return page("The paper's ratchet study", f"{study.fmu.name}  ·  first impact of each wheel", body)
 
 
+def _findings_table(findings: Sequence[Finding]) -> str:
+    rows = [[finding.claim, finding.verdict, finding.evidence] for finding in findings]
+    return table(("the paper says", "verdict", "numbers"), rows)
+
+
 def _wheels_table(wheels: Sequence[Wheel]) -> str:
     headings = (
         "teeth [1]",
@@ -64,6 +74,7 @@ def _wheels_table(wheels: Sequence[Wheel]) -> str:
         "at x/l [1]",
         "l [mm]",
         "α [deg]",
+        "l / root height [1]",
     )
     rows = [
         [
@@ -71,6 +82,7 @@ def _wheels_table(wheels: Sequence[Wheel]) -> str:
             f"{wheel.stress_position:.4f}",
             f"{wheel.tooth_length * 1e3:.3f}",
             f"{math.degrees(wheel.tooth_apex_angle):.3f}",
+            f"{wheel.slenderness:.3f}",
         ]
         for wheel in wheels
     ]

@@ -33,9 +33,8 @@ def contact_findings(contact: Contact) -> Iterator[Finding]:
         yield _unit(f"{label}: its normal", contact.normal)
     text = f"{label}: restitution = {{:g}} is outside 0..1."
     yield refuse_unless(within(contact.restitution, 0.0, 1.0), text, contact.restitution)
-    for what, value, unit in (("beam_length", contact.beam_length, " m"), ("friction", contact.friction, "")):
-        text = f"{label}: {what} = {{:g}}{unit} must be finite and not negative."
-        yield refuse_unless(finite_not_negative(value), text, value)
+    text = f"{label}: friction = {{:g}} must be finite and not negative."
+    yield refuse_unless(finite_not_negative(contact.friction), text, contact.friction)
     holds = ("guided", contact.guided)
     if isinstance(contact, HigherPair):
         holds = ("unilateral", contact.unilateral)

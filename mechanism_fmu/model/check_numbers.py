@@ -62,6 +62,9 @@ def _body(body: Body) -> Iterator[Finding]:
     for what, value, unit in (("mass", body.mass, "kg"), ("inertia", body.inertia, "kg.m2")):
         text = f"{label}: {what} = {{:g}} {unit}, but it must be positive and finite."
         yield refuse_unless(finite_positive(value), text, value)
+    if body.tooth_length is not None:
+        text = f"{label}: tooth_length = {{:g}} m, but it must be positive and finite; None is a body without teeth."
+        yield refuse_unless(finite_positive(body.tooth_length), text, body.tooth_length)
     start = (*body.start, *body.start_rate)
     text = f"{label}: start ({{:g}}, {{:g}}, {{:g}}) or start_rate ({{:g}}, {{:g}}, {{:g}}) is not finite."
     yield refuse_unless(finite(*start), text, *start)

@@ -10,11 +10,12 @@ closed, and `gap`, which is 0 then; the notation is that of `joints`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 from .. import codes
-from .body import Point
+from .body import Body, Point
 from .curves import Curve
 from .functions import Number
 from .joints import HigherPair
@@ -38,8 +39,6 @@ class PointLineContact:
         closed: whether assembly puts the point on the line.
         restitution: e of eq (4), 0..1. Below the engine's stick speed, and with 0, the contact stays closed.
         friction: coefficient of Coulomb friction along the line.
-        beam_length: length l of the struck tooth as a beam [m]; the impact velocity of the stress recovery is
-            v_I = l * (rate of `body_j` after the impact).
         guided: whether the contact, once closed, also pulls and never opens, as in the paper.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
         pattern: name of the `CircularPattern` that repeats the line around `body_j`, or None.
@@ -61,7 +60,6 @@ class PointLineContact:
     closed: Number = False
     restitution: Number = 0.0
     friction: Number = 0.0
-    beam_length: Number = 0.0
     guided: Number = False
     enabled: Number = True
     pattern: str | None = None
@@ -97,7 +95,6 @@ class AngleStop:
     profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
     closed: ClassVar[Number] = False
     friction: ClassVar[Number] = 0.0
-    beam_length: ClassVar[Number] = 0.0
     guided: ClassVar[Number] = False
     pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
@@ -139,7 +136,6 @@ class AngleLock:
     closed: ClassVar[Number] = False
     restitution: ClassVar[Number] = 0.0
     friction: ClassVar[Number] = 0.0
-    beam_length: ClassVar[Number] = 0.0
     guided: ClassVar[Number] = False
     pattern: ClassVar[str | None] = None
 
@@ -159,6 +155,20 @@ class AngleLock:
 def is_angular(contact: Contact) -> bool:
     """Whether a contact's gap is an angle, and its force a torque."""
     return contact.kind in (codes.ANGLE_STOP, codes.ANGLE_LOCK)
+
+
+def toothed_body(contact: Contact, bodies: Sequence[Body]) -> Body | None:
+    """The body whose teeth an impact of this contact shakes: of which its records give the impact velocity v_I.
+
+    It is the one with a `tooth_length` among the two that touch (body j, if both have teeth), or else the only one of
+    the mechanism: an impact elsewhere changes its speed through the joints. None: there is no such body, or there are
+    several and the contact is with none of them.
+    """
+    toothed = {body.name: body for body in bodies if body.tooth_length is not None}
+    for name in (contact.body_j, contact.body_i):
+        if name in toothed:
+            return toothed[name]
+    return next(iter(toothed.values())) if len(toothed) == 1 else None
 
 
 def too_deep(contact: Contact) -> tuple[str, str]:

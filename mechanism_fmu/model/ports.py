@@ -75,7 +75,8 @@ class Output:
             "energy.kinetic|spring|work|lost";
             "impact.count|in_step|lost|any"; "impact.<field>" of the last impact and "impacts[k].<field>" of the k-th
             (1..8) of the last communication step, with field one of time, contact, tooth, closing_speed, impulse,
-            velocity, "impulse:<contact>", "speed:<body>", "speed_before:<body>".
+            "impulse:<contact>", and, shared by all impacts of one instant: instant (a counter from 1), velocity (v_I of
+            the body with teeth [m/s]), energy_lost [J], "speed_before:<body>", "speed:<body>" (after).
         description: one line for the user.
         unit, display_unit, type: as of `Parameter`.
         nominal: typical magnitude in `unit`, or None.

@@ -49,6 +49,8 @@ _FIELDS = {
     "closing_speed": codes.RECORD_CLOSING_SPEED,
     "impulse": codes.RECORD_IMPULSE,
     "velocity": codes.RECORD_VELOCITY,
+    "instant": codes.RECORD_INSTANT,
+    "energy_lost": codes.RECORD_ENERGY,
 }
 _EVENT_FIELDS = {
     "time": codes.EVENT_TIME,

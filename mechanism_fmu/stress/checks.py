@@ -8,8 +8,8 @@ import numpy.typing as npt
 #: Any array of real numbers.
 FloatArray = npt.NDArray[np.float64]
 
-#: Largest impact velocity [m/s]; far beyond any beam theory, it only keeps the stress finite.
-_LARGEST_VELOCITY = 1e6
+#: Largest impact velocity [m/s], of either sign; far beyond any beam theory, it only keeps the stress finite.
+LARGEST_VELOCITY = 1e6
 
 
 def require_within(name: str, value: float, low: float, high: float, unit: str, advice: str) -> None:
@@ -33,9 +33,9 @@ def require_impact_velocity(value: float) -> None:
         "impact velocity",
         value,
         0.0,
-        _LARGEST_VELOCITY,
+        LARGEST_VELOCITY,
         "m/s",
-        "give the speed of the tooth's free end relative to its root just after the impact, without sign",
+        "give the tooth's length times the jump of the wheel's rate in the impact, without sign",
     )
 
 

@@ -60,11 +60,10 @@ class BendingField:
         """Stress of the outer fibre where one mode has eta = 1 [Pa/m], of shape (len(x), number of modes)."""
         return np.asarray((-self._youngs_modulus * self._tooth.outer_fibre(x) * self._curvatures(x)).T)
 
-    def stress_bound(self, x: FloatArray) -> FloatArray:
-        """Sum of the modes' largest stresses if they did not decay [Pa per m/s], of shape (len(x),)."""
+    def stress_bounds(self, x: FloatArray) -> FloatArray:
+        """Largest stress of each mode if it did not decay [Pa per m/s], of shape (len(x), number of modes)."""
         amplitudes = 1 / (self.frequencies * math.sqrt(1 - self.damping_ratio**2))
-        fibre = self._youngs_modulus * self._tooth.outer_fibre(x)
-        return np.asarray(fibre * (amplitudes @ np.abs(self._curvatures(x))))
+        return np.asarray(np.abs(self.modal_stress(x)) * amplitudes)
 
     def _bending(self, x: FloatArray, t: FloatArray) -> FloatArray:
         """Curvature w'' of the deflection of eq (16) [1/m per m/s], of shape (len(x), len(t))."""

@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from .beam import Beam
 from .checks import require_impact_velocity, require_within
+from .converged import WEDGE, converged_modes
 from .field import BendingField
 from .material import Material
 from .modes import ritz_modes
@@ -17,9 +18,6 @@ from .tooth import WedgeTooth
 
 #: With less damping there are thousands of nearly equal swings to compare, and with none there is no largest one.
 _LEAST_DAMPING = 1e-4
-
-#: As long as it is thick at its root.
-_WEDGE = WedgeTooth(length=1.0, apex_angle=math.pi / 4)
 
 
 @dataclass(frozen=True)
@@ -52,8 +50,10 @@ def maximum_stress(
     Args:
         tooth: the beam.
         material: what it is made of; here its damping ratio must be 1e-4 or more.
-        impact_velocity: v_I [m/s], >= 0: speed of the free end relative to the root just after the impact.
-        modes: the modes that take part; without them the two of `ritz_modes`, as in the paper.
+        impact_velocity: |v_I| [m/s], >= 0: the tooth's length times the jump of the wheel's rate in the impact,
+            l |omega_after - omega_before|. A turning tooth does not vibrate, only the jump of its rotation makes it.
+        modes: the modes that take part; without them the two of `ritz_modes`, as in the paper. `converged_modes` give
+            the stress of all modes.
 
     Raises:
         ValueError: when velocity or damping ratio is outside its limits or not a number, or `modes` is empty.
@@ -61,20 +61,31 @@ def maximum_stress(
     Source: Pennestrì, Valentini, Vita, eqs (13), (16) and section 5.1.
     """
     require_impact_velocity(impact_velocity)
-    if isinstance(tooth, WedgeTooth) and modes is None:
-        at_unit_velocity = _of_wedge(tooth, material)
-    else:
-        at_unit_velocity = _maximum_at_unit_velocity(tooth, material, modes)
-    return replace(at_unit_velocity, stress=at_unit_velocity.stress * impact_velocity)
+    found = _of_wedge(tooth, material, modes) if isinstance(tooth, WedgeTooth) else None
+    if found is None:
+        found = _maximum_at_unit_velocity(tooth, material, modes)
+    return replace(found, stress=found.stress * impact_velocity)
 
 
-def _of_wedge(tooth: WedgeTooth, material: Material) -> MaximumStress:
-    """That of one wedge tells those of all: A ~ 1 - xi and I ~ (1 - xi)^3, so that only the time scale differs.
+def _of_wedge(tooth: WedgeTooth, material: Material, modes: tuple[Mode, ...] | None) -> MaximumStress | None:
+    """What one wedge of E = rho = 1 says of all, for the paper's modes and the converged ones; None for others.
 
-    It is l^2 / (h sqrt(E / rho)) with the root's height h = l tan(alpha): l / tan(alpha), 1 for the reference wedge.
+    A ~ 1 - xi and I ~ (1 - xi)^3, so that only the scale of time differs. It is l^2 / (h sqrt(E / rho)) with the root's
+    height h = l tan(alpha): l / (tan(alpha) sqrt(E / rho)), 1 for the reference wedge.
     """
-    found = _maximum_at_unit_velocity(_WEDGE, material, None)
-    return replace(found, time=found.time * tooth.length / math.tan(tooth.apex_angle))
+    unit = Material(1.0, 1.0, material.damping_ratio)
+    if modes is None:
+        found = _maximum_at_unit_velocity(WEDGE, unit, None)
+    elif modes == converged_modes(tooth, material):
+        found = _maximum_at_unit_velocity(WEDGE, unit, converged_modes(WEDGE, unit))
+    else:
+        return None
+    slowness = math.sqrt(material.density / material.youngs_modulus)
+    return replace(
+        found,
+        stress=found.coefficient * math.sqrt(material.density * material.youngs_modulus),
+        time=found.time * slowness * tooth.length / math.tan(tooth.apex_angle),
+    )
 
 
 @lru_cache(maxsize=1024)

@@ -49,7 +49,8 @@ def bending_stress(
     Args:
         tooth: the beam.
         material: what it is made of.
-        impact_velocity: v_I [m/s], >= 0: speed of the free end relative to the root just after the impact.
+        impact_velocity: |v_I| [m/s], >= 0: the tooth's length times the jump of the wheel's rate in the impact,
+            l |omega_after - omega_before|.
         x: distances from the root [m], from 0 to the length of the tooth; a number or shape (n,).
         t: times since the impact [s], 0 to 1e9; a number or shape (m,).
         modes: the modes that take part; without them the two of `ritz_modes`, as in the paper.

@@ -10,21 +10,32 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from .audible import audible_stretches
 from .beam import Beam
-from .checks import FloatArray, require_all_within, require_within
+from .checks import LARGEST_VELOCITY, FloatArray, require_all_within, require_within
+from .converged import converged_modes
 from .field import BendingField
 from .material import Material
-from .modes import ritz_modes
 from .natural_mode import Mode
 
 ComplexArray = npt.NDArray[np.complex128]
 
-#: Points of a period of the fastest mode at which the slope of the stress is looked at. Two extremes between two of
-#: them would be missed; they would differ by next to nothing.
+#: Points of a period of the fastest mode still heard at which the slope of the stress is looked at. Two extremes
+#: between two of them would be missed; they would differ by next to nothing.
 _POINTS_OF_PERIOD = 24
+
+#: A mode is heard above this part of `silence`. Quieter ones belong to every value, but no longer set the pace.
+_HEARD = 1e-3
+
+#: The grid is looked at in blocks of rows of so many points: long ringing takes no more memory than short, and products
+#: of matrices this small wait for no threads of a BLAS.
+_ROWS, _POINTS_OF_ROW = 64, 64
 
 #: Ringing is followed until no swing exceeds this part of what the fastest impact alone can cause.
 RESOLUTION = 1e-2
+
+#: Extremes that are refined at once: enough that each costs little, and no more memory for long ringing.
+_ROOTS_AT_ONCE = 1000
 
 #: Steps of a regula falsi that bring an extreme from a cell of the grid to rounding.
 _REFINEMENTS = 8
@@ -32,7 +43,7 @@ _REFINEMENTS = 8
 #: As of `maximum_stress`: with less damping the ringing hardly ends.
 _LEAST_DAMPING = 1e-4
 
-_LATEST_TIME, _FASTEST = 1e12, 1e6
+_LATEST_TIME = 1e12
 
 
 class Swing(NamedTuple):
@@ -53,8 +64,10 @@ class Ringing:
         tooth: the beam.
         material: what it is made of; its damping ratio must be 1e-4 or more.
         times: of the impacts [s], ascending, equal ones allowed; shape (n,), n >= 1.
-        velocities: v_I of each impact [m/s], with sign; shape (n,).
-        modes: the modes that take part; without them the two of `ritz_modes`, as in the paper.
+        velocities: v_I of each impact [m/s], with sign: the tooth's length times the jump of the wheel's rate,
+            l (omega_after - omega_before); shape (n,). Velocities of one time add up, so the jump that several records
+            of one instant share must be given once.
+        modes: the modes that take part; without them `converged_modes`.
 
     Raises:
         ValueError: when there is no impact, times and velocities do not belong together, do not ascend or are not
@@ -75,7 +88,8 @@ class Ringing:
         advice = "with less, an impact is heard for thousands of swings"
         require_within("damping ratio", material.damping_ratio, _LEAST_DAMPING, 1.0, "", advice)
         self.length = tooth.length
-        self._field = BendingField(tooth, material, ritz_modes(tooth, material) if modes is None else modes)
+        self._field = BendingField(tooth, material, converged_modes(tooth, material) if modes is None else modes)
+        self._damping_ratio = material.damping_ratio
         decay = material.damping_ratio * self._field.frequencies
         self._damped: FloatArray = self._field.frequencies * math.sqrt(1 - material.damping_ratio**2)
         self._poles: ComplexArray = -decay + 1j * self._damped
@@ -132,37 +146,61 @@ class Ringing:
     def _extremes(self, modal: ComplexArray, until: float, silence: float) -> Iterator[tuple[float, float]]:
         """Delay [s] and value [Pa] of the extremes between an impact and the next, `until` [s] later.
 
-        The slope of the stress changes its sign between two points of a grid; there its root is refined by the Illinois
-        method, all of them at once.
+        The slope of the stress changes its sign between two points of a grid; there its root is refined.
         """
         until = min(until, self._over(modal, silence))
-        step = 2 * math.pi / float(self._damped.max()) / _POINTS_OF_PERIOD
-        grid = np.linspace(0.0, until, math.ceil(until / step) + 1)
+        if until <= 0:
+            return
         slopes = modal * self._poles
+        cells: list[FloatArray] = []
+        for times, values in self._blocks(slopes, np.abs(modal), _HEARD * silence, until):
+            changes = np.flatnonzero((values[:-1] > 0) != (values[1:] > 0))
+            cells.append(np.array([times[changes], times[changes + 1], values[changes], values[changes + 1]]))
+            if sum(cell.shape[1] for cell in cells) > _ROOTS_AT_ONCE:
+                yield from self._refined(modal, slopes, np.hstack(cells))
+                cells.clear()
+        if cells:
+            yield from self._refined(modal, slopes, np.hstack(cells))
 
-        def slope(t: FloatArray) -> FloatArray:
-            return self._sum(slopes, t)
-
-        values = slope(grid)
-        changes = np.flatnonzero((values[:-1] > 0) != (values[1:] > 0))
-        a, b, at_a, at_b = grid[changes], grid[changes + 1], values[changes], values[changes + 1]
+    def _refined(self, modal: ComplexArray, slopes: ComplexArray, cells: FloatArray) -> Iterator[tuple[float, float]]:
+        """Extremes in cells (begin, end, slope at begin, slope at end), by the Illinois method, all at once."""
+        a, b, at_a, at_b = cells
         for _ in range(_REFINEMENTS):
             rise = at_b - at_a
             middle = b - at_b * (b - a) / np.where(rise == 0.0, 1.0, rise)
-            value = slope(middle)
+            value = self._sum(slopes, middle)
             crossed = value * at_b < 0
             a, at_a = np.where(crossed, b, a), np.where(crossed, at_b, at_a / 2)
             b, at_b = middle, value
         yield from zip(b.tolist(), self._sum(modal, b).tolist(), strict=True)
 
+    def _blocks(
+        self, amplitudes: ComplexArray, loudness: FloatArray, threshold: float, until: float
+    ) -> Iterator[tuple[FloatArray, FloatArray]]:
+        """Grid from an impact to `until` [s] in blocks that begin where the one before ended, and `_sum` on it.
+
+        On a grid of equal steps exp(p t) is a product of one factor for each row and one for each place in it.
+        """
+        last_time, last_value = np.zeros(1), amplitudes.imag.sum(keepdims=True)
+        for stretch in audible_stretches(loudness, self._field.frequencies, self._damping_ratio, threshold, until):
+            count = math.ceil((stretch.end - stretch.begin) * stretch.frequency / (2 * math.pi) * _POINTS_OF_PERIOD)
+            step = (stretch.end - stretch.begin) / count
+            in_row = np.exp(np.multiply.outer(self._poles, step * np.arange(1, _POINTS_OF_ROW + 1)))
+            for first in range(0, count, _ROWS * _POINTS_OF_ROW):
+                indices = np.arange(first, min(first + _ROWS * _POINTS_OF_ROW, count))
+                rows = stretch.begin + step * indices[::_POINTS_OF_ROW]
+                of_row = amplitudes * np.exp(np.multiply.outer(rows, self._poles))
+                values = (of_row.real @ in_row.imag + of_row.imag @ in_row.real).ravel()[: len(indices)]
+                times = np.concatenate((last_time, stretch.begin + step * (indices + 1)))
+                yield times, np.concatenate((last_value, values))
+                last_time, last_value = times[-1:], values[-1:]
+
     def _sum(self, amplitudes: ComplexArray, t: FloatArray) -> FloatArray:
         """Sum over the modes of Im(amplitude exp(p t)), in the shape of `t`."""
-        # One mode at a time: a product of matrices this small waits longer for the threads of a BLAS than it works.
-        whole = np.zeros_like(t)
-        for amplitude, pole in zip(amplitudes, self._poles, strict=True):
-            phase = pole.imag * t
-            whole += np.exp(pole.real * t) * (amplitude.real * np.sin(phase) + amplitude.imag * np.cos(phase))
-        return whole
+        # No product of matrices: with ones this small it waits longer for the threads of a BLAS than it works.
+        phase = np.multiply.outer(self._poles.imag, t)
+        swing = amplitudes.real[:, None] * np.sin(phase) + amplitudes.imag[:, None] * np.cos(phase)
+        return np.asarray((np.exp(np.multiply.outer(self._poles.real, t)) * swing).sum(axis=0))
 
     def _places(self, x: npt.ArrayLike) -> FloatArray:
         places = np.atleast_1d(np.asarray(x, dtype=np.float64))
@@ -180,7 +218,8 @@ def _checked(times: npt.ArrayLike, velocities: npt.ArrayLike) -> tuple[FloatArra
             "time, at least one."
         )
     require_all_within("time of an impact", instants, -_LATEST_TIME, _LATEST_TIME, "s", "give times of the run")
-    require_all_within("impact velocity", jumps, -_FASTEST, _FASTEST, "m/s", "give v_I of each impact, with sign")
+    advice = "give the jump v_I of each impact, with sign"
+    require_all_within("impact velocity", jumps, -LARGEST_VELOCITY, LARGEST_VELOCITY, "m/s", advice)
     backwards = np.flatnonzero(np.diff(instants) < 0)
     if backwards.size:
         i = int(backwards[0])

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy.typing as npt
 
 from .beam import Beam
+from .converged import converged_modes
 from .fatigue import Cycle, MeanStress, Strength, effective_amplitude, rainflow_cycles
 from .material import Material
 from .maximum import maximum_stress
@@ -67,14 +68,15 @@ def sequence_damage(
         material: what it is made of; its damping ratio must be 1e-4 or more.
         strength: what that bears.
         times: of the impacts [s], ascending; shape (n,), n >= 1.
-        velocities: v_I of each impact [m/s], with sign; shape (n,).
-        position: xi of the section [-]; without it, where a single impact stresses the tooth most.
-        modes: the modes that take part; without them the two of `ritz_modes`, as in the paper.
+        velocities: v_I of each impact [m/s], with sign; shape (n,). As of `Ringing`: jumps, each counted once.
+        position: xi of the section [-]; without it, where a single impact stresses the tooth most with these modes.
+        modes: the modes that take part; without them `converged_modes`.
         mean_stress: how the mean of a cycle counts.
 
     Raises:
         ValueError: as of `Ringing`, or the position is not between 0 and 1.
     """
+    modes = converged_modes(tooth, material) if modes is None else modes
     ringing = Ringing(tooth, material, times, velocities, modes)
     if position is None:
         position = maximum_stress(tooth, material, 1.0, modes).position

@@ -1,7 +1,8 @@
 """What a blow does at the tip besides bending: axial stress along the tooth, and Hertz pressure at the contact.
 
 Rigid-body impacts have impulses, not forces. A force needs the duration of the contact, which nobody knows who has not
-measured it; `shortest_contact` bounds it from below, and so the force from above.
+measured it; `shortest_contact` is a very short one and gives a large force. Neither is a bound: an elastic striker may
+part sooner.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ _LARGEST_FORCE, _LARGEST_IMPULSE = 1e12, 1e9
 def shortest_contact(tooth: Beam, material: Material) -> float:
     """Time 2 l / c [s] in which a wave runs along the tooth and back, c = sqrt(E / rho).
 
-    A heavy striker leaves the end of a bar no earlier than the wave comes back from the other end and pushes it off.
+    A rigid striker leaves the end of a uniform bar no earlier than the wave comes back from the other end and pushes it
+    off. A tapered tooth throws parts of the wave back sooner, and an elastic striker brings its own waves.
 
     Source: W. Goldsmith, Impact (1960), longitudinal impact on rods.
     """
@@ -34,13 +36,15 @@ def peak_force(impulse: float, duration: float) -> float:
 
     Args:
         impulse: [N s], >= 0: of the blow, or its part along the tooth.
-        duration: of the contact [s]; `shortest_contact` gives an upper bound of the force.
+        duration: of the contact [s]; `shortest_contact` gives the force of a very short one.
 
     Raises:
         ValueError: when a value is outside its limits or not a number.
     """
     require_within("impulse", impulse, 0.0, _LARGEST_IMPULSE, "N s", "give its size, without sign")
-    require_within("duration of the contact", duration, 1e-12, 1e6, "s", "shortest_contact gives the least it can be")
+    require_within(
+        "duration of the contact", duration, 1e-12, 1e6, "s", "shortest_contact gives that of a very short one"
+    )
     return math.pi / 2 * impulse / duration
 
 

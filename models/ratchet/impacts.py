@@ -1,4 +1,4 @@
-"""What the ratchet tells of an impact and of an event, as fields of `mechanism_fmu.model.port_builders`."""
+"""What the ratchet reports of an impact and of an event, as fields of `mechanism_fmu.model.port_builders`."""
 
 from __future__ import annotations
 
@@ -10,8 +10,11 @@ _GUARDS = "0 gap closed, 1 force gone, 2 next tooth, 3 previous tooth, 4 click, 
 _MODE = "sum of 1 slope, 2 face, 4 holding pawl"
 
 
+_VELOCITY = "v_I of the stress recovery, tooth_length times the jump of the wheel's speed"
+
+
 def _speeds(moment: str, field: str) -> tuple[Output, ...]:
-    """Speeds of the bodies just before or after the last impact."""
+    """Speeds of the bodies just before or after the instant of the last impact."""
     suffix = field.removeprefix("speed")
     return tuple(
         speed_output(
@@ -21,29 +24,34 @@ def _speeds(moment: str, field: str) -> tuple[Output, ...]:
     )
 
 
-#: Of the last impact.
+#: Of the last impact. What all impacts of one instant share stands behind what is the contact's own.
 LAST_IMPACT = (
-    Output(
-        "velocity",
-        "velocity",
-        "v_I of the stress recovery for the {impact}: impact_wheel_speed times tooth_length",
-        "m/s",
-        nominal=1e-3,
-    ),
-    Output("closing_speed", "closing_speed", "Normal closing speed just before the {impact}", "m/s", nominal=0.1),
-    Output("impulse", "impulse", "Impulse on the struck contact at the {impact}", "N.s", nominal=0.01),
-    Output("slope_impulse", "impulse:slope", "Impulse on the tooth slope at the {impact}", "N.s", nominal=0.01),
-    *_speeds("after", "speed"),
-    *_speeds("before", "speed_before"),
     whole_output("tooth", "tooth", "Index of the tooth struck at the {impact}; -1 before the first"),
     whole_output("contact", "contact", f"{_CONTACTS} at the {{impact}}; -1 before the first"),
+    Output(
+        "closing_speed",
+        "closing_speed",
+        "Normal closing speed just before the {impact} (holding pawl: rad/s)",
+        "m/s",
+        nominal=0.1,
+    ),
+    Output("impulse", "impulse", "Impulse on the struck contact at the {impact}", "N.s", nominal=0.01),
+    Output("slope_impulse", "impulse:slope", "Impulse on the tooth slope at the {impact}", "N.s", nominal=0.01),
+    Output("energy_lost", "energy_lost", "Energy lost at the instant of the {impact}", "J", nominal=1e-4),
+    *_speeds("before", "speed_before"),
+    *_speeds("after", "speed"),
+    Output("velocity", "velocity", f"{_VELOCITY} at the {{impact}}", "m/s", nominal=1e-3),
 )
 
 #: Of each impact of the last communication step.
 IMPACT = (
     Output("time", "time", "Time of {impact}", "s"),
-    Output("velocity", "velocity", "Stress-recovery velocity v_I of {impact}", "m/s", nominal=1e-3),
-    Output("closing_speed", "closing_speed", "Normal closing speed of {impact}", "m/s", nominal=0.1),
+    whole_output("instant", "instant", "Number of the instant, the same for all its impacts, of {impact}"),
+    whole_output("tooth", "tooth", "Index of the tooth struck of {impact}"),
+    whole_output("contact", "contact", f"{_CONTACTS} of {{impact}}"),
+    Output(
+        "closing_speed", "closing_speed", "Normal closing speed of {impact} (holding pawl: rad/s)", "m/s", nominal=0.1
+    ),
     Output(
         "impulse",
         "impulse",
@@ -51,9 +59,10 @@ IMPACT = (
         "N.s",
         nominal=0.01,
     ),
-    speed_output("wheel_speed", "speed:wheel", "Wheel speed just after {impact}", nominal=0.1),
-    whole_output("tooth", "tooth", "Index of the tooth struck of {impact}"),
-    whole_output("contact", "contact", f"{_CONTACTS} of {{impact}}"),
+    Output("energy_lost", "energy_lost", "Energy lost at the instant of {impact}", "J", nominal=1e-4),
+    speed_output("wheel_speed_before", "speed_before:wheel", "Wheel speed before the instant of {impact}", nominal=0.1),
+    speed_output("wheel_speed", "speed:wheel", "Wheel speed after the instant of {impact}", nominal=0.1),
+    Output("velocity", "velocity", f"{_VELOCITY} at the instant of {{impact}}", "m/s", nominal=1e-3),
 )
 
 #: Of each event of the last communication step.

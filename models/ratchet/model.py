@@ -6,6 +6,7 @@ root of the tooth that is struck, so that its angle is psi. Equations and source
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
@@ -89,7 +90,9 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
             values.pawl_inertia,
             (pin.x + half_pawl * cos(gamma), pin.y + half_pawl * sin(gamma), gamma),
         ),
-        rotor_body(values, "wheel", (0.0, 0.0), values.wheel_angle_start),
+        replace(
+            rotor_body(values, "wheel", (0.0, 0.0), values.wheel_angle_start), tooth_length=tooth(values).beam_length
+        ),
     )
 
 
@@ -147,7 +150,6 @@ def _contacts(values: SimpleNamespace, tip: Point) -> tuple[Contact, ...]:
             geometry.face_normal,
             restitution=values.restitution,
             friction=values.friction,
-            beam_length=geometry.beam_length,
             guided=values.guided,
             pattern="teeth",
         ),

@@ -72,6 +72,8 @@ def test_other_designs_agree_with_the_plain_implementation(changes):
         assert impulses[2] == 0.0  # the holding pawl is a part of the free ratchet only
         rates = found[codes.RECORD_CONTACT_IMPULSES + 3 :]
         np.testing.assert_allclose(rates, [*expected.before, *expected.after], rtol=0, atol=1e-9)
+        jump = expected.after[-1] - expected.before[-1]
+        assert found[codes.RECORD_VELOCITY] == pytest.approx(simulation.read()["tooth_length"] * jump, abs=1e-10)
 
 
 def test_motion_does_not_depend_on_the_number_of_teeth_but_impulses_do():

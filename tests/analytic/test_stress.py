@@ -12,9 +12,16 @@ from mechanism_fmu.stress import STEEL, WedgeTooth, maximum_stress, ritz_modes
 
 TOOTH = WedgeTooth(length=0.033, apex_angle=0.61)
 
-# Wheel speed just after the impact [rad/s] by slope angle beta_0 [deg]: two independent integrations of the paper's
-# mechanism, with 9 redundant and with 3 minimal coordinates, which agree to 1e-14. It does not depend on the teeth.
-WHEEL_SPEED = {85: 0.0228046146, 90: 0.0227388573, 95: 0.0227178290, 100: 0.0227425265, 105: 0.0228158202}
+# Wheel speed just before and after the impact [rad/s] by slope angle beta_0 [deg]: two independent integrations of the
+# paper's mechanism, with 9 redundant and with 3 minimal coordinates, which agree to 1e-14. It does not depend on the
+# teeth. Before the impact the spring turns the wheel back a little.
+WHEEL_SPEEDS = {
+    85: (-0.000681458, 0.0228046146),
+    90: (-0.000779456, 0.0227388573),
+    95: (-0.000774514, 0.0227178290),
+    100: (-0.000672731, 0.0227425265),
+    105: (-0.000475511, 0.0228158202),
+}
 TOOTH_COUNTS = (10, 15, 20, 25)
 
 
@@ -54,7 +61,8 @@ def paper_tooth(tooth_count, slope_angle):
 
 def paper_maximum(tooth_count, slope_angle):
     tooth = paper_tooth(tooth_count, slope_angle)
-    return maximum_stress(tooth, STEEL, WHEEL_SPEED[slope_angle] * tooth.length)
+    before, after = WHEEL_SPEEDS[slope_angle]
+    return maximum_stress(tooth, STEEL, (after - before) * tooth.length)
 
 
 def test_two_term_frequencies_are_the_closed_forms():
@@ -109,19 +117,19 @@ def test_first_mode_alone_in_closed_form():
 
 @pytest.mark.parametrize(
     ("tooth_count", "slope_angle", "stress"),
-    [(10, 90, 15547.0), (20, 95, 6337.0), (25, 85, 2204.0), (10, 105, 22498.0)],
+    [(10, 90, 16080.32), (20, 95, 6552.67), (25, 85, 2270.30), (10, 105, 22966.82)],
 )
 def test_largest_stress_of_the_papers_cases(tooth_count, slope_angle, stress):
-    # The reference values are rounded to 1 Pa.
-    assert paper_maximum(tooth_count, slope_angle).stress == pytest.approx(stress, abs=0.5)
+    # The reference values are cut off after 0.01 Pa, which is 4e-6 of the smallest and 4e-7 of the largest.
+    assert 0.0 <= paper_maximum(tooth_count, slope_angle).stress - stress < 0.01
 
 
 def test_largest_stress_lies_at_about_40_percent_of_the_length():
-    for case in itertools.product(TOOTH_COUNTS, WHEEL_SPEED):
+    for case in itertools.product(TOOTH_COUNTS, WHEEL_SPEEDS):
         assert paper_maximum(*case).position == pytest.approx(0.40, abs=0.01)
 
 
 def test_largest_stress_falls_with_the_number_of_teeth_and_rises_with_the_slope_angle():
-    table = np.array([[paper_maximum(n, beta).stress for beta in WHEEL_SPEED] for n in TOOTH_COUNTS])
+    table = np.array([[paper_maximum(n, beta).stress for beta in WHEEL_SPEEDS] for n in TOOTH_COUNTS])
     assert np.all(np.diff(table, axis=0) < 0)
     assert np.all(np.diff(table, axis=1) > 0)

@@ -2,10 +2,21 @@
 
 import contextlib
 import io
+import math
+import re
 
 from pages import JOINTS, examples
 
-from mechanism_fmu.stress import CARDS
+from mechanism_fmu.stress import (
+    CARDS,
+    STEEL,
+    ModeScaling,
+    RectangularTooth,
+    TrapezoidTooth,
+    WedgeTooth,
+    maximum_stress,
+    natural_modes,
+)
 
 PAGE = JOINTS.parent / "stress.md"
 
@@ -30,3 +41,15 @@ def test_table_of_materials_is_that_of_the_cards():
         assert f"| `{card.name}` | {' | '.join(f'{n:.0f}' for n in numbers)} | {exponent} | " in text
         assert card.material.density == 7850.0
         assert card.material.damping_ratio == 0.03
+
+
+def test_table_of_convergence_is_what_the_modes_give():
+    rows = re.findall(r"^\| (\**\d+\**) \| (\S+) \| (\S+) \| (\S+) \|$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(rows) == 5
+    teeth = WedgeTooth(1.0, math.pi / 4), TrapezoidTooth(1.0, 1.0, 0.2), RectangularTooth(1.0, 1.0)
+    for row in rows:
+        count, *printed = (cell.strip("*") for cell in row)
+        n = int(count)
+        for tooth, number in zip(teeth, printed, strict=True):
+            modes = natural_modes(tooth, STEEL, min(2 * n, 60), scaling=ModeScaling.PROJECTION)[:n]
+            assert f"{maximum_stress(tooth, STEEL, 1.0, modes).coefficient:.6f}" == number

@@ -59,7 +59,13 @@ def test_impulses_and_energies_of_the_base_case(instance):
     assert one["impact_slope_impulse"] == pytest.approx(1.1321724809e-3, rel=1e-9)
     assert one["energy_lost"] == pytest.approx(2.71981107e-4 - 8.78293469e-6, rel=1e-7)
     assert abs(before) < 1e-15
-    assert one["impact_velocity"] == pytest.approx(0.0227388573 * one["tooth_length"], rel=1e-8)
+    jump = one["impact_wheel_speed"] - one["impact_wheel_speed_before"]
+    assert jump == pytest.approx(0.0227388573 + 0.000779456, abs=6e-10)
+    assert one["impact_velocity"] == pytest.approx(jump * one["tooth_length"], rel=1e-14)
+    assert one["impacts[1].velocity"] == one["impact_velocity"]
+    assert one["impacts[1].wheel_speed_before"] == one["impact_wheel_speed_before"]
+    assert one["impacts[1].instant"] == 1
+    assert one["impact_energy_lost"] == pytest.approx(one["energy_lost"], rel=1e-12)
 
 
 def test_restitution_of_one_half(instance):

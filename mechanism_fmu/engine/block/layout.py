@@ -113,6 +113,7 @@ FIELDS = (
     Field("tables", "contact_pattern", ("contacts",), True),
     Field("tables", "contact_function", ("contacts",), True),
     Field("tables", "contact_closes_when", ("contacts",), True),
+    Field("tables", "contact_toothed", ("contacts",), True),
     Field("tables", "contact_data", ("contacts", 6)),
     Field("tables", "contact_row_first", ("contacts",), True),
     Field("tables", "contact_alpha", ("contacts",), True),

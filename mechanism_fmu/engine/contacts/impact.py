@@ -60,7 +60,8 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     if outcome != status.OK:
         return False, outcome
     for k in range(n):
-        taking_part.rates_before[k] = rate[k]
+        if round_ == 0:
+            taking_part.rates_before[k] = rate[k]
         rate[k] += bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
     for c in range(table.mode.shape[0]):
         taking_part.impulse[c] = 0.0
@@ -100,6 +101,8 @@ def _cast(block: Array, struck: int, plastic: bool) -> bool:
                 taking_part.role[c] = KEPT
                 taking_part.target[c] = -rate
                 approached = approached or abs(rate) > RESTS_BELOW
+                if abs(rate) >= STICK_SPEED:  # switched on in motion, from either side; below, drift and rounding
+                    taking_part.closing[c] = abs(rate)
             continue
         touches = closed or c == struck or distance <= TOUCHES_WITHIN
         approaches = not closed and (rate < -RESTS_BELOW or (c == struck and guided and rate < 0.0))

@@ -11,33 +11,26 @@ from ..compiler.subset import jit, keep_small
 
 @jit
 def keep_impact(block: Array, contact: int) -> None:
-    """Record the impact of one contact from `strikes` and the rates at y_end.
+    """Record the impact of one contact from `strikes`; when the buffer is full, the oldest is lost.
 
-    When the buffer is full, the oldest is lost.
+    What all impacts of an instant share is known, and written, when they are over (`complete_impacts`).
     """
     keep_small()
-    n = sizes(block).coordinates
     table = contacts(block)
     now = course(block)
     taking_part = strikes(block)
-    rate = now.y_end[n:]
     record = now.last_impact
     record[codes.RECORD_TIME] = now.clock[codes.STEP_END]
     record[codes.RECORD_CONTACT] = contact
     record[codes.RECORD_TOOTH] = _copy(block, contact)
     record[codes.RECORD_CLOSING_SPEED] = taking_part.closing[contact]
     record[codes.RECORD_IMPULSE] = taking_part.impulse[contact]
-    record[codes.RECORD_VELOCITY] = 0.0
-    struck_body = table.body_j[contact]
-    if 3 * struck_body < n:
-        record[codes.RECORD_VELOCITY] = table.value[contact, codes.BEAM_LENGTH] * rate[3 * struck_body + 2]
+    record[codes.RECORD_INSTANT] = now.counters[codes.COUNT_INSTANTS] + 1.0
+    record[codes.RECORD_ENERGY] = 0.0
     first = codes.RECORD_CONTACT_IMPULSES
     for c in range(table.mode.shape[0]):
         record[first + c] = taking_part.impulse[c]
-    first += table.mode.shape[0]
-    for k in range(n):
-        record[first + k] = taking_part.rates_before[k]
-        record[first + n + k] = rate[k]
+    _share(block, record)
 
     now.counters[codes.COUNT_IMPACTS] += 1
     place = now.counters[codes.COUNT_IN_STEP]
@@ -49,6 +42,45 @@ def keep_impact(block: Array, contact: int) -> None:
         now.counters[codes.COUNT_IN_STEP] = place + 1
     for k in range(now.impacts.shape[1]):
         now.impacts[place, k] = record[k]
+
+
+@jit
+def complete_impacts(block: Array, made: int, energy: float) -> None:
+    """Write what all impacts of an instant share into each of its records, which are the last `made` ones.
+
+    These are the rates before its first round and after its last one, v_I, and the `energy` [J] that all of them lost.
+    """
+    keep_small()
+    now = course(block)
+    if made == 0:
+        return
+    now.counters[codes.COUNT_INSTANTS] += 1
+    kept: int = now.counters[codes.COUNT_IN_STEP]
+    for b in range(max(0, kept - made), kept):
+        _share(block, now.impacts[b])
+        now.impacts[b, codes.RECORD_ENERGY] = energy
+    _share(block, now.last_impact)
+    now.last_impact[codes.RECORD_ENERGY] = energy
+
+
+@jit
+def _share(block: Array, record: Array) -> None:
+    """Write rates before the instant, those at y_end, and v_I = l (rate after - rate before) of the toothed body."""
+    keep_small()
+    n = sizes(block).coordinates
+    table = contacts(block)
+    rate = course(block).y_end[n:]
+    before = strikes(block).rates_before
+    first = codes.RECORD_CONTACT_IMPULSES + table.mode.shape[0]
+    for k in range(n):
+        record[first + k] = before[k]
+        record[first + n + k] = rate[k]
+    contact = int(record[codes.RECORD_CONTACT])
+    toothed = table.toothed[contact]
+    record[codes.RECORD_VELOCITY] = 0.0
+    if toothed != codes.NONE:
+        turn = 3 * toothed + 2
+        record[codes.RECORD_VELOCITY] = table.value[contact, codes.TOOTH_LENGTH] * (rate[turn] - before[turn])
 
 
 @jit

@@ -20,7 +20,7 @@ from .complementarity import COUNT, push_forces
 from .copies import place_contact, place_pattern
 from .guards import can_open, gap
 from .impact import MOST_ROUNDS, strike
-from .records import keep_event, mode_number
+from .records import complete_impacts, keep_event, mode_number
 
 #: So many events within `PILE_TIME` [s] are no motion any more.
 MOST_PILED = 2000
@@ -52,6 +52,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     fired = struck
     impulse = 0.0
     hits = 0
+    earlier = now.counters[codes.COUNT_IMPACTS]
     settled = only_choose
     for round_ in range(MOST_ROUNDS):
         if settled:
@@ -64,6 +65,8 @@ def transit(block: Array, guard: int, subject: int) -> int:
             hits += 1
             impulse += _struck_impulse(block)
         struck = codes.NONE
+    lost = energy + now.y_end[2 * n] - work - kinetic_energy(inverse_mass, rate, n)
+    complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if not settled:
         return status.CHATTERING
     outcome = _settle(block, fired, only_choose, hits > 0)

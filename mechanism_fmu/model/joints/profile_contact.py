@@ -20,7 +20,6 @@ class ProfileContact:
     """
 
     friction: ClassVar[Number] = 0.0
-    beam_length: ClassVar[Number] = 0.0
     pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
 

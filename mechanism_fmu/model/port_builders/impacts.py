@@ -24,10 +24,14 @@ def impact_outputs(what: str, fields: Sequence[Output]) -> tuple[Output, ...]:
 
     Args:
         what: whose impacts, e.g. "Impacts of the driver on its backstop".
-        fields: what is told of each besides its time, with "{impact}" in the descriptions.
+        fields: what is told of each, with "{impact}" in the descriptions, besides its time, its instant (a counter: all
+            impacts of one instant have the same) and the energy that all impacts of this instant lost [J].
     """
     time = Output("time", "time", "Time, {impact}", "s")
-    return (*last_impact_outputs(what, fields), *impact_buffer_outputs((time, *fields)))
+    instant = whole_output("instant", "instant", "Number of the instant, the same for all its impacts, {impact}")
+    lost = Output("energy_lost", "energy_lost", "Energy lost at the instant, {impact}", "J")
+    fields = (*fields, lost)
+    return (*last_impact_outputs(what, fields), *impact_buffer_outputs((time, instant, *fields)))
 
 
 def last_impact_outputs(what: str, fields: Sequence[Output]) -> tuple[Output, ...]:

@@ -30,7 +30,7 @@ def test_values_of_the_wrong_number_or_type_are_refused(instance3):
 
     assert "8 values together, and 7 were given" in one.refusal(slave.getFloat64, [times], 7)
     assert "1 values together, and 2 were given" in one.refusal(slave.getFloat64, [crank], 2)
-    assert "There is no variable" in one.refusal(slave.getFloat64, [times + 7], 1)
+    assert "There is no variable" in one.refusal(slave.getFloat64, [times + 10], 1)  # impacts[2].time: of the array
     assert "There is no variable" in one.refusal(slave.getFloat64, [2**32 - 1])
     assert "There is no variable" in one.refusal(slave.getBoolean, [one.reference("impact_time") - 1])
     assert "of type Float64, not Int32" in one.refusal(slave.getInt32, [crank])

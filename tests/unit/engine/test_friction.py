@@ -8,6 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from touching import touching
 
+from mechanism_fmu import codes
 from mechanism_fmu.engine.dynamics.friction import SLIP_SPEED
 from mechanism_fmu.model import (
     GROUND,
@@ -254,7 +255,7 @@ def test_an_oblique_impact_of_a_spinning_disc(friction, restitution, speed, spin
 
 def codes_after(contacts):
     """Where the rates after the impact begin in a record of one body."""
-    return 6 + contacts + 3
+    return codes.RECORD_CONTACT_IMPULSES + contacts + 3
 
 
 @settings(deadline=None, max_examples=150)

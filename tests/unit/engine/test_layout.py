@@ -57,7 +57,7 @@ def test_sizes_that_follow_from_others():
     assert sizes["displacements"] == 3 * 4  # x, y and rotation of a node
     assert sizes["buffer"] == codes.IMPACT_BUFFER_LENGTH
     assert sizes["guards"] == 2 * 5 + 2 * 2 + 3  # gap and click of a contact, both ends of a pattern, functions
-    assert sizes["record"] == 6 + 5 + 12  # six columns, an impulse a contact, all rates before and after
+    assert sizes["record"] == 8 + 5 + 12  # eight columns, an impulse a contact, all rates before and after
 
 
 def test_fields_fill_the_block_behind_the_header_and_none_overlaps_another():

@@ -130,9 +130,9 @@ def test_an_impact_record_is_kept_of_what_strikes_only():
     record = simulation.field("impacts")[0]
     assert record[codes.RECORD_CONTACT] == SLOPE
     assert record[codes.RECORD_CLOSING_SPEED] == pytest.approx(C, rel=1e-12)
-    np.testing.assert_allclose(record[6:8], [MASS * S / C, MASS / C], rtol=1e-12)
-    np.testing.assert_allclose(record[8:14], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], atol=1e-15)
-    np.testing.assert_allclose(record[14:], 0.0, atol=1e-15)
+    np.testing.assert_allclose(record[8:10], [MASS * S / C, MASS / C], rtol=1e-12)
+    np.testing.assert_allclose(record[10:16], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], atol=1e-15)
+    np.testing.assert_allclose(record[16:], 0.0, atol=1e-15)
 
 
 def test_a_contact_that_does_not_exist_is_passed_over_and_the_next_still_counts():

@@ -90,8 +90,8 @@ def test_numbered_outputs_are_arrays(ratchet: ModelDescription) -> None:
     arrays = {v.name: v for v in ratchet.modelVariables if v.dimensions}
 
     assert {name: v.shape for name, v in arrays.items()} == {
-        **{f"impacts.{f}": (8,) for f in ("time", "velocity", "closing_speed", "impulse", "wheel_speed")},
-        **{f"impacts.{f}": (8,) for f in ("tooth", "contact")},
+        **{f"impacts.{f}": (8,) for f in ("time", "velocity", "closing_speed", "impulse", "energy_lost")},
+        **{f"impacts.{f}": (8,) for f in ("wheel_speed_before", "wheel_speed", "instant", "tooth", "contact")},
         **{f"events.{f}": (16,) for f in ("time", "guard", "subject", "old_mode", "new_mode", "impulse")},
     }
     assert all(v.valueReference == flat[name.replace(".", "[1].")] for name, v in arrays.items())
@@ -113,7 +113,13 @@ def test_what_describes_the_last_impact_is_clocked(ratchet: ModelDescription) ->
     clocked = {v.name for v in ratchet.modelVariables if v.clocks}
 
     assert all(v.clocks == [ratchet.modelVariables[-2]] for v in ratchet.modelVariables if v.clocks)
-    assert {"impact_time", "impact_velocity", "impact_tooth", "impact_wheel_speed_before"} <= clocked
+    assert {
+        "impact_time",
+        "impact_velocity",
+        "impact_tooth",
+        "impact_wheel_speed_before",
+        "impact_energy_lost",
+    } <= clocked
     assert all(name.startswith("impact_") for name in clocked)
     assert not clocked & {"impact_count", "impacts_in_step", "impacts_lost"}
 
@@ -147,7 +153,7 @@ def test_layout_tells_elements_and_strides_by_flat_index() -> None:
     layout = dict(zip((v.name for v in variables), array_layout(variables), strict=True))
 
     assert layout["wheel_angle"] == layout["impact_time"] == (1, 0)
-    assert layout["impacts[1].time"] == layout["impacts[1].contact"] == (8, 7)
+    assert layout["impacts[1].time"] == layout["impacts[1].contact"] == (8, 10)
     assert layout["events[1].guard"] == (16, 6)
     assert layout["impacts[2].time"] == layout["events[16].impulse"] == (0, 0)
     assert layout["impact"] == (0, 0)

@@ -73,7 +73,10 @@ REFUSALS = {
     "normal too long": ({"contacts": (replace(STOP, normal=(1.0, 1.0)),)}, ["'stop'", "1.41421", "unit vector"]),
     "restitution above one": ({"contacts": (replace(STOP, restitution=1.5),)}, ["'stop'", "1.5", "0..1"]),
     "restitution not a number": ({"contacts": (replace(STOP, restitution=math.nan),)}, ["'stop'", "nan", "0..1"]),
-    "negative beam": ({"contacts": (replace(STOP, beam_length=-0.1),)}, ["'stop'", "beam_length = -0.1 m"]),
+    "teeth of no length": (
+        {"bodies": (replace(ARM, tooth_length=0.0), SLIDER)},
+        ["'arm'", "tooth_length = 0 m", "positive", "None"],
+    ),
     "negative stiffness": ({"forces": (DRIVE, replace(SPRING, stiffness=-3.0))}, ["'spring'", "-3 N.m/rad"]),
     "infinite stiffness": ({"forces": (DRIVE, replace(SPRING, stiffness=math.inf))}, ["'spring'", "not finite"]),
     "joint point not finite": ({"joints": (replace(HINGE, point_i=(math.nan, 0.0)), GUIDE)}, ["'hinge'", "finite"]),

@@ -30,10 +30,11 @@ from mechanism_fmu.model import (
     Translational,
 )
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.model.contacts import toothed_body
 
 TABLES = compile_mechanism(
     Mechanism(
-        bodies=(Body("arm", 4.0, 0.25, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), Body("slider", 16.0, 1.0)),
+        bodies=(Body("arm", 4.0, 0.25, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), Body("slider", 16.0, 1.0, tooth_length=0.04)),
         joints=(
             Revolute("hinge", "arm", (1.0, 2.0), GROUND, (3.0, 4.0), 0.03),
             Translational("guide", "slider", (1.0, 2.0), (3.0, 4.0), "arm", (5.0, 6.0), (7.0, 8.0), 0.2),
@@ -46,7 +47,7 @@ TABLES = compile_mechanism(
             Force("weight", "arm", (-3.0, -4.0)),
         ),
         contacts=(
-            PointLineContact("rest", "arm", (1.0, 2.0), "slider", (3.0, 4.0), (0.6, 0.8), True, 0.5, 0.1, 0.04, True),
+            PointLineContact("rest", "arm", (1.0, 2.0), "slider", (3.0, 4.0), (0.6, 0.8), True, 0.5, 0.1, True),
             PointLineContact(
                 "stop",
                 "arm",
@@ -55,7 +56,6 @@ TABLES = compile_mechanism(
                 (3.0, 4.0),
                 (0.0, 1.0),
                 friction=0.3,
-                beam_length=0.02,
                 closed_while="not near",
             ),
             PointLineContact(
@@ -154,19 +154,32 @@ def test_contacts():
             [0.6, 0.7, 0, 0, 0, 0],
         ],
     )
-    columns = ["RESTITUTION", "FRICTION", "BEAM_LENGTH", "GUIDED", "ENABLED", "STARTS_CLOSED"]
+    columns = ["RESTITUTION", "FRICTION", "TOOTH_LENGTH", "GUIDED", "ENABLED", "STARTS_CLOSED"]
     values = TABLES.contact_value[:, [getattr(codes, name) for name in columns]]
     np.testing.assert_array_equal(
         values,
         [
             [0.5, 0.1, 0.04, 1, 1, 1],
-            [0, 0.3, 0.02, 0, 1, 0],
-            [0, 0, 0, 0, 0, 0],
-            [0.25, 0, 0, 0, 1, 0],
-            [0, 0, 0, 0, 1, 0],
-            [0, 0, 0, 0, 1, 0],
+            [0, 0.3, 0.04, 0, 1, 0],
+            [0, 0, 0.04, 0, 0, 0],
+            [0.25, 0, 0.04, 0, 1, 0],
+            [0, 0, 0.04, 0, 1, 0],
+            [0, 0, 0.04, 0, 1, 0],
         ],
     )
+
+
+def test_whose_teeth_an_impact_shakes():
+    """The body's with teeth that is touched (body j, if both have some), else the only one's there is."""
+    assert list(TABLES.contact_toothed) == [1] * 6  # also that of the arm's stop on the ground
+    plain, toothed = Body("a", 1.0, 1.0), Body("b", 1.0, 1.0, tooth_length=0.1)
+    other = replace(plain, name="c", tooth_length=0.2)
+    here, there, far = (
+        AngleStop("stop", body, reaction, 0.0) for body, reaction in (("c", "b"), ("b", GROUND), ("a", GROUND))
+    )
+    assert [toothed_body(stop, (plain, toothed, other)) for stop in (here, there, far)] == [toothed, toothed, None]
+    assert [toothed_body(stop, (plain, toothed)) for stop in (here, there, far)] == [toothed] * 3
+    assert toothed_body(far, (plain,)) is None
 
 
 def test_patterns_repeat_the_contacts_that_name_them():

@@ -16,6 +16,7 @@ from mechanism_fmu.stress import (
     Ringing,
     Strength,
     WedgeTooth,
+    converged_modes,
     material_card,
     maximum_stress,
     miner_damage,
@@ -172,13 +173,28 @@ def test_sign_of_all_impacts_does_not_matter():
     assert other.damage == pytest.approx(one.damage, rel=1e-12)
 
 
-def test_damage_by_a_history_sampled_finely():
+@pytest.mark.parametrize("modes", [ritz_modes(TOOTH, STEEL), None])
+def test_damage_by_a_history_sampled_finely(modes):
     times, velocities = np.array([0.0, 0.4, 3.0, 3.1]) * PERIOD, [20.0, -10.0, 30.0, 15.0]
-    found = sequence_damage(TOOTH, STEEL, STRENGTH, times, velocities, position=0.3, mean_stress=MeanStress.NONE)
+    none = MeanStress.NONE
+    found = sequence_damage(TOOTH, STEEL, STRENGTH, times, velocities, position=0.3, modes=modes, mean_stress=none)
     t = np.linspace(0.0, 45 * PERIOD, 45 * 2000)
-    history = Ringing(TOOTH, STEEL, times, velocities).stress(0.3 * TOOTH.length, t)[0]
-    assert found.damage == pytest.approx(miner_damage(rainflow_cycles(history), STRENGTH, MeanStress.NONE), rel=1e-4)
+    history = Ringing(TOOTH, STEEL, times, velocities, modes).stress(0.3 * TOOTH.length, t)[0]
+    assert found.damage == pytest.approx(miner_damage(rainflow_cycles(history), STRENGTH, none), rel=1e-4)
     assert found.stress == pytest.approx(np.abs(history).max(), rel=1e-5)
+
+
+def test_converged_modes_and_their_critical_section_are_the_default():
+    modes = converged_modes(TOOTH, STEEL)
+    found = sequence_damage(TOOTH, STEEL, STRENGTH, [0.0], [20.0])
+    maximum = maximum_stress(TOOTH, STEEL, 20.0, modes)
+    assert found == sequence_damage(TOOTH, STEEL, STRENGTH, [0.0], [20.0], modes=modes, position=maximum.position)
+    assert found.stress == pytest.approx(maximum.stress, rel=1e-10)
+    assert found.position == pytest.approx(0.714, abs=1e-3)
+    paper = sequence_damage(TOOTH, STEEL, STRENGTH, [0.0], [20.0], modes=ritz_modes(TOOTH, STEEL))
+    assert paper.position == pytest.approx(0.3956, abs=1e-4)
+    assert found.stress > 1.28 * paper.stress
+    assert found.fatigue_safety < paper.fatigue_safety
 
 
 def test_no_velocity_does_no_damage():

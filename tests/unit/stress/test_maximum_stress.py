@@ -109,6 +109,12 @@ def test_no_velocity_makes_no_stress_and_keeps_the_place():
     assert (still.position, still.time, still.coefficient) == (moving.position, moving.time, moving.coefficient)
 
 
+@given(velocity=st.floats(1e-6, 1e3), factor=st.floats(1e-15, 1.0))
+def test_stress_goes_to_zero_with_the_velocity(velocity, factor):
+    whole, part = maximum_stress(TOOTH, STEEL, velocity), maximum_stress(TOOTH, STEEL, factor * velocity)
+    assert part.stress == pytest.approx(factor * whole.stress, rel=1e-14)
+
+
 def test_scale_of_the_modes_matters():
     # docs/decisions/003-mode-scaling.md: with unit deflection of the tip the largest stress moves to the root.
     modes = tuple(

@@ -86,7 +86,7 @@ def test_single_numbers_count_as_one_place_and_one_time():
 @pytest.mark.parametrize("recover", [bending_moment, bending_stress])
 @pytest.mark.parametrize("velocity", [-0.1, math.nan, math.inf, -math.inf])
 def test_impossible_velocity_is_refused(recover, velocity):
-    with pytest.raises(ValueError, match=rf"^impact velocity = {velocity:g} m/s, but .*relative to its root"):
+    with pytest.raises(ValueError, match=rf"^impact velocity = {velocity:g} m/s, but .*jump of the wheel's rate"):
         recover(TOOTH, STEEL, velocity, 0.0, 0.0)
 
 

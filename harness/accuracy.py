@@ -1,0 +1,99 @@
+"""What the paper says of the accuracy of its tooth, against finite elements and against its own first mode.
+
+Source of the claims: Pennestrì, Valentini, Vita, section 5.1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from mechanism_fmu.stress import STEEL, maximum_stress, ritz_modes
+
+from .findings import Finding, verdict_of
+from .plane_teeth import PLACE, PlaneTooth, plane_teeth
+from .wheels import Wheel
+
+#: Heading of these findings.
+ACCURACY = "What the paper says of its accuracy"
+
+#: What passes for a small error of a frequency or a stress.
+_SMALL = 0.15
+#: And of a place along the tooth, x / l; "about 40 %" is met as well as that.
+_SMALL_SHIFT = 0.02
+#: Teeth of this shape are those of the finite elements.
+_SAME_SHAPE = 1e-6
+
+
+def accuracy_findings(wheels: Sequence[Wheel]) -> tuple[Finding, ...]:
+    """The paper's claims about its wedge, its beam and its modes.
+
+    The first two come from a file made by finite elements for the paper's teeth (harness/plane_teeth.csv); they are
+    left out when none of the wheels has such teeth.
+
+    Args:
+        wheels: of the study, one or more.
+    """
+    teeth = [tooth for tooth in plane_teeth() if any(_alike(tooth, wheel) for wheel in wheels)]
+    return (*((_wedge(teeth), _beam(teeth)) if teeth else ()), _second_mode(wheels[0]))
+
+
+def _alike(tooth: PlaneTooth, wheel: Wheel) -> bool:
+    numbers = (tooth.tooth_count, tooth.slope_angle_deg) == (wheel.tooth_count, wheel.slope_angle_deg)
+    return numbers and math.isclose(tooth.slenderness, wheel.slenderness, rel_tol=_SAME_SHAPE)
+
+
+def _wedge(teeth: Sequence[PlaneTooth]) -> Finding:
+    frequency = [-tooth.left_out for tooth in teeth]
+    static = [tooth.static_tooth / tooth.static_wedge - 1.0 for tooth in teeth]
+    impact = [tooth.impact_tooth / tooth.impact_wedge - 1.0 for tooth in teeth]
+    return Finding(
+        'A right-angled triangle stands for the tooth "without accuracy loss": what it leaves out "can be regarded as '
+        'rigid without introducing a great error"',
+        verdict_of([_small(frequency), _small(static), _small(impact)]),
+        f"finite elements (plane stress) of the teeth of {len(teeth)} wheels, whole tooth against wedge: first "
+        f"frequency {_percent(frequency)}; stress at x/l = {PLACE:g} {_percent(static)} under a given load, "
+        f"{_percent(impact)} after an impact (first mode); up to {_SMALL:.0%} counts as small",
+    )
+
+
+def _beam(teeth: Sequence[PlaneTooth]) -> Finding:
+    frequency = [tooth.beam_to_wedge_frequency - 1.0 for tooth in teeth]
+    static = [tooth.static_wedge - 1.0 for tooth in teeth]
+    stubby = sum(tooth.slenderness < 1.0 for tooth in teeth)
+    most = max(teeth, key=lambda tooth: tooth.beam_to_tooth_frequency)
+    return Finding(
+        'The tooth can be "modelled as a cantilever beam"',
+        verdict_of([_small(frequency), _small(static)]),
+        f"eq (15) is {_range(tooth.beam_to_wedge_frequency for tooth in teeth)} times the first frequency of the same "
+        f"wedge in plane stress, {_range(tooth.beam_to_tooth_frequency for tooth in teeth)} times that of the whole "
+        f"tooth (most at nt = {most.tooth_count}, beta_0 = {most.slope_angle_deg} deg); stress at x/l = {PLACE:g}, "
+        f"wedge in plane stress over beam: {_range(tooth.static_wedge for tooth in teeth)} under a given load, "
+        f"{_range(tooth.impact_wedge for tooth in teeth)} after an impact (first mode); length over root height "
+        f"{_range(tooth.slenderness for tooth in teeth)}, below 1 for {stubby} of {len(teeth)}",
+    )
+
+
+def _second_mode(wheel: Wheel) -> Finding:
+    modes = ritz_modes(wheel.tooth, STEEL)
+    one, two = (maximum_stress(wheel.tooth, STEEL, 1.0, modes[:number]) for number in (1, 2))
+    more, shift = two.stress / one.stress - 1.0, two.position - one.position
+    return Finding(
+        'The second mode "has a little effect"',
+        verdict_of([_small([more]), abs(shift) <= _SMALL_SHIFT]),
+        f"it changes sigma_max by {more:+.1%}, and moves its place from x/l = {one.position:.3f} to {two.position:.3f}"
+        '; the paper says "about 40 %"',
+    )
+
+
+def _small(errors: Iterable[float]) -> bool:
+    return all(abs(error) <= _SMALL for error in errors)
+
+
+def _percent(changes: Sequence[float]) -> str:
+    return f"{min(changes):+.1%} to {max(changes):+.1%}"
+
+
+def _range(values: Iterable[float]) -> str:
+    known = tuple(values)
+    return f"{min(known):.2f} to {max(known):.2f}"

@@ -1,0 +1,107 @@
+"""Impacts of one instant, held wheels, and the comparison of impacts in the report."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from harness.clock import TimeGrid
+from harness.designs.of_impacts import of_impacts
+from harness.designs.task import Quantity, Task, When
+from harness.impacts import WHEEL_HELD, one_of_each_instant, wheel_held
+from harness.numbers import engineering
+from harness.report.severity import severity_section
+from harness.report.stress import stress_section
+from harness.tooth_stress import STRESS_COLUMNS, with_stress, worst_impact
+from mechanism_fmu.stress import STEEL, STEEL_CARD, WedgeTooth, maximum_stress
+
+TOOTH = WedgeTooth(length=0.02, apex_angle=1.0)
+UNITS = {"time": "s", "closing_speed": "m/s", "impulse": "N.s", "energy_lost": "J", "velocity": "m/s"} | STRESS_COLUMNS
+
+#: The pawl's touch, the holding pawl that stops the wheel dead, and a blow on the face of a wheel that is held.
+TABLE = pd.DataFrame(
+    {
+        "time": [1.0, 2.0, 2.0, 3.0],
+        "instant": [1, 2, 2, 3],
+        "contact": [1, 2, 1, 0],
+        "closing_speed": [5e-6, 0.09, 0.01, 0.13],
+        "impulse": [7e-7, 3e-3, 1e-4, 6e-3],
+        "energy_lost": [2e-12, 1e-4, 1e-4, 4e-4],
+        "velocity": [2e-8, 8e-4, 8e-4, 1e-20],
+    }
+)
+
+
+def test_a_held_wheel_is_known_by_an_impulse_without_a_jump():
+    assert wheel_held(TABLE).tolist() == [False, False, False, True]
+    no_impulse = TABLE.assign(impulse=0.0)
+    assert not wheel_held(no_impulse).any()
+    assert not wheel_held(TABLE[["velocity"]]).any()
+
+
+def test_a_held_wheel_has_a_remark_and_no_stress():
+    found = with_stress(TABLE, TOOTH)
+    assert found["remark"].tolist() == ["", "", "", WHEEL_HELD]
+    assert math.isnan(found["stress_max"][3])
+    assert found["stress_max"][1] == maximum_stress(TOOTH, STEEL, 8e-4).stress
+    assert list(found.columns[-4:]) == list(STRESS_COLUMNS)
+    assert list(with_stress(TABLE.head(0), TOOTH).columns) == list(found.columns)
+
+
+def test_the_worst_impact_is_that_with_the_largest_stress_though_another_closes_faster():
+    found = with_stress(TABLE, TOOTH)
+    assert worst_impact(found) == 1
+    assert worst_impact(found.tail(1)) is None
+
+
+def test_records_of_one_instant_count_once():
+    assert one_of_each_instant(TABLE)["velocity"].tolist() == [2e-8, 8e-4, 1e-20]
+    assert len(one_of_each_instant(TABLE.drop(columns="instant"))) == 4
+
+
+@pytest.mark.parametrize(("rows", "stress"), [(slice(None), 8e-4), (slice(3, 4), None), (slice(0, 1), 2e-8)])
+def test_the_largest_impact_of_a_design_is_one_impact(rows, stress):
+    names = ("stress_max", "closing_speed", "contact")
+    quantities = tuple(Quantity(When.LARGEST_IMPACT, name, "Real", "") for name in names)
+    task = Task(TimeGrid.of(1.0, 0.1), {}, None, quantities, STEEL_CARD)
+    part = TABLE[rows].reset_index(drop=True)
+    found = of_impacts(task, part, {"tooth_length": TOOTH.length, "tooth_apex_angle": TOOTH.apex_angle})
+    if stress is None:
+        assert found["largest_impact.stress_max"] is None
+        return
+    place = part.index[part["velocity"] == stress][0]
+    assert found["largest_impact.stress_max"] == maximum_stress(TOOTH, STEEL, stress).stress
+    assert found["largest_impact.closing_speed"] == part["closing_speed"][place]
+    assert found["largest_impact.contact"] == part["contact"][place]
+
+
+def test_the_report_sets_the_measures_side_by_side():
+    page = severity_section(with_stress(TABLE, TOOTH), UNITS, ("slope", "face"))
+    most = maximum_stress(TOOTH, STEEL, 8e-4).stress
+    assert "Which impact stresses the tooth most" in page
+    for said in (
+        "closing speed, slope",
+        "closing speed, face",
+        "impulse, contact 2",
+        "energy lost",
+        WHEEL_HELD,
+        "100.0%",
+    ):
+        assert said in page
+    assert engineering(most, "Pa") in page
+    # The fastest contact, the largest impulse and the most energy belong to the impact that leaves no stress.
+    energy = page[page.index("<td>energy lost</td>") :]
+    assert energy.index(WHEEL_HELD) < energy.index("</tr>")
+
+
+def test_without_contacts_and_with_one_impact_only():
+    table = with_stress(TABLE.drop(columns=["contact", "impulse"]), TOOTH)
+    assert "closing speed, contact" not in severity_section(table, UNITS)
+    assert severity_section(table.head(1), UNITS) == ""
+    assert severity_section(pd.DataFrame({"time": np.zeros(3)}), {"time": "s"}) == ""
+
+
+def test_a_wheel_that_is_always_held_is_said_so():
+    table = with_stress(TABLE.tail(1), TOOTH)
+    assert "held in every impact" in stress_section(table, TOOTH, STEEL_CARD)
