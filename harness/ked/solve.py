@@ -33,6 +33,7 @@ from mechanism_fmu.elastodynamics import (
     quasi_static,
     shaking,
     stress_of,
+    system_forces,
     torque_fluctuation,
     turn,
     unlike_bodies,
@@ -140,6 +141,7 @@ def solved(turned: Turn, speed: float, damping: float, samples: int, fluctuation
         frequency_range=np.column_stack([modes.hertz.min(axis=0), modes.hertz.max(axis=0)]),
         critical=critical_speeds(modes, _HARMONICS),
         residual=response.residual,
+        jump=_jump(turned, moving),
         notes=(*unlike_bodies(cycle.configurations.linkage.mechanism), *notes),
     )
 
@@ -241,6 +243,15 @@ def _rigid(turned: Turn, order: npt.NDArray[np.int64], speed: float, fluctuation
         flywheel=None if wheel is None else replace(wheel, speed=wheel.speed[order]),
         flywheel_speeds=(speed, speed) if wheel is None else (float(wheel.speed.min()), float(wheel.speed.max())),
     )
+
+
+def _jump(turned: Turn, moving: FloatArray) -> float:
+    """The quasi-static deflection by the largest step of friction, in parts of the motion, measured as its residual."""
+    friction = system_forces(turned.cycle.configurations, turned.cycle.reactions.friction)
+    if not friction.any():
+        return 0.0
+    steps = np.linalg.solve(turned.equations.stiffness, np.diff(friction, axis=0)[:, :, None])[:, :, 0]
+    return turned.equations.size(steps) / turned.equations.size(moving)
 
 
 def _closed(u: FloatArray) -> FloatArray:

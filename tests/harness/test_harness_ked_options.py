@@ -233,6 +233,16 @@ def test_friction_and_flywheel_are_in_files_and_report(rubbing, native_four_bar_
     assert "Shaking moment about (0, 0) mm" in page
 
 
+@pytest.mark.parametrize("coefficient", [0.03, 0.3])
+def test_what_a_series_leaves_at_jumps_is_a_part_of_the_jump(coefficient, plain):
+    """As of any jump: a share of it that does not depend on its height, nor on the number of angles."""
+    turned = prepared(with_friction(described({}), coefficient, 0.005), SPEED, 0.02, 36)
+    found = solved(turned, SPEED, 0.02, 36)
+    assert found.residual / found.jump == pytest.approx(0.41, abs=0.02)
+    assert plain.jump == 0.0
+    assert any("Coulomb friction jumps" in note for note in found.notes)
+
+
 def test_the_report_shows_the_lightest_design(lightest, plain, native_four_bar_path_generator_fmu):
     with open_fmu(native_four_bar_path_generator_fmu) as fmu:
         turned = prepared(described({}), SPEED, 0.02, 36)
