@@ -1,7 +1,8 @@
 """Example 3.4.1 of the ME451 slides: gear 2 falls around gear 1, which is fixed to the ground.
 
 The slides give phi_1 = 0, theta_1 = pi/6, theta_2 = 7 pi/6, R_1 = 1, R_2 = 2 and ask for phi_2 when the line of
-centres, the carrier, stands vertically. They give neither mass nor time: `carried_gear` needs none, `falling_gear` takes a disc.
+centres, the carrier, stands vertically. They give neither mass nor time: `carried_gear` needs none, `falling_gear`
+takes a disc.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The worked examples of the ME451 slides, `mechanism_fmu.slides`: example 3.4.1, and the tangents of cam and roller."""
+"""The worked examples of the ME451 slides: example 3.4.1, and the tangents of cam and roller."""
 
 import cmath
 import math
