@@ -7,6 +7,7 @@ from .row import Found, Row, Verdict
 _KINEMATICS, _SIMULATION = "mechanism_fmu/kinematics/motion.py", "mechanism_fmu/simulation.py"
 _CYCLE, _SYNTHESIS = "mechanism_fmu/elastodynamics/cycle.py", "mechanism_fmu/elastodynamics/synthesis.py"
 _SEARCH = "harness/designs/search.py"
+_GLOSSARY = "docs/glossary.md"
 _KED = "mechanism-fmu ked four_bar_path_generator"
 
 #: Term, short definition, where it lives, what this project does, verdict, command.
@@ -78,8 +79,8 @@ _TERMS = (
         "dynamic-balancing",
         "Dynamic balancing",
         "the same with least shaking forces and moments",
-        "mechanism_fmu/elastodynamics/reactions.py",
-        "forces on the frame are reported, and can be minimised; no balancing masses are proposed",
+        "mechanism_fmu/elastodynamics/shaking.py",
+        "`ked` reports shaking force and moment; no balancing masses are proposed",
         Verdict.HOLDS_IN_PART,
         _KED,
     ),
@@ -100,7 +101,7 @@ _TERMS = (
         "`lightest`: least mass within limits of deviation and stress; the document's method is beyond the pages "
         "at hand",
         Verdict.HOLDS_IN_PART,
-        _KED,
+        f"{_KED} --synthesise --limit-deviation 1mm --limit-stress 60MPa",
     ),
     (
         "kineto-elastodynamics",
@@ -126,7 +127,9 @@ _FIGURES = (
 
 
 def _term(key: str, term: str, definition: str, code: str, does: str, verdict: Verdict, command: str) -> Row:
-    return Row(f"E-{key}", "definitions", f"{term}.", definition, (code,), lambda _b: Found(does, verdict), command)
+    return Row(
+        f"E-{key}", "definitions", f"{term}.", definition, (code, _GLOSSARY), lambda _b: Found(does, verdict), command
+    )
 
 
 def _figure(number: str, shows: str, file: str, verdict: Verdict) -> Row:
