@@ -122,7 +122,7 @@ def gears_falling() -> str:
     parts += [
         s.hinge(p_1),
         s.angle(p_1, 0.75, 0.0, MARK_1, "π/6", 16),
-        s.text(polar(p_1, CARRIER, MARK_1), "φ₂ = 0", 45, -30),
+        s.text(polar(p_1, CARRIER, MARK_1), "φ₂ = 0", 0, -62),
         s.text(polar(p_1, CARRIER, -math.pi / 2), "φ₂ = −π", -35, 40),
         s.text(p_1, "P^1", -24, -14),
         s.label(p_1, "dots: the mark θ₂ of gear 2", f'{NOTE} fill="{INK}"', 170, 260),

@@ -251,7 +251,7 @@ def _jump(turned: Turn, moving: FloatArray) -> float:
     if not friction.any():
         return 0.0
     steps = np.linalg.solve(turned.equations.stiffness, np.diff(friction, axis=0)[:, :, None])[:, :, 0]
-    return turned.equations.size(steps) / turned.equations.size(moving)
+    return turned.equations.size(np.asarray(steps, dtype=np.float64)) / turned.equations.size(moving)
 
 
 def _closed(u: FloatArray) -> FloatArray:
