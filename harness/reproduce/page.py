@@ -161,7 +161,7 @@ def frame(made: Reproduction) -> pd.DataFrame:
             "place": r.row.place,
             "says": r.row.says,
             "printed": r.row.printed,
-            "ours": r.found.ours,
+            "this_project": r.found.ours,
             "verdict": str(r.found.verdict),
             "worked": "; ".join(r.found.worked),
             "code": ", ".join(r.row.code),
