@@ -13,7 +13,7 @@ from .page import summary_rows
 from .perform import Reproduction
 from .row import Document, Result, Verdict
 
-_HEADINGS = ("id", "place", "what it says", "printed", "this project", "verdict", "shown by")
+_HEADINGS = ("id and place", "verdict", "what it says", "this project")
 _COLOURS = {
     Verdict.REPRODUCED: "#1b7f4b",
     Verdict.HOLDS: "#1b7f4b",
@@ -85,11 +85,14 @@ def _rows(results: Sequence[Result]) -> str:
     head = "".join(f"<th>{heading}</th>" for heading in _HEADINGS)
     lines = []
     for r in results:
-        texts = [f'<td id="{r.row.id}">{r.row.id}</td>']
-        texts += [f'<td class="long">{escape(text)}</td>' for text in (r.row.place, r.row.says, r.row.printed)]
-        texts.append(f'<td class="long">{escape(r.found.ours)}{_worked(r.found.worked)}</td>')
-        texts.append(f"<td>{_verdict(r)}</td><td><code>{escape(r.row.shown_by)}</code></td>")
-        lines.append(f"<tr>{''.join(texts)}</tr>")
+        said = f"{escape(r.row.says)}<br><small>Printed: {escape(r.row.printed)}</small>"
+        shown = (
+            f"{escape(r.found.ours)}<br><small><code>{escape(r.row.shown_by)}</code></small>{_worked(r.found.worked)}"
+        )
+        lines.append(
+            f'<tr><td id="{r.row.id}">{r.row.id}<br><small>{escape(r.row.place)}</small></td><td>{_verdict(r)}</td>'
+            f'<td class="long">{said}</td><td class="long">{shown}</td></tr>'
+        )
     return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{"".join(lines)}</tbody></table></div>'
 
 
