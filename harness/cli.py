@@ -323,9 +323,13 @@ def ked(
     limit_stress: Annotated[
         str | None, typer.Option(metavar="VALUE[UNIT]", help="In every member, e.g. '60 MPa'.", show_default=False)
     ] = None,
-    judge: Annotated[JudgedBy, typer.Option(help="The solution that must keep to the limits.")] = (
-        JudgedBy.ELASTODYNAMIC
-    ),
+    judge: Annotated[
+        JudgedBy,
+        typer.Option(
+            help="The solution that must keep to the limits; by the definitions of Erdman, Sandor and Oakberg, "
+            "quasi-static is elastodynamic analysis, and elastodynamic is kineto-elastodynamic analysis."
+        ),
+    ] = (JudgedBy.ELASTODYNAMIC),
     synthesise: Annotated[
         bool, typer.Option("--synthesise", help="Look for the lightest members within both limits.")
     ] = False,
@@ -362,8 +366,9 @@ def ked(
 ) -> None:
     """Bend a linkage over a turn of its crank at constant speed, and write cycle.csv, summary.json and report.html.
 
-    The links bend under the inertia of the rigid motion (quasi-statically), and in the periodic motion that follows
-    from it (elastodynamically): path deviation, stresses, natural frequencies, critical speeds, input torque, forces
+    The links bend under the inertia of the rigid motion (quasi-statically; Erdman, Sandor and Oakberg call it
+    elastodynamic analysis), and in the periodic motion that follows from it (elastodynamically; theirs is
+    kineto-elastodynamic analysis): path deviation, stresses, natural frequencies, critical speeds, input torque, forces
     in the joints, shaking force and shaking moment on the frame. The FMU is built, too, and its elastic outputs are
     compared. See docs/ked.md.
 

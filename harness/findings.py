@@ -8,11 +8,20 @@ from enum import StrEnum
 
 
 class Verdict(StrEnum):
-    """Whether a claim of a source holds."""
+    """What became of something that a source says."""
 
+    REPRODUCED = "reproduced"
+    ANSWERED = "answered"
+    REDRAWN = "redrawn"
     HOLDS = "holds"
     HOLDS_IN_PART = "holds in part"
     DOES_NOT_HOLD = "does not hold"
+    MISPRINT = "misprint"
+    ASSUMPTION = "assumption that fails"
+    TAKEN_OVER = "taken over"
+    CHOICE = "choice"
+    NOT_DETERMINED = "not determined"
+    FAILED = "FAILED"
 
 
 @dataclass(frozen=True)

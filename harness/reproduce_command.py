@@ -14,7 +14,7 @@ from .fmu import Fmu, open_fmu
 from .occupied import alone_in
 from .reproduce.bench import Bench
 from .reproduce.figures import write_figures
-from .reproduce.page import FIGURE_FOLDER, frame, markdown, summary_rows
+from .reproduce.page import FIGURE_FOLDER, frame, judgements, markdown, summary_rows
 from .reproduce.perform import Reproduction, chosen, perform
 from .reproduce.report import write_reproduce_report
 from .reproduce.row import Document, Row
@@ -62,7 +62,8 @@ def _show(made: Reproduction) -> None:
         headings = ["verdict", *(document.short for document in Document)]
         rows = [line[:-1] for line in summary_rows(made)]
         show_table("Rows by verdict", headings, rows, numeric=(1, 2, 3))
-        console.print(f"{len(made.errata)} errata with proof, {len(made.choices)} choices.")
+        lists = f"{len(made.misprints)} misprints and {len(made.assumptions)} assumptions that fail, with proof"
+        console.print(f"{judgements(made)} {lists}, {len(made.choices)} choices.", soft_wrap=True)
         shown = made.failed
     else:
         shown = made.everything

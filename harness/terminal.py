@@ -29,6 +29,7 @@ _PATIENCE = 2.0
 _FLICKER = 0.1
 
 _VERDICT_STYLES = {Verdict.HOLDS: "green", Verdict.HOLDS_IN_PART: "yellow", Verdict.DOES_NOT_HOLD: "bold red"}
+_PLAIN = "cyan"
 
 #: No table is wider.
 _MOST_COLUMNS = 1000
@@ -70,7 +71,7 @@ def show_findings(heading: str, findings: Iterable[Finding]) -> None:
     """What became of the claims of a source, one line each."""
     console.print(f"[bold]{escape(heading)}[/]")
     for finding in findings:
-        verdict = f"[{_VERDICT_STYLES[finding.verdict]}]{finding.verdict:<14}[/]"
+        verdict = f"[{_VERDICT_STYLES.get(finding.verdict, _PLAIN)}]{finding.verdict:<14}[/]"
         console.print(f"{verdict} {escape(finding.claim)}  [dim]{escape(finding.evidence)}[/]", soft_wrap=True)
 
 

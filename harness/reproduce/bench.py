@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import pandas as pd
 
 import build_fmu
 from mechanism_fmu import codes
@@ -66,10 +67,12 @@ class Bench:
     Args:
         fmu: gives the ratchet's FMU.
         report: called with what is done and the fraction done, while the study runs.
+        drawings: SVG texts by the names of their figures, as they are drawn.
     """
 
     fmu: Callable[[], Fmu]
     report: Callable[[str, float], None] = field(default=lambda _text, _done: None)
+    drawings: dict[str, str] = field(default_factory=dict)
 
     @cached_property
     def study(self) -> Study:
@@ -99,6 +102,16 @@ class Bench:
         if run.outcome.error is not None:
             raise run.outcome.error
         return run
+
+    @cached_property
+    def first_impacts(self) -> dict[tuple[int, int], pd.Series]:
+        """The FMU's own record of the first impact of each wheel, by nt and beta_0 [deg]."""
+        found = {}
+        for wheel in self.study.wheels:
+            case = wheel.tooth_count, wheel.slope_angle_deg
+            run = self.run(AFTER_IMPACT, 0.4, tooth_count=case[0], tooth_slope_angle=math.radians(case[1]))
+            found[case] = run.impacts.iloc[0]
+        return found
 
     @cached_property
     def ratchet(self) -> Mechanism:

@@ -32,6 +32,13 @@ class Figure:
     draw: Callable[[Bench], str]
 
 
+def drawing_of(figure: Figure, bench: Bench) -> str:
+    """The SVG text of a figure, drawn once."""
+    if figure.name not in bench.drawings:
+        bench.drawings[figure.name] = figure.draw(bench)
+    return bench.drawings[figure.name]
+
+
 def _paper(number: int) -> Callable[[Bench], str]:
     def draw(bench: Bench) -> str:
         return svg_text(paper_figures(bench.study)[number].plots)

@@ -6,7 +6,7 @@ import math
 
 from .bench import CRANK, HINGES, PAWL, PHI, PSI, RADIUS, tooth
 from .drawing import ACCENT, FILL, GREY, INK, SOFT, Point, View, label, polar, sheet
-from .pennestri_ratchet import alpha_star, gamma_on_slope
+from .geometry import alpha_star, gamma_on_slope
 
 _DEG = math.pi / 180
 

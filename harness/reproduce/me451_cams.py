@@ -16,8 +16,9 @@ from mechanism_fmu.slides import (
 )
 
 from .bench import Bench
-from .me451_gears import SLIDES, drawn
+from .me451_gears import SLIDES
 from .me451_joints import PARTS, two_bodies
+from .redrawn import redrawn_joint
 from .row import Found, Row, Verdict, judged, within
 
 
@@ -34,6 +35,7 @@ def _tangents(_bench: Bench) -> Found:
         1e-12,
         "g₁ = ρ' e + ρ R e with ρ' = ¾ sin 3α up to 2π/3, 0 beyond; g₂ = ¼ R e; the rows of CamFollower have the same",
         *worked,
+        verdict=Verdict.ANSWERED,
     )
 
 
@@ -70,7 +72,7 @@ def _convex(_bench: Bench) -> Found:
     widest = math.degrees(report.hollows[0][1] - report.hollows[0][0])
     return judged(
         not report.convex,
-        f"the slides' own cam is not convex: hollow over {widest:.2f}° beside each join (erratum X-cam)",
+        f"the slides' own cam is not convex: hollow over {widest:.2f}° beside each join (assumption X-cam)",
         f"curvature {-1 / report.hollow_radius:.4f} in the hollow, {1 / report.tip_radius:.4f} at the nose",
         "not needed: α stays single-valued while ρ > 0; a roller smaller than 0.8 fits, a flat face bridges the hollow",
         verdict=Verdict.DOES_NOT_HOLD,
@@ -143,18 +145,23 @@ ROWS = (
         "The cam with its roller.",
         "drawing lost",
         ("docs/joints/slides_cam.svg",),
-        lambda _bench: drawn("slides_cam.svg"),
+        lambda _bench: redrawn_joint("slides_cam.svg"),
     ),
     Row(
         "S-fig3.4.10",
-        "Figs 3.4.10 to 3.4.12",
-        "Flat-faced follower, engine valve, pin in a slot.",
+        "Figs 3.4.10, 3.4.12",
+        "Flat-faced follower, pin in a slot.",
         "drawings lost",
         ("docs/joints/cam_flat_follower.svg", "docs/joints/point_follower.svg"),
-        lambda _bench: Found(
-            "redrawn: docs/joints/cam_flat_follower.svg and point_follower.svg; not the engine of 3.4.11",
-            Verdict.HOLDS_IN_PART,
-        ),
+        lambda _bench: redrawn_joint("cam_flat_follower.svg", "point_follower.svg"),
+    ),
+    Row(
+        "S-fig3.4.11",
+        "Fig. 3.4.11",
+        "Flat-faced follower in an engine.",
+        "drawing lost",
+        ("docs/joints/cam_flat_follower.md",),
+        lambda _bench: Found("no sizes of the engine are in the text; not drawn", Verdict.NOT_DETERMINED),
     ),
     Row(
         "S-gj",

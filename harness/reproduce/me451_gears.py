@@ -34,6 +34,7 @@ from mechanism_fmu.slides import (
 
 from .bench import Bench
 from .me451_joints import PARTS, two_bodies
+from .redrawn import redrawn_joint
 from .row import Found, Row, Verdict, judged, within
 
 GEARS, SLIDES = "mechanism_fmu/model/joints/gears.py", "mechanism_fmu/slides"
@@ -100,8 +101,9 @@ def _example(_bench: Bench) -> Found:
         max(abs(gear[-1] - by_hand), abs(gear[-1] + math.pi), abs(above - math.pi / 2), abs(gear[0])),
         1e-9,
         f"φ₂ = {math.degrees(gear[-1]):.6f}° = −π, gear 2 below gear 1 (+π/2 if it stood above)",
-        f"carrier from {math.degrees(carrier[0]):.4f}° to {math.degrees(carrier[-1]):.4f}°; by hand "
-        f"φ₂ = (3θ − π/6)/2 − 7π/6 + π = {by_hand:.9f} rad",
+        f"carrier from {math.degrees(carrier[0]):.4f}° to {math.degrees(carrier[-1]):.4f}°; by hand φ₂ = (3θ − π/6)/2 "
+        f"− 7π/6 + π = {by_hand:.9f} rad",
+        verdict=Verdict.ANSWERED,
     )
 
 
@@ -114,8 +116,9 @@ def _falls(_bench: Bench) -> Found:
         max(abs(fall.bottom_gear + math.pi), abs(abs(fall.bottom_speed) / speed - 1)),
         1e-6,
         f"φ₂ = {math.degrees(fall.bottom_gear):.4f}° when it first passes below, at {abs(fall.bottom_speed):.5f} rad/s",
-        f"as a disc with 9.81 m/s²: {fall.bottom_time:.5f} s; speed from energy {speed:.5f} rad/s; "
-        "mass and gravity are not on the slides, φ₂ does not depend on them",
+        f"as a disc with 9.81 m/s²: {fall.bottom_time:.5f} s; speed from energy {speed:.5f} rad/s; mass and gravity "
+        "are not on the slides, φ₂ does not depend on them",
+        verdict=Verdict.ANSWERED,
     )
 
 
@@ -200,11 +203,6 @@ def _book(_bench: Bench) -> Found:
     )
 
 
-def drawn(file: str) -> Found:
-    """The finding of a figure that stands on a joint's page."""
-    return Found(f"redrawn: docs/joints/{file}", Verdict.REPRODUCED)
-
-
 ROWS = (
     Row(
         "S-eq1",
@@ -238,7 +236,7 @@ ROWS = (
         "Geometry of a gear set.",
         "drawing lost",
         ("docs/joints/gears.svg",),
-        lambda _bench: drawn("gears.svg"),
+        lambda _bench: redrawn_joint("gears.svg"),
     ),
     Row(
         "S-fig3.4.4",
@@ -246,7 +244,7 @@ ROWS = (
         "Concave–convex gears.",
         "drawing lost",
         ("docs/joints/internal_gears.svg",),
-        lambda _bench: drawn("internal_gears.svg"),
+        lambda _bench: redrawn_joint("internal_gears.svg"),
     ),
     Row(
         "S-fig3.4.5",
@@ -254,7 +252,7 @@ ROWS = (
         "Rack and pinion.",
         "drawing lost",
         ("docs/joints/rack_and_pinion.svg",),
-        lambda _bench: drawn("rack_and_pinion.svg"),
+        lambda _bench: redrawn_joint("rack_and_pinion.svg"),
     ),
     Row(
         "S-rack-limit",

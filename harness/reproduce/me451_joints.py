@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -29,7 +30,8 @@ from mechanism_fmu.model.joints import Joint
 
 from .bench import Bench
 from .differences import joint_deviations
-from .row import Found, Row, Verdict
+from .me451_by_hand import PLACED
+from .row import Found, Row, Verdict, judged
 
 JOINTS = "mechanism_fmu/model/joints"
 ROWS_OF_JOINTS = "mechanism_fmu/engine/constraints/joints"
@@ -39,6 +41,8 @@ _LIMIT = 1e-6
 _EGG = harmonic_profile(1.0, (0.1, 0.05), (0.02,))
 
 _A, _B = (0.3, -0.2), (-0.25, 0.4)
+#: Q of the rack, on its pitch line through _A [m].
+_Q = (0.3 + 0.6 * math.cos(0.2), -0.2 + 0.6 * math.sin(0.2))
 
 
 def two_bodies(part: Joint | Contact) -> Mechanism:
@@ -58,14 +62,27 @@ PARTS: dict[str, Joint | Contact] = {
     "revolute-translational": RevoluteTranslational("part", "i", _A, (0.2, 1.0), "j", _B, 0.7),
     "gears": Gears("part", "i", 0.5, 0.3, "j", 0.9, 3.3, _A, _B),
     "internal-gears": InternalGears("part", "i", 1.9, 0.3, "j", 0.6, 0.4, _A, _B),
-    "rack": RackAndPinion("part", "i", _A, (0.9, 0.1), 0.2, "j", 0.5, 1.1, _B),
+    "rack": RackAndPinion("part", "i", _A, _Q, 0.2, "j", 0.5, 1.1, _B),
     "cam": CamFollower("part", "i", _EGG, "j", circle(0.25), _A, _B),
     "flat": CamFlatFollower("part", "i", _EGG, "j", _B, (0.3, -1.0), _A),
     "point": PointFollower("part", "i", _A, "j", _EGG, _B),
 }
 
 
-def five_steps(kind: str, removed: int) -> Callable[[Bench], Found]:
+def phi_by_hand(equations: Equations, kind: str) -> float:
+    """The largest Phi of a joint in positions that are made by hand; infinite if the same numbers do not move it.
+
+    A seventh position, off by a thousandth in y of body j, must not close it.
+    """
+    place, free = PLACED[kind]
+    positions = [place([1.1 * math.sin(k + 2.3 * n) for n in range(free)]) for k in range(6)]
+    largest = max(float(np.abs(equations.at(q, 0.0).residual).max()) for q in positions)
+    beside = [q + 1e-3 * np.eye(len(q))[4] for q in positions]
+    opened = max(float(np.abs(equations.at(q, 0.0).residual).max()) for q in beside)
+    return largest if opened > 1e-5 else math.inf
+
+
+def five_steps(kind: str, removed: int, verdict: Verdict = Verdict.ANSWERED) -> Callable[[Bench], Found]:
     """The finding of a joint that removes so many degrees of freedom between two bodies."""
 
     def find(_bench: Bench) -> Found:
@@ -75,32 +92,33 @@ def five_steps(kind: str, removed: int) -> Callable[[Bench], Found]:
         # any state will do: the rows need not be closed where they are compared
         q = equations.start + 0.05 * np.sin(1.0 + np.arange(count))
         rate, acceleration = np.cos(2.0 * np.arange(count)), np.sin(3.0 + np.arange(count))
-        deviations = joint_deviations(equations, q, rate, acceleration)
+        deviations = (phi_by_hand(equations, kind), *joint_deviations(equations, q, rate, acceleration))
         contact = count - 6
         freedom = mobility(mechanism).degrees_of_freedom
-        names = ("Φ_q", "ν", "γ")
+        names = ("Φ", "Φ_q", "ν", "γ")
         bad = [name for name, off in zip(names, deviations, strict=True) if not off <= _LIMIT]
         rows = f"{len(equations.rows)} row{'s' if len(equations.rows) > 1 else ''}"
         alphas = f", contact coordinates {', '.join(c.split('.')[1] for c in equations.coordinates[6:])}"
         right = not bad and 6 - freedom == removed
         wrong = "" if right else f"; off: {', '.join(bad) or 'degrees of freedom'}"
-        return Found(
+        return judged(
+            right,
             f"{rows}{alphas if contact else ''}; removes {6 - freedom} degree{'s' if freedom != 5 else ''} of "
-            f"freedom; Φ_q, ν, γ = differences of Φ to 10⁻⁶{wrong}",
-            Verdict.REPRODUCED if right else Verdict.FAILED,
-            (
-                "1 allows, 2 Φ, 3 Φ_q, 4 ν, 5 γ stand in the docstring and on the joint's page",
-                "sizes of the parts: harness/reproduce/me451_joints.py; two bodies in general position, moving at "
-                "random",
-            ),
+            "freedom; Φ = 0 in 6 positions made by hand from what the slides say; Φ_q, ν, γ = differences of Φ to "
+            f"10⁻⁶{wrong}",
+            "1 allows, 2 Φ, 3 Φ_q, 4 ν, 5 γ stand in the docstring and on the joint's page",
+            "sizes: harness/reproduce/me451_joints.py; positions: me451_by_hand.py; two bodies moving at random",
+            verdict=verdict,
         )
 
     return find
 
 
-def _joint(key: str, place: str, says: str, printed: str, file: str, removed: int) -> Row:
+def _joint(
+    key: str, place: str, says: str, printed: str, file: str, removed: int, verdict: Verdict = Verdict.ANSWERED
+) -> Row:
     code = (f"{JOINTS}/{file}.py", f"{ROWS_OF_JOINTS}/{file.removeprefix('internal_')}.py", f"docs/joints/{file}.md")
-    return Row(f"S-{key}", place, says, printed, code, five_steps(key, removed))
+    return Row(f"S-{key}", place, says, printed, code, five_steps(key, removed, verdict))
 
 
 _STEPS = "steps 1 to 5 asked, not answered"
@@ -117,7 +135,7 @@ ROWS = (
         "revolute_translational",
         1,
     ),
-    _joint("gears", "Gears, eq (2)", "Convex–convex.", "Φ = (r_j^P − r_i^P)ᵀ u⊥ = 0", "gears", 1),
+    _joint("gears", "Gears, eq (2)", "Convex–convex.", "Φ = (r_j^P − r_i^P)ᵀ u⊥ = 0", "gears", 1, Verdict.REPRODUCED),
     _joint(
         "internal-gears",
         "Fig. 3.4.4",

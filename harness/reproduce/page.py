@@ -35,25 +35,34 @@ mechanism-fmu reproduce P-eq7 E-eq13 S-3.4.1        # some rows only, with their
 ```
 
 What is at hand are the documents' texts, without their drawings, and of Erdman, Sandor and Oakberg only the first
-pages, which end with eq (14).
+pages, which end with eq (14). Commands that name `build/Ratchet.fmu` need it built: `mechanism-fmu build ratchet`.
+
+A verdict follows from a calculation of this run, and becomes FAILED when the numbers do not bear it out. Where an
+asterisk stands behind it, it is a judgement by a person who read the document: there is nothing to calculate, or the
+calculation says how much and not whether.
 """
 
 _MEANINGS = {
     Verdict.REPRODUCED: "the printed equation or number comes out, calculated in another way than it is stated",
+    Verdict.ANSWERED: "a question, a task or a joint that the document names and leaves open: worked out, checked",
+    Verdict.REDRAWN: "the drawing is lost; drawn from text and tables, flow charts from what the program does",
     Verdict.HOLDS: "a claim that is true, with numbers",
     Verdict.HOLDS_IN_PART: "true, but not all of it, or not all of it can be compared",
     Verdict.DOES_NOT_HOLD: "a claim that is not true",
-    Verdict.ERRATUM: "what is printed cannot be right; see Errata",
+    Verdict.MISPRINT: "what is printed cannot be right; see Misprints",
+    Verdict.ASSUMPTION: "what the document assumes or leaves unsaid is not so; see Assumptions that fail",
     Verdict.TAKEN_OVER: "data, definitions and assumptions: used as printed",
     Verdict.NOT_DETERMINED: "what it would take to compare is not at hand; the reason is given",
 }
+#: Behind a verdict that no calculation stands behind.
+_JUDGEMENT = "\\*"
 
 
 def markdown(made: Reproduction) -> str:
     """The page; of some rows only, one with their worked numbers."""
     if not made.whole:
         return "# Some rows of the papers reproduced\n\n" + "\n".join(_worked(result) for result in made.everything)
-    parts = [_INTRODUCTION, _summary(made), _errata(made), _choices(made)]
+    parts = [_INTRODUCTION, _summary(made), _misprints(made), _assumptions(made), _choices(made)]
     for document, title in _TITLES.items():
         parts += [f"## {title}\n", _rows(made.of(document)), _figures(document, made.figures)]
     return "\n".join(part for part in parts if part)
@@ -64,10 +73,10 @@ def summary_rows(made: Reproduction) -> list[list[str]]:
     shown = [verdict for verdict in Verdict if verdict is not Verdict.CHOICE]
     lines = []
     for verdict in shown:
-        counts = [_count(made.of(document), verdict) for document in Document]
+        counts = [_count(made.weighed(document), verdict) for document in Document]
         if any(counts):
             lines.append([str(verdict), *map(str, counts), _MEANINGS.get(verdict, "")])
-    totals = [str(len(made.of(document))) for document in Document]
+    totals = [str(len(made.weighed(document))) for document in Document]
     return [*lines, ["all", *totals, ""]]
 
 
@@ -75,23 +84,33 @@ def _count(results: Iterable[Result], verdict: Verdict) -> int:
     return sum(result.found.verdict is verdict for result in results)
 
 
+def judgements(made: Reproduction) -> str:
+    """How many verdicts are judgements, in words."""
+    weighed = [result for document in Document for result in made.weighed(document)]
+    by_person = sum(not result.found.calculated for result in weighed)
+    return f"{by_person} of {len(weighed)} verdicts are judgements by a person, the others follow from calculations."
+
+
 def _summary(made: Reproduction) -> str:
     headings = ["verdict", *(document.short for document in Document), "which means"]
-    return f"## Summary\n\n{_table(headings, summary_rows(made), right=(1, 2, 3))}"
+    return f"## Summary\n\n{_table(headings, summary_rows(made), right=(1, 2, 3))}\n{judgements(made)}\n"
 
 
-def _errata(made: Reproduction) -> str:
-    parts = [
-        "## Errata\n",
-        "What is printed, why it cannot be right, and what this project takes; all numbers are calculated.\n",
-    ]
-    for result in made.errata:
-        row, found = result.row, result.found
-        parts.append(f"**{row.id}** {row.place}: {row.says} Printed: {row.printed}.")
-        parts.append(f"{_capital(found.ours)}.\n")
-        parts += [f"- {line}" for line in found.worked]
-        parts.append(f"- shown by `{row.shown_by}`\n")
-    return "\n".join(parts)
+def _misprints(made: Reproduction) -> str:
+    note = "What is printed, why it cannot be right, and what this project takes; all numbers are calculated.\n"
+    return "\n".join(["## Misprints\n", note, *map(_proof, made.misprints)])
+
+
+def _assumptions(made: Reproduction) -> str:
+    note = "Nothing is misprinted here, but what is assumed or left unsaid is not so; all numbers are calculated.\n"
+    return "\n".join(["## Assumptions that fail\n", note, *map(_proof, made.assumptions)])
+
+
+def _proof(result: Result) -> str:
+    row, found = result.row, result.found
+    parts = [f"**{row.id}** {row.place}: {row.says} Printed: {row.printed}.", f"{_capital(found.ours)}.\n"]
+    parts += [f"- {line}" for line in found.worked]
+    return "\n".join([*parts, f"- shown by `{row.shown_by}`\n"])
 
 
 def _capital(text: str) -> str:
@@ -118,13 +137,17 @@ def _rows(results: Sequence[Result]) -> str:
                 r.row.says,
                 r.row.printed,
                 r.found.ours,
-                f"**{r.found.verdict}**",
+                _verdict(r),
                 _code(r),
                 f"`{r.row.shown_by}`",
             ]
             for r in results
         ],
     )
+
+
+def _verdict(result: Result) -> str:
+    return f"**{result.found.verdict}**{'' if result.found.calculated else _JUDGEMENT}"
 
 
 def _code(result: Result) -> str:
@@ -142,7 +165,7 @@ def _worked(result: Result) -> str:
     lines = [
         f"## {row.id}: {row.place}\n",
         f"{row.says} Printed: {row.printed}.\n",
-        f"**{found.verdict}**: {found.ours}\n",
+        f"{_verdict(result)}: {found.ours}\n",
     ]
     return "\n".join([*lines, *(f"- {line}" for line in found.worked), f"- code: {', '.join(row.code)}\n"])
 
@@ -163,6 +186,7 @@ def frame(made: Reproduction) -> pd.DataFrame:
             "printed": r.row.printed,
             "this_project": r.found.ours,
             "verdict": str(r.found.verdict),
+            "calculated": r.found.calculated,
             "worked": "; ".join(r.found.worked),
             "code": ", ".join(r.row.code),
             "command": r.row.shown_by,

@@ -7,15 +7,15 @@ import math
 from ..accuracy import accuracy_findings
 from ..findings import Finding
 from .bench import AFTER_IMPACT, Bench
+from .commands import STUDY
 from .row import Found, Row, Verdict, judged
 
-STUDY = "mechanism-fmu study ratchet"
 ACCURACY = ("harness/accuracy.py", "harness/plane_teeth.csv")
 
 
 def _weighed(finding: Finding) -> Found:
     """A finding of the study as one of the page."""
-    return Found(finding.evidence, Verdict(str(finding.verdict)))
+    return Found(finding.evidence, finding.verdict, calculated=finding.verdict is not Verdict.TAKEN_OVER)
 
 
 def _triangle(bench: Bench) -> Found:
@@ -30,9 +30,8 @@ def _ode(bench: Bench) -> Found:
     rows, coordinates = bench.impact.jacobian.shape
     return judged(
         (rows - 1, coordinates) == (7, 9),
-        f"{coordinates} coordinates and {rows - 1} rows are integrated as 18 first-order equations, by an "
-        f"explicit method; "
-        "no multiplier is an unknown",
+        f"{coordinates} coordinates and {rows - 1} rows are integrated as 18 first-order equations, by an explicit "
+        "method; no multiplier is an unknown",
     )
 
 
@@ -51,17 +50,18 @@ def _proportions(bench: Bench) -> Found:
     wheels = bench.study.wheels
     ratios = [bench.parameter("tooth_slope_length", w) / bench.parameter("tooth_face_length", w) for w in wheels]
     slender = [1 / math.tan(w.tooth_apex_angle) for w in wheels]
-    return Found(
+    return judged(
+        min(ratios) > 1.0 and min(slender) < 1.0,
         f"slope over face from {min(ratios):.2f} to {max(ratios):.2f}; the beam's length over its root height from "
-        f"{min(slender):.2f} to {max(slender):.2f}: shapes of sawteeth, but no slender beams",
-        Verdict.HOLDS_IN_PART,
+        f"{min(slender):.2f} to {max(slender):.2f}: sawteeth, whose slopes are longer than their faces, but not beams",
+        verdict=Verdict.HOLDS_IN_PART,
     )
 
 
 def _resembles(_bench: Bench) -> Found:
     return Found(
         "taken over; of W. Goldsmith's book only what the paper quotes is at hand. What starts the modes here is no "
-        "striker at the free end: erratum X-struck",
+        "striker at the free end: assumption X-struck",
         Verdict.TAKEN_OVER,
     )
 
@@ -111,8 +111,8 @@ ROWS = (
     ),
     Row(
         "P-cantilever",
-        "claim, section 5",
-        "The tooth is modelled as a cantilever beam.",
+        "section 5",
+        "“The tooth has been modelled as a cantilever beam”, which “may not seem appropriate”: what it costs.",
         "in words",
         ACCURACY,
         _cantilever,

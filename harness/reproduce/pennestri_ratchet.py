@@ -10,11 +10,12 @@ from mechanism_fmu.stress import wedge_of_sawtooth
 
 from ..paper import SLOPE_ANGLES_DEG, TOOTH_COUNTS
 from .bench import AFTER_IMPACT, CRANK, HINGES, PAWL, RADIUS, SLOPE_RATIO, Bench, tooth
+from .commands import RUN
+from .geometry import CASES, alpha_star, gamma_on_slope
+from .redrawn import redrawn
 from .row import Found, Row, Verdict, judged, within
 
 PARAMETERS, SAWTOOTH = "models/ratchet/parameters.py", "mechanism_fmu/model/sawtooth.py"
-CASES = tuple((count, angle) for count in TOOTH_COUNTS for angle in SLOPE_ANGLES_DEG)
-RUN = "mechanism-fmu run build/Ratchet.fmu"
 
 
 def _table1(bench: Bench) -> Found:
@@ -32,23 +33,13 @@ def _table2(bench: Bench) -> Found:
     values = [(bench.parameter(f"{part}_mass"), bench.parameter(f"{part}_inertia")) for part in _PARTS]
     return judged(
         values == [(0.1, 0.09e-3), (0.0976, 0.0853e-3), (5.6264, 32.7948e-3)],
-        "masses as printed; inertias in 10⁻³ kg m² instead of kg mm²: erratum X-inertia",
+        "masses as printed; inertias in 10⁻³ kg m² instead of kg mm²: misprint X-inertia",
         *(f"{part}: {m:g} kg, {j:g} kg m²" for part, (m, j) in zip(_PARTS, values, strict=True)),
-        verdict=Verdict.ERRATUM,
+        verdict=Verdict.HOLDS_IN_PART,
     )
 
 
 _PARTS = ("crank", "pawl", "wheel")
-
-
-def gamma_on_slope(angle_deg: float) -> float:
-    """Gamma(0) [rad] with the tip on the line of the slope, phi = 77 deg and psi = 75 deg, as the text says."""
-    phi, psi = math.radians(77), math.radians(75)
-    pin = HINGES + CRANK * math.cos(phi), CRANK * math.sin(phi)
-    normal = psi + math.radians(angle_deg) - math.pi / 2
-    root = RADIUS * math.cos(psi), RADIUS * math.sin(psi)
-    height = (pin[0] - root[0]) * math.cos(normal) + (pin[1] - root[1]) * math.sin(normal)
-    return normal + math.acos(-height / PAWL)
 
 
 def _start(bench: Bench) -> Found:
@@ -59,7 +50,7 @@ def _start(bench: Bench) -> Found:
     return within(
         max(abs(started - deg[90]), *rates),
         1e-6,
-        f"φ = 77°, ψ = 75°, at rest; γ(0) follows from the slope: {deg[90]:.4f}° at β₀ = 90° (erratum X-gamma)",
+        f"φ = 77°, ψ = 75°, at rest; γ(0) follows from the slope: {deg[90]:.4f}° at β₀ = 90° (misprint X-gamma)",
         "; ".join(f"β₀ = {angle}°: γ(0) = {value:.4f}°" for angle, value in deg.items()),
         verdict=Verdict.HOLDS_IN_PART,
     )
@@ -97,12 +88,14 @@ def _geometry(bench: Bench) -> Found:
         abs(found.apex_angle / wheel.tooth_apex_angle - 1),
         abs(bench.parameter("tooth_length") / float(shape.beam_length) - 1),
     )
-    return within(
-        deviation,
-        1e-12,
-        f"nt = 10: θ = 36°, h = 2r sin(θ/2) = {1e3 * float(shape.chord):.4f} mm; drawn as fig05_tooth.svg",
+    return redrawn(
+        bench,
+        "fig05_tooth",
+        ("θ", "h", "L = 1.115 h", "β₀"),
+        f"redrawn: fig05_tooth.svg; nt = 10: θ = 36°, h = 2r sin(θ/2) = {1e3 * float(shape.chord):.4f} mm",
         f"β₀ = 90°: α₂ = {math.degrees(float(shape.chord_angle)):.4f}°, α = "
         f"{math.degrees(float(shape.apex_angle)):.4f}°, face F = {1e3 * float(shape.face_length):.4f} mm",
+        true=deviation < 1e-12 and abs(float(shape.chord) / (2 * RADIUS * math.sin(math.pi / 10)) - 1) < 1e-12,
     )
 
 
@@ -115,13 +108,8 @@ def _slope(bench: Bench) -> Found:
         worst,
         1e-12,
         f"L/h = {ratios[0]:.3f} for all 20 wheels; nt = 10: L = {1e3 * bench.parameter('tooth_slope_length'):.4f} mm",
+        verdict=Verdict.TAKEN_OVER,
     )
-
-
-def alpha_star(count: int, angle_deg: float) -> float:
-    """Alpha + alpha_2 [deg]."""
-    shape = tooth(count, angle_deg)
-    return math.degrees(float(shape.apex_angle) + float(shape.chord_angle))
 
 
 def _fig7(bench: Bench) -> Found:
@@ -133,23 +121,27 @@ def _fig7(bench: Bench) -> Found:
         foot = float(shape.slope_length) * math.cos(float(shape.apex_angle))
         wanted = foot if (count, angle) in right else float(shape.face_length)
         lengths.append(abs(wheel.tooth_length / wanted - 1))
-    return judged(
-        max(lengths) < 1e-12 and len(right) == 3,
-        f"left, l = F: {len(CASES) - len(right)} wheels; right, l = L cos α: {named}; drawn as fig07_shapes.svg",
+    return redrawn(
+        bench,
+        "fig07_shapes",
+        ("l = F", "l = L cos α", "α₂"),
+        f"redrawn: fig07_shapes.svg; left, l = F: {len(CASES) - len(right)} wheels; right, l = L cos α: {named}",
         *(
             f"nt = {count}: α* = " + ", ".join(f"{alpha_star(count, angle):.2f}°" for angle in SLOPE_ANGLES_DEG)
             for count in TOOTH_COUNTS
         ),
-        verdict=Verdict.REPRODUCED,
+        true=max(lengths) < 1e-12 and len(right) == 3,
     )
 
 
 def _length(bench: Bench) -> Found:
     lengths = {case: 1e3 * bench.wheel(*case).tooth_length for case in ((10, 90), (10, 105), (25, 85))}
-    return Found(
-        "l(nt, β₀) = " + ", ".join(f"{value:.4f} mm at {case[0]}, {case[1]}°" for case, value in lengths.items()),
-        Verdict.REPRODUCED,
-        ("how Fig. 7 is read: choice C-length",),
+    known = [bench.wheel(*case).tooth_length for case in CASES]
+    return judged(
+        len({round(length, 9) for length in known}) == len(CASES),
+        "different for each of the 20: l(nt, β₀) = "
+        + ", ".join(f"{value:.4f} mm at {case[0]}, {case[1]}°" for case, value in lengths.items()),
+        "how Fig. 7 is read: choice C-length",
     )
 
 
@@ -166,23 +158,26 @@ def _velocity(bench: Bench) -> Found:
         f"{bench.impact.after[8]:.9f} rad/s",
         "l ω(t_I+) alone, right for a wheel at rest only, would be "
         f"{bench.base.tooth_length * bench.impact.after[8]:.6e} m/s",
+        verdict=Verdict.TAKEN_OVER,
     )
 
 
-def _fig4(_bench: Bench) -> Found:
-    return Found(
-        "drawn from Tables 1 and 2 and the start: fig04_nomenclature.svg; angles are absolute, the paper's arrows are "
-        "lost",
-        Verdict.HOLDS_IN_PART,
+def _fig4(bench: Bench) -> Found:
+    return redrawn(
+        bench,
+        "fig04_nomenclature",
+        ("φ", "γ", "ψ", "d = 0.130", "a = 0.110", "b = 0.100", "r = 0.100"),
+        "redrawn from Table 1 and the start: fig04_nomenclature.svg; angles are absolute, the paper's arrows are lost",
     )
 
 
 def _friction(bench: Bench) -> Found:
     rubbed = bench.run(AFTER_IMPACT, 0.4, friction=0.1).impacts.iloc[0]
-    return Found(
+    return judged(
+        bench.parameter("friction") == 0.0 and float(rubbed["time"]) > bench.base.impact_time,
         f"neglected, as in the paper; with 0.1 between pawl and tooth t_I = {float(rubbed['time']):.5f} s instead of "
         f"{bench.base.impact_time:.5f} s",
-        Verdict.TAKEN_OVER,
+        verdict=Verdict.TAKEN_OVER,
     )
 
 

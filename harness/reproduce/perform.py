@@ -7,29 +7,34 @@ from dataclasses import dataclass
 
 from ..errors import UsageError
 from . import (
+    assumptions,
     choices,
     erdman,
+    erdman_cases,
     erdman_claims,
     erdman_elements,
     erdman_terms,
-    errata,
     me451_cams,
     me451_gears,
     me451_joints,
+    me451_racks,
+    misprints,
     pennestri_beam,
     pennestri_cases,
     pennestri_claims,
+    pennestri_contributions,
     pennestri_impact,
     pennestri_motion,
     pennestri_ratchet,
     pennestri_stress,
 )
 from .bench import Bench
-from .figures import FIGURES
+from .figures import FIGURES, drawing_of
 from .row import Document, Result, Row, Verdict
 
 #: All rows of the documents, in their order.
 ROWS: tuple[Row, ...] = (
+    *pennestri_contributions.ROWS,
     *pennestri_motion.ROWS,
     *pennestri_impact.ROWS,
     *pennestri_stress.ROWS,
@@ -40,12 +45,15 @@ ROWS: tuple[Row, ...] = (
     *erdman_terms.ROWS,
     *erdman_elements.ROWS,
     *erdman.ROWS,
+    *erdman_cases.ROWS,
     *erdman_claims.ROWS,
     *me451_joints.ROWS,
     *me451_gears.ROWS,
+    *me451_racks.ROWS,
     *me451_cams.ROWS,
 )
-ERRATA: tuple[Row, ...] = errata.ERRATA
+MISPRINTS: tuple[Row, ...] = misprints.MISPRINTS
+ASSUMPTIONS: tuple[Row, ...] = assumptions.ASSUMPTIONS
 CHOICES: tuple[Row, ...] = choices.CHOICES
 
 
@@ -54,13 +62,14 @@ class Reproduction:
     """What came of it.
 
     Attributes:
-        rows, errata, choices: with their findings.
+        rows, misprints, assumptions, choices: with their findings.
         figures: SVG texts by name.
         whole: whether nothing was left out.
     """
 
     rows: tuple[Result, ...]
-    errata: tuple[Result, ...]
+    misprints: tuple[Result, ...]
+    assumptions: tuple[Result, ...]
     choices: tuple[Result, ...]
     figures: dict[str, str]
     whole: bool
@@ -68,7 +77,7 @@ class Reproduction:
     @property
     def everything(self) -> tuple[Result, ...]:
         """All findings."""
-        return (*self.rows, *self.errata, *self.choices)
+        return (*self.rows, *self.misprints, *self.assumptions, *self.choices)
 
     @property
     def failed(self) -> tuple[Result, ...]:
@@ -79,23 +88,36 @@ class Reproduction:
         """The rows of a document."""
         return tuple(result for result in self.rows if result.row.document is document)
 
+    def weighed(self, document: Document) -> tuple[Result, ...]:
+        """The rows of a document, and the misprints and assumptions that are its own."""
+        everything = (*self.rows, *self.misprints, *self.assumptions)
+        return tuple(result for result in everything if result.row.document is document)
+
 
 def chosen(asked: Sequence[str]) -> tuple[Row, ...]:
-    """The rows, errata and choices whose id begins with one of `asked`, or all of them.
+    """The rows, misprints, assumptions and choices that are asked for by ids or what they begin with, or all of them.
+
+    A name that is an id stands for this one only: "E-eq1" does not ask for E-eq10.
 
     Raises:
         UsageError: there is none of that name.
     """
-    everything = (*ROWS, *ERRATA, *CHOICES)
+    everything = (*ROWS, *MISPRINTS, *ASSUMPTIONS, *CHOICES)
     if not asked:
         return everything
     for name in asked:
         if not any(_begins(row.id, name) for row in everything):
             raise UsageError(
-                f"No row's id begins with '{name}'. Give P (Pennestrì), E (Erdman), S (slides), X (errata), "
-                "C (choices), or more of an id, e.g. P-eq7, E-eq13, S-3.4.1, X-gamma; without any, all rows are worked."
+                f"No row's id begins with '{name}'. Give P (Pennestrì), E (Erdman), S (slides), X (misprints and "
+                "assumptions), C (choices), or more of an id, e.g. P-eq7, E-eq13, S-3.4.1, X-gamma; without any, all "
+                "rows are worked."
             )
-    return tuple(row for row in everything if any(_begins(row.id, name) for name in asked))
+    ids = {row.id.lower() for row in everything}
+
+    def wanted(row: Row, name: str) -> bool:
+        return row.id.lower() == name.lower() if name.lower() in ids else _begins(row.id, name)
+
+    return tuple(row for row in everything if any(wanted(row, name) for name in asked))
 
 
 def _begins(row: str, name: str) -> bool:
@@ -106,7 +128,7 @@ def perform(asked: Sequence[str], bench: Bench, on_row: Callable[[Row, int, int]
     """Work the rows that are asked for, and draw the figures that belong to them.
 
     Args:
-        asked: beginnings of ids; none for all.
+        asked: ids, or what they begin with; none for all.
         bench: of shared calculations.
         on_row: called before each row with it, its number from 1 on, and how many there are.
 
@@ -122,5 +144,7 @@ def perform(asked: Sequence[str], bench: Bench, on_row: Callable[[Row, int, int]
     def those(of: tuple[Row, ...]) -> tuple[Result, ...]:
         return tuple(results[row.id] for row in of if row.id in results)
 
-    figures = {figure.name: figure.draw(bench) for figure in FIGURES if figure.row in results}
-    return Reproduction(those(ROWS), those(ERRATA), those(CHOICES), figures, len(rows) == len(chosen(())))
+    figures = {figure.name: drawing_of(figure, bench) for figure in FIGURES if figure.row in results}
+    return Reproduction(
+        those(ROWS), those(MISPRINTS), those(ASSUMPTIONS), those(CHOICES), figures, len(rows) == len(chosen(()))
+    )

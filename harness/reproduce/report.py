@@ -9,7 +9,7 @@ from pathlib import Path
 from ..report.page import cards, page, section, table
 from ..results import write_text
 from .figures import FIGURES
-from .page import summary_rows
+from .page import judgements, summary_rows
 from .perform import Reproduction
 from .row import Document, Result, Verdict
 
@@ -19,7 +19,9 @@ _COLOURS = {
     Verdict.HOLDS: "#1b7f4b",
     Verdict.HOLDS_IN_PART: "#9a6700",
     Verdict.DOES_NOT_HOLD: "#b3261e",
-    Verdict.ERRATUM: "#6b3fa0",
+    Verdict.ANSWERED: "#1b7f4b",
+    Verdict.MISPRINT: "#6b3fa0",
+    Verdict.ASSUMPTION: "#6b3fa0",
     Verdict.FAILED: "#b3261e",
 }
 
@@ -35,17 +37,25 @@ def write_reproduce_report(made: Reproduction, path: Path) -> Path:
 
 def reproduce_report(made: Reproduction) -> str:
     """The report as HTML."""
+    weighed = [result for document in Document for result in made.weighed(document)]
     counted = [
-        (str(verdict), str(sum(r.found.verdict is verdict for r in made.rows)))
+        (str(verdict), str(sum(r.found.verdict is verdict for r in weighed)))
         for verdict in Verdict
         if verdict != "choice"
     ]
     body = [cards([(what, count) for what, count in counted if count != "0"])]
     if made.whole:
         headings = ["verdict", *(document.short for document in Document), "which means"]
-        body.append(section("Verdicts by document", table(headings, summary_rows(made), numeric=(1, 2, 3))))
-    if made.errata:
-        body.append(section("Errata", *map(_proof, made.errata), note="What is printed cannot be right; with proof."))
+        body.append(
+            section(
+                "Verdicts by document", table(headings, summary_rows(made), numeric=(1, 2, 3)), note=judgements(made)
+            )
+        )
+    if made.misprints:
+        body.append(section("Misprints", *map(_proof, made.misprints), note="What is printed cannot be right."))
+    if made.assumptions:
+        note = "What is assumed or left unsaid is not so."
+        body.append(section("Assumptions that fail", *map(_proof, made.assumptions), note=note))
     if made.choices:
         body.append(section("Choices", *map(_proof, made.choices), note="What the documents leave open."))
     for document in Document:
@@ -71,7 +81,8 @@ def _fitting(svg: str) -> str:
 
 def _verdict(result: Result) -> str:
     verdict = result.found.verdict
-    return f'<b style="color:{_COLOURS.get(verdict, "#444444")}">{escape(str(verdict))}</b>'
+    mark = "" if result.found.calculated else "<br><small>judgement</small>"
+    return f'<b style="color:{_COLOURS.get(verdict, "#444444")}">{escape(str(verdict))}</b>{mark}'
 
 
 def _worked(lines: Sequence[str]) -> str:

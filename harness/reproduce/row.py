@@ -6,25 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
+from ..findings import Verdict
 from .bench import Bench
 
-
-class Verdict(StrEnum):
-    """What became of something that a document says."""
-
-    REPRODUCED = "reproduced"
-    HOLDS = "holds"
-    HOLDS_IN_PART = "holds in part"
-    DOES_NOT_HOLD = "does not hold"
-    ERRATUM = "erratum"
-    TAKEN_OVER = "taken over"
-    CHOICE = "choice"
-    NOT_DETERMINED = "not determined"
-    FAILED = "FAILED"
+__all__ = ["Document", "Found", "Result", "Row", "Verdict", "judged", "within"]
 
 
 class Document(StrEnum):
-    """The three documents, by the letter that their rows begin with."""
+    """The three documents, by the letter that their rows begin with; misprints and choices begin with their place."""
 
     PENNESTRI = "P"
     ERDMAN = "E"
@@ -35,6 +24,11 @@ class Document(StrEnum):
         """As the page calls it."""
         return {"P": "Pennestrì et al.", "E": "Erdman et al.", "S": "ME451"}[self.value]
 
+    @property
+    def named(self) -> str:
+        """How the place of a misprint or a choice begins."""
+        return self.short.split()[0]
+
 
 @dataclass(frozen=True)
 class Found:
@@ -44,11 +38,14 @@ class Found:
         ours: number or sentence beside the printed one.
         verdict: of the row.
         worked: the numbers on the way, a line each.
+        calculated: whether the verdict stands on a calculation that this run has made; if not, it is a judgement by a
+            person, who read the document.
     """
 
     ours: str
     verdict: Verdict
     worked: tuple[str, ...] = ()
+    calculated: bool = False
 
 
 @dataclass(frozen=True)
@@ -76,7 +73,8 @@ class Row:
     @property
     def document(self) -> Document:
         """Whose it is."""
-        return Document(self.id[0])
+        own = (document for document in Document if self.place.startswith(document.named))
+        return Document(self.id[0]) if self.id[0] in set(Document) else next(own)
 
     @property
     def shown_by(self) -> str:
@@ -95,10 +93,11 @@ class Result:
 def within(deviation: float, limit: float, ours: str, *worked: str, verdict: Verdict = Verdict.REPRODUCED) -> Found:
     """A finding that stands only while a deviation stays below a limit; deviations themselves are rounding."""
     if deviation <= limit:
-        return Found(ours, verdict, worked)
-    return Found(f"{ours} (off by {deviation:.3g}, more than {limit:g})", Verdict.FAILED, worked)
+        return Found(ours, verdict, worked, calculated=True)
+    text = f"{ours} (off by {deviation:.3g}, more than {limit:g})"
+    return Found(text, Verdict.FAILED, worked, calculated=True)
 
 
 def judged(true: bool, ours: str, *worked: str, verdict: Verdict = Verdict.HOLDS) -> Found:
     """A finding whose verdict stands only while what it rests on is true."""
-    return Found(ours, verdict if true else Verdict.FAILED, worked)
+    return Found(ours, verdict if true else Verdict.FAILED, worked, calculated=True)
