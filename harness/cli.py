@@ -411,7 +411,7 @@ def reproduce(
 
     Writes papers-reproduced.md (docs/papers-reproduced.md is what it wrote), report.html, rows.csv and the figures.
     With ids, only the rows that begin so, with their worked numbers: P of Pennestrì, Valentini, Vita; E of Erdman,
-    Sandor, Oakberg; S of the ME451 slides; X for errata, C for choices.
+    Sandor, Oakberg; S of the ME451 slides; X for misprints and assumptions that fail, C for choices.
 
     Try:
 

@@ -110,7 +110,7 @@ ASSUMPTIONS = (
         "X-cam",
         "ME451, cam example",
         "Convex bodies.",
-        "“we are dealing with convex bodies”",
+        "“the bodies we are dealing with are convex”",
         ("mechanism_fmu/slides/cam.py",),
         _cam,
     ),

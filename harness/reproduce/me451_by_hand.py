@@ -34,8 +34,8 @@ def turned(vector: Sequence[float] | FloatArray, angle: float) -> FloatArray:
     return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
 
 
-def _direction(vector: Sequence[float]) -> float:
-    return math.atan2(vector[1], vector[0])
+def _direction(vector: Sequence[float] | FloatArray) -> float:
+    return math.atan2(float(vector[1]), float(vector[0]))
 
 
 def _unit(angle: float) -> FloatArray:

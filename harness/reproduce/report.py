@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..report.page import cards, page, section, table
 from ..results import write_text
-from .figures import FIGURES
+from .figures import FIGURES, Figure
 from .page import judgements, summary_rows
 from .perform import Reproduction
 from .row import Document, Result, Verdict
@@ -65,13 +65,16 @@ def reproduce_report(made: Reproduction) -> str:
         drawn = [f for f in FIGURES if f.name in made.figures and f.row.startswith(document.value)]
         if drawn:
             pictures = "".join(
-                f"<figure>{_fitting(made.figures[f.name])}"
-                f"<figcaption>{escape(f'{f.place}: {f.caption}')}</figcaption></figure>"
+                f"<figure>{_fitting(made.figures[f.name])}<figcaption>{_caption(f)}</figcaption></figure>"
                 for f in drawn
             )
             body.append(section(f"{document.short}: figures", f'<div class="charts">{pictures}</div>'))
     subtitle = "every equation, table, figure, example and claim of three documents"
     return page("The papers reproduced", subtitle if made.whole else "some rows", body)
+
+
+def _caption(figure: Figure) -> str:
+    return escape(f"{figure.place}: {figure.caption}")
 
 
 def _fitting(svg: str) -> str:
