@@ -74,11 +74,10 @@ STOP_PITCH = 1
 # contact_value columns
 RESTITUTION = 0
 FRICTION = 1
-TOOTH_LENGTH = 2  # of the body `contact_toothed` [m]
-GUIDED = 3
-ENABLED = 4
-STARTS_CLOSED = 5
-CONTACT_VALUES = 6
+GUIDED = 2
+ENABLED = 3
+STARTS_CLOSED = 4
+CONTACT_VALUES = 5
 
 # contact_hollow (state): whether a profile of the pair has a hollow, and whether the other one may bridge it
 CONVEX = 0
