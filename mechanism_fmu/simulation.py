@@ -279,10 +279,13 @@ class Simulation:
         return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
 
     def _stiffest(self) -> str:
+        """How small the steps have become, and the part whose error limits them."""
         name = unknown_names(self._mechanism)[field_of(self._block, "stage_stiffest").item(0)]
-        size = self._clock.item(codes.STEP_SIZE)
+        size = field_of(self._block, "tried").item(1)
         steps = self.counters.item(codes.STEPS_IN_STEP)
-        return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}."
+        events = self.counters.item(codes.EVENTS_IN_STEP)
+        more = " or more" if events == codes.EVENT_BUFFER_LENGTH else ""
+        return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
 
     def _residuals(self) -> str:
         """What is left of each joint and closed contact at the closest position found."""

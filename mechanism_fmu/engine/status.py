@@ -32,7 +32,7 @@ ADVICE = {
     TOO_MANY_STEPS: "The communication step needs more internal steps than max_internal_steps: the motion is very fast "
     "for its length. The time reached is good, and the next step goes on from there. Check the size of inputs and "
     "parameters, take shorter communication steps, or give a larger max_internal_steps.",
-    NO_PROGRESS: "No progress: a tenth of max_internal_steps has not covered a thousandth of the communication step, "
+    NO_PROGRESS: "No progress: a tenth of max_internal_steps has not covered a hundredth of the communication step, "
     "because something is very stiff or very fast. The time reached is good, and the next step goes on from there. "
     "Check the size of inputs and parameters, take shorter communication steps, or give a larger max_internal_steps.",
     NO_CHOICE: "No set of pushing contacts agrees with the motion: more contacts touch at once than can be "

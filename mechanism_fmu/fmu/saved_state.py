@@ -9,11 +9,7 @@ import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..admissible import Admissible
-from ..model import MechanismError
-from ..model.model import check_value
-from .protocol import LATEST_START, SAME_TIME, Experiment, Phase
-from .variables import Variable
+from .protocol import Experiment, Phase
 
 _MAGIC = b"MechFMU1"
 _HEAD = struct.Struct("<8s16sIIIQ")  # magic, fingerprint, phase, parameters, inputs, length of the body
@@ -80,87 +76,21 @@ def check(data: bytes, mark: bytes) -> None:
         raise SavedStateError("The saved state belongs to another model or another version of this one.")
 
 
-@dataclass(frozen=True)
-class Contents:
-    """What a model's saved states may hold.
-
-    Attributes:
-        mark: the model's fingerprint.
-        variables: of the model, in their order.
-        state: what the engine's state may hold.
-    """
-
-    mark: bytes
-    variables: tuple[Variable, ...]
-    state: Admissible
-
-    def of(self, causality: str) -> list[Variable]:
-        """The variables of a causality."""
-        return [variable for variable in self.variables if variable.causality == causality]
-
-
-def decode(data: bytes, contents: Contents) -> SavedState:
-    """The saved state in `data`; whatever it holds has been checked.
+def decode(data: bytes, mark: bytes) -> SavedState:
+    """The saved state in `data`; what it holds is checked elsewhere (`saved_contents.check_contents`).
 
     Raises:
-        SavedStateError: see `check`; or it holds what the model's states cannot.
+        SavedStateError: see `check`; or its parts do not fit together.
     """
-    check(data, contents.mark)
+    check(data, mark)
     _, _, phase, parameters, inputs, _ = _HEAD.unpack_from(data)
-    known = len(contents.of("parameter")), len(contents.of("input"))
-    if (parameters, inputs) != known:
-        raise _impossible(f"it has {parameters} parameters and {inputs} inputs instead of {known[0]} and {known[1]}")
+    first = _HEAD.size + _EXPERIMENT.size
+    if first + 8 * (parameters + inputs) + _CHECKSUM.size > len(data):
+        raise SavedStateError(f"The saved state is too short for {parameters} parameters and {inputs} inputs.")
     if phase not in list(Phase):
-        raise _impossible(f"there is no phase {phase}")
-    state = _unpacked(data, phase, parameters, inputs)
-    _check_head(state, data)
-    for variable, value in zip(contents.of("parameter"), state.parameters, strict=True):
-        _check_value(variable, value, value)
-        if (variable.type == "Integer" and value != int(value)) or (variable.type == "Boolean" and value not in (0, 1)):
-            raise _impossible(f"{variable.name} is {value:g}, which is no {variable.type}")
-    for variable, value in zip(contents.of("input"), state.inputs, strict=True):
-        low = -math.inf if variable.minimum is None else variable.minimum
-        high = math.inf if variable.maximum is None else variable.maximum
-        rounding = SAME_TIME * max(1.0, abs(value))  # an input with a slope may end beyond its limit by so much
-        near = low - rounding <= value <= high + rounding
-        _check_value(variable, min(max(value, low), high) if near else value, value)
-    if state.words:
-        fault = contents.state.fault(state.words)
-        if fault is not None:
-            raise _impossible(fault)
-    return state
-
-
-def _impossible(fault: str) -> SavedStateError:
-    return SavedStateError(f"The saved state is not one that this model can be in: {fault}.")
-
-
-def _check_value(variable: Variable, value: float, shown: float) -> None:
-    try:
-        check_value(variable, value)
-    except MechanismError as error:
-        raise _impossible(f"{variable.name} is {shown:g} ({error})") from error
-
-
-def _check_head(state: SavedState, data: bytes) -> None:
-    if state.phase >= Phase.STEPPING and not state.words:
-        raise _impossible(f"it is in phase {state.phase.name.lower()}, but did not begin")
-    if state.phase is not Phase.INSTANTIATED and state.experiment is None:
-        raise _impossible(f"it is in phase {state.phase.name.lower()}, but was not set up")
-    times = state.experiment
-    if times is None:
-        if not all(math.isnan(number) for number in _EXPERIMENT.unpack_from(data, _HEAD.size)):
-            raise _impossible("its experiment has no start time")
-    elif not (abs(times.start_time) <= LATEST_START and times.start_time <= times.stop_time and times.tolerance > 0):
-        raise _impossible(
-            f"its experiment is from {times.start_time:g} s to {times.stop_time:g} s with tolerance {times.tolerance:g}"
-        )
-
-
-def _unpacked(data: bytes, phase: int, parameters: int, inputs: int) -> SavedState:
+        raise SavedStateError(f"The saved state is in phase {phase}, which there is not.")
     start_time, stop_time, tolerance = _EXPERIMENT.unpack_from(data, _HEAD.size)
     experiment = None if math.isnan(start_time) else Experiment(start_time, stop_time, tolerance)
-    first = _HEAD.size + _EXPERIMENT.size
     numbers = struct.unpack_from(f"<{parameters + inputs}d", data, first)
     words = data[first + 8 * len(numbers) : -_CHECKSUM.size]
     return SavedState(Phase(phase), experiment, numbers[:parameters], numbers[parameters:], words)

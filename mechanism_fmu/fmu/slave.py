@@ -26,7 +26,8 @@ from ..simulation import Simulation, SimulationError, StepBudgetError
 from . import saved_state
 from .news import News
 from .protocol import TIGHTEST, Experiment, FmiError, Phase, experiment, require, step_target
-from .saved_state import Contents, SavedState, SavedStateError
+from .saved_contents import Contents, check_contents
+from .saved_state import SavedState, SavedStateError
 from .self_check import require_numbers, start_explained
 from .variables import Variable, variables_of
 from .wrapper import Told, fmi_call, survive_release
@@ -180,7 +181,7 @@ class MechanismSlave(Fmi2Slave):
     @fmi_call
     def _set_fmu_state(self, state: bytes) -> None:
         """fmi2SetFMUstate: everything is restored; the log does not repeat what it has said."""
-        saved = saved_state.decode(state, self._contents)
+        saved = self._read(state)
         simulation = self._simulation if saved.words else None
         same = (saved.experiment, list(saved.parameters)) == (self._experiment, self._parameters)
         if saved.words and (simulation is None or not same):
@@ -202,12 +203,18 @@ class MechanismSlave(Fmi2Slave):
     def _fmu_state_from_bytes(cls, state: bytes) -> bytes:
         """fmi2DeSerializeFMUstate; the wrapper does not say for which instance."""
         try:
-            saved_state.decode(state, cls._contents)
+            cls._read(state)
         except SavedStateError:
             for instance in cls._instances:
                 survive_release(type(instance), instance, instance.log_queue)
             raise
         return state
+
+    @classmethod
+    def _read(cls, state: bytes) -> SavedState:
+        saved = saved_state.decode(state, cls._mark)
+        check_contents(saved, cls._contents)
+        return saved
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
@@ -320,12 +327,12 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
     # In an FMU the package's name holds the hash of all sources: a state is for the very same ones.
     sizes = sizes_of(pack(compile_mechanism(model.build(model.values()))))
     parts = [__name__, __version__, model.name, *(v.name for v in variables), *map(repr, FIELDS), repr(sizes)]
-    mark = saved_state.fingerprint(parts)
+    settable = {causality: tuple(v for v in variables if v.causality == causality) for causality in _SETTABLE}
     members = {
         "model": model,
         "variables": variables,
-        "_mark": mark,
-        "_contents": Contents(mark, variables, Admissible.of(sizes)),
+        "_mark": saved_state.fingerprint(parts),
+        "_contents": Contents(settable["parameter"], settable["input"], Admissible.of(sizes)),
         "__doc__": model.description,
     }
     return type(model.name, (MechanismSlave,), members)

@@ -7,6 +7,7 @@ in one piece; work is scratch that no result depends on.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -105,7 +106,7 @@ _CLOCK = {
     "STEP_START": FINITE,
     "STEP_END": FINITE,
     "STEP_SIZE": NOT_NEGATIVE,
-    "NEXT_STEP": ANY,
+    "NEXT_STEP": NOT_NEGATIVE._replace(high=math.inf, nan=True),
     "LAST_EVENT": FINITE,
     "RAMP_START": FINITE,
     "RAMP_END": FINITE,

@@ -115,7 +115,7 @@ def scaled_error(block: Array, i: int, h: float) -> float:
     s = stages(block)
     k = s.derivatives
     relative = options(block).settings[codes.RELATIVE_TOLERANCE]
-    error = h * (_E1 * k[0, i] + _E3 * k[2, i] + _E4 * k[3, i] + _E5 * k[4, i] + _E6 * k[5, i] + _E7 * k[6, i])
+    error: float = h * (_E1 * k[0, i] + _E3 * k[2, i] + _E4 * k[3, i] + _E5 * k[4, i] + _E6 * k[5, i] + _E7 * k[6, i])
     scale: float = relative * (ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i])))
     return error / scale
 

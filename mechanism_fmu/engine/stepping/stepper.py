@@ -31,7 +31,7 @@ from .stiffest import note_stiffest
 
 #: When this part of the internal steps is spent, that part of the communication step must be covered.
 _LOOK_AFTER = 0.1
-_COVERED = 1e-3
+_COVERED = 0.01
 
 
 @entry

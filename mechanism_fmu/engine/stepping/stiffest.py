@@ -14,8 +14,11 @@ def note_stiffest(block: Array) -> None:
     """Write the number of that unknown of the step last tried into `stages.stiffest`, for a message."""
     keep_small()
     s = stages(block)
+    work = 2 * sizes(block).coordinates
     worst = -1.0
     for i in range(sizes(block).unknowns):
+        if i == work or i == work + 1:
+            continue  # work and loss follow from the motion
         error = abs(scaled_error(block, i, s.tried[1]))
         if not error <= worst:
             worst = error

@@ -190,11 +190,13 @@ static void involved(Instance *x, char *text, size_t size) {
     append(text, size, ".");
 }
 
-/* The part whose error limited the steps. */
+/* How small the steps have become, and the part whose error limits them. */
 static void stiffest(Instance *x, char *text, size_t size) {
-    snprintf(text, size, " Internal steps: %lld, the last of %.3g s, limited by %s.",
-             (long long)COUNTERS(x)[CODE_STEPS_IN_STEP], FIELD(x, clock)[CODE_STEP_SIZE],
-             model.unknowns[*(const int64_t *)FIELD(x, stage_stiffest)]);
+    long long events = COUNTERS(x)[CODE_EVENTS_IN_STEP];
+    snprintf(text, size, " Internal steps: %lld, the last of %.3g s, limited by %s. Events: %lld%s.",
+             (long long)COUNTERS(x)[CODE_STEPS_IN_STEP], FIELD(x, tried)[1],
+             model.unknowns[*(const int64_t *)FIELD(x, stage_stiffest)], events,
+             events == CODE_EVENT_BUFFER_LENGTH ? " or more" : "");
 }
 
 const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size) {
