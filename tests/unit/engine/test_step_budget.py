@@ -100,3 +100,27 @@ def test_a_step_that_shrinks_to_nothing_names_the_part():
     simulation = Simulation(replace(mechanism, forces=(*mechanism.forces[:1], Torque("load", "rotor", torque=1e300))))
     with pytest.raises(SimulationError, match=r"shrunk to nothing.*Internal steps: .*limited by .*rotor"):
         simulation.advance(1.0)
+
+
+@pytest.mark.parametrize("wanted", [math.inf, math.nan, 1e308, 0.0])
+def test_any_next_step_ends(wanted):
+    """The size that is tried first may come from a saved state; an infinite one never got smaller."""
+    simulation = Simulation(spring_and_rotor(200_000))
+    simulation.advance(0.01)
+    reached = simulation.time
+    simulation.field("clock")[codes.NEXT_STEP] = wanted
+    try:
+        simulation.advance(0.02)
+    except SimulationError as error:
+        assert "shrunk to nothing" in str(error)
+    else:
+        assert simulation.time == 0.02 > reached
+
+
+def test_a_mechanism_at_rest_strides_on():
+    mechanism = replace(spring_and_rotor(200_000), bodies=(Body("rotor", 1.0, INERTIA),))
+    simulation = Simulation(mechanism)
+    simulation.advance(1e100)
+    simulation.advance(1e101)
+
+    assert simulation.time == 1e101
