@@ -13,6 +13,10 @@ from .saved_state import SavedState, SavedStateError
 from .variables import Variable
 
 
+class CheckedState(bytes):
+    """A saved state that a slave has made itself, or whose contents have been checked."""
+
+
 @dataclass(frozen=True)
 class Contents:
     """What a model's saved states may hold.

@@ -26,7 +26,7 @@ from ..simulation import Simulation, SimulationError, StepBudgetError
 from . import saved_state
 from .news import News
 from .protocol import TIGHTEST, Experiment, FmiError, Phase, experiment, require, step_target
-from .saved_contents import Contents, check_contents
+from .saved_contents import CheckedState, Contents, check_contents
 from .saved_state import SavedState, SavedStateError
 from .self_check import require_numbers, start_explained
 from .variables import Variable, variables_of
@@ -176,7 +176,7 @@ class MechanismSlave(Fmi2Slave):
         """fmi2GetFMUstate: the saved state, already as the bytes that serialization hands out."""
         words = b"" if self._simulation is None else self._simulation.state.tobytes()
         state = SavedState(self._phase, self._experiment, tuple(self._parameters), tuple(self._inputs), words)
-        return saved_state.encode(state, self._mark)
+        return CheckedState(saved_state.encode(state, self._mark))
 
     @fmi_call
     def _set_fmu_state(self, state: bytes) -> None:
@@ -197,7 +197,7 @@ class MechanismSlave(Fmi2Slave):
 
     @classmethod
     def _fmu_state_to_bytes(cls, state: bytes) -> bytes:
-        return state
+        return bytes(state)
 
     @classmethod
     def _fmu_state_from_bytes(cls, state: bytes) -> bytes:
@@ -208,12 +208,14 @@ class MechanismSlave(Fmi2Slave):
             for instance in cls._instances:
                 survive_release(type(instance), instance, instance.log_queue)
             raise
-        return state
+        return CheckedState(state)
 
     @classmethod
     def _read(cls, state: bytes) -> SavedState:
+        """A saved state that is one of this model; what was checked when it came in is not checked again."""
         saved = saved_state.decode(state, cls._mark)
-        check_contents(saved, cls._contents)
+        if not isinstance(state, CheckedState):
+            check_contents(saved, cls._contents)
         return saved
 
     # --- inside ------------------------------------------------------------------------------------------------------
