@@ -238,7 +238,7 @@ RAMPING = 10  # 1 while an input has a slope
 RANK = 11  # of the active rows since the last event
 FALLING = 12  # 1 when `course.independence_end` was falling at STEP_END
 COUNT_INSTANTS = 13  # with impacts, since the start
-STEPS_IN_STEP = 14  # internal steps and events of the communication step
+STEPS_IN_STEP = 14  # internal steps of the communication step
 COUNTERS_LENGTH = 15
 
 # columns of the state's ledger [J]

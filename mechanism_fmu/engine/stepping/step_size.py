@@ -14,7 +14,6 @@ from ..constraints.kinematics import place_bodies
 from ..profiles.nearest import least_fit
 from .dormand_prince import ORDER, try_step
 from .step_limits import within_motions, within_ramp
-from .stiffest import note_stiffest
 
 #: Smallest step as a fraction of max(1 s, |t|).
 _SMALLEST_STEP = 1e-15
@@ -75,7 +74,6 @@ def why_no_step(block: Array) -> int:
         place_bodies(block, s.y_start)
         if not least_fit(block) > _FITS_BARELY:
             return status.NO_CONTACT_POINT
-    note_stiffest(block)
     return status.STEP_TOO_SMALL
 
 

@@ -87,6 +87,8 @@ def _go_on(block: Array, target: float, rule: int) -> int:
     outcome = _why_ended(block)
     if outcome == status.OK:
         outcome = _move(block, target, rule)
+        if outcome == status.TOO_MANY_STEPS or outcome == status.NO_PROGRESS or outcome == status.STEP_TOO_SMALL:
+            note_stiffest(block)
         show_reached(block)
     return outcome
 
@@ -109,14 +111,13 @@ def _move(block: Array, target: float, rule: int) -> int:
     if now.counters[codes.RAMPING] != 0:
         now.clock[codes.RAMP_END] = target
     while True:
-        outcome = _spend(block, target)
-        if outcome != status.OK:
-            return outcome
         begins = now.counters[codes.PENDING_GUARD] == codes.GUARD_BEGIN
         if now.clock[codes.TIME] >= now.clock[codes.STEP_END] and not begins:
             if now.clock[codes.TIME] >= target:
                 return status.OK
-            outcome = take_step(block)
+            outcome = _spend(block, target)
+            if outcome == status.OK:
+                outcome = take_step(block)
             if outcome != status.OK:
                 return outcome
         if now.clock[codes.STEP_END] > target:
@@ -148,10 +149,8 @@ def _spend(block: Array, target: float) -> int:
     spent = now.counters[codes.STEPS_IN_STEP]
     begun = now.clock[codes.STEP_BEGUN]
     if spent == math.ceil(_LOOK_AFTER * most) and now.clock[codes.TIME] - begun < _COVERED * (target - begun):
-        note_stiffest(block)
         return status.NO_PROGRESS
     if spent >= most:
-        note_stiffest(block)
         return status.TOO_MANY_STEPS
     now.counters[codes.STEPS_IN_STEP] = spent + 1
     return status.OK
