@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
@@ -78,6 +79,8 @@ class FmuSlave(ABC):
         self._time = 0.0
         self._early: float | None = None
         self._returns = 0
+        self._short_of: float | None = None
+        self._shorts = 0
         self._initialized = False
         self._silent_since: int | None = None
         self._fatal = False
@@ -288,6 +291,19 @@ class FmuSlave(ABC):
             raise self.failure(f"{self._FMI}DoStep", "it returns early again and again, and its time stands still")
         self._early = self._time = reached
         return reached
+
+    def _count_short(self, end: float, most: int) -> None:
+        """Count the steps in a row that ended before `end` [s] for no event.
+
+        Raises:
+            FmuError: there have been more than `most`: each may take seconds, as of a stiff mechanism.
+        """
+        again = self._short_of is not None and math.isclose(end, self._short_of, rel_tol=1e-12)
+        self._short_of, self._shorts = end, self._shorts + 1 if again else 1
+        if self._shorts > most:
+            said = next((m.text.strip() for m in reversed(self.messages) if m.needs_attention), "it gave no reason.")
+            reason = f"{most} times it ended a step early that was to reach {end:.9g} s; it says: {said}"
+            raise self.failure(f"{self._FMI}DoStep", reason.removesuffix("."))
 
     @abstractmethod
     def _get(self, batch: Batch) -> list[Any]:

@@ -223,6 +223,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                 mechanism.settings.relative_tolerance,
                 mechanism.settings.baumgarte_alpha,
                 mechanism.settings.baumgarte_beta,
+                mechanism.settings.max_internal_steps,
             ]
         ),
         node_body=_integers([bodies[body] for body, _ in elastic.nodes]),

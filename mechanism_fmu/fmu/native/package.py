@@ -29,8 +29,8 @@ from .targets import TARGETS, Target
 from .universal import universal
 
 #: The files of the C surface, each using those before it; both versions of FMI stand in one library.
-_SURFACE = ("log.c", "instance.c", "values.c", "saved.c", "fmi2.c", "fmi3.c")
-_HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h")
+SURFACE = ("log.c", "instance.c", "values.c", "saved_check.c", "saved.c", "fmi2.c", "fmi3.c")
+_HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h", "saved.h")
 
 #: The headers of both standards, which the package fmpy brings.
 _STANDARD = Path(fmpy.__file__).with_name("c-code")
@@ -105,7 +105,7 @@ def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], e
     parts = {
         **entries,
         "model.c": model_source(model, traced, "", bytes(16)).encode(),
-        **linked_with(*_SURFACE, *_HEADERS),
+        **linked_with(*SURFACE, *_HEADERS),
         **{file.name: file.read_bytes() for file in sorted(_STANDARD.glob("fmi[23]*.h"))},
         **{name: object_file.read_bytes() for name, object_file in engine.objects.items()},
     }
@@ -121,7 +121,7 @@ def _binaries(model: Model, source: str, engine: Engine) -> dict[Target, bytes]:
         def binary(target: Target) -> bytes:
             place = folder / target.name
             place.mkdir()
-            inputs = [*surface(*_SURFACE), folder / "model.c", engine.objects[target.name]]
+            inputs = [*surface(*SURFACE), folder / "model.c", engine.objects[target.name]]
             library = place / f"{model.name}{target.suffix}"
             link(target, inputs, [engine.headers, _STANDARD], library)
             return library.read_bytes()

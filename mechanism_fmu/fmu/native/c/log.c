@@ -48,6 +48,16 @@ Status refuse(const Instance *x, const char *format, ...) {
     return ERROR;
 }
 
+Status give_up(const Instance *x, const char *format, ...) {
+    char text[2400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    say(x, DISCARD, "logStatusDiscard", "%s: %s", x->name, text);
+    return DISCARD;
+}
+
 void forget_news(Instance *x) {
     const int64_t *counters = COUNTERS(x);
     x->told_impacts = counters[CODE_COUNT_IMPACTS];
@@ -180,8 +190,19 @@ static void involved(Instance *x, char *text, size_t size) {
     append(text, size, ".");
 }
 
+/* How small the steps have become, and the part whose error limits them. */
+static void stiffest(Instance *x, char *text, size_t size) {
+    long long events = COUNTERS(x)[CODE_EVENTS_IN_STEP];
+    snprintf(text, size, " Internal steps: %lld, the last of %.3g s, limited by %s. Events: %lld%s.",
+             (long long)COUNTERS(x)[CODE_STEPS_IN_STEP], FIELD(x, tried)[1],
+             model.unknowns[*(const int64_t *)FIELD(x, stage_stiffest)], events,
+             events == CODE_EVENT_BUFFER_LENGTH ? " or more" : "");
+}
+
 const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size) {
     *text = 0;
+    if (outcome == STATUS_TOO_MANY_STEPS || outcome == STATUS_NO_PROGRESS || outcome == STATUS_STEP_TOO_SMALL)
+        stiffest(x, text, size);
     if (outcome == STATUS_NOT_ASSEMBLED)
         residuals(x, FIELD(x, residual), " Left open: ", " (m, or rad between directions).", text, size);
     if (outcome == STATUS_START_RATES)
