@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...description import Description
 from ...fmu import Fmu
 from ...fmu.slave import MessageHandler, discard_message
 from ...processes import starting_from
@@ -15,6 +17,7 @@ from . import far_side
 from .component import RemoteComponent
 from .far_side import Opener
 from .link import Link
+from .wire import Wire
 
 #: How long a call may take [s].
 TIME_LIMIT = 60.0
@@ -53,6 +56,10 @@ class _FmuOpener:
     name: str
     early_return: bool
 
+    @property
+    def description(self) -> Description:
+        return self.fmu.description
+
     def __call__(self, on_message: MessageHandler) -> Any:
         return self.fmu.instantiate(self.name, on_message, self.early_return)
 
@@ -69,7 +76,7 @@ def remote(
 
     Args:
         name: of the part.
-        opener: makes the component there; must be such that it can be pickled.
+        opener: makes the component there; must be such that it can be pickled, for the way there.
         on_message: receives its messages, with the reply to the call during which they came.
         time_limit: of a call [s]; ten times as much for the start and the initialization.
         folder: that the component lives in; the process removes it when this one is killed.
@@ -78,13 +85,13 @@ def remote(
         FmuError: the component cannot be made, or the process ends.
     """
     context = starting_from(far_side.__name__)
-    here, there = context.Pipe()
+    here, there = socket.socketpair()
     process = context.Process(target=far_side.serve, args=(there, name, opener, folder), name=name, daemon=True)  # type: ignore[attr-defined]
     try:
         process.start()
-        there.close()  # so that the end of the process is the end of the pipe
-        link = Link(name, process, here, on_message)
-        component = RemoteComponent(link, time_limit)
+        there.close()  # so that the end of the process is the end of the connection
+        link = Link(name, process, Wire(here), on_message)
+        component = RemoteComponent(link, opener.description, time_limit)
         try:
             yield component
         finally:
