@@ -11,6 +11,7 @@ from pathlib import Path
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from mechanism_fmu.fmu.built import was_built_here
 from mechanism_fmu.stress import beam_theory_note
 
 from ..clock import seconds
@@ -121,16 +122,33 @@ class DesignsBar:
 
 
 @contextmanager
-def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool) -> Iterator[Crew]:
+def crew_of(
+    fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool, trusted: bool
+) -> Iterator[Crew]:
     """Those who run the designs: processes, a cluster, or (`fast`) threads of this process.
 
+    Args:
+        fmu: that they run.
+        task: of every design.
+        workers: how many; None: as many as there are processors.
+        scheduler: address of a cluster's; None: this machine.
+        fast: whether the designs run in this process, by the Python sources in the FMU.
+        trusted: whether these may be run, though no build of this user has made the FMU.
+
     Raises:
-        UsageError: the cluster cannot be used, or the designs of this FMU cannot run in one call.
+        UsageError: the cluster cannot be used, the designs of this FMU cannot run in one call, or `fast` would run
+            Python that nobody trusts.
     """
     if fast:
         if scheduler is not None:
             raise UsageError(
                 "--fast uses the threads of this machine, --scheduler the machines of a cluster; choose one."
+            )
+        if not trusted and not was_built_here(fmu.path):
+            raise UsageError(
+                f"--fast runs the Python sources in '{fmu.path}' in this very process, and no build of yours has made "
+                "this file. Build it here, name its model in [fmu], or add --trust if you trust whoever made it; "
+                "without --fast, the FMU runs in processes of its own."
             )
         from ..designs.by_batch import require_batch
 

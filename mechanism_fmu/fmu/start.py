@@ -117,7 +117,7 @@ def _release_interpreter_once(fmu: Path, known: bool) -> None:
 def _cached(source: Path) -> Path:
     """A folder outside the FMU with the files of `source`."""
     try:
-        folder = cache_directory() / "mechanism_fmu" / source.name
+        folder = private_cache() / source.name
         _synchronize(source, folder)
         if not os.access(folder, os.W_OK):
             raise PermissionError(f"{folder} is read-only")
@@ -128,7 +128,7 @@ def _cached(source: Path) -> Path:
         _synchronize(source, folder)
         warnings.warn(
             f"The cache directory cannot be used ({error}), so the engine is compiled again in every process. "
-            f"Set the environment variable {CACHE_VARIABLE} to a folder that can be written.",
+            f"Set the environment variable {CACHE_VARIABLE} to a folder that you alone can write.",
             RuntimeWarning,
             stacklevel=3,
         )
@@ -144,6 +144,31 @@ def cache_directory() -> Path:
     if sys.platform == "darwin":
         return Path.home() / "Library" / "Caches"
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache").absolute()
+
+
+def private_cache() -> Path:
+    """The folder of this project in the cache directory, made if need be; nobody else can write to it.
+
+    What lies there is run. On Windows, the user's folders are nobody else's anyway.
+
+    Raises:
+        OSError: it cannot be made, or somebody else can write to it; the message says the way out.
+    """
+    folder = cache_directory() / "mechanism_fmu"
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if hasattr(os, "geteuid"):
+        state = folder.stat()
+        if state.st_uid != os.geteuid():
+            whose = f"belongs to user {state.st_uid}, not to {os.geteuid()} who runs this"
+        elif state.st_mode & 0o022:
+            whose = f"can be written by others (mode {state.st_mode & 0o777:o})"
+        else:
+            return folder
+        raise PermissionError(
+            f"the folder '{folder}', whose contents are run, {whose}; delete it, or, if you trust what is in it, make "
+            f"it yours alone (chown, chmod go-w), or set {CACHE_VARIABLE} to another folder"
+        )
+    return folder
 
 
 def _synchronize(source: Path, folder: Path) -> None:

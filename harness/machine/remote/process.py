@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -46,6 +46,40 @@ def in_own_process(
     opener = _FmuOpener(fmu, name, early_return)
     with remote(name, opener, on_message, time_limit, fmu.folder) as component:
         yield component
+
+
+@dataclass(frozen=True)
+class RemoteFmu:
+    """An extracted FMU whose instances have a process of their own each (`slave.Instances`).
+
+    Attributes:
+        fmu: it.
+        time_limit: of a call [s].
+    """
+
+    fmu: Fmu
+    time_limit: float = TIME_LIMIT
+
+    @property
+    def path(self) -> Path:
+        """The file it came from."""
+        return self.fmu.path
+
+    @property
+    def description(self) -> Description:
+        """What it says about itself."""
+        return self.fmu.description
+
+    @property
+    def folder(self) -> Path:
+        """Where it is extracted."""
+        return self.fmu.folder
+
+    def instantiate(
+        self, name: str, on_message: MessageHandler = discard_message
+    ) -> AbstractContextManager[RemoteComponent]:
+        """A new instance in a new process; both are ended afterwards."""
+        return in_own_process(self.fmu, name, on_message, self.time_limit)
 
 
 @dataclass(frozen=True)
