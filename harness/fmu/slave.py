@@ -390,7 +390,9 @@ class FmuSlave(ABC):
 
     def _error(self, problem: str, status: Status, messages: Sequence[LogMessage]) -> FmuError:
         time = self._time if self._initialized else None
-        said = [message.text.strip() for message in messages if message.needs_attention]
+        worst_first = sorted((m for m in messages if m.needs_attention), key=lambda m: -m.status)
+        ordered = worst_first if len(worst_first) > _MOST_REASONS else [m for m in messages if m.needs_attention]
+        said = [message.text.strip() for message in ordered]
         own = [text for text in said if not text.startswith(_WRAPPER_SAYS)] or said
         if len(own) > _MOST_REASONS:
             own = [*own[:_MOST_REASONS], f"(And {len(own) - _MOST_REASONS} messages more.)"]
