@@ -26,6 +26,11 @@ from .terminal import FAILED, show_error, user_errors
 _TIME_LIMIT = 600.0
 
 
+def instances_of(fmu: Fmu) -> Instances:
+    """An FMU itself if a build of this user has made it, else one whose instances have processes of their own."""
+    return fmu if was_built_here(fmu.path) else RemoteFmu(fmu, _TIME_LIMIT)
+
+
 def with_instances(fmu: Fmu, in_process: bool, work: Callable[[Instances], int]) -> int:
     """The exit code of work with instances of an FMU.
 
@@ -34,10 +39,9 @@ def with_instances(fmu: Fmu, in_process: bool, work: Callable[[Instances], int])
         in_process: whether instances shall be in the process that works, though no build of this user has made the FMU.
         work: is given what makes instances, and returns an exit code.
     """
-    if was_built_here(fmu.path):
-        return work(fmu)
-    if not in_process:
-        return work(RemoteFmu(fmu, _TIME_LIMIT))
+    instances = instances_of(fmu)
+    if instances is fmu or not in_process:
+        return work(instances)
     return supervised(lambda: work(fmu)) if hasattr(os, "fork") else work(fmu)
 
 

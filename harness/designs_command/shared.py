@@ -21,11 +21,13 @@ from ..designs.of_impacts import wants_stress
 from ..designs.plan import Source, source
 from ..designs.task import Design, Task
 from ..designs.ways import BY_FMU, by_batch_in
-from ..designs.workers import Crew, Processes, Work, here
+from ..designs.worker_processes import Processes
+from ..designs.workers import Crew, Work, here
 from ..errors import UsageError
 from ..fmu import Fmu, open_fmu
 from ..fmu.workspace import temporary_folder
 from ..interrupt import interruption
+from ..isolation import instances_of
 from ..terminal import RunDisplay, console
 from ..toml_file import TomlFile
 
@@ -184,4 +186,4 @@ def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMot
         RunDisplay(seconds(task.grid.stop), running) as display,
         interruption(lambda: console.print("The report will show it up to here.")) as stop_requested,
     ):
-        return in_motion(fmu, task, design, which, [display], stop_requested)
+        return in_motion(instances_of(fmu), task, design, which, [display], stop_requested)

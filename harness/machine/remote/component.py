@@ -9,11 +9,11 @@ from typing import Any
 from ...description import Description, Value
 from ...messages import LogMessage
 from ...slave import whole_step
+from ...wire import BrokenFrameError
 from .link import Link
 from .plain import number
 from .reals import RemoteReals
 from .round_trips import RoundTrips
-from .wire import BrokenFrameError
 
 
 class RemoteComponent:

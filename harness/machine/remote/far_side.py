@@ -25,10 +25,10 @@ from ...description import Description
 from ...fmu.slave import MessageHandler
 from ...messages import LogMessage
 from ...processes import serve_only
+from ...wire import BrokenFrameError, Wire
 from ..component import Component, Reals
 from .plain import Numbers, Types, packed_error, packed_messages
 from .questions import packed_answer
-from .wire import BrokenFrameError, Wire
 
 #: (orders, call, arguments of the call, numbers of wanted answers).
 Request = tuple[Sequence[tuple[Any, ...]], str, tuple[Any, ...], Sequence[int]]

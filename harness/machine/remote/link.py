@@ -11,10 +11,10 @@ from typing import Any
 from ...errors import FmuError, HarnessError
 from ...fmu.slave import MessageHandler
 from ...messages import LogMessage, Status
+from ...wire import BrokenFrameError, LateFrameError, Wire
 from .far_side import WRITES, Request
 from .plain import Numbers, read_error, read_messages
 from .questions import Question
-from .wire import BrokenFrameError, LateFrameError, Wire
 
 #: How long a process has for its end [s].
 _PATIENCE = 5.0

@@ -11,7 +11,7 @@ from typing import Any
 from ...description import Value, Variable
 from ...errors import FmuError, HarnessError, UsageError
 from ...messages import LogMessage, Status
-from .wire import BrokenFrameError
+from ...wire import BrokenFrameError
 
 _KINDS: dict[str, type[HarnessError]] = {"usage": UsageError, "fmu": FmuError, "harness": HarnessError}
 _TYPES: dict[str, type[Value]] = {"Real": float, "Integer": int, "Boolean": bool, "String": str}

@@ -13,11 +13,11 @@ from ...description import Description
 from ...fmu import Fmu
 from ...fmu.slave import MessageHandler, discard_message
 from ...processes import starting_from
+from ...wire import Wire
 from . import far_side
 from .component import RemoteComponent
 from .far_side import Opener
 from .link import Link
-from .wire import Wire
 
 #: How long a call may take [s].
 TIME_LIMIT = 60.0

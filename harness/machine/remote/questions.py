@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...description import Variable
+from ...wire import BrokenFrameError
 from .plain import Numbers, Types, read_error
-from .wire import BrokenFrameError
 
 #: What can be asked of variables: values by name, those of bound Reals, derivatives of outputs.
 KINDS = ("get", "read", "read_slopes")

@@ -24,7 +24,7 @@ from harness.fmu.slave import MessageHandler
 from harness.machine.remote import remote
 from harness.machine.remote.plain import Numbers, Types, read_error, read_messages
 from harness.machine.remote.questions import Question, packed_answer, question
-from harness.machine.remote.wire import MOST_BYTES, BrokenFrameError, LateFrameError, Wire
+from harness.wire import MOST_BYTES, BrokenFrameError, LateFrameError, Wire
 from tests.harness.machine.fakes import Wheel, description
 
 

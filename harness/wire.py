@@ -42,10 +42,17 @@ class LateFrameError(Exception):
 
 
 class Wire:
-    """One end of a connection; the two sides take turns."""
+    """One end of a connection.
 
-    def __init__(self, end: socket.socket) -> None:
+    Attributes:
+        pending: whether something of a further frame has come along with the last one.
+    """
+
+    def __init__(self, end: socket.socket, *, turns: bool = True) -> None:
+        """`turns`: whether the two sides take turns, so that a second frame behind one that has come is wrong."""
         self._end = end
+        self._turns = turns
+        self._left = b""
         self._limit: float | None = -1.0  # of the socket
         self._room = memoryview(bytearray(_ROOM))
 
@@ -82,7 +89,8 @@ class Wire:
         """
         self._wait_for(limit)
         began = time.monotonic()
-        frame = self._some()
+        left, self._left = self._left, b""
+        frame = memoryview(left) if left else self._some()
         if len(frame) < _LENGTHS.size or len(frame) != _LENGTHS.size + sum(_LENGTHS.unpack_from(frame)):
             frame = self._rest(bytearray(frame), None if limit is None else began + limit)
         length, _ = _LENGTHS.unpack_from(frame)
@@ -95,6 +103,15 @@ class Wire:
         if end != length:
             raise BrokenFrameError("its text goes on behind the JSON")
         return data, bytes(frame[tail:])
+
+    @property
+    def pending(self) -> bool:
+        """See the class."""
+        return bool(self._left)
+
+    def fileno(self) -> int:
+        """Of the socket, for those who wait for several."""
+        return self._end.fileno()
 
     def close(self) -> None:
         """Let go of this end."""
@@ -109,9 +126,10 @@ class Wire:
             raise BrokenFrameError(f"it announces {size - _LENGTHS.size} bytes, more than {MOST_BYTES}")
         while len(have) < size:
             have += self._more(deadline)
-        if len(have) > size:
+        if len(have) > size and self._turns:
             raise BrokenFrameError("there is more behind it than was asked for")
-        return memoryview(have)
+        self._left = bytes(have[size:])
+        return memoryview(have)[:size]
 
     def _more(self, deadline: float | None) -> memoryview:
         if deadline is not None:
