@@ -14,7 +14,6 @@ import ctypes
 import importlib
 import importlib.util
 import os
-import pickle
 import shutil
 import sys
 import tempfile
@@ -121,7 +120,6 @@ def _cached(source: Path) -> Path:
         _synchronize(source, folder)
         if not os.access(folder, os.W_OK):
             raise PermissionError(f"{folder} is read-only")
-        _drop_broken_compilations(folder)
     except (OSError, RuntimeError) as error:
         folder = Path(tempfile.mkdtemp(prefix="mechanism_fmu_")) / source.name
         atexit.register(shutil.rmtree, folder.parent, ignore_errors=True)
@@ -194,13 +192,6 @@ def _synchronize(source: Path, folder: Path) -> None:
         except BaseException:
             os.unlink(temporary)
             raise
-
-
-def _drop_broken_compilations(folder: Path) -> None:
-    """Delete what numba has kept and a crash or a full disk has cut off: numba would stop at it, not compile again."""
-    for compiled in folder.rglob("*.nb[ci]"):
-        if not compiled.read_bytes().endswith(pickle.STOP):
-            compiled.unlink(missing_ok=True)
 
 
 def _import_package(name: str, folder: Path) -> None:
