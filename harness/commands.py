@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 
 from rich.markup import escape
@@ -11,12 +12,14 @@ from .assignments import start_values
 from .checks import Check, all_passed
 from .ending import show_ending
 from .errors import FmuError, UsageError
-from .experiment import Experiment, Run, default_times, perform
-from .fmu import Fmu, open_fmu
+from .experiment import Experiment, Run, default_times, performing
+from .fmu import open_fmu
 from .interrupt import interruption
+from .isolation import with_instances
 from .logic import default_parameters, read_logic
 from .paper import base_case_checks
 from .results import prepare_folder, write_run, write_text
+from .slave import Instances
 from .terminal import (
     FAILED,
     RunDisplay,
@@ -43,8 +46,7 @@ def run_demo(folder: Path) -> int:
     prepare_folder(folder)
     path = _built_ratchet(folder, f"run its base case for {_DEMO.stop_time:g} s")
     with open_fmu(path) as fmu:
-        run = _performed(fmu, _DEMO)
-    return _written(run, folder, base_case_checks(run.impacts))
+        return _performed(fmu, _DEMO, lambda run: _written(run, folder, base_case_checks(run.impacts)))
 
 
 def run_cycle(folder: Path) -> int:
@@ -56,8 +58,7 @@ def run_cycle(folder: Path) -> int:
     drive = cycle.write_drive(folder / "drive.csv")
     experiment = Experiment(cycle.STOP_TIME, _CYCLE_STEP, cycle.VALUES, drive)
     with open_fmu(path) as fmu:
-        run = _performed(fmu, experiment)
-    return _written(run, folder, cycle.cycle_checks(run.results))
+        return _performed(fmu, experiment, lambda run: _written(run, folder, cycle.cycle_checks(run.results)))
 
 
 def new_mechanism(name: str) -> int:
@@ -87,19 +88,27 @@ def run_fmu(
     input_file: Path | None,
     material: str,
     folder: Path,
+    in_process: bool = False,
 ) -> int:
-    """Run an FMU and write what comes of it."""
-    card = card_of(material)
+    """Run an FMU and write what comes of it.
+
+    The files are written before the instance is freed, to a folder that stays the same whatever the FMU does to the
+    working folder.
+    """
+    card, folder = card_of(material), folder.absolute()
     with open_fmu(path) as fmu:
         values = start_values(settings, fmu.description)
         experiment = Experiment(*default_times(fmu.description, stop_time, step), values, input_file, card)
         prepare_folder(folder)
-        try:
-            run = _performed(fmu, experiment)
-        except FmuError:
-            tell_of_earlier_files(folder)
-            raise
-    return _written(run, folder)
+
+        def work(instances: Instances) -> int:
+            try:
+                return _performed(instances, experiment, lambda run: _written(run, folder))
+            except FmuError:
+                tell_of_earlier_files(folder)
+                raise
+
+        return with_instances(fmu, in_process, work)
 
 
 def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:
@@ -124,19 +133,22 @@ def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:
     return 0
 
 
-def validate_fmu(path: Path) -> int:
+def validate_fmu(path: Path, in_process: bool = False) -> int:
     """Show one verdict after the other."""
     from .validate import validate
 
-    passed = True
-    with open_fmu(path) as fmu:
-        for check in validate(fmu):
+    def work(instances: Instances) -> int:
+        passed = True
+        for check in validate(instances):
             show_checks([check])
             passed = passed and check.passed
-    console.print(
-        "The FMU keeps what it promises." if passed else "[bold red]The FMU has the problems marked above.[/]"
-    )
-    return 0 if passed else FAILED
+        console.print(
+            "The FMU keeps what it promises." if passed else "[bold red]The FMU has the problems marked above.[/]"
+        )
+        return 0 if passed else FAILED
+
+    with open_fmu(path) as fmu:
+        return with_instances(fmu, in_process, work)
 
 
 def run_study(folder: Path, path: Path | None) -> int:
@@ -176,18 +188,23 @@ def _built_ratchet(folder: Path, purpose: str) -> Path:
     return path
 
 
-def _performed(fmu: Fmu, experiment: Experiment) -> Run:
-    """Perform an experiment under the eyes of the user.
+def _performed(fmu: Instances, experiment: Experiment, then: Callable[[Run], int]) -> int:
+    """Perform an experiment under the eyes of the user; the exit code of what is done `then`.
+
+    The instance is freed after that only: what has been recorded is written by then.
 
     Raises:
-        FmuError: as of `perform`.
+        FmuError: as of `performing`.
     """
     loading = f"Loading {fmu.path.name}; a first start may take a while ..."
-    with (
-        RunDisplay(experiment.stop_time, loading) as display,
-        interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop_requested,
-    ):
-        return perform(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop_requested)
+    with ExitStack() as instance:
+        with (
+            RunDisplay(experiment.stop_time, loading) as display,
+            interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop,
+        ):
+            performance = performing(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop)
+            run = instance.enter_context(performance)
+        return then(run)
 
 
 def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:

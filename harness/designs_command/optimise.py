@@ -24,7 +24,9 @@ from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, sho
 from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory
 
 
-def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
+def run_optimise(
+    path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool, trust: bool = False
+) -> int:
     """Look for the best design of a file, go on where it stopped, and write history, optimum and report."""
     folder = Path(path.stem) if folder is None else folder
     with prepared(path) as (file, fmu, built):
@@ -41,7 +43,7 @@ def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler
                 soft_wrap=True,
             )
             with (
-                crew_of(fmu, optimum.task, workers, scheduler, fast) as crew,
+                crew_of(fmu, optimum.task, workers, scheduler, fast, trust or built) as crew,
                 DesignsBar(optimum.total) as bar,
                 interruption(lambda: console.print(ENDING)) as stop_requested,
             ):

@@ -25,7 +25,9 @@ from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_agai
 _MOST_SHOWN = 10
 
 
-def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
+def run_sweep(
+    path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool, trust: bool = False
+) -> int:
     """Run the designs of a file that are not there yet, keep them as they come, and write table and report."""
     folder = Path(path.stem) if folder is None else folder
     with prepared(path) as (file, fmu, built):
@@ -35,7 +37,7 @@ def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: s
             store = Store(folder, known, sweep.axes, sweep.task.quantities)
             if built:
                 keep_built(fmu, folder)
-            with crew_of(fmu, sweep.task, workers, scheduler, fast) as crew:
+            with crew_of(fmu, sweep.task, workers, scheduler, fast, trust or built) as crew:
                 progress, table = _performed(sweep, store, crew)
             return _ending(fmu, sweep, store, progress, table)
 

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import fmpy
 
+from mechanism_fmu.fmu.unpacked import UnsafeNameError, checked_archive
+
 from ..description import Description, read_description
 from ..errors import UsageError
 from .fmi2 import Fmi2Slave
@@ -64,7 +66,8 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
     For a `with`: `with open_fmu(Path("build/Ratchet.fmu")) as fmu, fmu.instantiate("ratchet") as ratchet:`.
 
     Raises:
-        UsageError: not a file, not an FMU that can be run, or made for other platforms only.
+        UsageError: not a file, not an FMU that can be run, made for other platforms only, or with names in it that lead
+            out of the folder.
     """
     description = read_description(path)
     platforms = fmpy.supported_platforms(str(path))
@@ -72,6 +75,16 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
         raise UsageError(
             f"'{path}' has no library for {fmpy.platform}; it runs on {', '.join(platforms) or 'no platform'}."
         )
+    _check_names(path)
     with temporary_folder() as folder:
         fmpy.extract(str(path), unzipdir=str(folder))
         yield Fmu(path, description, folder)
+
+
+def _check_names(path: Path) -> None:
+    """Refuse an FMU that would write outside the folder it is extracted to: fmpy lets links and some names pass."""
+    try:
+        with checked_archive(path):
+            pass
+    except UnsafeNameError as error:
+        raise UsageError(f"'{path}' cannot be extracted: {error}.") from error

@@ -106,7 +106,7 @@ class Fmi2Slave(FmuSlave):
         return callbacks
 
     def _log(self, _environment: Any, _instance: Any, status: int, category: bytes | None, text: bytes | None) -> None:
-        self._told(status, category, (text or b"").decode("utf-8", errors="replace").replace("%%", "%"))
+        self._told(status, category, text, "%")
 
     def _get(self, batch: Batch) -> list[Any]:
         name = _NAMES.get(batch.kind, batch.kind)

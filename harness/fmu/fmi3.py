@@ -120,7 +120,7 @@ class Fmi3Slave(FmuSlave):
         raise self.failure("fmi3UpdateDiscreteStates", f"its discrete states do not settle in {_MOST_UPDATES} updates")
 
     def _log(self, _environment: Any, status: int, category: bytes | None, text: bytes | None) -> None:
-        self._told(status, category, (text or b"").decode("utf-8", errors="replace").replace("##", "#"))
+        self._told(status, category, text, "#")
 
     def _get(self, batch: Batch) -> list[Any]:
         name = _NAMES.get(batch.kind, batch.kind)

@@ -11,6 +11,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from .model_description import to_bytes
+from .unpacked import checked_archive
 
 #: Name of the description within the archive.
 DESCRIPTION = "modelDescription.xml"
@@ -31,8 +32,13 @@ def content_hash(files: Mapping[str, bytes]) -> str:
 
 
 def read_entries(path: Path) -> dict[str, bytes]:
-    """Contents of all files of a zip archive, by name."""
-    with zipfile.ZipFile(path) as archive:
+    """Contents of all files of a zip archive, by name.
+
+    Raises:
+        UnsafeNameError: it has an entry that must not be unpacked.
+        OSError, zipfile.BadZipFile: it cannot be read.
+    """
+    with checked_archive(path) as archive:
         return {name: archive.read(name) for name in archive.namelist()}
 
 

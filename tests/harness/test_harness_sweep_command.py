@@ -2,10 +2,12 @@
 
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
 import time
+import zipfile
 from pathlib import Path
 
 import pandas as pd
@@ -112,6 +114,22 @@ def test_two_ways_at_once_are_wrong_use(slider_crank_fmu: Path, tmp_path: Path) 
     code, text = invoke(path, "-o", tmp_path / "out", "--fast", "--scheduler", "tcp://127.0.0.1:9")
     assert code == 2
     assert "--fast uses the threads of this machine" in text
+
+
+def test_the_fast_way_runs_nobody_else_s_python_untold(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    """One that was changed by as little as a comment is somebody else's, whatever it says of itself."""
+    foreign = tmp_path / "SliderCrank.fmu"
+    shutil.copyfile(slider_crank_fmu, foreign)
+    with zipfile.ZipFile(foreign, "a") as archive:
+        archive.comment = b"from somebody else"
+    path = file_of(tmp_path, foreign, 1)
+    code, text = invoke(path, "-o", tmp_path / "out", "--fast")
+    assert code == 2
+    assert "--fast runs the Python sources in" in text
+    assert "add --trust if you trust whoever made it" in text
+    assert not (tmp_path / "out" / "results.parquet").exists()
+    assert invoke(path, "-o", tmp_path / "out", "--fast", "--trust")[0] == 0
+    assert invoke(file_of(tmp_path, slider_crank_fmu, 1), "-o", tmp_path / "own", "--fast")[0] == 0
 
 
 def test_what_was_begun_one_way_is_finished_the_other(slider_crank_fmu: Path, tmp_path: Path) -> None:

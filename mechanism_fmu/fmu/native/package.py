@@ -17,6 +17,7 @@ from ...engine.block.pack import pack
 from ...model import Model, compile_mechanism
 from ...model.trace import trace
 from ..archive import DESCRIPTION, content_hash, write_archive
+from ..built import record_build
 from ..contents import common_entries, file_in, model_of
 from ..model_description import model_description, to_bytes
 from .description3 import model_description3
@@ -92,7 +93,7 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
     for name, libraries in binaries.items():
         entries[name] = universal(libraries) if len(libraries) > 1 else libraries[0]
     write_archive(entries, path, zipfile.ZIP_DEFLATED)
-    return path
+    return record_build(path)
 
 
 def _description(model: Model, token: str, fmi: int) -> bytes:
