@@ -6,10 +6,12 @@ import hashlib
 import os
 import uuid
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
+from .archive_names import unsafe_name
 from .model_description import to_bytes
 
 #: Name of the description within the archive.
@@ -17,6 +19,9 @@ DESCRIPTION = "modelDescription.xml"
 
 #: The first moment that a zip archive can write down.
 _TIME = (1980, 1, 1, 0, 0, 0)
+
+#: What zipfile raises for an entry that is damaged, cut off, encrypted or compressed in a way that it does not know.
+UNREADABLE = (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError)
 
 _FILE, _PROGRAM = 0o100644, 0o100755
 
@@ -31,9 +36,24 @@ def content_hash(files: Mapping[str, bytes]) -> str:
 
 
 def read_entries(path: Path) -> dict[str, bytes]:
-    """Contents of all files of a zip archive, by name."""
+    """Contents of all files of a zip archive, by name; the names are safe to unpack (`archive_names`).
+
+    Raises:
+        OSError: the file cannot be read.
+        zipfile.BadZipFile: it is no zip archive, or a damaged one, or one with names that are not safe.
+    """
     with zipfile.ZipFile(path) as archive:
-        return {name: archive.read(name) for name in archive.namelist()}
+        objection = unsafe_name(archive.infolist())
+        if objection is not None:
+            raise zipfile.BadZipFile(objection)
+        return {name: _contents(archive, name) for name in archive.namelist()}
+
+
+def _contents(archive: zipfile.ZipFile, name: str) -> bytes:
+    try:
+        return archive.read(name)
+    except UNREADABLE as error:
+        raise zipfile.BadZipFile(f"its entry '{name}' cannot be unpacked: {error}") from error
 
 
 def with_guid(entries: Mapping[str, bytes]) -> dict[str, bytes]:
