@@ -21,7 +21,7 @@ from ..numbers import shown
 from ..occupied import alone_in
 from ..results import write_json
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
-from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory, show_input_note
 
 
 def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
@@ -40,6 +40,7 @@ def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler
                 f"{optimum.total} designs ({optimum.method})",
                 soft_wrap=True,
             )
+            show_input_note(optimum.task)
             with (
                 crew_of(fmu, optimum.task, workers, scheduler, fast) as crew,
                 DesignsBar(optimum.total) as bar,

@@ -70,7 +70,7 @@ def write_archive(entries: Mapping[str, bytes], path: Path, compression: int = z
 
     What is stored is the same everywhere; what is compressed depends on the version of zlib.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
     try:
         with zipfile.ZipFile(temporary, "w", compression, compresslevel=9) as archive:
             for name, contents in sorted(entries.items()):

@@ -13,6 +13,7 @@ values or exception). So a step costs one request and one reply, whatever is wri
 from __future__ import annotations
 
 import pickle
+import signal
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from multiprocessing.connection import Connection as Pipe
@@ -42,6 +43,7 @@ def serve(pipe: Pipe, name: str, opener: Opener, folder: Path | None) -> None:
         folder: to be removed when the other side's process was killed.
     """
     end = serve_only(folder)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # sent to all of a group: the one that leads ends this one
     try:
         _have_component(pipe, name, opener)
     except (EOFError, ConnectionError):  # nobody is there any more
