@@ -264,11 +264,16 @@ class Simulation:
             raise SimulationError(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
 
     def _involved(self, outcome: int) -> str:
-        """The contacts that a failed event is about."""
+        """The contacts that a failed event is about, and the joints that rub where friction is what failed."""
         if outcome not in _ABOUT_CONTACTS:
             return ""
         names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
-        return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
+        names |= set(self.mode())
+        friction = field_of(self._block, "joint_friction").tolist()
+        rubbing = [joint.name for joint, value in zip(self._mechanism.joints, friction, strict=True) if value > 0.0]
+        contacts = f" Contacts: {', '.join(sorted(names))}." if names else ""
+        joints = f" Joints with friction: {', '.join(rubbing)}." if outcome == status.JAMMED and rubbing else ""
+        return contacts + joints
 
     def _residuals(self) -> str:
         """What is left of each joint and closed contact at the closest position found."""
