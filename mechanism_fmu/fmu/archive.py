@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import lzma
 import os
+import struct
 import uuid
 import zipfile
 import zlib
@@ -20,8 +22,9 @@ DESCRIPTION = "modelDescription.xml"
 #: The first moment that a zip archive can write down.
 _TIME = (1980, 1, 1, 0, 0, 0)
 
-#: What zipfile raises for an entry that is damaged, cut off, encrypted or compressed in a way that it does not know.
-UNREADABLE = (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError)
+#: What zipfile raises, beside its own error, for archives that are damaged, cut off, encrypted, or compressed in a way
+#: that it does not know.
+_DAMAGED = (zlib.error, lzma.LZMAError, struct.error, EOFError, RuntimeError, ValueError, OverflowError)
 
 _FILE, _PROGRAM = 0o100644, 0o100755
 
@@ -42,18 +45,14 @@ def read_entries(path: Path) -> dict[str, bytes]:
         OSError: the file cannot be read.
         zipfile.BadZipFile: it is no zip archive, or a damaged one, or one with names that are not safe.
     """
-    with zipfile.ZipFile(path) as archive:
-        objection = unsafe_name(archive.infolist())
-        if objection is not None:
-            raise zipfile.BadZipFile(objection)
-        return {name: _contents(archive, name) for name in archive.namelist()}
-
-
-def _contents(archive: zipfile.ZipFile, name: str) -> bytes:
     try:
-        return archive.read(name)
-    except UNREADABLE as error:
-        raise zipfile.BadZipFile(f"its entry '{name}' cannot be unpacked: {error}") from error
+        with zipfile.ZipFile(path) as archive:
+            objection = unsafe_name(archive.infolist())
+            if objection is not None:
+                raise zipfile.BadZipFile(objection)
+            return {name: archive.read(name) for name in archive.namelist()}
+    except _DAMAGED as error:
+        raise zipfile.BadZipFile(str(error) or "an entry is cut off") from error
 
 
 def with_guid(entries: Mapping[str, bytes]) -> dict[str, bytes]:
