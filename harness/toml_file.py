@@ -24,6 +24,8 @@ _NAME = re.compile(r"""\s*(?:"([^"]*)"|'([^']*)'|([\w-]+))\s*(?:\.|$)""")
 #: Tables and lists within one another; what is read here has four at most.
 _DEEPEST = 20
 _NESTING = f"at most {_DEEPEST} may, and no file of this project needs more than four"
+#: Letters of a line in which a name is looked for: a pattern takes a time that grows with their square.
+_LONGEST_LINE = 1000
 #: Letters of a value that a message shows.
 _LONGEST = 60
 
@@ -256,7 +258,8 @@ def _lines_of(text: str) -> dict[Key, int]:
     lines: dict[Key, int] = {}
     counts: dict[Key, int] = {}
     table: Key = ()
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, whole in enumerate(text.splitlines(), start=1):
+        line = whole[:_LONGEST_LINE]
         heading, assignment = _TABLE.fullmatch(line), _ASSIGNMENT.match(line)
         if heading is not None:
             table = _names(heading[2])
