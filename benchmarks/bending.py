@@ -22,7 +22,7 @@ _WITHIN = 5e-6
 
 
 def compare(rounds: int) -> list[Comparison]:
-    """Compare the steady state of the paper's path generator at 500 rpm, with 2 % of damping."""
+    """Compare the steady state of the path generator at 500 rpm, with 2 % of damping."""
     generator = PathGenerator()
     mechanism = generator.mechanism()
     motion = analyse(mechanism, np.linspace(0.0, 2 * math.pi / generator.speed, 361))

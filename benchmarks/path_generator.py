@@ -1,4 +1,7 @@
-"""The four-bar path generator of Erdman, Sandor and Oakberg (1972), their Case 2, in any unit system."""
+"""The four-bar path generator of Erdman, Sandor and Oakberg (1972), Fig. 3, by their Case 2, in any unit system.
+
+Its dimensions, masses and speed are this project's: the paper's numerical example lies beyond the pages at hand.
+"""
 
 from __future__ import annotations
 

@@ -11,6 +11,7 @@ from build_fmu import build
 
 from . import machine_cli
 from .cli_group import Group
+from .ked.judged_by import JudgedBy
 
 # Everything else is imported inside the commands: --help must not wait for pandas and fmpy.
 main = typer.Typer(
@@ -313,6 +314,47 @@ def ked(
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE[UNIT]", help="Set a parameter; repeat it for more."),
     ] = None,
+    limit_deviation: Annotated[
+        str | None,
+        typer.Option(
+            metavar="VALUE[UNIT]", help="Of the path point from its rigid path, e.g. '1 mm'.", show_default=False
+        ),
+    ] = None,
+    limit_stress: Annotated[
+        str | None, typer.Option(metavar="VALUE[UNIT]", help="In every member, e.g. '60 MPa'.", show_default=False)
+    ] = None,
+    judge: Annotated[JudgedBy, typer.Option(help="The solution that must keep to the limits.")] = (
+        JudgedBy.ELASTODYNAMIC
+    ),
+    synthesise: Annotated[
+        bool, typer.Option("--synthesise", help="Look for the lightest members within both limits.")
+    ] = False,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=LEAST..LARGEST[UNIT]",
+            help="A section's size that --synthesise may change; repeat it for more.",
+            show_default="depths of all members, from 1/4 to 4 times",
+        ),
+    ] = None,
+    fluctuation: Annotated[
+        float | None,
+        typer.Option(
+            metavar="RATIO",
+            help="Size a flywheel: (largest - least speed) / mean speed, e.g. 0.02.",
+            show_default=False,
+        ),
+    ] = None,
+    friction: Annotated[
+        float | None,
+        typer.Option(metavar="COEFFICIENT", help="Of Coulomb friction in all joints.", show_default="the model's"),
+    ] = None,
+    pin_radius: Annotated[
+        str | None,
+        typer.Option(
+            metavar="VALUE[UNIT]", help="Of all pins, where --friction acts, e.g. '5 mm'.", show_default=False
+        ),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="ked_NAME"),
@@ -321,8 +363,13 @@ def ked(
     """Bend a linkage over a turn of its crank at constant speed, and write cycle.csv, summary.json and report.html.
 
     The links bend under the inertia of the rigid motion (quasi-statically), and in the periodic motion that follows
-    from it (elastodynamically): path deviation, stresses, natural frequencies, critical speeds, input torque. The FMU
-    is built, too, and its elastic outputs are compared. See docs/ked.md.
+    from it (elastodynamically): path deviation, stresses, natural frequencies, critical speeds, input torque, forces
+    in the joints, shaking force and shaking moment on the frame. The FMU is built, too, and its elastic outputs are
+    compared. See docs/ked.md.
+
+    Limits alone give verdicts. With --synthesise, the depths of the members (or what --vary names) are changed until
+    the linkage is as light as the limits allow, and that design is what is shown. --fluctuation sizes the flywheel that
+    keeps the crank's speed even; --friction puts friction into all joints.
 
     Try:
 
@@ -330,13 +377,50 @@ def ked(
 
         mechanism-fmu ked four_bar_path_generator --speed "600 rpm" --set "arm_depth=16 mm" -o result
 
+        mechanism-fmu ked four_bar_path_generator --synthesise --limit-deviation 1mm --limit-stress 60MPa
+
+        mechanism-fmu ked four_bar_path_generator --fluctuation 0.02 --friction 0.1 --pin-radius 5mm
+
     Exit code: 0 all well, 1 a verdict failed, 2 wrong use.
     """
+    from .ked.options import asked
     from .ked_command import run_ked
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_ked(model, speed, step, damping, settings or [], output))
+        wishes = asked(limit_deviation, limit_stress, judge, synthesise, vary or [], fluctuation, friction, pin_radius)
+        raise typer.Exit(run_ked(model, speed, step, damping, settings or [], output, wishes))
+
+
+@main.command()
+def reproduce(
+    rows: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[ID ...]", help="Beginnings of rows' ids, e.g. P-eq7.", show_default="all rows"),
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the files.")] = Path(
+        "papers-reproduced"
+    ),
+) -> None:
+    """Work every equation, table, figure, example and claim of the three documents anew, each with a verdict.
+
+    Writes papers-reproduced.md (docs/papers-reproduced.md is what it wrote), report.html, rows.csv and the figures.
+    With ids, only the rows that begin so, with their worked numbers: P of Pennestrì, Valentini, Vita; E of Erdman,
+    Sandor, Oakberg; S of the ME451 slides; X for errata, C for choices.
+
+    Try:
+
+        mechanism-fmu reproduce
+
+        mechanism-fmu reproduce P-eq7 E-eq13 S-3.4.1
+
+    Exit code: 0 all well, 1 a row is not what it should be, 2 wrong use.
+    """
+    from .reproduce_command import run_reproduce
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_reproduce(rows or [], output))
 
 
 @main.command()

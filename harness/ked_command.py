@@ -3,24 +3,38 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from rich.markup import escape
 
 import build_fmu
-from mechanism_fmu.elastodynamics import LinkageError, crank_of
+from mechanism_fmu.elastodynamics import LinkageError, crank_of, with_friction
 
-from .assignments import parse_value, start_values
+from .assignments import start_values
 from .checks import all_passed
-from .description import Description, Value, Variable
+from .description import Description, Value
 from .errors import UsageError
-from .fmu import open_fmu
+from .fmu import Fmu, open_fmu
 from .ked.agreement import agreement
 from .ked.files import Result, write_result
-from .ked.solve import prepared, solved, swept
-from .ked.tables import cycle_rows, frequency_rows, largest_rows, narrow_columns
+from .ked.options import Asked, quantity
+from .ked.solution import Solution
+from .ked.solve import Turn, prepared, solved, swept
+from .ked.synthesis import bounds_of, synthesised
+from .ked.tables import (
+    cycle_rows,
+    flywheel_sentence,
+    frame_sentence,
+    frequency_rows,
+    friction_sentence,
+    joint_rows,
+    largest_rows,
+    narrow_columns,
+    synthesis_rows,
+)
 from .occupied import alone_in
 from .report.ked_report import write_ked_report
 from .terminal import FAILED, console, show_checks, show_files, show_progress, show_table
@@ -29,15 +43,32 @@ from .terminal import FAILED, console, show_checks, show_files, show_progress, s
 _MOST_ROWS, _NARROW = 36, 120
 #: The finest step [deg]: what is finer takes long, and no curve shows it.
 _FINEST = 0.1
-#: A reference that no variable of an FMU has.
-_NO_REFERENCE = -1
 
 
 def run_ked(
-    model: str, speed: str | None, step: float, damping: float, settings: Sequence[str], folder: Path | None
+    model: str,
+    speed: str | None,
+    step: float,
+    damping: float,
+    settings: Sequence[str],
+    folder: Path | None,
+    asked: Asked | None = None,
 ) -> int:
-    """Bend a linkage over a turn, tell and write what comes of it, and return the exit code."""
-    samples = _samples(step)
+    """Bend a linkage over a turn, tell and write what comes of it, and return the exit code.
+
+    Args:
+        model: name of a ready-made one, or file.
+        speed: of the crank, with its unit; None: that of the model at the start.
+        step: of the crank's angle in the tables [deg].
+        damping: ratio of every mode.
+        settings: parameters, "name=value unit".
+        folder: for the results.
+        asked: limits, synthesis, flywheel and friction.
+
+    Raises:
+        UsageError: something of it cannot be; the message says what and what to do.
+    """
+    samples, asked = _samples(step), asked or Asked()
     if not 0.0 <= damping < 1.0:
         raise UsageError(f"The damping ratio is {damping:g}; give one from 0 to below 1, e.g. 0.02 for 2 %.")
     if model in build_fmu.model_names():
@@ -47,20 +78,81 @@ def run_ked(
         console.print(f"Building the FMU of {escape(model)} into {escape(str(folder))} ...", soft_wrap=True)
         with open_fmu(build_fmu.built(model, folder)) as fmu:
             parameters = _parameters(settings, fmu.description)
-            mechanism = build_fmu.mechanism(model, **{name: float(value) for name, value in parameters.items()})
+            mechanism = _described(model, parameters)
             _refuse_rigid(mechanism, model)
             turning = _speed(speed, mechanism, fmu.description)
             with show_progress("Position, deflection and vibration over the turn ...") as progress:
-                turned = prepared(mechanism, turning, damping, samples)
-                found = solved(turned, turning, damping, samples)
-                progress("The same positions in the FMU ...", 0.1)
-                agreed = agreement(fmu, mechanism, found, parameters)
-                sweep = swept(turned, turning, lambda text, done: progress(text, 0.2 + 0.8 * done))
-            result = Result(fmu, fmu.description.text, parameters, found, sweep, agreed)
+                result = _result(model, fmu, parameters, turning, damping, samples, asked, progress)
             files = [*write_result(result, folder), write_ked_report(result, folder / "report.html")]
     _show(result)
     show_files(files)
     return 0 if all_passed(result.checks) else FAILED
+
+
+def _result(
+    model: str,
+    fmu: Fmu,
+    parameters: dict[str, Value],
+    speed: float,
+    damping: float,
+    samples: int,
+    asked: Asked,
+    progress: Callable[[str, float], None],
+) -> Result:
+    """The turn, of the lightest design where that is asked for."""
+
+    def described(values: Mapping[str, Value]) -> Any:
+        return _rubbing(_described(model, values), asked)
+
+    def analysed(mechanism: Any) -> tuple[Turn, Solution]:
+        turned = prepared(mechanism, speed, damping, samples)
+        return turned, solved(turned, speed, damping, samples, asked.fluctuation)
+
+    synthesis = None
+    searching = 0.6 if asked.synthesise else 0.0
+    if asked.synthesise:
+        told = fmu.description
+        synthesis = synthesised(
+            bounds_of(asked.vary, described, parameters, told),
+            described,
+            parameters,
+            told,
+            prepared(described(parameters), speed, damping, samples).place,
+            speed,
+            damping,
+            asked.limits,
+            lambda values: analysed(described({**parameters, **values}))[1],
+            lambda text, done: progress(text, searching * done),
+        )
+        parameters = {**parameters, **synthesis.values}
+    turned, found = analysed(described(parameters))
+    plain = None if asked.friction is None else analysed(_described(model, parameters))[1]
+    progress("The same positions in the FMU ...", searching + 0.1 * (1.0 - searching))
+    mechanism = _described(model, parameters)
+    compared = found if plain is None else plain
+    agreed = replace(agreement(fmu, mechanism, compared, parameters), frictionless=plain is not None)
+    begun = searching + 0.2 * (1.0 - searching)
+    sweep = swept(turned, speed, lambda text, done: progress(text, begun + (1.0 - begun) * done))
+    return Result(fmu, fmu.description.text, parameters, found, sweep, agreed, asked.limits, synthesis, plain)
+
+
+def _described(model: str, parameters: Mapping[str, Value]) -> Any:
+    return build_fmu.mechanism(model, **{name: float(value) for name, value in parameters.items()})
+
+
+def _rubbing(mechanism: Any, asked: Asked) -> Any:
+    """With the friction that is asked for.
+
+    Raises:
+        UsageError: it has pins, and their radius is not given.
+    """
+    if asked.friction is None:
+        return mechanism
+    try:
+        return with_friction(mechanism, asked.friction, asked.pin_radius)
+    except LinkageError as error:
+        way_out = " Add --pin-radius '5 mm', for instance." if asked.pin_radius is None else ""
+        raise UsageError(f"{error}{way_out}") from error
 
 
 def _refuse_rigid(mechanism: Any, model: str) -> None:
@@ -107,9 +199,7 @@ def _speed(text: str | None, mechanism: Any, description: Description) -> float:
         UsageError: it is no speed, or not positive.
     """
     if text is not None:
-        variable = Variable("speed", _NO_REFERENCE, "Real", "parameter", unit="rad/s", display_unit="rpm")
-        alone = Description(description.model, "", "", {"speed": variable}, description.units)
-        speed = float(parse_value(text, variable, alone))
+        speed = quantity("speed", text, "rad/s", description, "rpm")
     else:
         try:
             crank = crank_of(mechanism)
@@ -133,18 +223,29 @@ def _show(result: Result) -> None:
     shown = shown.every(math.ceil(len(shown.rows) / _MOST_ROWS))
     if console.width < _NARROW:
         shown = shown.without(narrow_columns(found))
-    title = "A turn: dx, dy, dev ed and stresses elastodynamic, dev qs quasi-static"
+    title = "A turn: dx, dy, dev ed and stresses elastodynamic, dev qs quasi-static; shake: on the frame"
     show_table(title, shown.headings, shown.rows, numeric=range(len(shown.headings)))
     frequencies, largest = frequency_rows(found), largest_rows(found)
     title = "Natural frequencies over the turn, and critical speeds: harmonic h of the crank meets the mean"
     show_table(title, frequencies.headings, frequencies.rows, numeric=range(len(frequencies.headings)))
     show_table("Largest over the turn", largest.headings, largest.rows, numeric=(1, 2, 3, 5))
+    joints = joint_rows(found)
+    show_table("Forces in the joints", joints.headings, joints.rows, numeric=(1, 2, 3, 5))
+    if result.synthesis is not None:
+        lightest = synthesis_rows(result.synthesis, result.fmu.description)
+        title = f"The lightest design within the limits, of {result.synthesis.evaluations} that were judged"
+        show_table(title, lightest.headings, lightest.rows, numeric=(1, 2))
+        again = " ".join(f'--set "{row[0]}={row[2]} {row[3]}"' for row in lightest.rows[: len(result.synthesis.bounds)])
+        console.print(f"This design again: {escape(again)}", soft_wrap=True)
     torque = found.rigid.fluctuation
     console.print(
         f"Input torque: {torque.least:.4g} to {torque.largest:.4g} N.m; between its extremes, the "
         f"energy that it has given beyond its mean varies by {torque.energy:.4g} J.",
         soft_wrap=True,
     )
+    for sentence in (frame_sentence(found), friction_sentence(found), flywheel_sentence(found)):
+        if sentence:
+            console.print(sentence, soft_wrap=True)
     show_checks(result.checks)
     for note in result.notes:
         console.print(f"[yellow]Note:[/] {escape(note)}", soft_wrap=True)

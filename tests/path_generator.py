@@ -1,4 +1,7 @@
-"""The four-bar path generator of Erdman, Sandor and Oakberg (1972) as a model with elastic outputs; see its Case 2."""
+"""The four-bar path generator of Erdman, Sandor and Oakberg (1972), Fig. 3, as a model with elastic outputs.
+
+Dimensions, masses and speed are this project's.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +32,7 @@ from mechanism_fmu.simulation import Simulation
 INCH, POUND = 0.0254, 0.45359237
 POUND_FORCE = POUND * 9.80665
 
-#: Its numbers in inch, lbf, s, with standard gravity.
+#: The numbers in inch, lbf, s, with standard gravity.
 IMPERIAL = {
     "ground_length": 10.0,
     "crank_length": 4.0,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from .cam_drawings import cam_flat_follower, cam_follower, point_follower
 from .driver_drawing import drivers
-from .gear_drawings import gears, internal_gears, rack_and_pinion
+from .gear_drawings import gears, gears_falling, internal_gears, rack_and_pinion
 from .lower_pair_drawings import distance, revolute, revolute_translational, translational
 from .profile_drawings import motion_laws, slides_cam
 
@@ -19,6 +19,7 @@ DRAWINGS = {
     "distance": distance,
     "revolute_translational": revolute_translational,
     "gears": gears,
+    "gears_falling": gears_falling,
     "internal_gears": internal_gears,
     "rack_and_pinion": rack_and_pinion,
     "drivers": drivers,

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
-from models.svg import Point, polar
+from mechanism_fmu.slides import CARRIER, MARK_1, MARK_2, RADIUS_1, RADIUS_2, rolled_angle
+from models.svg import INK, Point, polar, sheet
 
-from .sketch import AXIS, BODY_I, BODY_J, EDGE, THIN, Sketch, add, joint_sheet, joint_sketch, quarter, scale
+from .sketch import AXIS, BODY_I, BODY_J, EDGE, NOTE, THIN, Sketch, add, joint_sheet, joint_sketch, quarter, scale
 
 
 def _wheel(s: Sketch, centre: Point, radius: float, colour: str, name: str, offset: tuple[float, float]) -> str:
@@ -97,3 +98,33 @@ def rack_and_pinion() -> str:
             s.pin(p_j, "P^j", 2, -26),
         ],
     )
+
+
+def gears_falling() -> str:
+    """Example 3.4.1 of the slides: gear 2 where it is let go, and at the bottom."""
+    s, p_1 = Sketch((300, 250), 58), (0.0, 0.0)
+    wheel_1 = f'fill="{BODY_I}" fill-opacity="0.75" {EDGE}'
+    parts = [s.disc(p_1, RADIUS_1, wheel_1)]
+    for carrier, ghost in (
+        (MARK_1, ' stroke-dasharray="5 4" fill-opacity="0.3"'),
+        (-math.pi / 2, ' fill-opacity="0.75"'),
+    ):
+        p_2, phi = polar(p_1, CARRIER, carrier), rolled_angle(carrier)
+        mark = polar(p_2, RADIUS_2, phi + MARK_2)
+        parts += [
+            s.disc(p_2, RADIUS_2, f'fill="{BODY_J}" {EDGE}{ghost}'),
+            s.path([p_1, p_2], AXIS),
+            s.vector(p_2, polar(p_2, 0.95, phi), "x^2", 0, -14, 1.0),
+            s.path([p_2, mark], THIN),
+            s.dot(mark),
+        ]
+        parts.append(s.dot(p_2, "P^2", 16, 12))
+    parts += [
+        s.hinge(p_1),
+        s.angle(p_1, 0.75, 0.0, MARK_1, "π/6", 16),
+        s.text(polar(p_1, CARRIER, MARK_1), "φ₂ = 0", 0, -62),
+        s.text(polar(p_1, CARRIER, -math.pi / 2), "φ₂ = −π", -35, 40),
+        s.text(p_1, "P^1", -24, -14),
+        s.label(p_1, "dots: the mark θ₂ of gear 2", f'{NOTE} fill="{INK}"', 170, 260),
+    ]
+    return sheet(600, 560, "Gear 2 falls around gear 1", parts)

@@ -8,23 +8,14 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from mechanism_fmu.kinematics.profile_values import curve_values
-from mechanism_fmu.model import (
-    Curve,
-    Piece,
-    constant,
-    cosine,
-    cycloidal,
-    modified_sine,
-    piecewise_profile,
-    polynomial_345,
-)
+from mechanism_fmu.model import Curve, Piece, cycloidal, modified_sine, polynomial_345
+from mechanism_fmu.slides import CAM
 from models.svg import INK, Point, polar, sheet
 
 from .sketch import ACCENT, AXIS, BODY_I, BODY_J, EDGE, NOTE, THIN, Sketch
 
 COLOURS = {"cycloidal": "#1d6996", "modified_sine": ACCENT, "polynomial_345": "#2d936c"}
 LAWS = {"cycloidal": cycloidal, "modified_sine": modified_sine, "polynomial_345": polynomial_345}
-SLIDES = piecewise_profile((0.0, [constant(1.25), cosine(-0.25, 3.0)]), (2 * math.pi / 3, [constant(1.0)]))
 _STEPS = 200
 
 
@@ -89,7 +80,7 @@ def slides_cam() -> str:
     concave = f'fill="none" stroke="{ACCENT}" stroke-width="5" stroke-opacity="0.8"'
 
     def rho(alpha: float) -> float:
-        return value(SLIDES, alpha, 0)
+        return value(CAM, alpha, 0)
 
     return sheet(
         600,
@@ -122,6 +113,6 @@ def slides_cam() -> str:
 def _nearest(point: Point) -> Point:
     """The point of the slides' cam nearest to another."""
     angles = np.linspace(0.0, 2 * math.pi, 62833)
-    x, y = curve_values(SLIDES, angles)[0] * np.array([np.cos(angles), np.sin(angles)])
+    x, y = curve_values(CAM, angles)[0] * np.array([np.cos(angles), np.sin(angles)])
     k = np.hypot(x - point[0], y - point[1]).argmin()
     return float(x[k]), float(y[k])

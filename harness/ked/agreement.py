@@ -28,11 +28,13 @@ class Agreement:
         differences: the largest by output, in parts of its largest value.
         positions: how many were compared.
         refusal: why nothing was; "" when something was.
+        frictionless: whether the calculation has other friction than the FMU, so that this is about one without it.
     """
 
     differences: dict[str, float]
     positions: int
     refusal: str = ""
+    frictionless: bool = False
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -44,7 +46,8 @@ class Agreement:
             f"{len(self.differences)} outputs at {self.positions} positions; the largest difference is "
             f"{self.differences[worst]:.1e} of the largest value, of {worst}; limit {_LIMIT:g}"
         )
-        claim = "The FMU's elastic outputs are the quasi-static solution, with this input torque"
+        torque = "the input torque, both without this friction" if self.frictionless else "this input torque"
+        claim = f"The FMU's elastic outputs are the quasi-static solution, with {torque}"
         return (Check(claim, self.differences[worst] <= _LIMIT, evidence),)
 
 

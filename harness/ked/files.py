@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,9 @@ from ..fmu import Fmu
 from ..results import write_binary, write_json, write_with_units
 from ..versions import versions
 from .agreement import Agreement
-from .solution import Bent, Solution, solution_checks
+from .options import Limits
+from .solution import Bent, Rigid, Solution, solution_checks
+from .synthesis import Synthesised
 from .tables import cycle_table
 
 
@@ -30,6 +32,9 @@ class Result:
         solution: the turn.
         sweep: of speeds.
         agreement: with the FMU.
+        limits: that were asked for.
+        synthesis: the search for the lightest design, whose turn this is; None: none was asked for.
+        frictionless: the same turn with the mechanism's own friction only, where other friction was asked for.
     """
 
     fmu: Fmu
@@ -38,11 +43,14 @@ class Result:
     solution: Solution
     sweep: SpeedSweep
     agreement: Agreement
+    limits: Limits = field(default_factory=Limits)
+    synthesis: Synthesised | None = None
+    frictionless: Solution | None = None
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """All verdicts."""
-        return (*self.agreement.checks, *solution_checks(self.solution))
+        return (*self.agreement.checks, *solution_checks(self.solution), *self.limits.checks(self.solution))
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -77,6 +85,10 @@ def summary(result: Result, units: dict[str, str]) -> dict[str, Any]:
         "quasi_static": _largest(found, found.static),
         "elastodynamic": _largest(found, found.dynamic),
         "input_torque": asdict(found.rigid.fluctuation),
+        **_frame(found.rigid),
+        "friction": _friction(result),
+        "limits": asdict(result.limits),
+        "synthesis": None if result.synthesis is None else _synthesis(result.synthesis),
         "natural_frequencies": [
             {"least": least, "mean": mean / (2 * math.pi), "largest": largest}
             for (least, largest), mean in zip(
@@ -97,4 +109,61 @@ def _largest(found: Solution, bent: Bent) -> dict[str, Any]:
         "largest_deviation": bent.largest_deviation,
         "at_crank_angle": bent.largest_at,
         "largest_stress": dict(zip(found.members, bent.largest_stress.tolist(), strict=True)),
+    }
+
+
+def _frame(rigid: Rigid) -> dict[str, Any]:
+    """What the frame and the joints carry, and the flywheel."""
+    (force, moment), wheel = rigid.largest_shaking, rigid.flywheel
+    return {
+        "shaking": {
+            "about": list(rigid.shaking.about),
+            "largest_force": force.value,
+            "largest_force_at": force.at,
+            "largest_moment": moment.value,
+            "largest_moment_at": moment.at,
+        },
+        "largest_joint_force": _by_joint(rigid, [one.value for one in rigid.largest_forces]),
+        "flywheel": None
+        if wheel is None
+        else {
+            "coefficient_of_fluctuation": wheel.coefficient,
+            "inertia": wheel.inertia,
+            "least_speed": rigid.flywheel_speeds[0],
+            "largest_speed": rigid.flywheel_speeds[1],
+        },
+    }
+
+
+def _by_joint(rigid: Rigid, values: list[float]) -> dict[str, float]:
+    return dict(zip((joint.joint for joint in rigid.joints), values, strict=True))
+
+
+def _friction(result: Result) -> dict[str, Any] | None:
+    """What friction does; None where no joint has any."""
+    rigid = result.solution.rigid
+    if not rigid.rubs:
+        return None
+    without = result.frictionless
+    return {
+        "largest": _by_joint(rigid, [one.value for one in rigid.largest_friction]),
+        "lost_energy": _by_joint(rigid, rigid.lost_energy.tolist()),
+        "input_torque_without": None if without is None else asdict(without.rigid.fluctuation),
+    }
+
+
+def _synthesis(found: Synthesised) -> dict[str, Any]:
+    judged = (("before", found.before, found.start), ("after", found.after, found.design))
+    return {
+        "designs_judged": found.evaluations,
+        "bounds": {bound.name: [bound.least, bound.largest] for bound in found.bounds},
+        **{
+            when: {
+                "parameters": dict(zip((bound.name for bound in found.bounds), design.tolist(), strict=True)),
+                "mass": judgement.mass,
+                "deviation": float(judgement.deviation.max()),
+                "stress": float(judgement.stress.max()),
+            }
+            for when, judgement, design in judged
+        },
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,23 +17,30 @@ from mechanism_fmu.elastodynamics import (
     ElasticCycle,
     LinkageError,
     PeriodicResponse,
+    Shaking,
     SpeedSweep,
+    crank_hinge,
     critical_speeds,
     deflection_of,
     elastic_cycle,
     elastic_ports,
+    flywheel,
     instantaneous_modes,
+    joint_forces,
+    momentum_shaking,
     peak,
     periodic_response,
     quasi_static,
+    shaking,
     stress_of,
+    system_forces,
     torque_fluctuation,
     turn,
     unlike_bodies,
 )
 
 from ..errors import UsageError
-from .solution import Bent, FloatArray, Rigid, Solution
+from .solution import Bent, FloatArray, Largest, Rigid, Solution
 
 #: The turn is calculated at so many angles at least: the series through them is to be exact.
 _LEAST = 360
@@ -41,6 +48,11 @@ _LEAST = 360
 _HARMONICS = 8
 #: Speeds of the sweep: how many, and between which parts of the speed.
 _SPEEDS, _SLOWEST, _FASTEST = 31, 0.4, 1.4
+#: What is to be said of the periodic motion where joints rub.
+_JUMPS = (
+    "Coulomb friction jumps where the slip of a joint turns around; at these angles the series of the periodic motion "
+    "cannot fulfil its equations. Deviation and stress follow from it all the same: more angles change them little"
+)
 #: Angles of the equations there: enough for five digits of a curve, in a quarter of the time.
 _COARSE = 180
 
@@ -95,30 +107,41 @@ def prepared(mechanism: Any, speed: float, damping: float, samples: int) -> Turn
     return Turn(cycle, equations, places[0], order, angle)
 
 
-def solved(turned: Turn, speed: float, damping: float, samples: int) -> Solution:
+def solved(turned: Turn, speed: float, damping: float, samples: int, fluctuation: float | None = None) -> Solution:
     """What the turn comes to, at `samples` angles.
 
+    Args:
+        turned: the turn.
+        speed: of its crank [rad/s].
+        damping: ratio of every mode.
+        samples: of `prepared`.
+        fluctuation: coefficient that a flywheel is to keep to; None: no flywheel.
+
     Raises:
-        UsageError: there is no periodic motion.
+        UsageError: there is no periodic motion, or the coefficient cannot be.
     """
     cycle, shown = turned.cycle, slice(None, None, len(turned.order) // samples)
     modes = instantaneous_modes(turned.equations.stiffness, turned.equations.mass)
     response, notes = _periodic(turned.equations)
     moving = response.samples(turned.equations.samples)
     order = turned.order[shown]
+    rigid = _rigid(turned, order, speed, fluctuation)
+    if rigid.rubs:
+        notes = (_JUMPS,)
     return Solution(
         speed=speed,
         damping=damping,
         place=turned.place,
         members=tuple(element.member.name for element in cycle.configurations.linkage.elements),
         angle=turned.angle[shown],
-        rigid=_rigid(turned, order),
+        rigid=rigid,
         static=_bent(turned, cycle.displacement[:-1], cycle.stress[:-1], order),
         dynamic=_bent(turned, moving, stress_of(cycle.configurations, _closed(moving))[:-1], order),
         frequencies=modes.hertz[order],
         frequency_range=np.column_stack([modes.hertz.min(axis=0), modes.hertz.max(axis=0)]),
         critical=critical_speeds(modes, _HARMONICS),
         residual=response.residual,
+        jump=_jump(turned, moving),
         notes=(*unlike_bodies(cycle.configurations.linkage.mechanism), *notes),
     )
 
@@ -176,7 +199,7 @@ def _bent(turned: Turn, u: FloatArray, stress: FloatArray, order: npt.NDArray[np
     )
 
 
-def _rigid(turned: Turn, order: npt.NDArray[np.int64]) -> Rigid:
+def _rigid(turned: Turn, order: npt.NDArray[np.int64], speed: float, fluctuation: float | None) -> Rigid:
     cycle, pose = turned.cycle, turned.cycle.configurations.pose
     members = [element.member for element in cycle.configurations.linkage.elements]
     starts, ends = (
@@ -185,16 +208,50 @@ def _rigid(turned: Turn, order: npt.NDArray[np.int64]) -> Rigid:
     )
     name, _, end = turned.place.rpartition(".")
     torque = cycle.reactions.of(DRIVE)[:, 0]
+    angle = np.linspace(0.0, 2 * math.pi, len(torque))
     power = cycle.power
     most = max(float(np.abs(part).max()) for part in (power.drives, power.kinetic))
+    about = crank_hinge(cycle.configurations.linkage.mechanism)
+    on_frame = shaking(cycle, about)
+    joints = joint_forces(cycle.configurations, cycle.reactions)
+
+    def largest(values: FloatArray) -> Largest:
+        sizes = np.abs(values[:-1])
+        worst = int(np.argmax(sizes))
+        return Largest(float(sizes[worst]), float(turned.angle[np.argsort(turned.order)[worst]]))
+
+    try:
+        wheel = None if fluctuation is None else flywheel(angle, torque, speed, fluctuation)
+    except LinkageError as error:
+        raise UsageError(str(error)) from error
     return Rigid(
         path=(starts if end == "start" else ends)[:, [m.name for m in members].index(name)],
         starts=starts,
         ends=ends,
         torque=torque[order],
-        fluctuation=torque_fluctuation(np.linspace(0.0, 2 * math.pi, len(torque)), torque),
+        fluctuation=torque_fluctuation(angle, torque),
         power_gap=float(np.abs(power.balance).max()) / most if most > 0.0 else 0.0,
+        shaking=Shaking(about, on_frame.force[order], on_frame.moment[order]),
+        shaking_gap=on_frame.gap(momentum_shaking(cycle, about)),
+        joints=tuple(
+            replace(j, force=j.force[order], friction=j.friction[order], lost_power=j.lost_power[order]) for j in joints
+        ),
+        largest_shaking=(largest(np.linalg.norm(on_frame.force, axis=1)), largest(on_frame.moment)),
+        largest_forces=tuple(largest(joint.force) for joint in joints),
+        largest_friction=tuple(largest(joint.friction) for joint in joints),
+        lost_energy=np.array([np.trapezoid(joint.lost_power, pose.time) for joint in joints]),
+        flywheel=None if wheel is None else replace(wheel, speed=wheel.speed[order]),
+        flywheel_speeds=(speed, speed) if wheel is None else (float(wheel.speed.min()), float(wheel.speed.max())),
     )
+
+
+def _jump(turned: Turn, moving: FloatArray) -> float:
+    """The quasi-static deflection by the largest step of friction, in parts of the motion, measured as its residual."""
+    friction = system_forces(turned.cycle.configurations, turned.cycle.reactions.friction)
+    if not friction.any():
+        return 0.0
+    steps = np.linalg.solve(turned.equations.stiffness, np.diff(friction, axis=0)[:, :, None])[:, :, 0]
+    return turned.equations.size(np.asarray(steps, dtype=np.float64)) / turned.equations.size(moving)
 
 
 def _closed(u: FloatArray) -> FloatArray:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import pandas as pd
 
@@ -12,17 +11,28 @@ from .page import section, table
 
 #: A longer table is in impacts.csv.
 _MOST = 100
+#: What impacts.csv has besides: place and delay are those of the section on stress, and the remark stands for a stress.
+_LEFT_OUT = ("stress_position", "stress_delay", "remark")
 
 
 def impacts_section(impacts: pd.DataFrame, units: Mapping[str, str], heading: str = "Impacts") -> str:
     """A row for each of the first impacts, with units by column; "" when there are none."""
     if impacts.empty:
         return ""
-    headings = [_heading(name, units[name]) for name in impacts.columns]
-    rows = [[_cell(value) for value in row] for row in impacts.head(_MOST).itertuples(index=False)]
+    names = [str(name) for name in impacts if name not in _LEFT_OUT]
+    headings = [_heading(name, units[name]) for name in names]
+    shown = impacts.head(_MOST)
+    rows = [[_cell(name, value) for name, value in zip(names, row, strict=True)] for row in _rows(shown[names])]
+    if "remark" in shown:
+        for row, remark in zip(rows, shown["remark"], strict=True):
+            row[names.index("stress_max")] = remark or row[names.index("stress_max")]
     note = f"The first {_MOST} of {len(impacts)}; all are in impacts.csv." if len(impacts) > _MOST else ""
     numbered = [[str(i), *row] for i, row in enumerate(rows, 1)]
     return section(heading, table(["#", *headings], numbered, numeric=range(len(headings) + 1)), note=note)
+
+
+def _rows(impacts: pd.DataFrame) -> Iterator[tuple[Value, ...]]:
+    return impacts.itertuples(index=False, name=None)
 
 
 def _heading(name: str, unit: str) -> str:
@@ -30,7 +40,8 @@ def _heading(name: str, unit: str) -> str:
     return f"{words} [{unit}]" if unit else words
 
 
-def _cell(value: Value) -> str:
+def _cell(name: str, value: Value) -> str:
+    """Times to nine digits, other numbers to five."""
     if not isinstance(value, float):
         return str(value)
-    return "–" if math.isnan(value) else f"{value:.7g}"
+    return f"{value:.9g}" if name == "time" else f"{value:.5g}"

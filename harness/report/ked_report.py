@@ -8,13 +8,24 @@ from pathlib import Path
 import numpy as np
 
 from ..ked.files import Result
-from ..ked.solution import FloatArray, Solution
-from ..ked.tables import Shown, cycle_rows, frequency_rows, largest_rows
+from ..ked.solution import Solution
+from ..ked.tables import (
+    Shown,
+    cycle_rows,
+    flywheel_sentence,
+    frame_sentence,
+    frequency_rows,
+    friction_sentence,
+    joint_rows,
+    largest_rows,
+    synthesis_rows,
+)
 from ..numbers import engineering, in_display_unit
 from ..results import write_text
 from ..versions import versions
 from .deflected import deflected
 from .interactive import interactive
+from .ked_frame import flywheel_plot, frame_plots, friction_plots, round_turn, synthesis_plots
 from .page import cards, chart, charts, checks_list, page, points, section, table, versions_section
 from .plot import Curve, Plot
 from .style import COLOURS
@@ -47,6 +58,17 @@ def ked_report(result: Result) -> str:
             "to change do so by the exaggeration. Dashed: the path of the bent linkage.",
         ),
         section("Deviation, stress, torque", charts(*(chart(interactive(plot)) for plot in _over_the_turn(found)))),
+        section(
+            "On the frame and in the joints",
+            charts(*(chart(interactive(plot)) for plot in frame_plots(found))),
+            _table(joint_rows(found), numeric=(1, 2, 3, 5)),
+            note=frame_sentence(found)
+            + " The force is drawn as a hodograph: the tip of its vector over a turn. The moment has the reaction of "
+            "the input torque in it.",
+        ),
+        *_friction(result),
+        *_flywheel(found),
+        *_synthesis(result),
         section(
             "Natural frequencies and critical speeds",
             charts(*(chart(interactive(plot)) for plot in (_frequencies(found), _sweep(result)))),
@@ -81,18 +103,56 @@ def _figures(found: Solution) -> list[tuple[str, str]]:
     member = int(np.argmax(found.dynamic.largest_stress))
     stress = engineering(float(found.dynamic.largest_stress[member]), "Pa")
     figures.append((f"largest stress, elastodynamic, in {found.members[member]}", stress))
+    force, moment = found.rigid.largest_shaking
+    figures.append((f"shaking force, at {force.degrees:g}°", engineering(force.value, "N")))
+    figures.append((f"shaking moment, at {moment.degrees:g}°", engineering(moment.value, "N.m")))
+    if found.rigid.flywheel is not None:
+        wheel = found.rigid.flywheel
+        figures.append((f"flywheel for a fluctuation of {wheel.coefficient:g}", f"{wheel.inertia:.4g} kg.m2"))
     figures.append(("input torque", f"{torque.least:.3g} … {torque.largest:.3g} N.m"))
     return figures
 
 
+def _friction(result: Result) -> list[str]:
+    """What friction does, where joints have any."""
+    if not result.solution.rigid.rubs:
+        return []
+    plots = friction_plots(result.solution, result.frictionless)
+    drawn = charts(*(chart(interactive(plot)) for plot in plots))
+    return [section("Friction in the joints", drawn, note=friction_sentence(result.solution))]
+
+
+def _flywheel(found: Solution) -> list[str]:
+    """The flywheel that was asked for."""
+    if found.rigid.flywheel is None:
+        return []
+    drawn = charts(chart(interactive(flywheel_plot(found))))
+    return [section("Flywheel", drawn, note=flywheel_sentence(found))]
+
+
+def _synthesis(result: Result) -> list[str]:
+    """The lightest design beside that of the beginning."""
+    if result.synthesis is None:
+        return []
+    return [
+        section(
+            "The lightest design within the limits",
+            _table(synthesis_rows(result.synthesis, result.fmu.description), numeric=(1, 2)),
+            charts(*(chart(interactive(plot)) for plot in synthesis_plots(result.synthesis))),
+            note=f"Found among {result.synthesis.evaluations} designs that were judged, by sequential quadratic "
+            "programming; it is the lightest nearby. All else on this page is of this design, calculated anew.",
+        )
+    ]
+
+
 def _over_the_turn(found: Solution) -> list[Plot]:
-    angle = _round(found.degrees, 360.0)
+    angle = round_turn(found.degrees, 360.0)
     path = found.rigid.path
     shown = [("rigid", path, _RIGID)]
     for kind, bent, colour in (("quasi-static", found.static, _STATIC), ("elastodynamic", found.dynamic, _DYNAMIC)):
         shown.append((kind, path + bent.deflection[:, :2], colour))
     stresses = [
-        Curve(member, angle, _round(1e-6 * stress), COLOURS[k % len(COLOURS)])
+        Curve(member, angle, round_turn(1e-6 * stress), COLOURS[k % len(COLOURS)])
         for k, (member, stress) in enumerate(zip(found.members, found.dynamic.stress.T, strict=True))
     ]
     return [
@@ -101,15 +161,15 @@ def _over_the_turn(found: Solution) -> list[Plot]:
             _ANGLE,
             "deviation [mm]",
             [
-                Curve("quasi-static", angle, _round(1e3 * found.static.deviation), _STATIC),
-                Curve("elastodynamic", angle, _round(1e3 * found.dynamic.deviation), _DYNAMIC),
+                Curve("quasi-static", angle, round_turn(1e3 * found.static.deviation), _STATIC),
+                Curve("elastodynamic", angle, round_turn(1e3 * found.dynamic.deviation), _DYNAMIC),
             ],
         ),
         Plot(
             "Path, to scale",
             "x [mm]",
             "y [mm]",
-            [Curve(kind, _round(1e3 * at[:, 0]), _round(1e3 * at[:, 1]), colour) for kind, at, colour in shown],
+            [Curve(kind, round_turn(1e3 * at[:, 0]), round_turn(1e3 * at[:, 1]), colour) for kind, at, colour in shown],
             to_scale=True,
         ),
         Plot("Stress of the members, elastodynamic", _ANGLE, "stress [MPa]", stresses),
@@ -117,16 +177,16 @@ def _over_the_turn(found: Solution) -> list[Plot]:
             "Torque that keeps the speed",
             _ANGLE,
             "torque [N.m]",
-            [Curve("input torque", angle, _round(found.rigid.torque), _RIGID)],
+            [Curve("input torque", angle, round_turn(found.rigid.torque), _RIGID)],
             legend=False,
         ),
     ]
 
 
 def _frequencies(found: Solution) -> Plot:
-    angle = _round(found.degrees, 360.0)
+    angle = round_turn(found.degrees, 360.0)
     curves = [
-        Curve(f"mode {mode + 1}", angle, np.log10(_round(found.frequencies[:, mode])), COLOURS[mode])
+        Curve(f"mode {mode + 1}", angle, np.log10(round_turn(found.frequencies[:, mode])), COLOURS[mode])
         for mode in range(min(_MODES, found.modes))
     ]
     return Plot("Natural frequencies", _ANGLE, "lg frequency [Hz]", curves)
@@ -150,8 +210,3 @@ def _sweep(result: Result) -> Plot:
 def _table(shown: Shown, numeric: tuple[int, ...] | None = None, long: bool = False) -> str:
     columns = range(len(shown.headings)) if numeric is None else numeric
     return table(shown.headings, shown.rows, numeric=tuple(columns), long=long)
-
-
-def _round(values: FloatArray, end: float | None = None) -> FloatArray:
-    """With the first value at the end again, or `end`: a turn closes."""
-    return np.append(values, values[0] if end is None else end)

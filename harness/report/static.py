@@ -28,6 +28,11 @@ def write_static(plots: Sequence[Plot], path: Path) -> list[Path]:
     ]
 
 
+def svg_text(plots: Sequence[Plot]) -> str:
+    """Plots beside each other as the text of an SVG; see `write_static`."""
+    return _drawn(plots, Svg).decode()
+
+
 def _drawn(plots: Sequence[Plot], kind: type[Svg] | type[Png]) -> bytes:
     columns = min(len(plots), 2)
     canvas = kind(_WIDTH * columns, _HEIGHT * math.ceil(len(plots) / columns))

@@ -16,8 +16,9 @@ from .elastic_cycle import ElasticCycle
 from .elements import bent_coupler, cantilever, spatial_link, supported_beam, torsion_shaft, two_force_member
 from .errors import LinkageError
 from .feedback import Feedback, fed_back
-from .fluctuation import Fluctuation, torque_fluctuation
+from .fluctuation import Fluctuation, Flywheel, flywheel, torque_fluctuation
 from .frequencies import InstantaneousModes, instantaneous_modes
+from .friction import with_friction
 from .gear_tooth import GearTooth
 from .judgement import Judgement, judge_quasi_static, judge_steady_state, member_mass, rigid_path
 from .linkage import Element, Linkage, linkage
@@ -25,7 +26,9 @@ from .masses import inertia_forces, lumps, mass_matrix, system_forces
 from .peak import peak
 from .periodic import PeriodicResponse, periodic_response
 from .ports import ElasticPorts, elastic_ports
-from .reactions import Reactions, power_of, reactions
+from .reactions import JointForce, Reactions, joint_forces, power_of, reactions
+from .resized import Resized, resized_members
+from .shaking import Shaking, crank_hinge, momentum_shaking, shaking
 from .simulated import simulated_motion
 from .speeds import SpeedSweep, critical_speeds, speed_sweep
 from .stresses import largest_stress, section_forces
@@ -45,8 +48,10 @@ __all__ = [
     "Element",
     "Feedback",
     "Fluctuation",
+    "Flywheel",
     "GearTooth",
     "InstantaneousModes",
+    "JointForce",
     "Judgement",
     "Linkage",
     "LinkageError",
@@ -54,6 +59,8 @@ __all__ = [
     "PeriodicResponse",
     "Power",
     "Reactions",
+    "Resized",
+    "Shaking",
     "SpeedSweep",
     "Synthesis",
     "Transient",
@@ -63,6 +70,7 @@ __all__ = [
     "configurations",
     "consistent_load",
     "consistent_mass",
+    "crank_hinge",
     "crank_of",
     "critical_speeds",
     "deflection_of",
@@ -70,9 +78,11 @@ __all__ = [
     "elastic_cycle",
     "elastic_ports",
     "fed_back",
+    "flywheel",
     "growth_per_period",
     "inertia_forces",
     "instantaneous_modes",
+    "joint_forces",
     "judge_quasi_static",
     "judge_steady_state",
     "largest_stress",
@@ -81,6 +91,7 @@ __all__ = [
     "lumps",
     "mass_matrix",
     "member_mass",
+    "momentum_shaking",
     "peak",
     "periodic_response",
     "planar_deformation",
@@ -88,8 +99,10 @@ __all__ = [
     "power_of",
     "quasi_static",
     "reactions",
+    "resized_members",
     "rigid_path",
     "section_forces",
+    "shaking",
     "simulated_motion",
     "spatial_deformation",
     "spatial_link",
@@ -106,4 +119,5 @@ __all__ = [
     "turn",
     "two_force_member",
     "unlike_bodies",
+    "with_friction",
 ]

@@ -68,7 +68,7 @@ class Configurations:
 
     @cached_property
     def transfer(self) -> FloatArray:
-        """B of f = B P, shape (times, n, m): element forces from system forces along the free displacements; eq (10).
+        """B of f = B P, shape (times, n, m): element forces from system forces along the free displacements; eq (11).
 
         Raises:
             LinkageError: the linkage can move although it should stand still.
@@ -79,7 +79,7 @@ class Configurations:
 
     @cached_property
     def system_flexibility(self) -> FloatArray:
-        """B^T F B, shape (times, m, m): u = (B^T F B) P; eq (12)."""
+        """B^T F B, shape (times, m, m): u = (B^T F B) P; eq (10)."""
         transfer = self.transfer
         flexibility: FloatArray = np.swapaxes(transfer, 1, 2) @ (self.linkage.flexibility @ transfer)
         return flexibility

@@ -24,7 +24,8 @@ _CLOSED = 1e-6
 class MassModel(Enum):
     """Where the mass of a member is.
 
-    LUMPED: half at each of its ends, as in the paper's Case 2. A rotation without a disk has no inertia then.
+    LUMPED: half at each of its ends: the paper's Case 2 has masses at the joints, the halves are this project's. A
+        rotation without a disk has no inertia then.
     CONSISTENT: along it, swinging with the cubics in which it bends.
     """
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..model import Translational
+from ..model import Mechanism, Revolute, Translational
 from .configuration import Configurations
 from .elements import FloatArray
+from .errors import LinkageError
 from .locks import attachments, rubbing_pins
 from .pose import dot, left
 from .rows import guide_axis
@@ -42,6 +43,38 @@ class Rubbing:
         Coulomb: coefficient (times radius) times force, none at rest; viscous: damping times slip.
         """
         return -self.coulomb * carried * np.sign(self.slip) - self.viscous * self.slip
+
+
+def with_friction(mechanism: Mechanism, coefficient: float, pin_radius: float | None = None) -> Mechanism:
+    """The mechanism with the same Coulomb friction in all its pins and sliders; dampers stay as they are.
+
+    Args:
+        mechanism: whose own friction gives way.
+        coefficient: of friction [-].
+        pin_radius: of all pins [m]; a mechanism without pins needs none.
+
+    Raises:
+        LinkageError: coefficient or radius cannot be, or it has pins and no radius is given.
+    """
+    if not 0.0 <= coefficient < np.inf:
+        raise LinkageError(f"The coefficient of friction is {coefficient:g}; give one from 0 on, e.g. 0.1.")
+    pins = [joint.name for joint in mechanism.joints if isinstance(joint, Revolute)]
+    if pins and pin_radius is None:
+        raise LinkageError(
+            f"In a pin, friction acts at its radius: give the radius of the pins ({', '.join(pins)}), e.g. 5 mm."
+        )
+    radius = 0.0 if pin_radius is None else pin_radius
+    if not 0.0 <= radius < np.inf:
+        raise LinkageError(f"The radius of the pins is {radius:g} m; give one from 0 on, e.g. 0.005.")
+    joints = tuple(
+        replace(joint, friction_radius=coefficient * radius)
+        if isinstance(joint, Revolute)
+        else replace(joint, friction=coefficient)
+        if isinstance(joint, Translational)
+        else joint
+        for joint in mechanism.joints
+    )
+    return replace(mechanism, joints=joints)
 
 
 def rubbing_joints(configurations: Configurations) -> tuple[Rubbing, ...]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..model import Revolute
 from .configuration import Configurations
 from .elements import FloatArray
 from .errors import LinkageError
@@ -84,6 +85,51 @@ def reactions(configurations: Configurations, forces: FloatArray) -> Reactions:
     return Reactions(owners, multipliers, friction, power, -power_of(configurations, friction))
 
 
+@dataclass(frozen=True)
+class JointForce:
+    """What a joint carries and, where it has friction, what that does.
+
+    Attributes:
+        joint: its name.
+        force: that it carries: of a pin the whole, of a slider the part across its axis, shape (times,) [N].
+        friction: on body i: torque of a pin [N m], force of a slider along its axis [N], shape (times,); zero without.
+        turning: whether friction is a torque.
+        lost_power: by friction, shape (times,) [W].
+    """
+
+    joint: str
+    force: FloatArray
+    friction: FloatArray
+    turning: bool
+    lost_power: FloatArray
+
+
+def joint_forces(configurations: Configurations, found: Reactions) -> tuple[JointForce, ...]:
+    """The forces in all joints but drivers, in their order, with what friction does there."""
+    rubbing = {joint.joint: joint for joint in rubbing_joints(configurations)}
+    none = np.zeros(len(configurations.pose.time))
+    forces = []
+    for joint in configurations.linkage.mechanism.joints:
+        if is_driver(joint):
+            continue
+        rows = 2 if isinstance(joint, Revolute) else 1
+        force = np.linalg.norm(found.of(joint.name)[:, :rows], axis=1)
+        rubs = rubbing.get(joint.name)
+        friction = none if rubs is None else rubs.effort(_carried(rubs, found.owners, found.multipliers))
+        lost = none if rubs is None else -friction * rubs.slip
+        forces.append(JointForce(joint.name, force, friction, isinstance(joint, Revolute), lost))
+    return tuple(forces)
+
+
+def friction_of(configurations: Configurations, found: Reactions) -> dict[str, tuple[FloatArray, FloatArray]]:
+    """Of each joint with friction, by its name: (f_x, f_y, moment) on body i and on body j, shape (times, 3) each."""
+    exerted = {}
+    for joint in rubbing_joints(configurations):
+        on_i = joint.direction * joint.effort(_carried(joint, found.owners, found.multipliers))[:, None]
+        exerted[joint.joint] = on_i, -on_i
+    return exerted
+
+
 def power_of(configurations: Configurations, forces: FloatArray) -> FloatArray:
     """Power of forces at the places, shape (times, places, 3), moving as the rigid mechanism does: (times,) [W]."""
     pose = configurations.pose
@@ -133,9 +179,13 @@ def _friction(
     """Forces and moments by friction at the places for the reactions `multipliers`."""
     forces = np.zeros(shape)
     for joint in joints:
-        first = owners.index(joint.joint)
-        carried = np.linalg.norm(multipliers[:, first : first + joint.rows], axis=1)
-        on_i = joint.direction * joint.effort(carried)[:, None]
+        on_i = joint.direction * joint.effort(_carried(joint, owners, multipliers))[:, None]
         forces[:, joint.places[0]] += on_i
         forces[:, joint.places[1]] -= on_i
     return forces
+
+
+def _carried(joint: Rubbing, owners: tuple[str, ...], multipliers: FloatArray) -> FloatArray:
+    """The force that a joint with friction carries, shape (times,) [N]."""
+    first = owners.index(joint.joint)
+    return np.asarray(np.linalg.norm(multipliers[:, first : first + joint.rows], axis=1))

@@ -1,4 +1,7 @@
-"""A mechanism's modes and transitions, derived from the mechanism alone: the paper's Fig. 2, for any mechanism.
+"""A mechanism's modes and transitions, derived from the mechanism alone.
+
+The paper draws no state chart: its Fig. 2 is a flow chart of the computation, whose branches (is s = 0? then eq (7),
+and go on with other rows) are the transitions here, for any mechanism.
 
 What is stated here is what `transition` and `impact` in `engine.contacts` and `engine.stepping.events` do:
 

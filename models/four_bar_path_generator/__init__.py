@@ -1,1 +1,1 @@
-"""The four-bar path generator whose links bend: the example of Erdman, Sandor and Oakberg (1972)."""
+"""A four-bar path generator whose links bend, as in Fig. 3 of Erdman, Sandor and Oakberg (1972)."""

@@ -1,4 +1,8 @@
-"""Inputs, outputs and parameters of the path generator; the defaults are the paper's example, in SI units."""
+"""Inputs, outputs and parameters of the path generator.
+
+The defaults are an example of this project, in round numbers of inches and pounds: Erdman, Sandor and Oakberg (1972)
+draw the linkage (Fig. 3), but the pages at hand give no dimensions of it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The bending four-bar path generator in motion: the engine against the paper's case and the flexibility approach."""
+"""The bending four-bar path generator in motion: the engine against Case 2 and the flexibility approach."""
 
 import math
 
@@ -16,7 +16,7 @@ from tests.path_generator import DEFLECTIONS, IMPERIAL, MEMBERS, built, cycle
         (60, (0.0197192762558, -0.0126183323705, -0.00389195051505)),
     ],
 )
-def test_case_2_of_the_paper(angle, expected):
+def test_case_2_of_the_oracle(angle, expected):
     """Half of each link's mass at each end, and disks, at 500 rpm."""
     simulation = Simulation(built(IMPERIAL))
     simulation.advance(math.radians(angle - 30) / IMPERIAL["speed"])

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechanism_fmu import codes
 from mechanism_fmu.model import (
     GROUND,
     AngleLock,
@@ -21,6 +22,7 @@ from mechanism_fmu.model import (
     Torque,
 )
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tolerances import RESTS_BELOW
 from models.ratchet.model import MODEL
 
 LENGTH = 0.03
@@ -41,14 +43,6 @@ def wheel(*contacts, inertia=0.2, speed=-1.0, others=(), joints=(), functions=()
             outputs=(*ENERGIES, *SPEEDS),
         )
     )
-
-
-def impacts_until(simulation, times):
-    found = []
-    for time in times:
-        simulation.advance(time)
-        found += simulation.impacts_in_step()
-    return found
 
 
 def one_of_each_instant(impacts):
@@ -117,15 +111,20 @@ def test_jumps_telescope_to_the_change_of_the_rate_that_impacts_made(speed, othe
     )
     simulation = wheel(*stops, speed=-speed, others=(hammer,))
     before = simulation.read()
-    impacts = impacts_until(simulation, np.linspace(0.0, 2.0 / speed, 400))
-    if simulation.field("counters")[2]:  # more impacts in a step than the buffer holds
+    impacts, rested = [], False
+    for time in np.linspace(0.0, 2.0 / speed, 400):
+        simulation.advance(time)
+        impacts += simulation.impacts_in_step()
+        rested = rested or bool(simulation.mode())
+    if simulation.counters[codes.COUNT_LOST]:  # more impacts in a step than the buffer holds
         return
     instants = one_of_each_instant(impacts)
     after = simulation.read()
     assert instants
-    assert sum(i.velocity for i in instants) == pytest.approx(
-        LENGTH * (after["speed"] + speed), abs=1e-12 * max(1, speed)
-    )
+    # A contact that comes to rest without an impact takes a leftover below `RESTS_BELOW` with it.
+    leftover = 4 * RESTS_BELOW if rested else 0.0
+    made = sum(instant.velocity for instant in instants)
+    assert made == pytest.approx(LENGTH * (after["speed"] + speed), abs=1e-12 * max(1.0, speed) + LENGTH * leftover)
     lost = math.fsum(i.energy_lost for i in instants)
     assert lost == pytest.approx(after["lost"], rel=1e-9, abs=1e-12 * before["kinetic"])
 

@@ -5,8 +5,11 @@ import re
 from pathlib import Path
 
 import pytest
+import typer
 
 import models
+from harness import cli
+from mechanism_fmu import elastodynamics, kinematics
 
 PAGE = Path(__file__).parents[2] / "docs" / "glossary.md"
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -34,6 +37,52 @@ def test_a_name_is_where_the_glossary_says(name, place):
     first, _, field = name.partition(".")
     owner = getattr(importlib.import_module(place.removesuffix(".py").replace("/", ".")), first)
     assert not field or has(owner, field)
+
+
+#: The terms that Erdman, Sandor and Oakberg define, and the code and commands behind each.
+DEFINED = (
+    "Kinematic analysis",
+    "Dynamic analysis",
+    "Elastic analysis",
+    "Elastodynamic analysis",
+    "Kineto-elastodynamic analysis",
+    "Kinematic synthesis",
+    "Dynamic synthesis",
+    "Dynamic balancing",
+    "Kineto-elastostatic synthesis",
+    "Kineto-elastodynamic synthesis",
+    "Kineto-elastodynamics",
+)
+TERMS = {row[0]: row[2] for row in re.findall(r"^\| ([^|]*) \| ([^|]*) \| ([^|]*) \|$", TEXT, re.MULTILINE)}
+
+
+def test_the_definitions_of_the_elastodynamics_paper_are_all_there():
+    assert [term for term in TERMS if term in DEFINED] == list(DEFINED)
+
+
+@pytest.mark.parametrize("term", DEFINED)
+def test_a_definition_names_functions_and_commands_that_exist(term):
+    names = re.findall(r"`([^`]+)`", TERMS[term])
+    assert names
+    commands = {command.name or command.callback.__name__ for command in cli.main.registered_commands}
+    options = {name for option in typer.main.get_command(cli.main).commands["ked"].params for name in option.opts}
+    for name in names:
+        words = name.split()
+        if words[0] == "mechanism-fmu":
+            assert words[1] in commands
+            assert {word for word in words[2:] if word.startswith("--")} <= options
+        elif name != "mechanism_fmu.elastodynamics":
+            owner, _, field = name.rpartition(".")
+            assert public(owner, field), name
+
+
+def public(owner, name):
+    """Whether a name is in the library: of a module or class, or of one of those that analyse linkages."""
+    if not owner:
+        return hasattr(elastodynamics, name) or hasattr(kinematics, name)
+    if hasattr(elastodynamics, owner):
+        return has(getattr(elastodynamics, owner), name)
+    return hasattr(importlib.import_module(f"mechanism_fmu.{owner}"), name)
 
 
 def test_every_row_has_a_name_and_a_file():

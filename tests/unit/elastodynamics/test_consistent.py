@@ -76,7 +76,7 @@ def test_a_spinning_rod_is_stretched_and_a_speeding_one_bent_as_by_hand():
     assert tip[2] == pytest.approx(-m * speeding * LENGTH**4 / (8 * ei), rel=1e-9)
 
 
-def test_the_paper_s_linkage_has_the_same_mass_either_way():
+def test_the_path_generator_has_the_same_mass_either_way():
     mechanism = PathGenerator().mechanism()
     c = configurations(linkage(mechanism), analyse(mechanism, [0.0, 0.01]))
     consistent, lumped = consistent_mass(c), mass_matrix(c)

@@ -29,7 +29,7 @@ def case_3(case_2):
     return periodic_response(elastic_cycle(case_2, 0.02))
 
 
-def test_periodic_deviation_of_the_papers_linkage_in_metres_is_that_of_the_oracle(case_2, case_3):
+def test_periodic_deviation_of_the_path_generator_in_metres_is_that_of_the_oracle(case_2, case_3):
     c = case_2.configurations
     x, y = (c.coordinates.index(f"arm.end.{axis}") for axis in "xy")
     u = case_3.samples(3600)

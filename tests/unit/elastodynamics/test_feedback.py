@@ -31,7 +31,7 @@ def test_above_resonance_it_stops_at_once_and_says_so():
     assert not found.converged
 
 
-def test_the_papers_linkage_at_low_speed_comes_to_the_periodic_motion():
+def test_the_path_generator_at_low_speed_comes_to_the_periodic_motion():
     cycle = four_bar.cycle(rpm=100, samples=240)
     found, static = fed_back(cycle), cycle.static()
     expected = periodic_response(cycle).samples(240)
@@ -40,7 +40,7 @@ def test_the_papers_linkage_at_low_speed_comes_to_the_periodic_motion():
     assert np.abs(static - expected).max() > 1e-3 * np.abs(expected).max()
 
 
-def test_at_the_papers_speed_it_stalls():
+def test_at_500_rpm_it_stalls():
     with pytest.warns(UserWarning, match="Take periodic_response"):
         found = fed_back(four_bar.cycle(rpm=500, samples=180))
     assert not found.converged

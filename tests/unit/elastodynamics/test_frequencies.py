@@ -61,7 +61,7 @@ def test_a_coordinate_without_mass_has_a_mode_of_infinite_frequency_and_no_dampi
     assert np.all(np.isfinite(modes.damping(0.02)))
 
 
-def test_the_papers_linkage_has_the_frequencies_of_the_oracle():
+def test_the_path_generator_has_the_frequencies_of_the_oracle():
     for case in oracle()["frequencies_hz"]:
         K = four_bar.stiffness([math.radians(case["phi_deg"])])
         found = instantaneous_modes(K, four_bar.masses()).hertz[0, :3]

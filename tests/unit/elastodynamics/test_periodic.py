@@ -58,7 +58,7 @@ def test_the_mass_may_change_with_the_position():
     np.testing.assert_allclose(periodic_response(cycle).samples(64)[:, 0], np.cos(theta), atol=1e-12)
 
 
-def test_the_papers_linkage_deviates_as_the_oracle_says():
+def test_the_path_generator_deviates_as_the_oracle_says():
     response = periodic_response(four_bar.cycle(rpm=500, samples=360))
 
     def deviation(degrees):

@@ -34,7 +34,7 @@ def test_sweep_of_one_mass_is_its_magnification_and_peaks_where_it_must():
     assert speeds[found.dynamic.argmax()] == critical == 5.0
 
 
-def test_the_papers_linkage_peaks_within_a_few_percent_of_a_critical_speed():
+def test_the_path_generator_peaks_within_a_few_percent_of_a_critical_speed():
     cycle = four_bar.cycle(500, 180)
     mean = critical_speeds(instantaneous_modes(cycle.stiffness, cycle.mass), 10)[0] * 30 / math.pi
     near = mean[7]  # harmonic 8 of the crank meets the first frequency

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from rotor import ARM, INERTIA, Stop, rotor
 
@@ -64,6 +64,7 @@ def test_bounces_follow_the_geometric_series_until_they_stick(restitution, dista
 @settings(deadline=None, max_examples=30)
 @given(st.floats(0.0, 1.0), st.floats(0.1, 10.0))
 def test_an_impact_returns_e_times_the_speed_and_loses_the_rest(restitution, speed):
+    assume(abs(restitution * ARM * speed / STICK_SPEED - 1) > 1e-9)  # there, rounding decides whether it sticks
     simulation = Simulation(rotor([Stop(0.5, 1, restitution)], speed=speed, outputs=OUTPUTS))
     simulation.advance(0.75 / speed)
     (hit,) = simulation.impacts_in_step()

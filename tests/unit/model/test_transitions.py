@@ -124,8 +124,8 @@ def grazes(arrows, subject):
     return any(a.part == subject and a.event == ANY and a.target == "closed" for a in arrows)
 
 
-def test_the_guided_ratchet_is_the_paper_s_flow_chart():
-    """Fig. 2: on the slope until s = 0 at the face; eq (7); then both rows stay."""
+def test_the_guided_ratchet_does_what_the_paper_says():
+    """On the slope until s = 0 at the face; eq (7); then both rows stay: a branch of its flow chart, Fig. 2."""
     logic = logic_of(ratchet())
     assert [(r.part, r.states, r.start) for r in logic.regions] == [
         ("slope", ("closed",), "closed"),

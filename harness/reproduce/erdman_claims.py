@@ -1,0 +1,174 @@
+"""What the abstract and the introduction of Erdman, Sandor and Oakberg promise, and Case 3."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+import build_fmu
+from mechanism_fmu.elastodynamics import (
+    DRIVE,
+    deflection_of,
+    deformed_links,
+    elastic_cycle,
+    flywheel,
+    periodic_response,
+    quasi_static,
+    torque_fluctuation,
+    turn,
+    with_friction,
+)
+
+from .bench import Bench
+from .row import Found, Row, Verdict, judged
+
+KED = "mechanism-fmu ked four_bar_path_generator"
+#: 500 rpm, of this project's own example [rad/s].
+_SPEED = 500 * math.pi / 30
+
+
+def _case3(_bench: Bench) -> Found:
+    return Found("named (“three cases”) and not described in the pages at hand", Verdict.NOT_DETERMINED)
+
+
+def _operators(_bench: Bench) -> Found:
+    link, u = np.array([0.3, 0.1]), np.array([2e-3, -1e-3])
+    errors = [float(np.linalg.norm(deformed_links(link, u / k) - link - u / k)) for k in (1, 2)]
+    order = math.log2(errors[0] / errors[1])
+    return judged(
+        abs(order - 2) < 0.02,
+        f"derived beyond the pages at hand; this project's own agree with linear theory to order {order:.2f}",
+        f"link (0.3, 0.1) m, u = (2, −1) mm: off by {errors[0]:.3e} m, half of u: {errors[1]:.3e} m",
+        verdict=Verdict.NOT_DETERMINED,
+    )
+
+
+def _speeds(_bench: Bench) -> Found:
+    mechanism = build_fmu.mechanism("four_bar_path_generator")
+    largest = {}
+    for rpm in (50, 500):
+        cycle = quasi_static(turn(mechanism, rpm * math.pi / 30, 360))
+        static = float(cycle.deviation("arm.end").max())
+        equations = elastic_cycle(cycle, 0.02)
+        response = periodic_response(equations).samples(equations.samples)
+        moved = np.vstack([response, response[:1]])
+        dynamic = deflection_of(cycle.configurations, moved, "arm.end")[:, :2]
+        largest[rpm] = static, float(np.linalg.norm(dynamic, axis=1).max())
+    slow, fast = largest[50], largest[500]
+    return judged(
+        abs(fast[0] / slow[0] - 100) < 1e-3,
+        f"path generator: {1e6 * slow[1]:.1f} µm at 50 rpm, {1e3 * fast[1]:.2f} mm at 500 rpm (quasi-static "
+        f"{1e3 * fast[0]:.2f} mm: as the square of the speed)",
+        "elastodynamic, 2 % damping of each mode, at each degree",
+    )
+
+
+def _planar(_bench: Bench) -> Found:
+    return Found(
+        "any planar linkage of revolute joints, guides, rods and drivers; no gears, no cams; of spatial ones only the "
+        "elements (6), (9) and the operators",
+        Verdict.HOLDS_IN_PART,
+    )
+
+
+def _beyond(text: str) -> Found:
+    return Found(f"beyond the pages at hand; {text}", Verdict.NOT_DETERMINED)
+
+
+def _friction(_bench: Bench) -> Found:
+    """Of the example, without friction and with 0.1 on pins of 5 mm: what the motor gives, and what friction takes."""
+    mechanism = build_fmu.mechanism("four_bar_path_generator")
+    mean = []
+    for rubbed in (mechanism, with_friction(mechanism, 0.1, 5e-3)):
+        cycle = quasi_static(turn(rubbed, _SPEED, 360))
+        torque = cycle.reactions.of(DRIVE)[:, 0]
+        mean.append(torque_fluctuation(np.linspace(0.0, 2 * math.pi, len(torque)), torque).mean)
+    return judged(
+        abs(mean[0]) < 1e-6 < mean[1],
+        f"beyond the pages at hand; here, 0.1 on pins of 5 mm takes a mean torque of {mean[1]:.4f} N m of the example "
+        "at 500 rpm, none without",
+        verdict=Verdict.NOT_DETERMINED,
+    )
+
+
+def _fluctuation(_bench: Bench) -> Found:
+    cycle = quasi_static(turn(build_fmu.mechanism("four_bar_path_generator"), _SPEED, 360))
+    torque = cycle.reactions.of(DRIVE)[:, 0]
+    angle = np.linspace(0.0, 2 * math.pi, len(torque))
+    found = torque_fluctuation(angle, torque)
+    wheel = flywheel(angle, torque, _SPEED, 0.02)
+    gap = float(np.abs(cycle.power.balance).max() / np.abs(cycle.power.drives).max())
+    return judged(
+        gap < 1e-9 and abs(wheel.inertia * 0.02 * _SPEED**2 / found.energy - 1) < 1e-9,
+        f"beyond the pages at hand; here, input torque {found.least:.3f} to {found.largest:.3f} N m, power balanced; a "
+        f"flywheel of {1e3 * wheel.inertia:.3f}·10⁻³ kg m² makes the coefficient of fluctuation 0.02",
+        f"energy of the fluctuation {found.energy:.5f} J",
+        verdict=Verdict.NOT_DETERMINED,
+    )
+
+
+ROWS = (
+    Row("E-case3", "Case 3", "The third model.", "named", ("docs/elastodynamics-dynamics.md",), _case3),
+    Row(
+        "E-speed",
+        "claim, introduction",
+        "Elasticity matters at high speed, not at low.",
+        "in words",
+        ("mechanism_fmu/elastodynamics/periodic.py",),
+        _speeds,
+        KED,
+    ),
+    Row(
+        "E-any",
+        "claim, abstract",
+        "Applies to any planar or spatial mechanism.",
+        "in words",
+        ("mechanism_fmu/elastodynamics/linkage.py",),
+        _planar,
+    ),
+    Row(
+        "E-friction",
+        "claim, abstract",
+        "Coulomb and viscous friction are indicated.",
+        "announced",
+        ("mechanism_fmu/elastodynamics/friction.py",),
+        _friction,
+        f"{KED} --friction 0.1 --pin-radius 5mm",
+    ),
+    Row(
+        "E-operators",
+        "claim, abstract",
+        "Stretch–rotation operators are derived.",
+        "announced",
+        ("mechanism_fmu/elastodynamics/stretch_rotation.py",),
+        _operators,
+    ),
+    Row(
+        "E-synthesis",
+        "claim, introduction",
+        "A general method of synthesis.",
+        "announced",
+        ("mechanism_fmu/elastodynamics/synthesis.py",),
+        lambda _bench: _beyond("`lightest`, sequential quadratic programming over sections, is this project's"),
+        f"{KED} --synthesise --limit-deviation 1mm --limit-stress 60MPa",
+    ),
+    Row(
+        "E-fluctuation",
+        "claim, abstract",
+        "Inertia fluctuations, power input and output.",
+        "announced",
+        ("mechanism_fmu/elastodynamics/fluctuation.py", "mechanism_fmu/elastodynamics/reactions.py"),
+        _fluctuation,
+        f"{KED} --fluctuation 0.02",
+    ),
+    Row(
+        "E-example",
+        "claim, abstract",
+        "A numerical example.",
+        "announced",
+        ("models/four_bar_path_generator/model.py",),
+        lambda _bench: _beyond("an example with 10, 4, 10, 8, 6 in at 500 rpm is this project's"),
+        KED,
+    ),
+)

@@ -1,0 +1,171 @@
+"""The page docs/papers-reproduced.md, and the table rows.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import pandas as pd
+
+from .figures import FIGURES
+from .perform import Reproduction
+from .row import Document, Result, Verdict
+
+#: The folder of the figures beside the page.
+FIGURE_FOLDER = "papers-reproduced"
+
+_TITLES = {
+    Document.PENNESTRI: "Pennestrì, Valentini, Vita: *Dynamic Analysis of Intermittent-Motion Mechanisms Through the "
+    "Combined Use of Gauss Principle and Logical Functions*",
+    Document.ERDMAN: "Erdman, Sandor, Oakberg: *A General Method for Kineto-Elastodynamic Analysis and Synthesis of "
+    "Mechanisms* (1972)",
+    Document.ME451: "ME451, *Kinematics and Dynamics of Machine Systems*: composite joints, gears, cam followers "
+    "(2010, after Haug)",
+}
+
+_INTRODUCTION = """\
+# The papers reproduced
+
+Three documents are at the root of this project. Below is every equation, table, figure, example and claim of theirs:
+what it says, what this project finds, and whether the two agree. One command works it all out anew and writes this
+page, a report and the figures; a test compares:
+
+```sh
+mechanism-fmu reproduce -o papers-reproduced/
+mechanism-fmu reproduce P-eq7 E-eq13 S-3.4.1        # some rows only, with their worked numbers
+```
+
+What is at hand are the documents' texts, without their drawings, and of Erdman, Sandor and Oakberg only the first
+pages, which end with eq (14).
+"""
+
+_MEANINGS = {
+    Verdict.REPRODUCED: "the printed equation or number comes out, calculated in another way than it is stated",
+    Verdict.HOLDS: "a claim that is true, with numbers",
+    Verdict.HOLDS_IN_PART: "true, but not all of it, or not all of it can be compared",
+    Verdict.DOES_NOT_HOLD: "a claim that is not true",
+    Verdict.ERRATUM: "what is printed cannot be right; see Errata",
+    Verdict.TAKEN_OVER: "data, definitions and assumptions: used as printed",
+    Verdict.NOT_DETERMINED: "what it would take to compare is not at hand; the reason is given",
+}
+
+
+def markdown(made: Reproduction) -> str:
+    """The page; of some rows only, one with their worked numbers."""
+    if not made.whole:
+        return "# Some rows of the papers reproduced\n\n" + "\n".join(_worked(result) for result in made.everything)
+    parts = [_INTRODUCTION, _summary(made), _errata(made), _choices(made)]
+    for document, title in _TITLES.items():
+        parts += [f"## {title}\n", _rows(made.of(document)), _figures(document, made.figures)]
+    return "\n".join(part for part in parts if part)
+
+
+def summary_rows(made: Reproduction) -> list[list[str]]:
+    """Verdicts, and how many rows of each document have it; the last line counts all."""
+    shown = [verdict for verdict in Verdict if verdict is not Verdict.CHOICE]
+    lines = []
+    for verdict in shown:
+        counts = [_count(made.of(document), verdict) for document in Document]
+        if any(counts):
+            lines.append([str(verdict), *map(str, counts), _MEANINGS.get(verdict, "")])
+    totals = [str(len(made.of(document))) for document in Document]
+    return [*lines, ["all", *totals, ""]]
+
+
+def _count(results: Iterable[Result], verdict: Verdict) -> int:
+    return sum(result.found.verdict is verdict for result in results)
+
+
+def _summary(made: Reproduction) -> str:
+    headings = ["verdict", *(document.short for document in Document), "which means"]
+    return f"## Summary\n\n{_table(headings, summary_rows(made), right=(1, 2, 3))}"
+
+
+def _errata(made: Reproduction) -> str:
+    parts = [
+        "## Errata\n",
+        "What is printed, why it cannot be right, and what this project takes; all numbers are calculated.\n",
+    ]
+    for result in made.errata:
+        row, found = result.row, result.found
+        parts.append(f"**{row.id}** {row.place}: {row.says} Printed: {row.printed}.")
+        parts.append(f"{_capital(found.ours)}.\n")
+        parts += [f"- {line}" for line in found.worked]
+        parts.append(f"- shown by `{row.shown_by}`\n")
+    return "\n".join(parts)
+
+
+def _capital(text: str) -> str:
+    return text[0].upper() + text[1:]
+
+
+def _choices(made: Reproduction) -> str:
+    headings = ["id", "where it acts", "open is", "printed", "this project", "code"]
+    lines = [
+        [r.row.id, r.row.place, r.row.says, r.row.printed, "; ".join((r.found.ours, *r.found.worked)), _code(r)]
+        for r in made.choices
+    ]
+    return f"## Choices\n\nWhat the documents leave open.\n\n{_table(headings, lines)}"
+
+
+def _rows(results: Sequence[Result]) -> str:
+    headings = ["id", "place", "what it says", "printed", "this project", "verdict", "code", "shown by"]
+    return _table(
+        headings,
+        [
+            [
+                r.row.id,
+                r.row.place,
+                r.row.says,
+                r.row.printed,
+                r.found.ours,
+                f"**{r.found.verdict}**",
+                _code(r),
+                f"`{r.row.shown_by}`",
+            ]
+            for r in results
+        ],
+    )
+
+
+def _code(result: Result) -> str:
+    return ", ".join(f"[{path.rsplit('/', 1)[-1]}](../{path})" for path in result.row.code)
+
+
+def _figures(document: Document, drawn: dict[str, str]) -> str:
+    shown = [f for f in FIGURES if f.name in drawn and f.row.startswith(document.value)]
+    parts = [f"**{f.place}**, {f.caption}:\n\n![{f.place}: {f.caption}]({FIGURE_FOLDER}/{f.name}.svg)\n" for f in shown]
+    return "\n".join(["### Figures\n", *parts]) if parts else ""
+
+
+def _worked(result: Result) -> str:
+    row, found = result.row, result.found
+    lines = [
+        f"## {row.id}: {row.place}\n",
+        f"{row.says} Printed: {row.printed}.\n",
+        f"**{found.verdict}**: {found.ours}\n",
+    ]
+    return "\n".join([*lines, *(f"- {line}" for line in found.worked), f"- code: {', '.join(row.code)}\n"])
+
+
+def _table(headings: Sequence[str], lines: Iterable[Sequence[str]], right: Sequence[int] = ()) -> str:
+    rule = ["---:" if column in right else "---" for column in range(len(headings))]
+    rows = [headings, rule, *([cell.replace("|", "\\|") for cell in line] for line in lines)]
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows) + "\n"
+
+
+def frame(made: Reproduction) -> pd.DataFrame:
+    """All rows as a table."""
+    return pd.DataFrame(
+        {
+            "id": r.row.id,
+            "place": r.row.place,
+            "says": r.row.says,
+            "printed": r.row.printed,
+            "this_project": r.found.ours,
+            "verdict": str(r.found.verdict),
+            "worked": "; ".join(r.found.worked),
+            "code": ", ".join(r.row.code),
+            "command": r.row.shown_by,
+        }
+        for r in made.everything
+    )

@@ -1,0 +1,196 @@
+"""Section 3 of Pennestrì, Valentini, Vita: eqs (4) to (7), the inverse of A, Figs 1 and 2."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mechanism_fmu.model.transitions import transition_table
+
+from .bench import AFTER_IMPACT, Bench, FloatArray
+from .pennestri_motion import IMPACT, MINIMUM_NORM, augmented, off_by
+from .row import Found, Row, Verdict, judged, within
+
+
+def _eq4(bench: Bench) -> Found:
+    hit = bench.impact
+    right = np.zeros(len(hit.mass) + len(hit.jacobian))
+    right[-1] = -(hit.jacobian[-1] @ hit.before)
+    solved = np.linalg.solve(augmented(hit.mass, hit.jacobian), right)
+    jump = np.asarray(solved[:9], dtype=np.float64)
+    wanted = hit.after - hit.before
+    p = -solved[-1]
+    return within(
+        off_by(jump, wanted),
+        1e-7,
+        f"Δω = {jump[8]:.9f} rad/s from (4), {wanted[8]:.9f} from the engine; impulse p = {p:.9f} N s",
+        f"Δφ' = {jump[2]:.9f}, Δγ' = {jump[5]:.9f} rad/s; e = 0",
+        f"impulse of the slope {-solved[-2]:.9f} N s; ω before {hit.before[8]:.9f}, after {hit.after[8]:.9f} rad/s",
+    )
+
+
+def _fig1(bench: Bench) -> Found:
+    hit = bench.impact
+    row = ", ".join(f"{value:.4f}" for value in hit.jacobian[-1, 3:6])
+    return judged(
+        abs(hit.gap) < 1e-9,
+        f"s of the tip from the face, ∂s/∂q = ({row}) for x, y, γ of the pawl at t_I; s(t_I) = 0",
+        "the row of the gap is the last of A_21; positive s: open; drawn as fig01_gap.svg",
+        verdict=Verdict.REPRODUCED,
+    )
+
+
+def _inverse(bench: Bench) -> tuple[FloatArray, FloatArray]:
+    """A of eq (5), and its inverse by the partitioned formula."""
+    hit = bench.impact
+    inverse_mass, a21 = np.diag(1 / hit.mass), hit.jacobian
+    core = np.linalg.inv(a21 @ inverse_mass @ a21.T)
+    across = inverse_mass @ a21.T @ core
+    return augmented(hit.mass, a21), np.block([[inverse_mass - across @ a21 @ inverse_mass, across], [across.T, -core]])
+
+
+def _eq5(bench: Bench) -> Found:
+    matrix, _ = _inverse(bench)
+    hit = bench.impact
+    return judged(
+        matrix.shape == (17, 17) and not matrix[9:, 9:].any(),
+        f"A_11 = M is 9 × 9, A_21 = A_12ᵀ is {hit.jacobian.shape[0]} × 9 (three hinges, slope, face), A_22 = 0",
+        "A_12 is [Ψ_qᵀ, (∂s/∂q)ᵀ], side by side: see erratum X-A12",
+        verdict=Verdict.REPRODUCED,
+    )
+
+
+def _partitioned(bench: Bench) -> Found:
+    matrix, inverse = _inverse(bench)
+    scale = np.abs(inverse) @ np.abs(matrix)
+    return within(
+        float((np.abs(inverse @ matrix - np.eye(17)) / scale.max()).max()),
+        1e-13,
+        "printed A⁻¹ times A = 1 for the ratchet at its impact (17 × 17), to rounding",
+        "needs A_21 of full row rank: A_21 M⁻¹ A_12 is inverted; (7) does not need it",
+    )
+
+
+def _eq6(bench: Bench) -> Found:
+    hit = bench.impact
+    v = -(hit.jacobian[-1] @ hit.before)
+    return judged(
+        v > 0,
+        f"v = (0, …, 0, {v:.9f} m/s): the closing speed of the tip at the face, e = 0",
+        f"e = 0.5 would make it {1.5 * v:.9f} m/s",
+        verdict=Verdict.REPRODUCED,
+    )
+
+
+def _d1(bench: Bench) -> Found:
+    hit = bench.impact
+    d1 = hit.jacobian / np.sqrt(hit.mass)
+    values = np.linalg.svd(d1, compute_uv=False)
+    return judged(
+        np.linalg.matrix_rank(d1) == 8,
+        f"D₁ is {d1.shape[0]} × {d1.shape[1]}, rank 8, singular values {values[0]:.4f} to {values[-1]:.4f}",
+        "A_21 M⁻¹ A_12 = D₁ D₁ᵀ",
+        verdict=Verdict.REPRODUCED,
+    )
+
+
+def _eq7(bench: Bench) -> Found:
+    hit = bench.impact
+    root = 1 / np.sqrt(hit.mass)
+    v = np.zeros(len(hit.jacobian))
+    v[-1] = -(hit.jacobian[-1] @ hit.before)
+    found = root * (np.linalg.pinv(hit.jacobian * root) @ v)
+    _, inverse = _inverse(bench)
+    partitioned = inverse[:9, 9:] @ v
+    wanted = hit.after - hit.before
+    return within(
+        max(off_by(found, wanted), off_by(partitioned, wanted)),
+        1e-7,
+        f"Δω = {found[8]:.9f} rad/s from (7), {partitioned[8]:.9f} from the partitioned inverse, "
+        f"{wanted[8]:.9f} from the engine",
+        f"ω(t_I+) = {hit.before[8] + found[8]:.9f} rad/s; Δφ' = {found[2]:.9f}, Δγ' = {found[5]:.9f} rad/s",
+    )
+
+
+def _shares(bench: Bench) -> Found:
+    hit = bench.impact
+    root = 1 / np.sqrt(hit.mass)
+    rows = np.vstack([hit.jacobian[:-1], hit.jacobian[:-1], hit.jacobian[-1:]])
+    v = np.zeros(len(rows))
+    v[-1] = -(hit.jacobian[-1] @ hit.before)
+    found = root * (np.linalg.pinv(rows * root) @ v)
+    return within(
+        off_by(found, hit.after - hit.before),
+        1e-7,
+        f"all {hit.rows} rows stated twice: Δω = {found[8]:.9f} rad/s, as with single rows",
+        f"matrix of (4) then: {9 + len(rows)} rows, rank {np.linalg.matrix_rank(augmented(hit.mass, rows))}; "
+        "the inverse above does not exist",
+        verdict=Verdict.HOLDS,
+    )
+
+
+def _event(bench: Bench) -> Found:
+    hit = bench.impact
+    coarse = bench.run(AFTER_IMPACT, 0.4)
+    fine = bench.run(AFTER_IMPACT, 0.01)
+    times = [float(run.impacts["time"].iloc[0]) for run in (coarse, fine)]
+    return within(
+        max(abs(time - hit.time) for time in times),
+        1e-7,
+        f"s = 0 at t_I = {hit.time:.7f} s, with steps of 0.4 s and of 0.01 s alike; then (7), then on from x+",
+        f"s(t_I) = {abs(hit.gap):.1g} m; the instant is located within the integrator's step",
+        verdict=Verdict.HOLDS,
+    )
+
+
+def _fig2(bench: Bench) -> Found:
+    table = transition_table(bench.ratchet)
+    return judged(
+        "face.touches" in table and "eq (7)" in table,
+        "drawn as the flow chart of what the engine does: fig02_procedure.svg; modes and guards of the ratchet "
+        "come from `mechanism-fmu modes`, which is no flow chart",
+        *(line for line in table.splitlines() if "face.gap" in line),
+        verdict=Verdict.HOLDS_IN_PART,
+    )
+
+
+ROWS = (
+    Row("P-fig1", "Fig. 1", "Impact between bodies: the distance s.", "drawing lost", (IMPACT,), _fig1),
+    Row("P-eq4", "eq (4)", "The jump of the rates, with impulses.", "one linear system", (IMPACT,), _eq4),
+    Row("P-eq5", "eq (5)", "The blocks of A.", "A_11 = M, A_22 = 0, A_21 = A_12ᵀ", (IMPACT,), _eq5),
+    Row(
+        "P-inverse",
+        "section 3, no number",
+        "The partitioned inverse of A.",
+        "A⁻¹ in four blocks",
+        (IMPACT,),
+        _partitioned,
+    ),
+    Row("P-eq6", "eq (6)", "The right-hand side v.", "(0, …, −(1 + e) ∂s/∂q q')", (IMPACT,), _eq6),
+    Row("P-D1", "section 3, no number", "D₁.", "D₁ = A_21 M^-1/2", (IMPACT,), _d1),
+    Row("P-eq7", "eq (7)", "The jump of the rates.", "Δq' = M^-1/2 D₁⁺ v", (IMPACT, MINIMUM_NORM), _eq7),
+    Row(
+        "P-features",
+        "claim, section 3",
+        "(7) shares the features of (3): redundant constraints, varying structure.",
+        "in words",
+        (IMPACT, MINIMUM_NORM),
+        _shares,
+    ),
+    Row(
+        "P-fig2",
+        "Fig. 2",
+        "Flow chart of the procedure with logical functions.",
+        "drawing lost",
+        ("mechanism_fmu/engine/stepping/stepper.py", "mechanism_fmu/model/transitions.py"),
+        _fig2,
+        "mechanism-fmu modes build/Ratchet.fmu",
+    ),
+    Row(
+        "P-event",
+        "section 5",
+        "When s = 0 an event function stops the solver, (7) follows, and it restarts.",
+        "in words",
+        ("mechanism_fmu/engine/stepping/events.py", "mechanism_fmu/engine/stepping/stepper.py"),
+        _event,
+    ),
+)
