@@ -150,7 +150,7 @@ class Nearest:
         tests = [name for name in distance if name.rpartition(".")[2].startswith("test_")]
         files = [f"{name.replace('.', '/')}.py" for name in sorted(tests, key=lambda name: (distance[name], name))]
         files = [file for file in files if not any(part in file for part in _LEFT_OUT)]
-        files.sort(key=lambda file: not _akin(file, path))
+        files.sort(key=lambda file: (Path(path).stem not in Path(file).stem, not _akin(file, path)))
         ends = [0, *(min(end, len(files)) for end in _STAGES)]
         return [files[begin:end] for begin, end in pairwise(ends)]
 

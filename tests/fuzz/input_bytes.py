@@ -16,7 +16,7 @@ Read = TypeVar("Read")
 
 #: The same examples each time, seconds in all; `FUZZ_EXAMPLES=100000` takes hours.
 fuzzed = settings(
-    max_examples=int(os.environ.get("FUZZ_EXAMPLES", "150")),
+    max_examples=int(os.environ.get("FUZZ_EXAMPLES", "100")),
     derandomize=True,
     database=None,
     deadline=None,
