@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from harness.clock import TimeGrid
 from harness.designs import by_batch, by_fmu
 from harness.designs.quantities import column
 from harness.designs.task import Design, Task
-from harness.errors import UsageError
+from harness.errors import FmuError, UsageError
 from harness.fmu import Fmu, open_fmu
 from harness.inputs import InputSignals
 
@@ -118,3 +119,23 @@ def test_warnings_are_those_of_the_fmu_a_line_each(ratchet_fmu: Path) -> None:
         (found,), (expected,) = (way.run_designs(fmu, task_of(fmu), warned) for way in (by_batch, by_fmu))
     assert found.warnings == expected.warnings
     assert len((found.warnings or "").splitlines()) == 2
+
+
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [(ZeroDivisionError("by zero"), "ZeroDivisionError: by zero"), (FmuError("no tooth."), "no tooth.")],
+)
+def test_an_error_in_what_comes_after_the_batch_fails_its_design_alone(
+    monkeypatch: pytest.MonkeyPatch, error: Exception, says: str
+) -> None:
+    def refuse(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(by_batch, "of_impacts", refuse)
+    monkeypatch.setattr(by_batch, "_impacts", lambda *_: None)
+    task = Task(TimeGrid.of(1.0, 0.1), {}, None, ())
+    found = SimpleNamespace(failures=["", "jammed."], impact_count=[0, 0], warnings=["", ""])
+    fmu = SimpleNamespace(description=None)
+    results = [by_batch._result(fmu, task, DESIGNS[place], found, place) for place in range(2)]  # type: ignore[arg-type]
+    assert [result.failure for result in results] == [says, "jammed."]
+    assert [result.number for result in results] == [1, 2]

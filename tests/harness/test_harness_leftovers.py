@@ -12,8 +12,10 @@ import pytest
 from damaged import sound
 from typer.testing import CliRunner
 
+from harness import study
 from harness.cli import main
 from harness.errors import UsageError
+from harness.fmu import Fmu
 from harness.occupied import alone_in
 from harness.results import sweep_up, write_text
 
@@ -117,3 +119,29 @@ def test_the_second_command_in_a_folder_is_refused(tmp_path: Path, arguments: Ca
     assert "Choose another folder with -o" in message
     assert [path.name for path in (tmp_path / "out").iterdir()] == [".lock"]
     assert time.monotonic() - before < 10.0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGTERM there")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_study_ends_after_the_wheel_at_hand(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
+) -> None:
+    """It is interrupted between its runs, so the FMU's folder goes, and nothing half done is written."""
+    wheels: list[int] = []
+
+    def three_wheels(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> None:
+        assert fmu.folder.is_dir()
+        for wheel in (1, 2, 3):
+            wheels.append(wheel)
+            if wheel == 2:
+                os.kill(os.getpid(), number)
+            on_wheel(wheel, 3)
+
+    monkeypatch.setattr(study, "ratchet_study", three_wheels)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    fmu = sound(tmp_path / "Sound.fmu")
+    result = CliRunner().invoke(main, ["study", "ratchet", "--fmu", str(fmu), "-o", str(tmp_path / "out")])
+    assert (result.exit_code, wheels) == (130, [1, 2])
+    assert "Interrupted: nothing was written" in result.stdout
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["Sound.fmu", "out"]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == [".lock"]
