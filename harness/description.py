@@ -192,8 +192,8 @@ def _described(raw: Any, fmi: int) -> Description:
         units=_units(raw.unitDefinitions),
         generation_tool=raw.generationTool or "",
         text=raw.description or "",
-        stop_time=_number(experiment and experiment.stopTime, "stopTime of its DefaultExperiment"),
-        step=_number(experiment and experiment.stepSize, "stepSize of its DefaultExperiment"),
+        stop_time=_duration(experiment and experiment.stopTime, "stopTime of its DefaultExperiment"),
+        step=_duration(experiment and experiment.stepSize, "stepSize of its DefaultExperiment"),
         saves_state=ability.canGetAndSetFMUstate,
         serializes_state=ability.canSerializeFMUstate,
         takes_slopes=ability.canInterpolateInputs and fmi == 2,  # FMI 3.0 has no function for it
@@ -323,6 +323,12 @@ def _units(definitions: Iterable[Any]) -> Units:
             defined[unit.name] = Measure(tuple(getattr(base, name) for name in BASE_UNITS), base.factor, base.offset)
         displayed[unit.name] = {display.name: (display.factor, display.offset) for display in unit.displayUnits}
     return Units(defined, displayed)
+
+
+def _duration(text: str | None, what: str) -> float | None:
+    """A time of the default experiment; one that is not positive says nothing, as some tools write 0 for none."""
+    number = _number(text, what)
+    return number if number is not None and number > 0.0 else None
 
 
 def _limit(text: str | None, what: str) -> float | None:

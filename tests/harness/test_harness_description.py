@@ -7,6 +7,7 @@ from damaged import DESCRIPTION, sound
 
 from harness.description import Description, read_description
 from harness.errors import UsageError
+from harness.validate import conformance_grid
 
 #: By name, the attribute of CoSimulation that says so in FMI 2.0, with what it says.
 ABILITIES = {
@@ -57,6 +58,15 @@ def test_numbers_of_a_variable(tmp_path: Path) -> None:
     assert (one.elements, one.element, one.unit, other.unit) == (1, 0, "", "K")
     assert (description.stop_time, description.step, description.fmi) == (1.0, 0.1, 2)
     assert description.units.displayed["K"] == {"degC": (1.0, -273.15)}
+
+
+@pytest.mark.parametrize("value", ["0", "-1"])
+def test_a_default_experiment_that_does_not_go_on_is_none(tmp_path: Path, value: str) -> None:
+    """A step of 0 s once ended `validate` with a division by zero."""
+    text = DESCRIPTION.replace('stepSize="0.1"', f'stepSize="{value}"').replace('stopTime="1"', f'stopTime="{value}"')
+    description = read(tmp_path, text)
+    assert (description.stop_time, description.step) == (None, None)
+    assert len(conformance_grid(description)) == 100
 
 
 def test_an_fmu_for_model_exchange_is_refused(tmp_path: Path) -> None:
