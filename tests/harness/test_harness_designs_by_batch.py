@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from harness.clock import TimeGrid
+from harness.description import Variable
 from harness.designs import by_batch, by_fmu
 from harness.designs.quantities import column
 from harness.designs.task import Design, Task
@@ -139,3 +140,20 @@ def test_an_error_in_what_comes_after_the_batch_fails_its_design_alone(
     results = [by_batch._result(fmu, task, DESIGNS[place], found, place) for place in range(2)]  # type: ignore[arg-type]
     assert [result.failure for result in results] == [says, "jammed."]
     assert [result.number for result in results] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("kind", "text", "value"),
+    [
+        ("Boolean", "true", 1.0),
+        ("Boolean", "1", 1.0),
+        ("Boolean", "false", 0.0),
+        ("Boolean", "0", 0.0),
+        ("Boolean", None, 0.0),
+        ("Integer", "3", 3.0),
+        ("Real", "2.5", 2.5),
+        ("Real", None, 0.0),
+    ],
+)
+def test_a_start_value_is_that_of_the_description(kind: str, text: str | None, value: float) -> None:
+    assert by_batch._started(Variable("x", 0, kind, "parameter", start=text)) == value
