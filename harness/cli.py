@@ -144,7 +144,7 @@ def run(
             "--input",
             metavar="FILE.csv",
             help="Input signals: a column `time [s]`, then one for each input, e.g. `drive_torque [N.mm]`; "
-            "interpolated linearly, constant within a step.",
+            "interpolated linearly, constant within a step. Also joined by semicolons, with decimal commas.",
         ),
     ] = None,
     material: Annotated[
@@ -172,8 +172,8 @@ def run(
 
         mechanism-fmu run build/Ratchet.fmu --material 42CrMo4
 
-    Ctrl-C ends the run early and keeps what was recorded. An FMU that no build of yours has made runs in a process of
-    its own.
+    Ctrl-C or SIGTERM ends the run early and keeps what was recorded. An FMU that no build of yours has made runs in a
+    process of its own.
 
     Exit code: 0 all well, 1 the run or a verdict failed, 2 wrong use, 130 interrupted.
     """
@@ -252,7 +252,7 @@ def sweep(
         [record]
         first_impact = ["time", "stress_max"]
 
-    Results are kept as they come: whenever the command ends, by Ctrl-C or killed by somebody, the same command
+    Results are kept as they come: whenever the command ends, by Ctrl-C, SIGTERM or killed by somebody, the same command
     goes on where it stopped. The table results.parquet is for pandas, report.html for people. See docs/sweeps.md.
 
     Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.

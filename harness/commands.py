@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+import typer
 from rich.markup import escape
 
 from .assignments import start_values
@@ -17,17 +19,20 @@ from .fmu import open_fmu
 from .interrupt import interruption
 from .isolation import with_instances
 from .logic import default_parameters, read_logic
+from .occupied import alone_in
 from .paper import base_case_checks
 from .results import prepare_folder, write_run, write_text
 from .slave import Instances
 from .terminal import (
     FAILED,
+    INTERRUPTED,
     RunDisplay,
     console,
     show_checks,
     show_error,
     show_files,
     show_findings,
+    show_note,
     show_progress,
     show_table,
     show_warning,
@@ -36,6 +41,9 @@ from .terminal import (
 )
 from .tooth_damage import card_of
 
+if TYPE_CHECKING:
+    from .study import Study
+
 #: The base case of the paper is the FMU's default; the pawl strikes at 0.94 s and swings back at 4.9 s.
 _DEMO = Experiment(stop_time=6.0, step=1e-3)
 _CYCLE_STEP = 5e-3
@@ -43,22 +51,22 @@ _CYCLE_STEP = 5e-3
 
 def run_demo(folder: Path) -> int:
     """Build the ratchet, run the paper's base case, compare it with reference values, write everything."""
-    prepare_folder(folder)
-    path = _built_ratchet(folder, f"run its base case for {_DEMO.stop_time:g} s")
-    with open_fmu(path) as fmu:
-        return _performed(fmu, _DEMO, lambda run: _written(run, folder, base_case_checks(run.impacts)))
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, f"run its base case for {_DEMO.stop_time:g} s")
+        with open_fmu(path) as fmu:
+            return _performed(fmu, _DEMO, lambda run: _written(run, folder, base_case_checks(run.impacts)))
 
 
 def run_cycle(folder: Path) -> int:
     """Build the ratchet, run a whole indexing cycle of its free pawl, check it, write everything."""
     from . import cycle
 
-    prepare_folder(folder)
-    path = _built_ratchet(folder, f"run it through four strokes in {cycle.STOP_TIME:g} s")
-    drive = cycle.write_drive(folder / "drive.csv")
-    experiment = Experiment(cycle.STOP_TIME, _CYCLE_STEP, cycle.VALUES, drive)
-    with open_fmu(path) as fmu:
-        return _performed(fmu, experiment, lambda run: _written(run, folder, cycle.cycle_checks(run.results)))
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, f"run it through four strokes in {cycle.STOP_TIME:g} s")
+        drive = cycle.write_drive(folder / "drive.csv")
+        experiment = Experiment(cycle.STOP_TIME, _CYCLE_STEP, cycle.VALUES, drive)
+        with open_fmu(path) as fmu:
+            return _performed(fmu, experiment, lambda run: _written(run, folder, cycle.cycle_checks(run.results)))
 
 
 def new_mechanism(name: str) -> int:
@@ -99,7 +107,6 @@ def run_fmu(
     with open_fmu(path) as fmu:
         values = start_values(settings, fmu.description)
         experiment = Experiment(*default_times(fmu.description, stop_time, step), values, input_file, card)
-        prepare_folder(folder)
 
         def work(instances: Instances) -> int:
             try:
@@ -108,7 +115,8 @@ def run_fmu(
                 tell_of_earlier_files(folder)
                 raise
 
-        return with_instances(fmu, in_process, work)
+        with alone_in(folder, waits=False):
+            return with_instances(fmu, in_process, work)
 
 
 def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:
@@ -153,16 +161,36 @@ def validate_fmu(path: Path, in_process: bool = False) -> int:
 
 def run_study(folder: Path, path: Path | None) -> int:
     """Run the paper's study and write it."""
+    from .study import ratchet_study
+
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
+        with (
+            open_fmu(path) as fmu,
+            show_progress(f"Loading {path.name} ...") as progress,
+            interruption(
+                lambda: console.print("Ending after this wheel; Ctrl-C again to break off.")
+            ) as stop_requested,
+        ):
+
+            def on_wheel(number: int, of: int) -> None:
+                progress(f"{number} of {of} wheels", number / of)
+                if stop_requested():
+                    console.print("[yellow]Interrupted[/]: nothing was written; the same command begins anew.")
+                    raise typer.Exit(INTERRUPTED)
+
+            study = ratchet_study(fmu, on_wheel)
+        return _study_written(study, folder)
+
+
+def _study_written(study: Study, folder: Path) -> int:
+    """Show and write a study, and return the exit code."""
     from .accuracy import ACCURACY
     from .report.paper_figures import paper_figures
     from .report.static import write_static
     from .report.study_report import write_study_report
-    from .study import ratchet_study, write_study
+    from .study import write_study
 
-    prepare_folder(folder)
-    path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
-    with open_fmu(path) as fmu, show_progress(f"Loading {path.name} ...") as progress:
-        study = ratchet_study(fmu, lambda number, of: progress(f"{number} of {of} wheels", number / of))
     rows = [wheel.cells() for wheel in study.wheels]
     headings = ["nt", "beta_0 [deg]", "t_I [s]", "omega(t_I+) [rad/s]", "v_I [m/s]", "sigma_max [Pa]"]
     show_table("First impact of each wheel", headings, rows, numeric=range(len(headings)))
@@ -215,5 +243,7 @@ def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
         tell_of_earlier_files(folder)
         show_error(str(run.outcome.error))
         return FAILED
+    if run.inputs is not None and run.inputs.note:
+        show_note(run.inputs.note)
     files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]
     return show_ending(run, files, more_checks)

@@ -62,6 +62,11 @@ def show_warning(message: LogMessage) -> None:
         error_console.print(f"[yellow]Warning[/] ({escape(where)}): {escape(message.text)}", soft_wrap=True)
 
 
+def show_note(text: str) -> None:
+    """What is to be known of a run, and no mistake."""
+    console.print(f"[dim]Note:[/] {escape(text)}", soft_wrap=True)
+
+
 def show_checks(checks: Iterable[Check]) -> None:
     """Verdicts, one line each."""
     for check in checks:

@@ -270,13 +270,22 @@ class Simulation:
             raise kind(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
 
     def _involved(self, outcome: int) -> str:
-        """What a failure is about: the contacts of an event; the part that limited the steps, and their last size."""
+        """What a failure is about.
+
+        The contacts of an event, and the joints that rub where friction is what failed; or the part that limited the
+        steps, and their last size.
+        """
         if outcome in (*status.OUT_OF_STEPS, status.STEP_TOO_SMALL):
             return self._stiffest()
         if outcome not in _ABOUT_CONTACTS:
             return ""
         names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
-        return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
+        names |= set(self.mode())
+        friction = field_of(self._block, "joint_friction").tolist()
+        rubbing = [joint.name for joint, value in zip(self._mechanism.joints, friction, strict=True) if value > 0.0]
+        contacts = f" Contacts: {', '.join(sorted(names))}." if names else ""
+        joints = f" Joints with friction: {', '.join(rubbing)}." if outcome == status.JAMMED and rubbing else ""
+        return contacts + joints
 
     def _stiffest(self) -> str:
         """How small the steps have become, and the part whose error limits them."""

@@ -21,7 +21,7 @@ from ..numbers import shown
 from ..occupied import alone_in
 from ..results import write_json
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
-from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory, show_input_note
 
 
 def run_optimise(
@@ -42,6 +42,7 @@ def run_optimise(
                 f"{optimum.total} designs ({optimum.method})",
                 soft_wrap=True,
             )
+            show_input_note(optimum.task)
             with (
                 crew_of(fmu, optimum.task, workers, scheduler, fast, trust or built) as crew,
                 DesignsBar(optimum.total) as bar,

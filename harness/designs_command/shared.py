@@ -28,7 +28,8 @@ from ..fmu import Fmu, open_fmu
 from ..fmu.workspace import temporary_folder
 from ..interrupt import interruption
 from ..isolation import instances_of
-from ..terminal import RunDisplay, console
+from ..results import UNFINISHED, sweep_up
+from ..terminal import RunDisplay, console, show_note
 from ..toml_file import TomlFile
 
 #: What is said when somebody presses Ctrl-C.
@@ -57,8 +58,9 @@ def keep_built(fmu: Fmu, folder: Path) -> None:
     place = folder / "fmu"
     try:
         place.mkdir(exist_ok=True)
-        shutil.copyfile(fmu.path, place / f".{fmu.path.name}")
-        os.replace(place / f".{fmu.path.name}", place / fmu.path.name)
+        sweep_up(place)
+        shutil.copyfile(fmu.path, place / f".{fmu.path.name}{UNFINISHED}")
+        os.replace(place / f".{fmu.path.name}{UNFINISHED}", place / fmu.path.name)
     except OSError as error:
         raise UsageError(f"'{place / fmu.path.name}' cannot be written: {error}.") from error
 
@@ -171,6 +173,12 @@ def crew_of(
         ) from None
     with connected(scheduler) as client:
         yield partial(on_cluster, client, fmu.path, task, BY_FMU)
+
+
+def show_input_note(task: Task) -> None:
+    """How the table of inputs was understood, where it is not as usual."""
+    if task.inputs is not None and task.inputs.note:
+        show_note(task.inputs.note)
 
 
 def show_beam_theory(task: Task, seen: InMotion | None) -> None:

@@ -19,7 +19,7 @@ from ..fmu import Fmu
 from ..interrupt import interruption
 from ..occupied import alone_in
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
-from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory, show_input_note
 
 #: Failed designs that fit a terminal; the file has all.
 _MOST_SHOWN = 10
@@ -44,6 +44,7 @@ def run_sweep(
 
 def _performed(sweep: Sweep, store: Store, crew: Crew) -> tuple[sweeps.Progress, pa.Table]:
     console.print(f"[bold]{escape(sweep.title)}[/]: {len(sweep.designs)} designs ({sweep.method})", soft_wrap=True)
+    show_input_note(sweep.task)
     with DesignsBar(len(sweep.designs)) as bar, interruption(lambda: console.print(ENDING)) as stop_requested:
         return sweeps.perform_sweep(sweep, store, crew, bar.show, stop_requested)
 

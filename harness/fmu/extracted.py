@@ -9,9 +9,7 @@ from pathlib import Path
 
 import fmpy
 
-from mechanism_fmu.fmu.unpacked import UnsafeNameError, checked_archive
-
-from ..description import Description, read_description
+from ..description import Description, damaged, read_description
 from ..errors import UsageError
 from .fmi2 import Fmi2Slave
 from .fmi3 import Fmi3Slave
@@ -70,21 +68,17 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
             out of the folder.
     """
     description = read_description(path)
-    platforms = fmpy.supported_platforms(str(path))
+    try:
+        platforms = fmpy.supported_platforms(str(path))
+    except Exception as error:  # fmpy raises whatever zipfile raises
+        raise damaged(path, error) from error
     if fmpy.platform not in platforms:
         raise UsageError(
             f"'{path}' has no library for {fmpy.platform}; it runs on {', '.join(platforms) or 'no platform'}."
         )
-    _check_names(path)
     with temporary_folder() as folder:
-        fmpy.extract(str(path), unzipdir=str(folder))
+        try:
+            fmpy.extract(str(path), unzipdir=str(folder))
+        except Exception as error:
+            raise damaged(path, error) from error
         yield Fmu(path, description, folder)
-
-
-def _check_names(path: Path) -> None:
-    """Refuse an FMU that would write outside the folder it is extracted to: fmpy lets links and some names pass."""
-    try:
-        with checked_archive(path):
-            pass
-    except UnsafeNameError as error:
-        raise UsageError(f"'{path}' cannot be extracted: {error}.") from error

@@ -15,7 +15,6 @@ from types import ModuleType
 from ..engine.run import library_path
 from ..fmu.archive import read_entries
 from ..fmu.start import private_cache
-from ..fmu.unpacked import UnsafeNameError
 from ..model import Model
 
 _LIBRARY = Path(__file__).parents[1]
@@ -43,7 +42,7 @@ def model_of_fmu(path: Path) -> tuple[Model, Path | None]:
     """
     try:
         entries = read_entries(path)
-    except (OSError, zipfile.BadZipFile, UnsafeNameError) as error:
+    except (OSError, zipfile.BadZipFile) as error:
         raise NoBatchError(f"'{path}' cannot be read as an FMU: {error}.") from error
     package, module = _named_by_slave(path, entries)
     prefix = f"resources/{package}/"

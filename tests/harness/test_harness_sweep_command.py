@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
 import pandas as pd
@@ -155,17 +156,31 @@ def test_mistakes_are_wrong_use_and_nothing_is_run(slider_crank_fmu: Path, tmp_p
     assert not (tmp_path / "out").exists()
 
 
-def test_ctrl_c_ends_cleanly_and_the_same_command_goes_on(slider_crank_fmu: Path, tmp_path: Path) -> None:
-    path, out = file_of(tmp_path, slider_crank_fmu, 2000), tmp_path / "out"
+@pytest.mark.parametrize(
+    ("send", "number"),
+    [(os.killpg, signal.SIGINT), (os.kill, signal.SIGTERM), (os.killpg, signal.SIGTERM)],
+    ids=["a terminal's Ctrl-C", "SIGTERM", "SIGTERM to all of the group"],
+)
+def test_ctrl_c_and_sigterm_end_cleanly(
+    slider_crank_fmu: Path, tmp_path: Path, send: Callable[[int, int], None], number: signal.Signals
+) -> None:
+    path, out, temporary = file_of(tmp_path, slider_crank_fmu, 2000), tmp_path / "out", tmp_path / "temporary"
+    temporary.mkdir()
     with subprocess.Popen(
-        [*COMMAND, path, "-o", out, "--workers", "1"], stdout=subprocess.PIPE, text=True, start_new_session=True
+        [*COMMAND, path, "-o", out, "--workers", "1"],
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        env=os.environ | {"TMPDIR": str(temporary)},
     ) as process:
         wait_for_parts(out, 3, process)
-        os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the workers, too
+        send(process.pid, number)
         text, _ = process.communicate()
     assert process.returncode == 130
     kept = len(pd.read_parquet(out / "parts"))
+    assert 3 <= kept < 2000
     assert f"Interrupted: {kept} of 2000 designs are kept" in " ".join(text.split())
+    assert [path.name for path in temporary.iterdir() if path.name.startswith("mechanism-fmu-")] == []
 
 
 def wait_for_parts(out: Path, enough: int, process: "subprocess.Popen[str]") -> None:

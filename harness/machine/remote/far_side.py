@@ -14,6 +14,7 @@ costs one request and one reply, whatever is written before it and read after it
 from __future__ import annotations
 
 import base64
+import signal
 import socket
 from array import array
 from collections.abc import Callable, Sequence
@@ -58,6 +59,7 @@ def serve(end: socket.socket, name: str, opener: Opener, folder: Path | None) ->
         folder: to be removed when the other side's process was killed.
     """
     leader = serve_only(folder)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # sent to all of a group: the one that leads ends this one
     try:
         _have_component(Wire(end), name, opener)
     except (EOFError, ConnectionError):  # nobody is there any more
