@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 
 from .master import Ending, Outcome
 
 #: Largest accepted residual of the energy balance, relative to the energy that was in play.
 _ENERGY_TOLERANCE = 1e-6
+
+#: Outputs that are named in one verdict.
+_MOST_NAMED = 5
 
 _ENERGIES = ("kinetic_energy", "spring_energy", "work_done", "energy_lost")
 
@@ -47,10 +51,27 @@ def energy_residual(results: pd.DataFrame) -> pd.Series[float] | None:
     return residual
 
 
+def not_finite(results: pd.DataFrame, outputs: Iterable[str]) -> list[tuple[str, float, float]]:
+    """Outputs that are nan or infinite somewhere: name, time of the first such value [s], and that value."""
+    found = []
+    for name in outputs:
+        if name in results.columns and results[name].dtype.kind == "f":
+            column = results[name].to_numpy()
+            if not np.isfinite(column).all():
+                first = int(np.argmin(np.isfinite(column)))
+                found.append((name, float(results["time"].iloc[first]), float(column[first])))
+    return found
+
+
 def run_checks(
-    outcome: Outcome, stop_time: float, results: pd.DataFrame, impacts: pd.DataFrame, lost: int
+    outcome: Outcome,
+    stop_time: float,
+    results: pd.DataFrame,
+    impacts: pd.DataFrame,
+    lost: int,
+    outputs: Iterable[str] = (),
 ) -> tuple[Check, ...]:
-    """What every run is checked for."""
+    """What every run is checked for. That outputs are numbers is mentioned only where they are not."""
     checks = [
         Check(
             "The run reaches its stop time",
@@ -58,6 +79,10 @@ def run_checks(
             f"{outcome.final_time:.9g} of {stop_time:.9g} s in {outcome.steps} steps",
         )
     ]
+    if wrong := not_finite(results, outputs):
+        first = [f"{name} is {value} from t = {time:.9g} s" for name, time, value in wrong[:_MOST_NAMED]]
+        more = [f"and {len(wrong) - _MOST_NAMED} others"] if len(wrong) > _MOST_NAMED else []
+        checks.append(Check("Every output is a finite number", False, ", ".join([*first, *more])))
     if "impact_count" in results.columns and not results.empty:
         counted = int(results["impact_count"].iloc[-1])
         evidence = f"{len(impacts)} collected, {counted} counted by the FMU, {lost} lost"

@@ -49,7 +49,20 @@ Fast = Annotated[
     bool,
     typer.Option(
         "--fast",
-        help="Hundreds of designs in one compiled call, in threads, without FMI calls; the numbers are the FMU's.",
+        help="Hundreds of designs in one compiled call, in threads, without FMI calls; the numbers are the FMU's. "
+        "This runs the Python sources of the FMU's model in this process.",
+    ),
+]
+Trust = Annotated[
+    bool,
+    typer.Option("--trust", help="Let --fast run the Python sources of an FMU that no build of yours has made."),
+]
+InProcess = Annotated[
+    bool,
+    typer.Option(
+        "--in-process",
+        help="Run an FMU that no build of yours has made without a process of its own: faster by the time of a round "
+        "trip a step, but what it breaks is lost with it.",
     ),
 ]
 
@@ -131,7 +144,7 @@ def run(
             "--input",
             metavar="FILE.csv",
             help="Input signals: a column `time [s]`, then one for each input, e.g. `drive_torque [N.mm]`; "
-            "interpolated linearly, constant within a step.",
+            "interpolated linearly, constant within a step. Also joined by semicolons, with decimal commas.",
         ),
     ] = None,
     material: Annotated[
@@ -143,6 +156,7 @@ def run(
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.")] = Path(
         "result"
     ),
+    in_process: InProcess = False,
 ) -> None:
     """Run an FMU and write results.csv, impacts.csv, events.csv, summary.json and report.html.
 
@@ -158,7 +172,8 @@ def run(
 
         mechanism-fmu run build/Ratchet.fmu --material 42CrMo4
 
-    Ctrl-C ends the run early and keeps what was recorded.
+    Ctrl-C or SIGTERM ends the run early and keeps what was recorded. An FMU that no build of yours has made runs in a
+    process of its own.
 
     Exit code: 0 all well, 1 the run or a verdict failed, 2 wrong use, 130 interrupted.
     """
@@ -166,7 +181,7 @@ def run(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_fmu(fmu, settings or [], stop_time, step, input_file, material, output))
+        raise typer.Exit(run_fmu(fmu, settings or [], stop_time, step, input_file, material, output, in_process))
 
 
 @main.command()
@@ -216,6 +231,7 @@ def sweep(
     workers: Workers = None,
     scheduler: Scheduler = None,
     fast: Fast = False,
+    trust: Trust = False,
 ) -> None:
     """Run many designs: a grid, random ones, a Latin hypercube or Sobol points.
 
@@ -236,7 +252,7 @@ def sweep(
         [record]
         first_impact = ["time", "stress_max"]
 
-    Results are kept as they come: whenever the command ends, by Ctrl-C or killed by somebody, the same command
+    Results are kept as they come: whenever the command ends, by Ctrl-C, SIGTERM or killed by somebody, the same command
     goes on where it stopped. The table results.parquet is for pandas, report.html for people. See docs/sweeps.md.
 
     Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.
@@ -245,7 +261,7 @@ def sweep(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_sweep(file, output, workers, scheduler, fast))
+        raise typer.Exit(run_sweep(file, output, workers, scheduler, fast, trust))
 
 
 @main.command()
@@ -257,6 +273,7 @@ def optimise(
     workers: Workers = None,
     scheduler: Scheduler = None,
     fast: Fast = False,
+    trust: Trust = False,
 ) -> None:
     """Find the best design: variables with bounds, an objective, constraints.
 
@@ -289,7 +306,7 @@ def optimise(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_optimise(file, output, workers, scheduler, fast))
+        raise typer.Exit(run_optimise(file, output, workers, scheduler, fast, trust))
 
 
 @main.command()
@@ -429,8 +446,10 @@ def reproduce(
 
 
 @main.command()
-def validate(fmu: FmuPath) -> None:
+def validate(fmu: FmuPath, in_process: InProcess = False) -> None:
     """Check an FMU: the file, its default values, a run, saving and restoring of its state, reset.
+
+    An FMU that no build of yours has made runs in processes of its own.
 
     Exit code: 0 all well, 1 problems found, 2 wrong use.
     """
@@ -438,7 +457,7 @@ def validate(fmu: FmuPath) -> None:
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(validate_fmu(fmu))
+        raise typer.Exit(validate_fmu(fmu, in_process))
 
 
 study = typer.Typer(

@@ -1,10 +1,12 @@
-"""Groups of commands whose --help comes at once."""
+"""Groups of commands whose --help comes at once, and which end in order when the system asks them to."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from typer.core import TyperGroup
+
+from .termination import terminable
 
 
 class Group(TyperGroup):
@@ -13,6 +15,11 @@ class Group(TyperGroup):
     When a command is named, the group's own --help was not given; typer imports pydantic (0.2 s) to find that None is
     no Boolean, and does not when it is one.
     """
+
+    def main(self, *arguments: Any, **options: Any) -> Any:
+        """Run the command; SIGTERM ends it as Ctrl-C does."""
+        with terminable():
+            return super().main(*arguments, **options)
 
     def get_help_option(self, ctx: Any) -> Any:
         """The option --help, False unless it is given."""

@@ -2,29 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+import typer
 from rich.markup import escape
 
 from .assignments import start_values
 from .checks import Check, all_passed
 from .ending import show_ending
 from .errors import FmuError, UsageError
-from .experiment import Experiment, Run, default_times, perform
-from .fmu import Fmu, open_fmu
+from .experiment import Experiment, Run, default_times, performing
+from .fmu import open_fmu
 from .interrupt import interruption
+from .isolation import with_instances
 from .logic import default_parameters, read_logic
+from .occupied import alone_in
 from .paper import base_case_checks
 from .results import prepare_folder, write_run, write_text
+from .slave import Instances
 from .terminal import (
     FAILED,
+    INTERRUPTED,
     RunDisplay,
     console,
     show_checks,
     show_error,
     show_files,
     show_findings,
+    show_note,
     show_progress,
     show_table,
     show_warning,
@@ -33,6 +41,9 @@ from .terminal import (
 )
 from .tooth_damage import card_of
 
+if TYPE_CHECKING:
+    from .study import Study
+
 #: The base case of the paper is the FMU's default; the pawl strikes at 0.94 s and swings back at 4.9 s.
 _DEMO = Experiment(stop_time=6.0, step=1e-3)
 _CYCLE_STEP = 5e-3
@@ -40,24 +51,22 @@ _CYCLE_STEP = 5e-3
 
 def run_demo(folder: Path) -> int:
     """Build the ratchet, run the paper's base case, compare it with reference values, write everything."""
-    prepare_folder(folder)
-    path = _built_ratchet(folder, f"run its base case for {_DEMO.stop_time:g} s")
-    with open_fmu(path) as fmu:
-        run = _performed(fmu, _DEMO)
-    return _written(run, folder, base_case_checks(run.impacts))
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, f"run its base case for {_DEMO.stop_time:g} s")
+        with open_fmu(path) as fmu:
+            return _performed(fmu, _DEMO, lambda run: _written(run, folder, base_case_checks(run.impacts)))
 
 
 def run_cycle(folder: Path) -> int:
     """Build the ratchet, run a whole indexing cycle of its free pawl, check it, write everything."""
     from . import cycle
 
-    prepare_folder(folder)
-    path = _built_ratchet(folder, f"run it through four strokes in {cycle.STOP_TIME:g} s")
-    drive = cycle.write_drive(folder / "drive.csv")
-    experiment = Experiment(cycle.STOP_TIME, _CYCLE_STEP, cycle.VALUES, drive)
-    with open_fmu(path) as fmu:
-        run = _performed(fmu, experiment)
-    return _written(run, folder, cycle.cycle_checks(run.results))
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, f"run it through four strokes in {cycle.STOP_TIME:g} s")
+        drive = cycle.write_drive(folder / "drive.csv")
+        experiment = Experiment(cycle.STOP_TIME, _CYCLE_STEP, cycle.VALUES, drive)
+        with open_fmu(path) as fmu:
+            return _performed(fmu, experiment, lambda run: _written(run, folder, cycle.cycle_checks(run.results)))
 
 
 def new_mechanism(name: str) -> int:
@@ -87,19 +96,27 @@ def run_fmu(
     input_file: Path | None,
     material: str,
     folder: Path,
+    in_process: bool = False,
 ) -> int:
-    """Run an FMU and write what comes of it."""
-    card = card_of(material)
+    """Run an FMU and write what comes of it.
+
+    The files are written before the instance is freed, to a folder that stays the same whatever the FMU does to the
+    working folder.
+    """
+    card, folder = card_of(material), folder.absolute()
     with open_fmu(path) as fmu:
         values = start_values(settings, fmu.description)
         experiment = Experiment(*default_times(fmu.description, stop_time, step), values, input_file, card)
-        prepare_folder(folder)
-        try:
-            run = _performed(fmu, experiment)
-        except FmuError:
-            tell_of_earlier_files(folder)
-            raise
-    return _written(run, folder)
+
+        def work(instances: Instances) -> int:
+            try:
+                return _performed(instances, experiment, lambda run: _written(run, folder))
+            except FmuError:
+                tell_of_earlier_files(folder)
+                raise
+
+        with alone_in(folder, waits=False):
+            return with_instances(fmu, in_process, work)
 
 
 def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:
@@ -124,33 +141,56 @@ def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:
     return 0
 
 
-def validate_fmu(path: Path) -> int:
+def validate_fmu(path: Path, in_process: bool = False) -> int:
     """Show one verdict after the other."""
     from .validate import validate
 
-    passed = True
-    with open_fmu(path) as fmu:
-        for check in validate(fmu):
+    def work(instances: Instances) -> int:
+        passed = True
+        for check in validate(instances):
             show_checks([check])
             passed = passed and check.passed
-    console.print(
-        "The FMU keeps what it promises." if passed else "[bold red]The FMU has the problems marked above.[/]"
-    )
-    return 0 if passed else FAILED
+        console.print(
+            "The FMU keeps what it promises." if passed else "[bold red]The FMU has the problems marked above.[/]"
+        )
+        return 0 if passed else FAILED
+
+    with open_fmu(path) as fmu:
+        return with_instances(fmu, in_process, work)
 
 
 def run_study(folder: Path, path: Path | None) -> int:
     """Run the paper's study and write it."""
+    from .study import ratchet_study
+
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
+        with (
+            open_fmu(path) as fmu,
+            show_progress(f"Loading {path.name} ...") as progress,
+            interruption(
+                lambda: console.print("Ending after this wheel; Ctrl-C again to break off.")
+            ) as stop_requested,
+        ):
+
+            def on_wheel(number: int, of: int) -> None:
+                progress(f"{number} of {of} wheels", number / of)
+                if stop_requested():
+                    console.print("[yellow]Interrupted[/]: nothing was written; the same command begins anew.")
+                    raise typer.Exit(INTERRUPTED)
+
+            study = ratchet_study(fmu, on_wheel)
+        return _study_written(study, folder)
+
+
+def _study_written(study: Study, folder: Path) -> int:
+    """Show and write a study, and return the exit code."""
     from .accuracy import ACCURACY
     from .report.paper_figures import paper_figures
     from .report.static import write_static
     from .report.study_report import write_study_report
-    from .study import ratchet_study, write_study
+    from .study import write_study
 
-    prepare_folder(folder)
-    path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
-    with open_fmu(path) as fmu, show_progress(f"Loading {path.name} ...") as progress:
-        study = ratchet_study(fmu, lambda number, of: progress(f"{number} of {of} wheels", number / of))
     rows = [wheel.cells() for wheel in study.wheels]
     headings = ["nt", "beta_0 [deg]", "t_I [s]", "omega(t_I+) [rad/s]", "v_I [m/s]", "sigma_max [Pa]"]
     show_table("First impact of each wheel", headings, rows, numeric=range(len(headings)))
@@ -176,18 +216,23 @@ def _built_ratchet(folder: Path, purpose: str) -> Path:
     return path
 
 
-def _performed(fmu: Fmu, experiment: Experiment) -> Run:
-    """Perform an experiment under the eyes of the user.
+def _performed(fmu: Instances, experiment: Experiment, then: Callable[[Run], int]) -> int:
+    """Perform an experiment under the eyes of the user; the exit code of what is done `then`.
+
+    The instance is freed after that only: what has been recorded is written by then.
 
     Raises:
-        FmuError: as of `perform`.
+        FmuError: as of `performing`.
     """
     loading = f"Loading {fmu.path.name}; a first start may take a while ..."
-    with (
-        RunDisplay(experiment.stop_time, loading) as display,
-        interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop_requested,
-    ):
-        return perform(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop_requested)
+    with ExitStack() as instance:
+        with (
+            RunDisplay(experiment.stop_time, loading) as display,
+            interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop,
+        ):
+            performance = performing(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop)
+            run = instance.enter_context(performance)
+        return then(run)
 
 
 def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
@@ -198,5 +243,7 @@ def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
         tell_of_earlier_files(folder)
         show_error(str(run.outcome.error))
         return FAILED
+    if run.inputs is not None and run.inputs.note:
+        show_note(run.inputs.note)
     files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]
     return show_ending(run, files, more_checks)

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import difflib
+import math
+import re
+import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
 from typing import Any
+
+from mechanism_fmu.fmu.archive_names import unsafe_name
 
 from .errors import UsageError
 from .si import BASE_UNITS, Measure
@@ -15,6 +20,14 @@ from .units import Units
 
 #: Value of a variable: Real, Integer, Boolean or String.
 Value = float | int | bool | str
+
+#: Value references are unsigned numbers of 32 bits in both standards.
+_LARGEST_REFERENCE = 2**32 - 1
+#: Of all variables of an FMU together; one of a million takes seconds to read.
+_MOST_ELEMENTS = 1_000_000
+_FILE_NAME = re.compile(r"[^/\\:\x00-\x1f]{1,200}")
+#: Letters of a reason that are shown.
+_LONGEST_REASON = 300
 
 
 @dataclass(frozen=True)
@@ -131,19 +144,42 @@ def read_description(path: Path) -> Description:
     if not path.is_file():
         raise UsageError(f"There is no FMU file '{path}'. Build one with: mechanism-fmu build ratchet -o build")
     try:
-        raw = fmpy.read_model_description(str(path), validate=False)
-    except Exception as error:  # fmpy raises whatever zipfile and lxml raise
-        raise UsageError(f"'{path}' cannot be read as an FMU: {error}") from error
+        _require_safe_names(path)
+        with open(path, "rb") as file:  # fmpy would leave a damaged one open
+            raw = fmpy.read_model_description(file, validate=False)
+    except Exception as error:  # fmpy raises whatever zipfile, lxml and its own conversions raise
+        raise damaged(path, error) from error
     version = raw.fmiVersion.partition(".")[0]
     if version not in ("2", "3") or raw.coSimulation is None:
         raise UsageError(
             f"'{path}' is not an FMU for co-simulation of FMI 2.0 or 3.0 (its FMI version is {raw.fmiVersion}); "
             "the harness runs no other kind."
         )
-    return _described(raw, int(version))
+    try:
+        return _described(raw, int(version))
+    except (ValueError, TypeError, AttributeError, OverflowError) as error:  # a text where a number should be, ...
+        raise damaged(path, error) from error
+
+
+def damaged(path: Path, error: Exception) -> UsageError:
+    """What to raise for the FMU file `path` that cannot be used for this reason: one line, with the way out."""
+    reason = " ".join(str(error).split()) or type(error).__name__
+    reason = reason if len(reason) <= _LONGEST_REASON else f"{reason[:_LONGEST_REASON]} ..."
+    return UsageError(
+        f"'{path}' cannot be read as an FMU: {reason.removesuffix('.')}. The file is damaged, or not made by the "
+        "standard: copy or build it anew, or ask whoever made it."
+    )
+
+
+def _require_safe_names(path: Path) -> None:
+    with zipfile.ZipFile(path) as archive:
+        objection = unsafe_name(archive.infolist())
+    if objection is not None:
+        raise ValueError(objection)
 
 
 def _described(raw: Any, fmi: int) -> Description:
+    _require_sound(raw)
     known = [variable for variable in raw.modelVariables if variable.type in _TYPES]
     depends_on = {unknown.variable.name: _dependencies(unknown) for unknown in raw.outputs}
     variables = [one for variable in known for one in _variables(variable, depends_on.get(variable.name))]
@@ -156,8 +192,8 @@ def _described(raw: Any, fmi: int) -> Description:
         units=_units(raw.unitDefinitions),
         generation_tool=raw.generationTool or "",
         text=raw.description or "",
-        stop_time=_number(experiment and experiment.stopTime),
-        step=_number(experiment and experiment.stepSize),
+        stop_time=_duration(experiment and experiment.stopTime, "stopTime of its DefaultExperiment"),
+        step=_duration(experiment and experiment.stepSize, "stepSize of its DefaultExperiment"),
         saves_state=ability.canGetAndSetFMUstate,
         serializes_state=ability.canSerializeFMUstate,
         takes_slopes=ability.canInterpolateInputs and fmi == 2,  # FMI 3.0 has no function for it
@@ -178,6 +214,34 @@ _TYPES = {
     **{f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)},
     **{name: name for name in ("Boolean", "String")},
 }
+
+
+def _require_sound(raw: Any) -> None:
+    """Refuse numbers that no FMU can mean, before anything is made of them.
+
+    Raises:
+        ValueError: naming the variable, its number and the limit.
+    """
+    if not _FILE_NAME.fullmatch(raw.coSimulation.modelIdentifier):
+        raise ValueError(f"its modelIdentifier is '{raw.coSimulation.modelIdentifier}', which is no name of a library")
+    for unit in raw.unitDefinitions:
+        for scale in (unit.baseUnit, *unit.displayUnits):
+            if scale is not None and not (math.isfinite(scale.factor) and scale.factor and math.isfinite(scale.offset)):
+                raise ValueError(
+                    f"the unit {unit.name} has a factor of {scale.factor:g}, an offset of {scale.offset:g}"
+                )
+    count = 0
+    for variable in raw.modelVariables:
+        if not 0 <= variable.valueReference <= _LARGEST_REFERENCE:
+            raise ValueError(
+                f"the valueReference of {variable.name} is {variable.valueReference}, but must be from 0 to "
+                f"{_LARGEST_REFERENCE}"
+            )
+        if any(size < 0 for size in variable.shape or ()):
+            raise ValueError(f"the array {variable.name} has a negative size")
+        count += math.prod(variable.shape or ())
+        if count > _MOST_ELEMENTS:
+            raise ValueError(f"its variables have more than {_MOST_ELEMENTS:,} elements, at {variable.name}")
 
 
 def _dependencies(unknown: Any) -> frozenset[str] | None:
@@ -218,6 +282,8 @@ def _variable(
         return own if own is not None or declared is None else getattr(declared, name)
 
     kind = _TYPES[raw.type]
+    if start is not None and not _is_value(start, kind):
+        raise ValueError(f"the start value of {name} is '{start}', which is no {kind}")
     return Variable(
         name=name,
         reference=raw.valueReference,
@@ -228,14 +294,25 @@ def _variable(
         unit="" if attribute("unit") in (None, "1") else attribute("unit"),
         display_unit=attribute("displayUnit") or "",
         start=start,
-        minimum=_number(attribute("min")),
-        maximum=_number(attribute("max")),
-        nominal=_number(attribute("nominal")) or 1.0,
+        minimum=_limit(attribute("min"), f"min of {name}"),
+        maximum=_limit(attribute("max"), f"max of {name}"),
+        nominal=_number(attribute("nominal"), f"nominal of {name}") or 1.0,
         depends_on=depends_on,
         fmi_type=raw.type,
         elements=elements,
         element=element,
     )
+
+
+def _is_value(text: str, kind: str) -> bool:
+    """Whether a text means a value of a type."""
+    if kind == "Boolean":
+        return text in ("true", "false", "1", "0")
+    try:
+        {"Real": float, "Integer": int}.get(kind, str)(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _units(definitions: Iterable[Any]) -> Units:
@@ -248,5 +325,31 @@ def _units(definitions: Iterable[Any]) -> Units:
     return Units(defined, displayed)
 
 
-def _number(text: str | None) -> float | None:
-    return None if text is None else float(text)
+def _duration(text: str | None, what: str) -> float | None:
+    """A time of the default experiment; one that is not positive says nothing, as some tools write 0 for none."""
+    number = _number(text, what)
+    return number if number is not None and number > 0.0 else None
+
+
+def _limit(text: str | None, what: str) -> float | None:
+    """A limit of a variable; an infinite one is none."""
+    return (
+        None if text is not None and text.strip().lstrip("+-").lower() in ("inf", "infinity") else _number(text, what)
+    )
+
+
+def _number(text: str | None, what: str = "") -> float | None:
+    """A number of the description, which is finite.
+
+    Raises:
+        ValueError: it is none; the message names `what` it is of.
+    """
+    if text is None:
+        return None
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"{what} is '{text}', which is no finite number")
+    return number

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
+import pandas as pd
 from rich.markup import escape
 
 from .checks import Check, all_passed
 from .experiment import Run
-from .impacts import WHEEL_HELD
+from .impacts import UNITS_OF_STOPS, contact_name
 from .master import Ending
 from .messages import Status
 from .numbers import shown
 from .results import final_values
 from .terminal import FAILED, INTERRUPTED, console, show_checks, show_error, show_files, show_table
 from .tooth_damage import HEADINGS, damage_note, damage_row
+from .tooth_stress import BY_TWO_MODES
 
 #: Columns of the impacts that fit a terminal, with their headings; the file has all.
 _IMPACT_COLUMNS = {
     "time": "t",
+    "contact": "contact",
     "closing_speed": "closing\nspeed",
     "impulse": "impulse",
     "energy_lost": "energy\nlost",
@@ -64,21 +67,39 @@ def _show_impacts(run: Run) -> None:
         console.print("No impacts." if len(run.impacts.columns) else "The FMU does not tell of impacts.")
         return
     columns = [name for name in _IMPACT_COLUMNS if name in run.impacts.columns]
-    shown_impacts = run.impacts[columns].head(_MOST_IMPACTS)
-    rows = [[f"{time:.9g}", *map(_cell, rest)] for time, *rest in shown_impacts.itertuples(index=False)]
+    rows = [[_cell(name, row, run.logic.contacts) for name in columns] for row in _records(run.impacts)]
     title = f"Impacts: {len(run.impacts)}" + (
         f", the first {_MOST_IMPACTS}" if len(run.impacts) > _MOST_IMPACTS else ""
     )
-    headings = [f"{_IMPACT_COLUMNS[name]} [{run.units['impacts'][name]}]" for name in columns]
-    show_table(title, headings, rows, numeric=range(len(columns)))
+    headings = [_heading(name, run.units["impacts"][name]) for name in columns]
+    numbers = [place for place, name in enumerate(columns) if name != "contact"]
+    show_table(title, headings, rows, numeric=numbers)
+    if "contact" in columns:
+        console.print(f"[dim]{escape(UNITS_OF_STOPS)}[/]", soft_wrap=True)
     if run.tooth is None:
         console.print("[dim]No stress: the FMU does not describe a tooth (tooth_length, tooth_apex_angle).[/]")
+    else:
+        console.print(f"[dim]sigma_max of an impact: {escape(BY_TWO_MODES)}[/]", soft_wrap=True)
 
 
-def _cell(value: float) -> str:
-    """Four digits; a stress of more has no power of ten."""
-    if math.isnan(value):
-        return WHEEL_HELD
+def _records(impacts: pd.DataFrame) -> list[dict[str, Any]]:
+    """The first impacts."""
+    return [{str(name): value for name, value in row.items()} for row in impacts.head(_MOST_IMPACTS).to_dict("records")]
+
+
+def _heading(name: str, unit: str) -> str:
+    return _IMPACT_COLUMNS[name] + (f" [{unit}]" if name != "contact" else "")
+
+
+def _cell(name: str, row: Mapping[str, Any], contacts: Sequence[str]) -> str:
+    """Times to nine digits, others to four, but a stress of more has no power of ten."""
+    value = row[name]
+    if name == "contact":
+        return contact_name(int(value), contacts)
+    if name == "stress_max" and row.get("remark"):
+        return str(row["remark"])
+    if name == "time":
+        return f"{value:.9g}"
     return f"{value:.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -19,7 +20,6 @@ from .drawing import Drawing, read_drawing
 from .errors import FmuError, UsageError
 from .events import UNITS as EVENT_UNITS
 from .events import EventCollector
-from .fmu import Fmu
 from .fmu.slave import MessageHandler, discard_message
 from .impacts import ImpactCollector
 from .inputs import InputSignals, check_no_overlap, read_inputs
@@ -28,7 +28,7 @@ from .master import Outcome, never, run_fixed_step
 from .messages import LogMessage
 from .observers import Observer
 from .recorder import Recorder, recorded_variables
-from .slave import Observable
+from .slave import Instances, Observable
 from .tooth_damage import DAMAGE_UNITS, damage_of_impacts
 from .tooth_stress import STRESS_COLUMNS, tooth_of, with_stress
 
@@ -119,7 +119,7 @@ class _ParameterReader:
 
 
 def perform(
-    fmu: Fmu,
+    fmu: Instances,
     experiment: Experiment,
     *,
     on_message: MessageHandler = discard_message,
@@ -127,7 +127,31 @@ def perform(
     stop_requested: Callable[[], bool] = never,
     inputs: InputSignals | None = None,
 ) -> Run:
-    """Perform an experiment with a new instance of `fmu`.
+    """Perform an experiment with a new instance of `fmu`, as `performing` does; the instance is freed then."""
+    with performing(
+        fmu,
+        experiment,
+        on_message=on_message,
+        observers=observers,
+        stop_requested=stop_requested,
+        inputs=inputs,
+    ) as run:
+        return run
+
+
+@contextmanager
+def performing(
+    fmu: Instances,
+    experiment: Experiment,
+    *,
+    on_message: MessageHandler = discard_message,
+    observers: Sequence[Observer] = (),
+    stop_requested: Callable[[], bool] = never,
+    inputs: InputSignals | None = None,
+) -> Iterator[Run]:
+    """Perform an experiment with a new instance of `fmu`, for a `with`: the instance is freed behind it.
+
+    So the results can be written before that: an FMU may take the whole process with it when it is freed.
 
     An FMU that fails on the way gives a run whose outcome says so, with everything up to there. `inputs` are signals
     that have been read before, for an experiment that names no file.
@@ -158,41 +182,42 @@ def perform(
         )
         wall_time = time.perf_counter() - began
         messages = tuple(slave.messages)
-    impacts, tooth, damage = collector.table(), None, None
-    objections: list[Check] = []
-    if "velocity" in collector.fields:
-        try:
-            tooth = tooth_of(reader.values)
-            if tooth is not None:
-                damage = damage_of_impacts(impacts, tooth, experiment.material)
-                impacts = with_stress(impacts, tooth, experiment.material.material)
-        except FmuError as error:
-            tooth, damage = None, None
-            objections = [Check("The struck tooth has a stress model", False, str(error))]
-    results = recorder.table()
-    return Run(
-        fmu=fmu.path,
-        description=fmu.description,
-        experiment=experiment,
-        outcome=outcome,
-        results=results,
-        impacts=impacts,
-        impacts_lost=collector.lost,
-        parameters=reader.values,
-        messages=messages,
-        tooth=tooth,
-        units=_units(fmu.description, collector, list(impacts.columns)),
-        checks=[*run_checks(outcome, seconds(grid.stop), results, impacts, collector.lost), *objections],
-        wall_time=wall_time,
-        drawing=read_drawing(fmu.folder, fmu.description),
-        events=event_collector.table(logic),
-        events_lost=event_collector.lost,
-        tells_events=event_collector.tells,
-        logic=logic,
-        damage=damage,
-        inputs=inputs,
-        compliance=compliance_of(reader.values, results, impacts),
-    )
+        outputs = [variable.name for variable in fmu.description.of("output")]
+        impacts, tooth, damage = collector.table(), None, None
+        objections: list[Check] = []
+        if "velocity" in collector.fields:
+            try:
+                tooth = tooth_of(reader.values)
+                if tooth is not None:
+                    damage = damage_of_impacts(impacts, tooth, experiment.material)
+                    impacts = with_stress(impacts, tooth, experiment.material.material)
+            except FmuError as error:
+                tooth, damage = None, None
+                objections = [Check("The struck tooth has a stress model", False, str(error))]
+        results = recorder.table()
+        yield Run(
+            fmu=fmu.path,
+            description=fmu.description,
+            experiment=experiment,
+            outcome=outcome,
+            results=results,
+            impacts=impacts,
+            impacts_lost=collector.lost,
+            parameters=reader.values,
+            messages=messages,
+            tooth=tooth,
+            units=_units(fmu.description, collector, list(impacts.columns)),
+            checks=[*run_checks(outcome, seconds(grid.stop), results, impacts, collector.lost, outputs), *objections],
+            wall_time=wall_time,
+            drawing=read_drawing(fmu.folder, fmu.description),
+            events=event_collector.table(logic),
+            events_lost=event_collector.lost,
+            tells_events=event_collector.tells,
+            logic=logic,
+            damage=damage,
+            inputs=inputs,
+            compliance=compliance_of(reader.values, results, impacts),
+        )
 
 
 def default_times(description: Description, stop_time: float | None, step: float | None) -> tuple[float, float]:

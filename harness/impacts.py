@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
@@ -17,6 +19,11 @@ _HELD = 1e-9
 
 #: What is said of such an impact, instead of a stress.
 WHEEL_HELD = "wheel held"
+
+#: The buffer has one unit for all contacts, that of points on lines.
+UNITS_OF_STOPS = (
+    "Of stops and locks of an angle, as a holding pawl, the closing speed is in rad/s and the impulse in N.m.s."
+)
 
 
 class ImpactCollector:
@@ -49,6 +56,11 @@ class ImpactCollector:
     def table(self) -> pd.DataFrame:
         """One row for each impact, in the order of time, with a column for each field."""
         return pd.DataFrame(self._rows, columns=list(self.fields))
+
+
+def contact_name(number: int, names: Sequence[str]) -> str:
+    """A contact for people; `names` are those of the FMU, in the order of their numbers, () when it has none."""
+    return names[number] if 0 <= number < len(names) else f"contact {number}"
 
 
 def one_of_each_instant(impacts: pd.DataFrame) -> pd.DataFrame:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -16,11 +14,14 @@ import numpy as np
 import numpy.typing as npt
 
 from .assignments import settable_variable
+from .csv_table import read_csv, unreadable
 from .description import Description, Value, Variable
 from .errors import UsageError
 from .units import UnitMismatchError
 
 _HEADING = re.compile(r"\s*(\S+)(?:\s+\[\s*(\S+)\s*\])?\s*")
+
+_NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*", re.ASCII)
 
 _HALF_A_NANOSECOND = 0.5e-9
 
@@ -35,6 +36,7 @@ class InputSignals:
         values: in the units of the variables, shape (rows, columns).
         file: name of the table they come from; "" for none.
         digest: SHA-256 of that file, in hexadecimal.
+        note: how that file was understood, where it is not as usual (`csv_table`); "" else.
     """
 
     variables: tuple[Variable, ...]
@@ -42,6 +44,7 @@ class InputSignals:
     values: npt.NDArray[np.float64]
     file: str = ""
     digest: str = ""
+    note: str = ""
 
     def at(self, time: float) -> dict[str, Value]:
         """Values at `time` [s]: Real inputs interpolated linearly, others from the last row that is not later."""
@@ -66,7 +69,8 @@ def read_inputs(
     """Read a table of input signals.
 
     The first row names the columns: `time` first, then inputs of the FMU, each with an optional unit in brackets,
-    as in `time [ms],drive_torque [N.mm]`. The rows must cover the run from `start_time` to `stop_time` [s].
+    as in `time [ms],drive_torque [N.mm]`. Semicolons may join them, and numbers then have decimal commas or points
+    (`csv_table`). The rows must cover the run from `start_time` to `stop_time` [s].
 
     Args:
         path: of the file.
@@ -79,20 +83,19 @@ def read_inputs(
         UsageError: the file, a heading, a cell or the time column cannot be used; the message names the line.
     """
     data = _bytes(path)
-    header, rows = _read_csv(data, path)
-    names, units = _headings(header, path)
+    table = read_csv(data, path)
+    names, units = _headings(table.header, path)
     for name in names[1:]:
         if name in followed:
             raise UsageError(f"{path}: '{name}' follows {followed[name]}, by a connection; no table can drive it.")
     variables = [_input_variable(name, description, path) for name in names[1:]]
     time_axis = Variable("time", reference=-1, type="Real", causality="independent", unit="s")
     columns = [
-        _column(_cells(rows, i, path), variable, unit, description, path)
+        _column(_cells(table.rows, i, path), variable, unit, description, path)
         for i, (variable, unit) in enumerate(zip([time_axis, *variables], units, strict=True))
     ]
-    signals = InputSignals(
-        tuple(variables), columns[0], np.column_stack(columns[1:]), path.name, hashlib.sha256(data).hexdigest()
-    )
+    values, digest = np.column_stack(columns[1:]), hashlib.sha256(data).hexdigest()
+    signals = InputSignals(tuple(variables), columns[0], values, path.name, digest, table.note)
     _check_times(signals.times, start_time, stop_time, path)
     return signals
 
@@ -101,27 +104,7 @@ def _bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        raise _unreadable(path, error) from error
-
-
-def _unreadable(path: Path, error: Exception) -> UsageError:
-    return UsageError(f"The input file '{path}' cannot be read: {error}.")
-
-
-def _read_csv(data: bytes, path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Heading cells, and (line number, cells) of every row that is not empty."""
-    try:
-        reader = csv.reader(io.StringIO(data.decode("utf-8-sig"), newline=""))
-        lines = [(reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise _unreadable(path, error) from error
-    if len(lines) < 2:
-        raise UsageError(f"{path}: needs a line of headings (time, then inputs) and at least one row of values.")
-    header = lines[0][1]
-    for line, cells in lines[1:]:
-        if len(cells) != len(header):
-            raise UsageError(f"{path}, line {line}: has {len(cells)} values, but there are {len(header)} headings.")
-    return header, lines[1:]
+        raise unreadable(path, error) from error
 
 
 def _headings(header: Sequence[str], path: Path) -> tuple[list[str], list[str]]:
@@ -129,13 +112,17 @@ def _headings(header: Sequence[str], path: Path) -> tuple[list[str], list[str]]:
     for heading in header:
         match = _HEADING.fullmatch(heading)
         if match is None:
-            raise UsageError(f"{path}: '{heading}' is no heading; write name or name [unit], joined by commas.")
+            raise UsageError(
+                f"{path}: '{heading}' is no heading; write name or name [unit], joined by commas or semicolons."
+            )
         names.append(match[1])
         units.append(match[2] or "")
     if names[0] != "time":
         raise UsageError(f"{path}: the first column is '{names[0]}', but it must be 'time', e.g. 'time [s]'.")
     if len(names) == 1:
-        raise UsageError(f"{path}: has a time column only; add a column for each input (columns joined by commas).")
+        raise UsageError(
+            f"{path}: has a time column only; add a column for each input (columns joined by commas or semicolons)."
+        )
     for name in names:
         if names.count(name) > 1:
             raise UsageError(f"{path}: the column '{name}' is there twice; keep one.")
@@ -157,10 +144,7 @@ def _input_variable(name: str, description: Description, path: Path) -> Variable
 def _cells(rows: Sequence[tuple[int, Sequence[str]]], column: int, path: Path) -> npt.NDArray[np.float64]:
     numbers = []
     for line, cells in rows:
-        try:
-            number = float(cells[column])
-        except ValueError:
-            number = math.nan
+        number = float(cells[column]) if _NUMBER.fullmatch(cells[column]) else math.nan
         if not math.isfinite(number):
             raise UsageError(f"{path}, line {line}: '{cells[column].strip()}' is not a finite number.")
         numbers.append(number)

@@ -1,4 +1,4 @@
-"""Ctrl-C as a polite request."""
+"""Ctrl-C and SIGTERM as polite requests."""
 
 from __future__ import annotations
 
@@ -10,34 +10,42 @@ from types import FrameType
 
 from .master import never
 
+#: Ctrl-C, and what a system sends to what it ends.
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
 
 @contextmanager
 def interruption(on_request: Callable[[], None]) -> Iterator[Callable[[], bool]]:
-    """Turn the first Ctrl-C into a request that the run can ask for; the second one acts as usual.
+    """Turn the first Ctrl-C or SIGTERM into a request that the run can ask for; the second one acts as usual.
 
     An exception would not do: inside an FMU written in Python it would end up as a failure of the FMU.
 
     Args:
-        on_request: called at the first Ctrl-C.
+        on_request: called at the first of them.
 
     Yields:
-        A function that tells whether Ctrl-C was pressed. Outside the main thread, where Python delivers no
+        A function that says whether there was one. Outside the main thread, where Python delivers no
         signals, it is always false.
     """
     if threading.current_thread() is not threading.main_thread():
         yield never
         return
     requested = False
-    usual = signal.getsignal(signal.SIGINT)
+    usual = {number: signal.getsignal(number) for number in _SIGNALS}
+
+    def as_usual() -> None:
+        for number, handler in usual.items():
+            signal.signal(number, handler)
 
     def handle(_signal: int, _frame: FrameType | None) -> None:
         nonlocal requested
         requested = True
-        signal.signal(signal.SIGINT, usual)
+        as_usual()
         on_request()
 
-    signal.signal(signal.SIGINT, handle)
+    for number in _SIGNALS:
+        signal.signal(number, handle)
     try:
         yield lambda: requested
     finally:
-        signal.signal(signal.SIGINT, usual)
+        as_usual()

@@ -75,7 +75,7 @@ def run_machine(
 
         mechanism-fmu machine run my_machine.toml -o result
 
-    Ctrl-C ends the run early and keeps what was recorded.
+    Ctrl-C or SIGTERM ends the run early and keeps what was recorded.
 
     Exit code: 0 all well, 1 the run failed, 2 wrong use, 130 interrupted.
     """

@@ -9,13 +9,13 @@ from pathlib import Path
 from mechanism_fmu.fmu.native.alone import alone
 
 from .errors import UsageError
-from .results import prepare_folder
+from .results import prepare_folder, sweep_up
 from .terminal import console
 
 
 @contextmanager
 def alone_in(folder: Path, waits: bool = True) -> Iterator[None]:
-    """Make a folder if need be, and be the only command that works in it.
+    """Make a folder if need be, and be the only command that works in it; what a killed one left there goes.
 
     Args:
         folder: for the results.
@@ -42,4 +42,5 @@ def alone_in(folder: Path, waits: bool = True) -> Iterator[None]:
                 f"'{folder / '.lock'}' cannot be opened ({error}): perhaps somebody else made it. Remove it, or choose "
                 "another folder with -o."
             ) from error
+        sweep_up(folder)
         yield

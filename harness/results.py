@@ -6,6 +6,7 @@ import json
 import os
 import tempfile
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import IO, Any, BinaryIO, TextIO
@@ -20,6 +21,16 @@ from .errors import UsageError
 from .experiment import Run
 from .tooth_damage import damage_summary
 from .tooth_stress import tooth_summary
+
+#: How names of files end that are being written; they begin with a point.
+UNFINISHED = ".unfinished"
+
+
+def sweep_up(folder: Path) -> None:
+    """Remove files that a process has left unfinished because it was killed; for who is alone in the folder."""
+    for path in folder.glob(f".*{UNFINISHED}"):
+        with suppress(OSError):  # of somebody else: it is in nobody's way
+            path.unlink()
 
 
 def prepare_folder(folder: Path) -> None:
@@ -57,7 +68,7 @@ def write_binary(path: Path, write: Callable[[BinaryIO], object]) -> Path:
 
 def _whole(path: Path, opened: Callable[[int], IO[Any]], write: Callable[[Any], object]) -> Path:
     try:
-        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", suffix=UNFINISHED, dir=path.parent)
         try:
             with opened(handle) as file:
                 write(file)
@@ -116,6 +127,7 @@ def summary(run: Run) -> dict[str, Any]:
             "step": experiment.step,
             "start_values": dict(experiment.start_values),
             "input_file": None if experiment.input_file is None else str(experiment.input_file),
+            "input_note": None if run.inputs is None else run.inputs.note or None,
             "material": experiment.material.name,
         },
         "ending": outcome.ending.value,

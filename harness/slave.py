@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Protocol
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any, Protocol
 
 from .description import Description, Value
+from .messages import LogMessage
 
 
 class Observable(Protocol):
@@ -51,3 +54,50 @@ class Slave(Observable, Protocol):
 
     def terminate(self) -> None:
         """End the simulation run."""
+
+
+class Instance(Slave, Protocol):
+    """An instance of an FMU, here or in a process of its own."""
+
+    @property
+    def messages(self) -> list[LogMessage]:
+        """Everything it has said so far."""
+
+    def reset(self) -> None:
+        """Be as just after the instantiation."""
+
+    def save(self) -> Any:
+        """A snapshot of the whole state; give it back with `free_state`."""
+
+    def restore(self, state: Any) -> None:
+        """Continue from a snapshot."""
+
+    def free_state(self, state: Any) -> None:
+        """Release a snapshot."""
+
+    def serialize(self, state: Any) -> bytes:
+        """A snapshot as bytes."""
+
+    def deserialize(self, data: bytes) -> Any:
+        """A snapshot from bytes."""
+
+
+class Instances(Protocol):
+    """An extracted FMU, of which instances can be made."""
+
+    @property
+    def path(self) -> Path:
+        """The file it came from."""
+
+    @property
+    def description(self) -> Description:
+        """What it says about itself."""
+
+    @property
+    def folder(self) -> Path:
+        """Where it is extracted."""
+
+    def instantiate(
+        self, name: str, on_message: Callable[[LogMessage], None] = ...
+    ) -> AbstractContextManager[Instance]:
+        """A new instance; it is freed afterwards. `on_message` receives its messages."""

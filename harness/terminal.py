@@ -34,6 +34,9 @@ _PLAIN = "cyan"
 #: No table is wider.
 _MOST_COLUMNS = 1000
 
+#: An FMU may change the working folder.
+_STARTED_IN = Path.cwd()
+
 console = Console(highlight=False)
 error_console = Console(stderr=True, highlight=False)
 
@@ -60,6 +63,11 @@ def show_warning(message: LogMessage) -> None:
         error_console.print(f"[yellow]Warning[/] ({escape(where)}): {escape(message.text)}", soft_wrap=True)
 
 
+def show_note(text: str) -> None:
+    """What is to be known of a run, and no mistake."""
+    console.print(f"[dim]Note:[/] {escape(text)}", soft_wrap=True)
+
+
 def show_checks(checks: Iterable[Check]) -> None:
     """Verdicts, one line each."""
     for check in checks:
@@ -78,14 +86,25 @@ def show_findings(heading: str, findings: Iterable[Finding]) -> None:
 def show_files(files: Sequence[Path]) -> None:
     """Where the results are; the last file is the one to look at."""
     names = ", ".join(path.name for path in files)
-    console.print(f"Written to {escape(str(files[0].parent))}: {escape(names)}", soft_wrap=True)
-    console.print(f"Open in a browser: [bold]{escape(str(files[-1]))}[/]", soft_wrap=True)
+    console.print(f"Written to {escape(_from_here(files[0].parent))}: {escape(names)}", soft_wrap=True)
+    console.print(f"Open in a browser: [bold]{escape(_from_here(files[-1]))}[/]", soft_wrap=True)
+
+
+def _from_here(path: Path) -> str:
+    """A path as the user knows it: from the working folder, if it is below that."""
+    try:
+        here = Path.cwd()
+    except OSError:  # an FMU has changed it to one that is no more
+        return str(path)
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)
 
 
 def tell_of_earlier_files(folder: Path) -> None:
     """Nothing has been written: say so where something lies that could be taken for it."""
     if (folder / "summary.json").exists():
-        console.print(f"[yellow]Nothing was written[/]: the files in {escape(str(folder))} are an earlier run's.")
+        console.print(
+            f"[yellow]Nothing was written[/]: the files in {escape(_from_here(folder))} are an earlier run's."
+        )
 
 
 def show_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]], numeric: Sequence[int] = ()) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -19,6 +20,14 @@ Key = tuple[str, ...]
 _TABLE = re.compile(r"\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(#.*)?")
 _ASSIGNMENT = re.compile(r"""\s*((?:[\w.\s-]|"[^"]*"|'[^']*')+?)\s*=""")
 _NAME = re.compile(r"""\s*(?:"([^"]*)"|'([^']*)'|([\w-]+))\s*(?:\.|$)""")
+
+#: Tables and lists within one another; what is read here has four at most.
+_DEEPEST = 20
+_NESTING = f"at most {_DEEPEST} may, and no file of this project needs more than four"
+#: Letters of a line in which a name is looked for: a pattern takes a time that grows with their square.
+_LONGEST_LINE = 1000
+#: Letters of a value that a message shows.
+_LONGEST = 60
 
 
 @dataclass
@@ -51,8 +60,12 @@ class TomlFile:
             raise UsageError(f"'{path}' cannot be read: {error}.") from error
         try:
             data = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
+        except ValueError as error:  # also for a whole number of more than 4300 digits
             raise UsageError(f'{path}: this is no TOML: {error}. Texts stand in quotes, as in unit = "deg".') from None
+        except RecursionError:
+            raise UsageError(f"{path}: lists or tables stand within one another too deep; {_NESTING}.") from None
+        if _depth(data) > _DEEPEST:
+            raise UsageError(f"{path}: {_depth(data)} lists or tables stand within one another; {_NESTING}.")
         return cls(path, data, _lines=_lines_of(text))
 
     def wrong(self, key: Key, text: str) -> None:
@@ -113,8 +126,10 @@ class TomlFile:
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value of a file is a number; true is none."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
+    """Whether a value of a file is a number that fits a double; true is none."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return isinstance(value, float) or abs(value) <= sys.float_info.max
 
 
 @dataclass
@@ -171,7 +186,7 @@ class Section:
         value = self.take(name)
         if value is None:
             return default
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        if not is_number(value) or not math.isfinite(value):
             self._refused(name, value, "a number")
             return None
         return float(value)
@@ -223,7 +238,19 @@ def _shown(value: object) -> str:
     """A value as TOML has it, as far as a message needs it."""
     if isinstance(value, bool):
         return "true" if value else "false"
-    return f"'{value}'" if isinstance(value, str) else f"{value}"
+    text = f"'{value}'" if isinstance(value, str) else f"{value}"
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
+
+
+def _depth(data: object) -> int:
+    """How many tables and lists stand within one another, the file itself not counted."""
+    deepest, found = 0, [(data, 0)]
+    while found:
+        one, depth = found.pop()
+        deepest = max(deepest, depth)
+        entries = one.values() if isinstance(one, Mapping) else one if isinstance(one, list) else ()
+        found += [(entry, depth + 1) for entry in entries if isinstance(entry, Mapping | list)]
+    return deepest
 
 
 def _lines_of(text: str) -> dict[Key, int]:
@@ -231,7 +258,8 @@ def _lines_of(text: str) -> dict[Key, int]:
     lines: dict[Key, int] = {}
     counts: dict[Key, int] = {}
     table: Key = ()
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, whole in enumerate(text.splitlines(), start=1):
+        line = whole[:_LONGEST_LINE]
         heading, assignment = _TABLE.fullmatch(line), _ASSIGNMENT.match(line)
         if heading is not None:
             table = _names(heading[2])

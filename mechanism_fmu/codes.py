@@ -74,11 +74,10 @@ STOP_PITCH = 1
 # contact_value columns
 RESTITUTION = 0
 FRICTION = 1
-TOOTH_LENGTH = 2  # of the body `contact_toothed` [m]
-GUIDED = 3
-ENABLED = 4
-STARTS_CLOSED = 5
-CONTACT_VALUES = 6
+GUIDED = 2
+ENABLED = 3
+STARTS_CLOSED = 4
+CONTACT_VALUES = 5
 
 # contact_hollow (state): whether a profile of the pair has a hollow, and whether the other one may bridge it
 CONVEX = 0
@@ -127,6 +126,8 @@ BEAM_COLUMNS = 7
 RELATIVE_TOLERANCE = 0
 BAUMGARTE_ALPHA = 1
 BAUMGARTE_BETA = 2
+MOST_STEPS = 3  # internal ones of one communication step
+SETTINGS = 4
 
 # output_kind: what an output reads; output_index says of which, output_slot of which buffered impact
 CONSTANT = 0
@@ -218,7 +219,8 @@ NEXT_STEP = 4
 LAST_EVENT = 5  # when the run of events began that PILE counts
 RAMP_START = 6  # when the slopes of inputs began to act
 RAMP_END = 7  # up to where they are known: no step goes beyond
-CLOCK_LENGTH = 8
+STEP_BEGUN = 8  # where the communication step began
+CLOCK_LENGTH = 9
 
 # columns of the state's counters
 COUNT_IMPACTS = 0
@@ -235,7 +237,8 @@ RAMPING = 10  # 1 while an input has a slope
 RANK = 11  # of the active rows since the last event
 FALLING = 12  # 1 when `course.independence_end` was falling at STEP_END
 COUNT_INSTANTS = 13  # with impacts, since the start
-COUNTERS_LENGTH = 14
+STEPS_IN_STEP = 14  # internal steps of the communication step
+COUNTERS_LENGTH = 15
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

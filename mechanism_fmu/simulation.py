@@ -17,8 +17,9 @@ from .engine.run import engine_for
 from .model import Mechanism, MechanismError, compile_mechanism
 from .model.contacts import too_deep
 from .model.event_names import event_name
+from .model.unknowns import unknown_names
 
-__all__ = ["Event", "Impact", "Simulation", "SimulationError"]
+__all__ = ["Event", "Impact", "Simulation", "SimulationError", "StepBudgetError"]
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -36,6 +37,10 @@ _ABOUT_CONTACTS = (
 
 class SimulationError(RuntimeError):
     """The motion cannot go on; the message gives the time, the reason and what to do."""
+
+
+class StepBudgetError(SimulationError):
+    """A communication step ended early (`status.OUT_OF_STEPS`); the time reached is good, and the next goes on."""
 
 
 class Impact(NamedTuple):
@@ -261,14 +266,35 @@ class Simulation:
 
     def _require(self, outcome: int) -> None:
         if outcome != status.OK:
-            raise SimulationError(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
+            kind = StepBudgetError if outcome in status.OUT_OF_STEPS else SimulationError
+            raise kind(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
 
     def _involved(self, outcome: int) -> str:
-        """The contacts that a failed event is about."""
+        """What a failure is about.
+
+        The contacts of an event, and the joints that rub where friction is what failed; or the part that limited the
+        steps, and their last size.
+        """
+        if outcome in (*status.OUT_OF_STEPS, status.STEP_TOO_SMALL):
+            return self._stiffest()
         if outcome not in _ABOUT_CONTACTS:
             return ""
         names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
-        return f" Contacts: {', '.join(sorted(names | set(self.mode())))}."
+        names |= set(self.mode())
+        friction = field_of(self._block, "joint_friction").tolist()
+        rubbing = [joint.name for joint, value in zip(self._mechanism.joints, friction, strict=True) if value > 0.0]
+        contacts = f" Contacts: {', '.join(sorted(names))}." if names else ""
+        joints = f" Joints with friction: {', '.join(rubbing)}." if outcome == status.JAMMED and rubbing else ""
+        return contacts + joints
+
+    def _stiffest(self) -> str:
+        """How small the steps have become, and the part whose error limits them."""
+        name = unknown_names(self._mechanism)[field_of(self._block, "stage_stiffest").item(0)]
+        size = field_of(self._block, "tried").item(1)
+        steps = self.counters.item(codes.STEPS_IN_STEP)
+        events = self.counters.item(codes.EVENTS_IN_STEP)
+        more = " or more" if events == codes.EVENT_BUFFER_LENGTH else ""
+        return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
 
     def _residuals(self) -> str:
         """What is left of each joint and closed contact at the closest position found."""

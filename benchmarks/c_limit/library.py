@@ -200,7 +200,7 @@ def export(block: Array) -> Mechanism:
         )
     for k, (force, column) in enumerate(zip(of["input_force"], of["input_column"], strict=True)):
         result.input[k] = _Input(force, column)
-    result.relative_tolerance, result.alpha, result.beta = of["settings"]
+    result.relative_tolerance, result.alpha, result.beta = of["settings"][:3]
     return result
 
 

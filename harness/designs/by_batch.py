@@ -127,7 +127,7 @@ def _of_set(variable: Variable, task: Task, design: Design, when: When) -> float
 
 def _started(variable: Variable) -> float:
     text = variable.start or "0"
-    return float(text == "true") if variable.type == "Boolean" else float(text)
+    return float(text in ("true", "1")) if variable.type == "Boolean" else float(text)
 
 
 def _impacts(description: Description, found: BatchResult, place: int, struck: int) -> pd.DataFrame:

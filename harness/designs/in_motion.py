@@ -12,10 +12,10 @@ from ..clock import seconds
 from ..description import Value
 from ..drawing import read_drawing
 from ..experiment import Experiment, Run, perform
-from ..fmu import Fmu
 from ..master import Ending, never
 from ..numbers import shown
 from ..observers import Observer
+from ..slave import Instances
 from .task import Design, Quantity, Task
 
 #: So many pictures move smoothly; long steps are cut into one of these numbers of parts.
@@ -37,7 +37,7 @@ class InMotion:
 
 
 def in_motion(
-    fmu: Fmu,
+    fmu: Instances,
     task: Task,
     design: Design | None,
     which: str,

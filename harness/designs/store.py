@@ -27,7 +27,7 @@ from mechanism_fmu import __version__
 
 from ..description import Value, Variable
 from ..errors import UsageError
-from ..results import prepare_folder, write_json
+from ..results import UNFINISHED, prepare_folder, write_json
 from .identity import Identity
 from .task import Design, Quantity, Result
 from .variation import RESERVED, Axis
@@ -216,7 +216,7 @@ def _read(path: Path, schema: pa.Schema) -> pa.Table:
 
 
 def _write(table: pa.Table, path: Path) -> None:
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    temporary = path.with_name(f".{path.name}.{os.getpid()}{UNFINISHED}")
     try:
         try:
             pq.write_table(table, temporary)

@@ -21,10 +21,12 @@ from ..numbers import shown
 from ..occupied import alone_in
 from ..results import write_json
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table
-from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory, show_input_note
 
 
-def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
+def run_optimise(
+    path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool, trust: bool = False
+) -> int:
     """Look for the best design of a file, go on where it stopped, and write history, optimum and report."""
     folder = Path(path.stem) if folder is None else folder
     with prepared(path) as (file, fmu, built):
@@ -40,8 +42,9 @@ def run_optimise(path: Path, folder: Path | None, workers: int | None, scheduler
                 f"{optimum.total} designs ({optimum.method})",
                 soft_wrap=True,
             )
+            show_input_note(optimum.task)
             with (
-                crew_of(fmu, optimum.task, workers, scheduler, fast) as crew,
+                crew_of(fmu, optimum.task, workers, scheduler, fast, trust or built) as crew,
                 DesignsBar(optimum.total) as bar,
                 interruption(lambda: console.print(ENDING)) as stop_requested,
             ):

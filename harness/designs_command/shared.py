@@ -11,6 +11,7 @@ from pathlib import Path
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from mechanism_fmu.fmu.built import was_built_here
 from mechanism_fmu.stress import beam_theory_note
 
 from ..clock import seconds
@@ -20,12 +21,15 @@ from ..designs.of_impacts import wants_stress
 from ..designs.plan import Source, source
 from ..designs.task import Design, Task
 from ..designs.ways import BY_FMU, by_batch_in
-from ..designs.workers import Crew, Processes, Work, here
+from ..designs.worker_processes import Processes
+from ..designs.workers import Crew, Work, here
 from ..errors import UsageError
 from ..fmu import Fmu, open_fmu
 from ..fmu.workspace import temporary_folder
 from ..interrupt import interruption
-from ..terminal import RunDisplay, console
+from ..isolation import instances_of
+from ..results import UNFINISHED, sweep_up
+from ..terminal import RunDisplay, console, show_note
 from ..toml_file import TomlFile
 
 #: What is said when somebody presses Ctrl-C.
@@ -54,8 +58,9 @@ def keep_built(fmu: Fmu, folder: Path) -> None:
     place = folder / "fmu"
     try:
         place.mkdir(exist_ok=True)
-        shutil.copyfile(fmu.path, place / f".{fmu.path.name}")
-        os.replace(place / f".{fmu.path.name}", place / fmu.path.name)
+        sweep_up(place)
+        shutil.copyfile(fmu.path, place / f".{fmu.path.name}{UNFINISHED}")
+        os.replace(place / f".{fmu.path.name}{UNFINISHED}", place / fmu.path.name)
     except OSError as error:
         raise UsageError(f"'{place / fmu.path.name}' cannot be written: {error}.") from error
 
@@ -121,16 +126,33 @@ class DesignsBar:
 
 
 @contextmanager
-def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool) -> Iterator[Crew]:
+def crew_of(
+    fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool, trusted: bool
+) -> Iterator[Crew]:
     """Those who run the designs: processes, a cluster, or (`fast`) threads of this process.
 
+    Args:
+        fmu: that they run.
+        task: of every design.
+        workers: how many; None: as many as there are processors.
+        scheduler: address of a cluster's; None: this machine.
+        fast: whether the designs run in this process, by the Python sources in the FMU.
+        trusted: whether these may be run, though no build of this user has made the FMU.
+
     Raises:
-        UsageError: the cluster cannot be used, or the designs of this FMU cannot run in one call.
+        UsageError: the cluster cannot be used, the designs of this FMU cannot run in one call, or `fast` would run
+            Python that nobody trusts.
     """
     if fast:
         if scheduler is not None:
             raise UsageError(
                 "--fast uses the threads of this machine, --scheduler the machines of a cluster; choose one."
+            )
+        if not trusted and not was_built_here(fmu.path):
+            raise UsageError(
+                f"--fast runs the Python sources in '{fmu.path}' in this very process, and no build of yours has made "
+                "this file. Build it here, name its model in [fmu], or add --trust if you trust whoever made it; "
+                "without --fast, the FMU runs in processes of its own."
             )
         from ..designs.by_batch import require_batch
 
@@ -153,6 +175,12 @@ def crew_of(fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fa
         yield partial(on_cluster, client, fmu.path, task, BY_FMU)
 
 
+def show_input_note(task: Task) -> None:
+    """How the table of inputs was understood, where it is not as usual."""
+    if task.inputs is not None and task.inputs.note:
+        show_note(task.inputs.note)
+
+
 def show_beam_theory(task: Task, seen: InMotion | None) -> None:
     """Where stresses are asked for: whether beam theory covers the tooth of the design that is shown."""
     if wants_stress(task) and seen is not None and seen.run is not None and seen.run.tooth is not None:
@@ -166,4 +194,4 @@ def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMot
         RunDisplay(seconds(task.grid.stop), running) as display,
         interruption(lambda: console.print("The report will show it up to here.")) as stop_requested,
     ):
-        return in_motion(fmu, task, design, which, [display], stop_requested)
+        return in_motion(instances_of(fmu), task, design, which, [display], stop_requested)

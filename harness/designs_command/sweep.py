@@ -19,13 +19,15 @@ from ..fmu import Fmu
 from ..interrupt import interruption
 from ..occupied import alone_in
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
-from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory
+from .shared import ENDING, DesignsBar, crew_of, keep_built, prepared, seen_again, show_beam_theory, show_input_note
 
 #: Failed designs that fit a terminal; the file has all.
 _MOST_SHOWN = 10
 
 
-def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool) -> int:
+def run_sweep(
+    path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool, trust: bool = False
+) -> int:
     """Run the designs of a file that are not there yet, keep them as they come, and write table and report."""
     folder = Path(path.stem) if folder is None else folder
     with prepared(path) as (file, fmu, built):
@@ -35,13 +37,14 @@ def run_sweep(path: Path, folder: Path | None, workers: int | None, scheduler: s
             store = Store(folder, known, sweep.axes, sweep.task.quantities)
             if built:
                 keep_built(fmu, folder)
-            with crew_of(fmu, sweep.task, workers, scheduler, fast) as crew:
+            with crew_of(fmu, sweep.task, workers, scheduler, fast, trust or built) as crew:
                 progress, table = _performed(sweep, store, crew)
             return _ending(fmu, sweep, store, progress, table)
 
 
 def _performed(sweep: Sweep, store: Store, crew: Crew) -> tuple[sweeps.Progress, pa.Table]:
     console.print(f"[bold]{escape(sweep.title)}[/]: {len(sweep.designs)} designs ({sweep.method})", soft_wrap=True)
+    show_input_note(sweep.task)
     with DesignsBar(len(sweep.designs)) as bar, interruption(lambda: console.print(ENDING)) as stop_requested:
         return sweeps.perform_sweep(sweep, store, crew, bar.show, stop_requested)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import fmpy
 
-from ..description import Description, read_description
+from ..description import Description, damaged, read_description
 from ..errors import UsageError
 from .fmi2 import Fmi2Slave
 from .fmi3 import Fmi3Slave
@@ -64,14 +64,21 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
     For a `with`: `with open_fmu(Path("build/Ratchet.fmu")) as fmu, fmu.instantiate("ratchet") as ratchet:`.
 
     Raises:
-        UsageError: not a file, not an FMU that can be run, or made for other platforms only.
+        UsageError: not a file, not an FMU that can be run, made for other platforms only, or with names in it that lead
+            out of the folder.
     """
     description = read_description(path)
-    platforms = fmpy.supported_platforms(str(path))
+    try:
+        platforms = fmpy.supported_platforms(str(path))
+    except Exception as error:  # fmpy raises whatever zipfile raises
+        raise damaged(path, error) from error
     if fmpy.platform not in platforms:
         raise UsageError(
             f"'{path}' has no library for {fmpy.platform}; it runs on {', '.join(platforms) or 'no platform'}."
         )
     with temporary_folder() as folder:
-        fmpy.extract(str(path), unzipdir=str(folder))
+        try:
+            fmpy.extract(str(path), unzipdir=str(folder))
+        except Exception as error:
+            raise damaged(path, error) from error
         yield Fmu(path, description, folder)

@@ -82,6 +82,7 @@ class Fmi2Slave(FmuSlave):
                 partial(ask, c_void_p(self._instance.component), fmi2LastSuccessfulTime, byref(reached))
             )
             if answer <= Status.WARNING and begin < reached.value < begin + size:
+                self._count_short(begin + size, _MOST_DISCARDED)
                 return reached.value
         raise self.refusal("fmi2DoStep", status, said)
 
@@ -105,7 +106,7 @@ class Fmi2Slave(FmuSlave):
         return callbacks
 
     def _log(self, _environment: Any, _instance: Any, status: int, category: bytes | None, text: bytes | None) -> None:
-        self._told(status, category, (text or b"").decode("utf-8", errors="replace").replace("%%", "%"))
+        self._told(status, category, text, "%")
 
     def _get(self, batch: Batch) -> list[Any]:
         name = _NAMES.get(batch.kind, batch.kind)
@@ -129,5 +130,7 @@ class Fmi2Slave(FmuSlave):
         self._call(f"fmi2Set{name}", getattr(self._instance, f"set{name}"), batch.references, numbers)
 
 
+#: So many steps in a row an FMU may discard before one that it completes: each may take seconds.
+_MOST_DISCARDED = 20
 #: Types that have no functions of their own.
 _NAMES = {"Enumeration": "Integer"}

@@ -18,6 +18,8 @@ from .slave import FmuSlave, MessageHandler
 
 #: So often an FMU may ask for one more update of its discrete states.
 _MOST_UPDATES = 1000
+#: So often in a row an FMU may return early for no event.
+_MOST_SHORT = 100
 #: Types that have no functions of their own.
 _NAMES = {"Enumeration": "Int64"}
 
@@ -98,6 +100,8 @@ class Fmi3Slave(FmuSlave):
         if self._ends:
             raise self.failure("fmi3DoStep", "it asks to end the simulation")
         reached = self._reached.value if self._early_return else None
+        if reached is not None and reached < begin + size and not self._event:
+            self._count_short(begin + size, _MOST_SHORT)
         if self._event and self._handles_events:
             self._time = begin + size if reached is None else reached
             self._call("fmi3EnterEventMode", self._instance.enterEventMode)
@@ -116,7 +120,7 @@ class Fmi3Slave(FmuSlave):
         raise self.failure("fmi3UpdateDiscreteStates", f"its discrete states do not settle in {_MOST_UPDATES} updates")
 
     def _log(self, _environment: Any, status: int, category: bytes | None, text: bytes | None) -> None:
-        self._told(status, category, (text or b"").decode("utf-8", errors="replace").replace("##", "#"))
+        self._told(status, category, text, "#")
 
     def _get(self, batch: Batch) -> list[Any]:
         name = _NAMES.get(batch.kind, batch.kind)

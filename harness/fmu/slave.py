@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
 from abc import ABC, abstractmethod
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from ctypes import c_int, c_size_t, c_uint, c_void_p
@@ -29,6 +31,12 @@ MessageHandler = Callable[[LogMessage], None]
 _WRAPPER_SAYS = "Fatal py exception encountered"
 #: Of messages that tell of no problem no more are kept: some FMUs log every call.
 _MOST_CHATTER = 1000
+#: Nor more of each status that tells of one; what comes behind them is counted.
+_MOST_COMPLAINTS = 1000
+#: So many of them are the reason of a refusal.
+_MOST_REASONS = 20
+#: No more letters of a message are kept.
+_LONGEST_TEXT = 5000
 #: So often in a row an FMU may return from a step without having moved.
 _MOST_RETURNS = 100
 
@@ -78,10 +86,14 @@ class FmuSlave(ABC):
         self._time = 0.0
         self._early: float | None = None
         self._returns = 0
+        self._short_of: float | None = None
+        self._shorts = 0
         self._initialized = False
         self._silent_since: int | None = None
         self._fatal = False
         self._chatter = 0
+        self._complaints: Counter[int] = Counter()
+        self._left_out = 0
         self._known_batches: dict[tuple[str, ...], list[Batch]] = {}
         self._instance = self._loaded(folder)
         self._make_instance()
@@ -158,6 +170,7 @@ class FmuSlave(ABC):
         if self._initialized:
             self._initialized = False
             self._call(f"{self._FMI}Terminate", self._instance.terminate)
+            self._tell_left_out()
 
     def reset(self) -> None:
         """Back to the state just after the instantiation."""
@@ -211,6 +224,7 @@ class FmuSlave(ABC):
         """What to raise for a call that was answered by `status`, with what the FMU has said since message `said`."""
         answer = Status(status)
         self._fatal = self._fatal or answer is Status.FATAL
+        self._tell_left_out()
         error = self._error(f"{function}, status {answer.name.lower()}", answer, self.messages[said:])
         if self._silent_since is not None:
             del self.messages[said:]
@@ -289,6 +303,19 @@ class FmuSlave(ABC):
         self._early = self._time = reached
         return reached
 
+    def _count_short(self, end: float, most: int) -> None:
+        """Count the steps in a row that ended before `end` [s] for no event.
+
+        Raises:
+            FmuError: there have been more than `most`: each may take seconds, as of a stiff mechanism.
+        """
+        again = self._short_of is not None and math.isclose(end, self._short_of, rel_tol=1e-12)
+        self._short_of, self._shorts = end, self._shorts + 1 if again else 1
+        if self._shorts > most:
+            said = next((m.text.strip() for m in reversed(self.messages) if m.needs_attention), "it gave no reason.")
+            reason = f"{most} times it ended a step early that was to reach {end:.9g} s; it says: {said}"
+            raise self.failure(f"{self._FMI}DoStep", reason.removesuffix("."))
+
     @abstractmethod
     def _get(self, batch: Batch) -> list[Any]:
         """The numbers of variables of one type."""
@@ -336,9 +363,15 @@ class FmuSlave(ABC):
         raw: Callable[..., int] = function
         return raw
 
-    def _told(self, status: int, category: bytes | None, text: str) -> None:
-        """Keep a message of the FMU."""
-        name = (category or b"").decode("utf-8", errors="replace")
+    def _told(self, status: int, category: bytes | None, raw: bytes | None, escaped: str) -> None:
+        """Keep a message of the FMU, unless there have been too many; `escaped` is what is doubled in it."""
+        if status not in (Status.OK, Status.PENDING):
+            if self._complaints[Status(status)] >= _MOST_COMPLAINTS:
+                self._left_out += 1
+                return
+            self._complaints[Status(status)] += 1
+        name = (category or b"")[:_LONGEST_TEXT].decode("utf-8", errors="replace")
+        text = _shortened(raw or b"").replace(2 * escaped, escaped)
         message = LogMessage(instance=self.name, time=self._time, status=Status(status), category=name, text=text)
         if not message.needs_attention:
             self._chatter += 1
@@ -348,6 +381,16 @@ class FmuSlave(ABC):
                 return
         self.messages.append(message)
         if self._silent_since is None:
+            self._on_message(message)
+
+    def _tell_left_out(self) -> None:
+        """Say how many messages were not kept since this was last said."""
+        count, self._left_out = self._left_out, 0
+        if count:
+            kept = f"the first {_MOST_COMPLAINTS} of a kind are kept"
+            text = f"{count} more messages of this instance were left out; {kept}."
+            message = LogMessage(self.name, self._time, Status.WARNING, "", text)
+            self.messages.append(message)
             self._on_message(message)
 
     def _call(self, name: str, function: Callable[..., Any], *arguments: Any) -> Any:
@@ -363,10 +406,23 @@ class FmuSlave(ABC):
 
     def _error(self, problem: str, status: Status, messages: Sequence[LogMessage]) -> FmuError:
         time = self._time if self._initialized else None
-        said = [message.text.strip() for message in messages if message.needs_attention]
+        worst_first = sorted((m for m in messages if m.needs_attention), key=lambda m: -m.status)
+        ordered = worst_first if len(worst_first) > _MOST_REASONS else [m for m in messages if m.needs_attention]
+        said = [message.text.strip() for message in ordered]
         own = [text for text in said if not text.startswith(_WRAPPER_SAYS)] or said
+        if len(own) > _MOST_REASONS:
+            own = [*own[:_MOST_REASONS], f"(And {len(own) - _MOST_REASONS} messages more.)"]
         text = f"{self.name} failed {self._when()} ({problem}): {' '.join(own) or 'it gave no reason.'}"
         return FmuError(text, instance=self.name, time=time, status=status, messages=messages)
+
+
+def _shortened(raw: bytes) -> str:
+    """The text of a message; of a very long one the beginning, with how much is left out."""
+    text = raw[: 4 * _LONGEST_TEXT].decode("utf-8", errors="replace")
+    if len(raw) <= _LONGEST_TEXT or (len(text) <= _LONGEST_TEXT and len(raw) <= 4 * _LONGEST_TEXT):
+        return text
+    kept = text[:_LONGEST_TEXT]
+    return f"{kept} (... {len(raw) - len(kept.encode())} more bytes of this message are left out.)"
 
 
 _FROM_C: dict[str, Callable[[Any], Value]] = {

@@ -37,4 +37,5 @@ class Prepared:
     def notes(self) -> list[str]:
         """What is to be said of it that is no mistake."""
         driven = [] if self.inputs is None else [variable.name for variable in self.inputs.variables]
-        return notes(self.plan, self.descriptions, driven)
+        read = [] if self.inputs is None or not self.inputs.note else [self.inputs.note]
+        return read + notes(self.plan, self.descriptions, driven)

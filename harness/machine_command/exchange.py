@@ -17,7 +17,7 @@ from ..machine.prepared import Prepared
 from ..machine.ssp.export import write_ssp
 from ..machine.ssp.importing import import_ssp
 from ..results import prepare_folder, write_bytes
-from ..terminal import console
+from ..terminal import console, show_note
 from .prepare import machine_file, prepared
 
 #: What held inputs do to shafts.
@@ -36,7 +36,7 @@ def export_file(name: str, output: Path | None) -> int:
         files = {part: (fmu.path, fmu.description) for part, fmu in machine.fmus.items()}
         write_ssp(machine.plan, files, output)
         for note in _for_others(machine):
-            _note(note)
+            show_note(note)
     console.print(f"Written: {escape(str(output))}", soft_wrap=True)
     return 0
 
@@ -51,7 +51,7 @@ def import_file(path: Path, folder: Path | None) -> int:
         try:
             found = import_ssp(path, place)
             for note in found.notes:
-                _note(note)
+                show_note(note)
             with prepared(str(found.file)):
                 pass
         except UsageError as error:  # what is in the folder will be gone
@@ -102,10 +102,6 @@ def _for_others(machine: Prepared) -> list[str]:
     return notes
 
 
-def _note(text: str) -> None:
-    console.print(f"[dim]Note:[/] {escape(text)}", soft_wrap=True)
-
-
 def contain_file(name: str, output: Path | None) -> int:
     """Wrap a machine as one FMU, and say what it does otherwise than the machine."""
     output = _fmu_name(machine_file(name)) if output is None else output
@@ -116,17 +112,17 @@ def contain_file(name: str, output: Path | None) -> int:
         write_container(machine.plan, parts, output)
         policy = machine.plan.policy
         if policy.scheme is not Scheme.JACOBI or policy.extrapolation is not Extrapolation.CONSTANT:
-            _note(
+            show_note(
                 f"The container steps all components at once, {policy.step:g} s at a time, with inputs held "
                 f'(algorithm = "jacobi", extrapolation = "constant"). {_HELD}'
             )
         lost = left_out(machine.plan, parts)
         if lost:
-            _note(
+            show_note(
                 f"Not in the container, which has numbers of types Float64, Int32 and Boolean only: {', '.join(lost)}."
             )
         if machine.plan.inputs is not None:
-            _note(f"The table of inputs does not go with it: run it with --input {machine.plan.inputs.name}.")
+            show_note(f"The table of inputs does not go with it: run it with --input {machine.plan.inputs.name}.")
     console.print(f"Written: {escape(str(output))}", soft_wrap=True)
     console.print(f"mechanism-fmu run {output}", soft_wrap=True, markup=False)
     return 0

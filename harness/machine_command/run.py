@@ -23,6 +23,7 @@ from ..terminal import (
     real_time_factor,
     show_error,
     show_files,
+    show_note,
     show_table,
     show_warning,
     tell_of_earlier_files,
@@ -51,7 +52,7 @@ def run_file(name: str, table: Path | None, folder: Path | None) -> int:
 def show_notes(machine: Prepared) -> None:
     """What is to be said of a machine, before it runs."""
     for note in machine.notes:
-        console.print(f"[dim]Note:[/] {escape(note)}", soft_wrap=True)
+        show_note(note)
 
 
 def _ending(run: MachineRun, written: Written, folder: Path) -> int:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import pandas as pd
 
 from ..description import Value
+from ..impacts import UNITS_OF_STOPS, contact_name
+from ..tooth_stress import BY_TWO_MODES
 from .page import section, table
 
 #: A longer table is in impacts.csv.
@@ -15,8 +17,17 @@ _MOST = 100
 _LEFT_OUT = ("stress_position", "stress_delay", "remark")
 
 
-def impacts_section(impacts: pd.DataFrame, units: Mapping[str, str], heading: str = "Impacts") -> str:
-    """A row for each of the first impacts, with units by column; "" when there are none."""
+def impacts_section(
+    impacts: pd.DataFrame, units: Mapping[str, str], heading: str = "Impacts", contacts: Sequence[str] = ()
+) -> str:
+    """A row for each of the first impacts, with units by column; "" when there are none.
+
+    Args:
+        impacts: of a run.
+        units: of its columns.
+        heading: of the section.
+        contacts: their names, in the order of their numbers; () when they are not known.
+    """
     if impacts.empty:
         return ""
     names = [str(name) for name in impacts if name not in _LEFT_OUT]
@@ -26,7 +37,14 @@ def impacts_section(impacts: pd.DataFrame, units: Mapping[str, str], heading: st
     if "remark" in shown:
         for row, remark in zip(rows, shown["remark"], strict=True):
             row[names.index("stress_max")] = remark or row[names.index("stress_max")]
+    if "contact" in names:
+        for row, number in zip(rows, shown["contact"], strict=True):
+            row[names.index("contact")] = contact_name(int(number), contacts)
+    notes = [UNITS_OF_STOPS] if "contact" in names else []
+    if "stress_max" in names:
+        notes.append(f"Stress of each impact {BY_TWO_MODES}")
     note = f"The first {_MOST} of {len(impacts)}; all are in impacts.csv." if len(impacts) > _MOST else ""
+    note = " ".join([note, *notes]).strip()
     numbered = [[str(i), *row] for i, row in enumerate(rows, 1)]
     return section(heading, table(["#", *headings], numbered, numeric=range(len(headings) + 1)), note=note)
 

@@ -48,7 +48,10 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
         _severity(run),
         _fatigue(run),
     ]
-    body += [compliance_section(run.compliance), impacts_section(run.impacts, run.units["impacts"])]
+    body += [
+        compliance_section(run.compliance),
+        impacts_section(run.impacts, run.units["impacts"], contacts=run.logic.contacts),
+    ]
     body += [modes_section(run), events_section(run)]
     body += [_parameters(run), _messages(run), versions_section(versions(run.fmu, run.description))]
     return page(description.model, subtitle, [part for part in body if part])

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
+from ..impacts import UNITS_OF_STOPS, contact_name
 from ..numbers import engineering
 from .interactive import interactive
 from .page import chart, charts, section, table
@@ -33,30 +34,29 @@ _NOTE = (
 
 
 def severity_section(impacts: pd.DataFrame, units: Mapping[str, str], names: Sequence[str] = ()) -> str:
-    """The largest impact by each measure and the stress that it leaves; "" for less than two impacts with stresses.
+    """The largest impact by each measure and the stress that it leaves; "" for less than two impacts, or no stresses.
 
     Args:
         impacts: as of `tooth_stress.with_stress`.
         units: of its columns.
         names: of the contacts, in the order of their numbers; () when they are not known.
     """
-    if not {"stress_max", "velocity", "closing_speed"} <= set(impacts) or impacts["stress_max"].notna().sum() < 2:
+    if not {"stress_max", "velocity", "closing_speed"} <= set(impacts) or len(impacts) < 2:
         return ""
+    most = float(impacts["stress_max"].max()) if impacts["stress_max"].notna().any() else 0.0
     measures = [name for name in _MEASURES if name in impacts]
     contacts = _named(impacts, names)
     rows = []
     for name in measures:
         parts = contacts if name in _BY_CONTACT and contacts else {"": impacts}
-        rows += [
-            _row(name, contact, part, units, float(impacts["stress_max"].max())) for contact, part in parts.items()
-        ]
+        rows += [_row(name, contact, part, units, most) for contact, part in parts.items()]
     headings = ["largest by", "its value", "time [s]", "jump v_I", "stress left", "of the largest stress"]
     plots = [_against(name, impacts, contacts, units) for name in ("closing_speed", "energy_lost") if name in measures]
     return section(
         "Which impact stresses the tooth most",
         table(headings, rows, numeric=range(1, len(headings))),
         charts(*(chart(interactive(plot, height=320)) for plot in plots)),
-        note=_NOTE,
+        note=f"{_NOTE} {UNITS_OF_STOPS}" if contacts else _NOTE,
     )
 
 
@@ -65,8 +65,7 @@ def _named(impacts: pd.DataFrame, names: Sequence[str]) -> dict[str, pd.DataFram
     if "contact" not in impacts:
         return {}
     numbers = sorted({int(number) for number in impacts["contact"]})
-    labels = {number: names[number] if 0 <= number < len(names) else f"contact {number}" for number in numbers}
-    return {label: impacts[impacts["contact"] == number] for number, label in labels.items()}
+    return {contact_name(number, names): impacts[impacts["contact"] == number] for number in numbers}
 
 
 def _row(name: str, contact: str, part: pd.DataFrame, units: Mapping[str, str], most: float) -> list[str]:

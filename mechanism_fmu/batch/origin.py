@@ -14,7 +14,7 @@ from types import ModuleType
 
 from ..engine.run import library_path
 from ..fmu.archive import read_entries
-from ..fmu.start import cache_directory
+from ..fmu.start import private_cache
 from ..model import Model
 
 _LIBRARY = Path(__file__).parents[1]
@@ -34,7 +34,8 @@ class NoBatchError(ValueError):
 def model_of_fmu(path: Path) -> tuple[Model, Path | None]:
     """The model of an FMU file, and the engine's library that travels in it (None: none for this platform).
 
-    The model's sources are those of the FMU; everything that turns them into numbers must be the same here as there.
+    The model's sources are those of the FMU, and are run in this process: give it no FMU that you would not run.
+    Everything that turns them into numbers must be the same here as there.
 
     Raises:
         NoBatchError: the FMU holds no such sources, or they are for another engine.
@@ -42,7 +43,7 @@ def model_of_fmu(path: Path) -> tuple[Model, Path | None]:
     try:
         entries = read_entries(path)
     except (OSError, zipfile.BadZipFile) as error:
-        raise NoBatchError(f"'{path}' cannot be read as an FMU: {error}") from error
+        raise NoBatchError(f"'{path}' cannot be read as an FMU: {error}.") from error
     package, module = _named_by_slave(path, entries)
     prefix = f"resources/{package}/"
     files = {name.removeprefix(prefix): data for name, data in entries.items() if name.startswith(prefix)}
@@ -51,11 +52,11 @@ def model_of_fmu(path: Path) -> tuple[Model, Path | None]:
     library = "" if place is None else place.as_posix()
     wanted = {name: data for name, data in files.items() if name.startswith("models/") or name == library}
     try:
-        folder = _unpacked(wanted, cache_directory() / "mechanism_fmu" / package)
+        folder = _unpacked(wanted, private_cache() / package)
     except OSError as error:
         raise NoBatchError(
             f"The model of '{path}' cannot be unpacked ({error}); set the environment variable MECHANISM_FMU_CACHE to "
-            "a folder that can be written."
+            "a folder that you alone can write."
         ) from error
     try:
         model: Model = _imported(folder / "models", f"{_LIBRARY.name}.{package}", module).MODEL

@@ -16,6 +16,12 @@ NO_CONTACT_POINT = 12
 SINGULAR = 13
 BRIDGED = 14
 AT_CENTRE = 15
+NO_PROGRESS = 16
+
+#: How an event can fail, after which nothing goes on (see `codes.GUARD_FAILED`).
+EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY)
+#: A communication step that ended early; the next one goes on from the time reached.
+OUT_OF_STEPS = (TOO_MANY_STEPS, NO_PROGRESS)
 
 ADVICE = {
     NOT_ASSEMBLED: "The joints cannot be closed from the given start positions.",
@@ -23,8 +29,12 @@ ADVICE = {
     START_INSIDE: "The mechanism starts with a contact point inside the other body.",
     STEP_TOO_SMALL: "The step size has shrunk to nothing: the motion is no longer smooth or finite. Check that inputs "
     "and parameters are of a sensible size, or give a larger relative_tolerance.",
-    TOO_MANY_STEPS: "One communication step needed more internal steps than the limit: the motion is very fast for its "
-    "length. Restore a saved state or reset, then check the size of inputs and parameters, or take shorter steps.",
+    TOO_MANY_STEPS: "The communication step needs more internal steps than max_internal_steps: the motion is very fast "
+    "for its length. The time reached is good, and the next step goes on from there. Check the size of inputs and "
+    "parameters, take shorter communication steps, or give a larger max_internal_steps.",
+    NO_PROGRESS: "No progress: a tenth of max_internal_steps has not covered a hundredth of the communication step, "
+    "because something is very stiff or very fast. The time reached is good, and the next step goes on from there. "
+    "Check the size of inputs and parameters, take shorter communication steps, or give a larger max_internal_steps.",
     NO_CHOICE: "No set of pushing contacts agrees with the motion: more contacts touch at once than can be "
     "resolved. Change lengths or start positions a little.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import hashlib
+import lzma
 import os
+import struct
 import uuid
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
+from .archive_names import unsafe_name
 from .model_description import to_bytes
 
 #: Name of the description within the archive.
@@ -17,6 +21,10 @@ DESCRIPTION = "modelDescription.xml"
 
 #: The first moment that a zip archive can write down.
 _TIME = (1980, 1, 1, 0, 0, 0)
+
+#: What zipfile raises, beside its own error, for archives that are damaged, cut off, encrypted, or compressed in a way
+#: that it does not know.
+_DAMAGED = (zlib.error, lzma.LZMAError, struct.error, EOFError, RuntimeError, ValueError, OverflowError)
 
 _FILE, _PROGRAM = 0o100644, 0o100755
 
@@ -31,9 +39,20 @@ def content_hash(files: Mapping[str, bytes]) -> str:
 
 
 def read_entries(path: Path) -> dict[str, bytes]:
-    """Contents of all files of a zip archive, by name."""
-    with zipfile.ZipFile(path) as archive:
-        return {name: archive.read(name) for name in archive.namelist()}
+    """Contents of all files of a zip archive, by name; the names are safe to unpack (`archive_names`).
+
+    Raises:
+        OSError: the file cannot be read.
+        zipfile.BadZipFile: it is no zip archive, or a damaged one, or one with names that are not safe.
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            objection = unsafe_name(archive.infolist())
+            if objection is not None:
+                raise zipfile.BadZipFile(objection)
+            return {name: archive.read(name) for name in archive.namelist()}
+    except _DAMAGED as error:
+        raise zipfile.BadZipFile(str(error) or "an entry is cut off") from error
 
 
 def with_guid(entries: Mapping[str, bytes]) -> dict[str, bytes]:
@@ -50,7 +69,7 @@ def write_archive(entries: Mapping[str, bytes], path: Path, compression: int = z
 
     What is stored is the same everywhere; what is compressed depends on the version of zlib.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
     try:
         with zipfile.ZipFile(temporary, "w", compression, compresslevel=9) as archive:
             for name, contents in sorted(entries.items()):

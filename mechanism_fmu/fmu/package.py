@@ -14,6 +14,7 @@ from pythonfmu.builder import FmuBuilder
 
 from ..model import MechanismError
 from .archive import content_hash, read_entries, with_guid, write_archive
+from .built import record_build
 from .closure import Closure, Home, closure
 from .contents import common_entries, file_in, model_of
 from .native.libraries import engine_libraries
@@ -106,7 +107,7 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
     )
     entries |= common_entries(origin, _WRAPPER, ("mechanism_fmu", "pythonfmu"))
     write_archive(with_guid(entries), path)
-    return path
+    return record_build(path)
 
 
 def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str, bytes]:

@@ -77,16 +77,20 @@ def check(data: bytes, mark: bytes) -> None:
 
 
 def decode(data: bytes, mark: bytes) -> SavedState:
-    """The saved state in `data`.
+    """The saved state in `data`; what it holds is checked elsewhere (`saved_contents.check_contents`).
 
     Raises:
-        SavedStateError: see `check`.
+        SavedStateError: see `check`; or its parts do not fit together.
     """
     check(data, mark)
     _, _, phase, parameters, inputs, _ = _HEAD.unpack_from(data)
+    first = _HEAD.size + _EXPERIMENT.size
+    if first + 8 * (parameters + inputs) + _CHECKSUM.size > len(data):
+        raise SavedStateError(f"The saved state is too short for {parameters} parameters and {inputs} inputs.")
+    if phase not in list(Phase):
+        raise SavedStateError(f"The saved state is in phase {phase}, which there is not.")
     start_time, stop_time, tolerance = _EXPERIMENT.unpack_from(data, _HEAD.size)
     experiment = None if math.isnan(start_time) else Experiment(start_time, stop_time, tolerance)
-    first = _HEAD.size + _EXPERIMENT.size
     numbers = struct.unpack_from(f"<{parameters + inputs}d", data, first)
     words = data[first + 8 * len(numbers) : -_CHECKSUM.size]
     return SavedState(Phase(phase), experiment, numbers[:parameters], numbers[parameters:], words)

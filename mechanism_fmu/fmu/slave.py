@@ -16,15 +16,17 @@ from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 from .. import __version__
+from ..admissible import Admissible
 from ..engine.block.layout import FIELDS, sizes_of
 from ..engine.block.pack import pack
 from ..engine.run import compiled_library
 from ..model import MechanismError, Model, compile_mechanism
 from ..model.model import check_value
-from ..simulation import Simulation, SimulationError
+from ..simulation import Simulation, SimulationError, StepBudgetError
 from . import saved_state
 from .news import News
 from .protocol import TIGHTEST, Experiment, FmiError, Phase, experiment, require, step_target
+from .saved_contents import CheckedState, Contents, check_contents
 from .saved_state import SavedState, SavedStateError
 from .self_check import require_numbers, start_explained
 from .variables import Variable, variables_of
@@ -42,6 +44,7 @@ class MechanismSlave(Fmi2Slave):
     model: ClassVar[Model]
     variables: ClassVar[tuple[Variable, ...]]
     _mark: ClassVar[bytes]
+    _contents: ClassVar[Contents]
     _instances: ClassVar[weakref.WeakSet[MechanismSlave]] = weakref.WeakSet()
 
     def __init__(self, **kwargs: Any) -> None:
@@ -98,6 +101,9 @@ class MechanismSlave(Fmi2Slave):
         self._values = None
         try:
             simulation.advance(target)
+        except StepBudgetError as spent:
+            self.log(f"{self.instance_name}: {spent}", Fmi2Status.discard, "logStatusDiscard")
+            return False  # fmi2Discard
         finally:
             self._tell()
         return True
@@ -170,37 +176,47 @@ class MechanismSlave(Fmi2Slave):
         """fmi2GetFMUstate: the saved state, already as the bytes that serialization hands out."""
         words = b"" if self._simulation is None else self._simulation.state.tobytes()
         state = SavedState(self._phase, self._experiment, tuple(self._parameters), tuple(self._inputs), words)
-        return saved_state.encode(state, self._mark)
+        return CheckedState(saved_state.encode(state, self._mark))
 
     @fmi_call
     def _set_fmu_state(self, state: bytes) -> None:
         """fmi2SetFMUstate: everything is restored; the log does not repeat what it has said."""
-        saved = saved_state.decode(state, self._mark)
-        now = (self._experiment, self._parameters)
+        saved = self._read(state)
+        simulation = self._simulation if saved.words else None
+        same = (saved.experiment, list(saved.parameters)) == (self._experiment, self._parameters)
+        if saved.words and (simulation is None or not same):
+            simulation = self._made(saved.experiment, saved.parameters, saved.inputs)  # may refuse: nothing changed yet
+        if simulation is not None:
+            simulation.state.data.cast("B")[:] = saved.words
+        self._simulation = simulation
         self._experiment, self._parameters = saved.experiment, list(saved.parameters)
         self._inputs = list(saved.inputs)
         self._values = None
-        if not saved.words or now != (self._experiment, self._parameters):
-            self._simulation = None
-        if saved.words:
-            self._prepared().state.data.cast("B")[:] = saved.words
         self._phase = saved.phase
         self._news = News(self._simulation)
 
     @classmethod
     def _fmu_state_to_bytes(cls, state: bytes) -> bytes:
-        return state
+        return bytes(state)
 
     @classmethod
     def _fmu_state_from_bytes(cls, state: bytes) -> bytes:
         """fmi2DeSerializeFMUstate; the wrapper does not say for which instance."""
         try:
-            saved_state.check(state, cls._mark)
+            cls._read(state)
         except SavedStateError:
             for instance in cls._instances:
                 survive_release(type(instance), instance, instance.log_queue)
             raise
-        return state
+        return CheckedState(state)
+
+    @classmethod
+    def _read(cls, state: bytes) -> SavedState:
+        """A saved state that is one of this model; what was checked when it came in is not checked again."""
+        saved = saved_state.decode(state, cls._mark)
+        if not isinstance(state, CheckedState):
+            check_contents(saved, cls._contents)
+        return saved
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
@@ -233,12 +249,17 @@ class MechanismSlave(Fmi2Slave):
     def _prepared(self) -> Simulation:
         """The simulation; before the first step it is made anew after each change of a parameter or input."""
         if self._simulation is None:
-            setup = self._experiment or Experiment(0.0)
-            mechanism = self.model.build(self.model.checked(self._parameter_values()))
-            tolerance = min(mechanism.settings.relative_tolerance, max(setup.tolerance, TIGHTEST))
-            mechanism = replace(mechanism, settings=replace(mechanism.settings, relative_tolerance=tolerance))
-            self._simulation = Simulation(mechanism, setup.start_time, self._inputs)
+            self._simulation = self._made(self._experiment, self._parameters, self._inputs)
         return self._simulation
+
+    def _made(self, setup: Experiment | None, parameters: Sequence[float], inputs: Sequence[float]) -> Simulation:
+        """A simulation of parameter values and inputs, in the model's order, that has begun."""
+        setup = setup or Experiment(0.0)
+        values = {p.name: value for p, value in zip(self.model.parameters, parameters, strict=True)}
+        mechanism = self.model.build(self.model.checked(values))
+        tolerance = min(mechanism.settings.relative_tolerance, max(setup.tolerance, TIGHTEST))
+        mechanism = replace(mechanism, settings=replace(mechanism.settings, relative_tolerance=tolerance))
+        return Simulation(mechanism, setup.start_time, inputs)
 
     def _forget_simulation(self) -> None:
         self._simulation = None
@@ -308,10 +329,12 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
     # In an FMU the package's name holds the hash of all sources: a state is for the very same ones.
     sizes = sizes_of(pack(compile_mechanism(model.build(model.values()))))
     parts = [__name__, __version__, model.name, *(v.name for v in variables), *map(repr, FIELDS), repr(sizes)]
+    settable = {causality: tuple(v for v in variables if v.causality == causality) for causality in _SETTABLE}
     members = {
         "model": model,
         "variables": variables,
         "_mark": saved_state.fingerprint(parts),
+        "_contents": Contents(settable["parameter"], settable["input"], Admissible.of(sizes)),
         "__doc__": model.description,
     }
     return type(model.name, (MechanismSlave,), members)

@@ -14,7 +14,6 @@ import ctypes
 import importlib
 import importlib.util
 import os
-import pickle
 import shutil
 import sys
 import tempfile
@@ -117,18 +116,17 @@ def _release_interpreter_once(fmu: Path, known: bool) -> None:
 def _cached(source: Path) -> Path:
     """A folder outside the FMU with the files of `source`."""
     try:
-        folder = cache_directory() / "mechanism_fmu" / source.name
+        folder = private_cache() / source.name
         _synchronize(source, folder)
         if not os.access(folder, os.W_OK):
             raise PermissionError(f"{folder} is read-only")
-        _drop_broken_compilations(folder)
     except (OSError, RuntimeError) as error:
         folder = Path(tempfile.mkdtemp(prefix="mechanism_fmu_")) / source.name
         atexit.register(shutil.rmtree, folder.parent, ignore_errors=True)
         _synchronize(source, folder)
         warnings.warn(
             f"The cache directory cannot be used ({error}), so the engine is compiled again in every process. "
-            f"Set the environment variable {CACHE_VARIABLE} to a folder that can be written.",
+            f"Set the environment variable {CACHE_VARIABLE} to a folder that you alone can write.",
             RuntimeWarning,
             stacklevel=3,
         )
@@ -144,6 +142,31 @@ def cache_directory() -> Path:
     if sys.platform == "darwin":
         return Path.home() / "Library" / "Caches"
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache").absolute()
+
+
+def private_cache() -> Path:
+    """The folder of this project in the cache directory, made if need be; nobody else can write to it.
+
+    What lies there is run. On Windows, the user's folders are nobody else's anyway.
+
+    Raises:
+        OSError: it cannot be made, or somebody else can write to it; the message says the way out.
+    """
+    folder = cache_directory() / "mechanism_fmu"
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if hasattr(os, "geteuid"):
+        state = folder.stat()
+        if state.st_uid != os.geteuid():
+            whose = f"belongs to user {state.st_uid}, not to {os.geteuid()} who runs this"
+        elif state.st_mode & 0o022:
+            whose = f"can be written by others (mode {state.st_mode & 0o777:o})"
+        else:
+            return folder
+        raise PermissionError(
+            f"the folder '{folder}', whose contents are run, {whose}; delete it, or, if you trust what is in it, make "
+            f"it yours alone (chown, chmod go-w), or set {CACHE_VARIABLE} to another folder"
+        )
+    return folder
 
 
 def _synchronize(source: Path, folder: Path) -> None:
@@ -169,13 +192,6 @@ def _synchronize(source: Path, folder: Path) -> None:
         except BaseException:
             os.unlink(temporary)
             raise
-
-
-def _drop_broken_compilations(folder: Path) -> None:
-    """Delete what numba has kept and a crash or a full disk has cut off: numba would stop at it, not compile again."""
-    for compiled in folder.rglob("*.nb[ci]"):
-        if not compiled.read_bytes().endswith(pickle.STOP):
-            compiled.unlink(missing_ok=True)
 
 
 def _import_package(name: str, folder: Path) -> None:

@@ -24,8 +24,9 @@ class Body:
         start: guess of (x [m], y [m], phi [rad]) that `assemble` closes.
         start_rate: (xd [m/s], yd [m/s], phid [rad/s]) at the start. They must agree with the joints; where there are
             held coordinates, their rates are kept and the others follow.
-        tooth_length: length l of its teeth as beams [m], > 0, if it has any. Impacts that change its speed then have
-            the impact velocity of the stress recovery, v_I = l (phid after - phid before); see `toothed_body`.
+        tooth_length: length l of its teeth as beams [m], > 0, if it has any. Every impact that changes its speed then
+            has the impact velocity of the stress recovery, v_I = l (phid after - phid before). Only one body of a
+            mechanism that reports v_I has teeth.
     """
 
     name: str

@@ -105,6 +105,8 @@ def _settings(settings: Settings) -> Iterator[Finding]:
     tolerance = settings.relative_tolerance
     text = "relative_tolerance = {:g} is outside 1e-13..1e-3."
     yield refuse_unless(within(tolerance, 1e-13, 1e-3), text, tolerance)
+    most = settings.max_internal_steps
+    yield refuse_unless(within(most, 10, 1e9), "max_internal_steps = {:g} is outside 10..1e9.", most)
     for name in ("baumgarte_alpha", "baumgarte_beta"):
         value = getattr(settings, name)
         yield refuse_unless(finite_not_negative(value), f"{name} = {{:g}} must be finite and not negative.", value)

@@ -10,9 +10,8 @@ import numpy as np
 
 from .. import codes
 from .beams import beam_data, beam_members, hinge
-from .body import GROUND, Body
+from .body import GROUND
 from .check import check
-from .contacts import toothed_body
 from .curves import Curve
 from .forces import own_states
 from .functions import Number, is_plain, sqrt
@@ -46,6 +45,7 @@ class MechanismTables:
     inverse_root_mass: Table
     body_start: Table
     body_start_rate: Table
+    body_tooth_length: Table
     joint_kind: Table
     joint_body_i: Table
     joint_body_j: Table
@@ -65,7 +65,6 @@ class MechanismTables:
     contact_pattern: Table
     contact_function: Table
     contact_closes_when: Table
-    contact_toothed: Table
     contact_data: Table
     contact_row_first: Table
     contact_rows: int
@@ -138,7 +137,6 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     contact_numbers = {contact.name: i for i, contact in enumerate(contacts)}
     watched = [resolve_function(function, contact_numbers, bodies) for function in mechanism.functions]
     switches = [switch(contact.closed_while) for contact in contacts]
-    toothed = [toothed_body(contact, mechanism.bodies) for contact in contacts]
     masses = [m for body in mechanism.bodies for m in (body.mass, body.mass, body.inertia)]
     first_rows = np.cumsum([0, *(joint.rows for joint in mechanism.joints)])
     first_contact_rows = np.cumsum([0, *(contact.rows for contact in contacts)])
@@ -158,6 +156,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         inverse_root_mass=_numbers([*(1 / sqrt(m) for m in masses), 0.0, 0.0, 0.0]),
         body_start=_rows([b.start for b in mechanism.bodies], 3),
         body_start_rate=_rows([b.start_rate for b in mechanism.bodies], 3),
+        body_tooth_length=_numbers([0.0 if b.tooth_length is None else b.tooth_length for b in mechanism.bodies]),
         joint_kind=_integers([j.kind for j in mechanism.joints]),
         joint_body_i=_integers([bodies[j.body_i] for j in mechanism.joints]),
         joint_body_j=_integers([bodies[j.body_j] for j in mechanism.joints]),
@@ -180,7 +179,6 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         contact_pattern=_integers([codes.NONE if c.pattern is None else patterns[c.pattern] for c in contacts]),
         contact_function=_integers([codes.NONE if f is None else functions[f] for f, _ in switches]),
         contact_closes_when=_integers([int(value) for _, value in switches]),
-        contact_toothed=_integers([codes.NONE if body is None else bodies[body.name] for body in toothed]),
         contact_data=_rows([c.data() for c in contacts], CONTACT_COLUMNS),
         contact_row_first=_integers(list(first_contact_rows[:-1])),
         contact_rows=int(first_contact_rows[-1]),
@@ -191,10 +189,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         contact_curve_i=_integers([_number_of(c.profiles[0], curves) for c in contacts]),
         contact_curve_j=_integers([_number_of(c.profiles[1], curves) for c in contacts]),
         contact_value=_rows(
-            [
-                (c.restitution, c.friction, _tooth_length(body), c.guided, c.enabled, c.closed)
-                for c, body in zip(contacts, toothed, strict=True)
-            ],
+            [(c.restitution, c.friction, c.guided, c.enabled, c.closed) for c in contacts],
             codes.CONTACT_VALUES,
         ),
         pattern_body_i=_integers([bodies[p.body_i] for p in mechanism.patterns]),
@@ -228,6 +223,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                 mechanism.settings.relative_tolerance,
                 mechanism.settings.baumgarte_alpha,
                 mechanism.settings.baumgarte_beta,
+                mechanism.settings.max_internal_steps,
             ]
         ),
         node_body=_integers([bodies[body] for body, _ in elastic.nodes]),
@@ -250,10 +246,6 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         beam_row=_integers([hinge(member, mechanism)[0] for member in hanging]),
         beam_data=_rows([beam_data(member, mechanism) for member in hanging], codes.BEAM_COLUMNS),
     )
-
-
-def _tooth_length(body: Body | None) -> Number:
-    return 0.0 if body is None or body.tooth_length is None else body.tooth_length
 
 
 def _number_of(curve: Curve | None, curves: list[Curve]) -> int:

@@ -10,12 +10,11 @@ closed, and `gap`, which is 0 then; the notation is that of `joints`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 from .. import codes
-from .body import Body, Point
+from .body import Point
 from .curves import Curve
 from .functions import Number
 from .joints import HigherPair
@@ -155,20 +154,6 @@ class AngleLock:
 def is_angular(contact: Contact) -> bool:
     """Whether a contact's gap is an angle, and its force a torque."""
     return contact.kind in (codes.ANGLE_STOP, codes.ANGLE_LOCK)
-
-
-def toothed_body(contact: Contact, bodies: Sequence[Body]) -> Body | None:
-    """The body whose teeth an impact of this contact shakes: of which its records give the impact velocity v_I.
-
-    It is the one with a `tooth_length` among the two that touch (body j, if both have teeth), or else the only one of
-    the mechanism: an impact elsewhere changes its speed through the joints. None: there is no such body, or there are
-    several and the contact is with none of them.
-    """
-    toothed = {body.name: body for body in bodies if body.tooth_length is not None}
-    for name in (contact.body_j, contact.body_i):
-        if name in toothed:
-            return toothed[name]
-    return next(iter(toothed.values())) if len(toothed) == 1 else None
 
 
 def too_deep(contact: Contact) -> tuple[str, str]:

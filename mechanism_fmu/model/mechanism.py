@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from types import SimpleNamespace
 
 from .body import Body
 from .contacts import Contact
@@ -23,11 +24,18 @@ class Settings:
     Attributes:
         relative_tolerance: of the step control, 1e-13..1e-3.
         baumgarte_alpha: [1/s], and baumgarte_beta: [1/s], of gamma - 2 alpha Phi' - beta^2 Phi.
+        max_internal_steps: of one communication step, 10..1e9; a step that needs more ends early, with a message.
     """
 
     relative_tolerance: Number = 1e-9
     baumgarte_alpha: Number = 10.0
     baumgarte_beta: Number = 1.0
+    max_internal_steps: Number = 200_000
+
+    @classmethod
+    def of(cls, values: SimpleNamespace) -> Settings:
+        """The settings among a model's parameter values (`settings_parameters`)."""
+        return cls(**{field.name: getattr(values, field.name) for field in fields(cls)})
 
 
 @dataclass(frozen=True)

@@ -272,6 +272,8 @@ def _of_event(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
 
 
 def _record_column(field: str, mechanism: Mechanism) -> int | None:
+    if field == "velocity":
+        _require_teeth(mechanism)
     if field in _FIELDS:
         return _FIELDS[field]
     what, _, part = field.partition(":")
@@ -285,3 +287,14 @@ def _record_column(field: str, mechanism: Mechanism) -> int | None:
     if what == "speed" and part in bodies:
         return before + 3 * len(bodies) + 3 * bodies.index(part) + 2
     return None
+
+
+def _require_teeth(mechanism: Mechanism) -> None:
+    """An impact has one v_I, so that one body must have teeth."""
+    toothed = [body.name for body in mechanism.bodies if body.tooth_length is not None]
+    if len(toothed) != 1:
+        has = f"several bodies have teeth ({', '.join(toothed)})" if toothed else "no body has teeth"
+        raise MechanismError(
+            f"output source impact.velocity is v_I of the body with teeth, but {has}; give Body(tooth_length=...) "
+            "to one body, or take the speeds of each body, impact.speed:<body> and impact.speed_before:<body>."
+        )

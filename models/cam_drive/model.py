@@ -70,7 +70,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("cam.angle",),
-        settings=Settings(values.relative_tolerance, values.baumgarte_alpha, values.baumgarte_beta),
+        settings=Settings.of(values),
     )
 
 

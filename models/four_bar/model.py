@@ -56,7 +56,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("crank.angle",),
-        settings=Settings(values.relative_tolerance, values.baumgarte_alpha, values.baumgarte_beta),
+        settings=Settings.of(values),
     )
 
 

@@ -35,7 +35,9 @@ LAST_IMPACT = (
         "m/s",
         nominal=0.1,
     ),
-    Output("impulse", "impulse", "Impulse on the struck contact at the {impact}", "N.s", nominal=0.01),
+    Output(
+        "impulse", "impulse", "Impulse on the struck contact at the {impact} (holding pawl: N.m.s)", "N.s", nominal=0.01
+    ),
     Output("slope_impulse", "impulse:slope", "Impulse on the tooth slope at the {impact}", "N.s", nominal=0.01),
     Output("energy_lost", "energy_lost", "Energy lost at the instant of the {impact}", "J", nominal=1e-4),
     *_speeds("before", "speed_before"),
@@ -46,9 +48,9 @@ LAST_IMPACT = (
 #: Of each impact of the last communication step.
 IMPACT = (
     Output("time", "time", "Time of {impact}", "s"),
-    whole_output("instant", "instant", "Number of the instant, the same for all its impacts, of {impact}"),
-    whole_output("tooth", "tooth", "Index of the tooth struck of {impact}"),
-    whole_output("contact", "contact", f"{_CONTACTS} of {{impact}}"),
+    whole_output("instant", "instant", "Number of the instant (the same for all its impacts): {impact}"),
+    whole_output("tooth", "tooth", "Index of the tooth struck: {impact}"),
+    whole_output("contact", "contact", f"{_CONTACTS}: {{impact}}"),
     Output(
         "closing_speed", "closing_speed", "Normal closing speed of {impact} (holding pawl: rad/s)", "m/s", nominal=0.1
     ),

@@ -143,6 +143,8 @@ def test_energy_is_accounted_for():
 def test_the_reference_curve_is_met():
     curve = pd.read_csv(Path(__file__).parents[2] / "models" / "gear_train" / "reference.csv")
     simulation = simulation_of(**EXACT)
+    assert len(curve) > 2
+    assert len(curve.columns) > 2
     for row in curve.to_dict("records"):
         simulation.advance(row.pop("time"))
         found = simulation.read()

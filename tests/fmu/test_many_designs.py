@@ -1,6 +1,7 @@
 """Many designs in one call: the bits of the FMU, design by design."""
 
 import math
+import threading
 import zlib
 from itertools import pairwise
 from pathlib import Path
@@ -333,3 +334,35 @@ def test_warnings_are_those_of_the_fmu(ratchet, ratchets):
         with Instance(ratchet) as one:
             one.begin(start_values(ratchet, designs, k)).step(1.0)
             assert found.warnings[k] == "\n".join(m.text for m in one.log if m.category == "logStatusWarning")
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_designs_run_in_the_compiled_library_and_nowhere_else(cams, monkeypatch, threads):
+    """One call of it in each thread takes them all; that the numbers are right would not show who made them."""
+    library = cams._engine
+    assert library is not None
+    calls = []
+
+    class Counted:
+        def __getattr__(self, name):
+            return getattr(library, name)
+
+        def engine_many(self, job, block):
+            calls.append(name_of_thread())
+            return library.engine_many(job, block)
+
+    def never(*_):
+        raise AssertionError("a design ran outside the library")
+
+    monkeypatch.setitem(vars(cams), "_engine", Counted())
+    monkeypatch.setattr("mechanism_fmu.batch.workers._one_by_one", never)
+    monkeypatch.setattr("mechanism_fmu.batch.workers.OneByOne.run", never)
+    found = cams.run({"cam_speed_start": np.linspace(40.0, 50.0, 6)}, [0.0, 0.01], threads=threads)
+    assert found.failures == ("",) * 6
+    assert found.compiled == "ahead of time"
+    assert len(calls) == threads
+    assert "MainThread" not in calls
+
+
+def name_of_thread():
+    return threading.current_thread().name

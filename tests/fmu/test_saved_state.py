@@ -1,5 +1,6 @@
 """Saving and restoring: everything, bit for bit, here and elsewhere; and nothing that is not a state."""
 
+import math
 import struct
 import subprocess
 import sys
@@ -7,6 +8,12 @@ import zlib
 
 import pytest
 from fmpy.fmi1 import FMICallException
+
+import models
+from mechanism_fmu.engine.block.layout import FIELDS, shape_of, sizes_of
+from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.model import compile_mechanism
+from tests.fuzz.forged import forged_words
 
 ROUGH = {"restitution": 0.5, "tooth_count": 15, "relative_tolerance": 1e-8}
 
@@ -19,6 +26,10 @@ def rest_of_run(one, until=1.6):
         one.step(0.01)
         rows.append(struct.pack(f"{len(one.fmu.named('output'))}d", *map(float, one.outputs().values())))
     return b"".join(rows)
+
+
+def block(model):
+    return pack(compile_mechanism(model.build(model.values())))
 
 
 @pytest.mark.parametrize("at", [0.0, 0.5, 0.93, 0.94, 0.95, 1.2])
@@ -127,6 +138,38 @@ def test_what_is_not_a_state_is_refused_and_survived(instance):
             one.restore_bytes(bad, 0.5)
         assert any("saved state" in message.text for message in one.log[said:]), what
     one.restore_bytes(saved, 0.5)
+    one.run(1.0, 0.1)
+
+    assert one["impact_time"] == pytest.approx(0.9399211769, rel=1e-9)
+
+
+def forged(saved, changes):
+    """A pythonfmu state with other bytes at places counted from behind, and a right checksum."""
+    body = bytearray(saved[:-4])
+    for place, packed in changes.items():
+        body[place : place + len(packed)] = packed
+    return bytes(body) + struct.pack("<I", zlib.crc32(bytes(body)))
+
+
+def test_forged_states_are_refused_and_nothing_changes(instance):
+    one = instance().begin()
+    one.run(0.5, 0.1)
+    saved = one.save_bytes()
+    model = models.load("ratchet").MODEL
+    words = sum(math.prod(shape_of(f, sizes_of(block(model)))) for f in FIELDS if f.room == "state")
+    first = len(saved) - 4 - 8 * words
+    cases = [(what, {first + 8 * place: struct.pack("<Q", bits)}) for what, place, bits in forged_words(model)]
+    cases += [(f"phase {phase}", {24: struct.pack("<I", phase)}) for phase in (4, 2**31)]
+    cases += [(f"{count} parameters", {28: struct.pack("<I", count)}) for count in (0, 2**31)]
+    cases += [("start time", {44: struct.pack("<d", 1e300)}), ("no experiment", {44: struct.pack("<d", math.nan)})]
+    cases += [("first parameter", {68: struct.pack("<d", value)}) for value in (math.nan, -1e300)]
+    assert len(cases) > 60
+    for what, changes in cases:
+        said = len(one.log)
+        with pytest.raises(FMICallException):
+            one.restore_bytes(forged(saved, changes), 0.5)
+        assert any("saved state" in message.text for message in one.log[said:]), what
+        assert one.save_bytes() == saved, what
     one.run(1.0, 0.1)
 
     assert one["impact_time"] == pytest.approx(0.9399211769, rel=1e-9)

@@ -1,6 +1,8 @@
 """Sweeps whose designs take a moment and leave a trace, and a process that runs one until it is killed."""
 
+import gc
 import os
+import socket
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -23,6 +25,8 @@ from harness.designs.workers import Work, here
 SQUARE = Quantity(When.END, "square", "Real", "m2")
 #: Designs with these numbers fail, and crash the process.
 FAILING, DEADLY = 7, 11
+#: In the place of the result of this one, its process may send something else.
+FORGED = 5
 
 
 @dataclass(frozen=True)
@@ -82,6 +86,20 @@ def _far(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
             else Result(design.number, "cheap", (far, x + y))
         )
     return results
+
+
+def _forging(forged: bytes, fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
+    """Runs designs, but sends bytes of its own instead of one result, and ends as if all were well."""
+    if any(design.number == FORGED for design in designs):
+        ends = [one for one in gc.get_objects() if isinstance(one, socket.socket) and one.fileno() >= 0]
+        ends[0].sendall(forged)
+        os._exit(0)
+    return _square(fmu, task, designs)
+
+
+def forging(forged: bytes) -> Way:
+    """The way that forges the result of one design."""
+    return Way("cheap", partial(_forging, forged))  # type: ignore[arg-type]
 
 
 CHEAP = Way("cheap", _square)  # type: ignore[arg-type]

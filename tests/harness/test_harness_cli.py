@@ -1,3 +1,4 @@
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -82,6 +83,21 @@ def test_a_missing_fmu_is_wrong_use(command: str, tmp_path: Path) -> None:
     assert code == 2
     assert "There is no FMU file" in text
     assert "mechanism-fmu build ratchet" in text
+
+
+@pytest.mark.parametrize("command", ["run", "validate"])
+@pytest.mark.parametrize("name", ["../../outside.txt", "resources/../../../outside.txt", "/tmp/outside.txt"])
+def test_an_fmu_that_would_write_outside_its_folder_is_wrong_use(
+    command: str, name: str, slider_crank_fmu: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "leaving.fmu"
+    shutil.copyfile(slider_crank_fmu, path)
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.writestr(name, "anything")
+    code, text = invoke(command, path)
+    assert code == 2
+    assert f"its entry '{name}'" in text
+    assert "leads out of its folder" in text or "has an absolute path" in text
 
 
 @pytest.mark.parametrize("command", ["run", "validate"])

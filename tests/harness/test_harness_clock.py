@@ -66,3 +66,12 @@ def test_steps_of_one_size():
     assert TimeGrid.of(1.0, 0.1).even
     assert TimeGrid.of(0.05, 0.1).even  # one step, though a shorter one
     assert not TimeGrid.of(1.05, 0.1).even
+
+
+def test_steps_are_even_where_none_is_shortened() -> None:
+    assert TimeGrid.of(1.0, 0.25).even
+    assert TimeGrid.of(1.0, 2.0).even  # one step of its own size
+    assert not TimeGrid.of(1.0, 0.75).even
+    assert not TimeGrid.of(1.0, 0.3).even
+    assert TimeGrid.of(1.5, 0.5, 0.5).even
+    assert not TimeGrid.of(1.5, 0.75, 0.5).even

@@ -6,11 +6,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pandas as pd
 import pytest
 from fake_slave import FakeFmu, FakeSlave
+from hypothesis import given
+from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from harness.cli import main
@@ -101,6 +104,19 @@ def test_impacts_of_one_instant_count_once_and_instants_of_one_time_each() -> No
     without = damage_of_impacts(table.drop(columns="instant"), TOOTH, STEEL_CARD)
     assert without is not None
     assert without.impacts == 4
+
+
+@given(st.lists(st.tuples(st.floats(-2.0, 2.0).filter(bool), st.integers(1, 4)), min_size=1, max_size=6), st.randoms())
+def test_however_many_records_an_instant_has_it_counts_once(instants: list[tuple[float, int]], random: Random) -> None:
+    rows = [
+        {"time": 1e-5 * number, "velocity": velocity, "instant": number, "contact": random.randrange(3)}
+        for number, (velocity, records) in enumerate(instants, 1)
+        for _ in range(records)
+    ]
+    times = [1e-5 * number for number in range(1, len(instants) + 1)]
+    found = damage_of_impacts(pd.DataFrame(rows), TOOTH, STEEL_CARD)
+    velocities = [velocity for velocity, _ in instants]
+    assert found == sequence_damage(TOOTH, STEEL, STEEL_CARD.strength, times, velocities)
 
 
 def test_history_begins_with_the_first_impact_and_holds_the_largest_stress() -> None:

@@ -3,15 +3,17 @@
 import math
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from harness.clock import TimeGrid
+from harness.description import Variable
 from harness.designs import by_batch, by_fmu
 from harness.designs.quantities import column
 from harness.designs.task import Design, Task
-from harness.errors import UsageError
+from harness.errors import FmuError, UsageError
 from harness.fmu import Fmu, open_fmu
 from harness.inputs import InputSignals
 
@@ -85,6 +87,7 @@ def test_an_input_out_of_its_limits_fails_the_designs_and_not_the_command(ratche
         drive = fmu.description.variable("drive_torque")
         inputs = InputSignals((drive,), np.array([0.0, 2.5]), np.array([[1e9], [1e9]]))
         found = by_batch.run_designs(fmu, task_of(fmu, inputs), DESIGNS[:2])
+    assert len(found) == 2
     assert all("drive_torque" in (one.failure or "") for one in found)
 
 
@@ -117,3 +120,40 @@ def test_warnings_are_those_of_the_fmu_a_line_each(ratchet_fmu: Path) -> None:
         (found,), (expected,) = (way.run_designs(fmu, task_of(fmu), warned) for way in (by_batch, by_fmu))
     assert found.warnings == expected.warnings
     assert len((found.warnings or "").splitlines()) == 2
+
+
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [(ZeroDivisionError("by zero"), "ZeroDivisionError: by zero"), (FmuError("no tooth."), "no tooth.")],
+)
+def test_an_error_in_what_comes_after_the_batch_fails_its_design_alone(
+    monkeypatch: pytest.MonkeyPatch, error: Exception, says: str
+) -> None:
+    def refuse(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(by_batch, "of_impacts", refuse)
+    monkeypatch.setattr(by_batch, "_impacts", lambda *_: None)
+    task = Task(TimeGrid.of(1.0, 0.1), {}, None, ())
+    found = SimpleNamespace(failures=["", "jammed."], impact_count=[0, 0], warnings=["", ""])
+    fmu = SimpleNamespace(description=None)
+    results = [by_batch._result(fmu, task, DESIGNS[place], found, place) for place in range(2)]  # type: ignore[arg-type]
+    assert [result.failure for result in results] == [says, "jammed."]
+    assert [result.number for result in results] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("kind", "text", "value"),
+    [
+        ("Boolean", "true", 1.0),
+        ("Boolean", "1", 1.0),
+        ("Boolean", "false", 0.0),
+        ("Boolean", "0", 0.0),
+        ("Boolean", None, 0.0),
+        ("Integer", "3", 3.0),
+        ("Real", "2.5", 2.5),
+        ("Real", None, 0.0),
+    ],
+)
+def test_a_start_value_is_that_of_the_description(kind: str, text: str | None, value: float) -> None:
+    assert by_batch._started(Variable("x", 0, kind, "parameter", start=text)) == value

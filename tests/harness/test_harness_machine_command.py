@@ -198,13 +198,14 @@ def test_a_full_disk_ends_the_run_and_leaves_what_can_be_written(machine, tmp_pa
     assert not (folder / "results.parts").exists()
 
 
-def test_control_c_keeps_what_was_recorded(machine, tmp_path, monkeypatch):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_control_c_and_sigterm_keep_what_was_recorded(machine, tmp_path, monkeypatch, number):
     usual = RunDisplay.stepped
 
     def stepped(self: RunDisplay, unit: Observable, time: float) -> None:
         usual(self, unit, time)
         if time == 0.5:
-            os.kill(os.getpid(), signal.SIGINT)
+            os.kill(os.getpid(), number)
 
     monkeypatch.setattr(RunDisplay, "stepped", stepped)
     code, said = invoke("run", machine, "-o", tmp_path / "result")
@@ -212,6 +213,7 @@ def test_control_c_keeps_what_was_recorded(machine, tmp_path, monkeypatch):
     assert "Interrupted: the files hold what was recorded up to 0.5 s of 1 s" in said
     results = pd.read_parquet(tmp_path / "result/results.parquet")
     assert results["time"].iloc[-1] == 0.5
+    assert (tmp_path / "result/report.html").is_file()
 
 
 def test_a_component_in_a_process_of_its_own(machine, tmp_path):

@@ -1,7 +1,7 @@
 """Optima of problems whose answer is known, found the same way each time, also after an interruption."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -206,3 +206,28 @@ def test_nothing_is_asked_for_twice_and_a_small_space_is_soon_exhausted(tmp_path
     assert found(optimum, tmp_path).design.values == {"tooth_count": 17}
     table = store_of(optimum, tmp_path).results()
     assert len(set(table["tooth_count"].to_pylist())) == len(table) <= 16
+
+
+def _with_gaps(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
+    """The valley, but every third design has no objective, and every third no constraint: nobody knows them."""
+    results = []
+    for design, (far, total) in zip(designs, (result.values for result in _smooth(fmu, task, designs)), strict=True):
+        gap = design.number % 3
+        results.append(Result(design.number, "cheap", (None if gap == 1 else far, math.nan if gap == 2 else total)))
+    return results
+
+
+@pytest.mark.parametrize("largest", [False, True])
+def test_whole_numbers_with_designs_of_which_something_is_not_known(tmp_path: Path, largest: bool) -> None:
+    """They are asked for, fail, and the search goes on."""
+    optimum = optimum_of(N, X, count=90, largest=largest, sums=(None, 0.8))
+    history = history_of(optimum, tmp_path, way=replace(VALLEY, run=_with_gaps))  # type: ignore[arg-type]
+    best = search(optimum, history)
+    unknown = [result for result in history.results if None in result.values or math.isnan(result.values[1])]
+    assert len(unknown) == pytest.approx(60, abs=2)
+    assert best.feasible
+    assert best.design.number % 3 == 0
+    assert optimum.goal.violation(best.result, optimum.task) == 0.0
+    known = [result for result in history.results if result not in unknown and result.values[1] <= 0.8]
+    best_known = (max if largest else min)(result.values[0] for result in known)
+    assert best.result.values[0] == best_known

@@ -48,6 +48,14 @@ def read(folder: Path, text: str) -> Optimum:
     return read_optimum(TomlFile.read(path), fake_description())
 
 
+def test_an_optimum_needs_no_constraints_and_no_sensitivity(tmp_path: Path) -> None:
+    begin, end = GOOD.index("[constraint"), GOOD.index("[record]")
+    optimum = read(tmp_path, GOOD[:begin] + GOOD[end:])
+    assert optimum.goal.constraints == ()
+    assert optimum.around is None
+    assert optimum.total == 100
+
+
 def test_a_good_file(tmp_path: Path) -> None:
     optimum = read(tmp_path, GOOD)
     assert [quantity.column for quantity in optimum.task.quantities] == [

@@ -1,3 +1,4 @@
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -75,3 +76,19 @@ def test_angles_are_shown_in_degrees_from_their_start() -> None:
     assert angle.name == "wheel_angle − 0"
     assert angle.y[-1] == pytest.approx(57.29577951308232)
     assert figure.layout.yaxis.title.text == "Angle change [deg]"
+
+
+def test_the_heading_says_which_model_and_the_title_too() -> None:
+    run = run_of(FakeSlave())
+    html = run_report(replace(run, description=replace(run.description, model="Pawl & <wheel>")))
+    assert html.count("<h1>") == 1
+    assert "<title>Pawl &amp; &lt;wheel&gt;</title>" in html
+    assert "<header><h1>Pawl &amp; &lt;wheel&gt;</h1><p>" in html
+
+
+def test_the_line_below_it_says_what_was_run() -> None:
+    html = run_report(run_of(FakeSlave(impacts=[0.5])))
+    subtitle = re.search(r"</h1><p>(.*?)</p>", html)
+    assert subtitle is not None
+    for part in ("Fake.fmu", "1 s", "0.1 s"):
+        assert part in subtitle[1]

@@ -12,6 +12,7 @@ from harness.interrupt import interruption
 from harness.numbers import engineering, shown
 from harness.report.thin import thin
 from harness.terminal import RunDisplay, console
+from harness.termination import terminable
 
 
 @pytest.mark.parametrize(
@@ -75,17 +76,35 @@ def test_the_bar_appears_only_when_the_run_takes_long() -> None:
         assert (display._bar.tasks[0].completed, display._bar.tasks[0].description) == (9.0, "1.5 x real time")
 
 
-def test_ctrl_c_is_a_request_the_first_time_and_an_exception_the_second() -> None:
+@pytest.mark.parametrize("first", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("second", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_is_a_request_the_first_time_and_an_exception_the_second(
+    first: signal.Signals, second: signal.Signals
+) -> None:
     asked: list[str] = []
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background process ignores it
-    with interruption(lambda: asked.append("noticed")) as stop_requested:
-        assert not stop_requested()
-        os.kill(os.getpid(), signal.SIGINT)
-        assert stop_requested()
-        assert asked == ["noticed"]
+    with terminable():
+        with interruption(lambda: asked.append("noticed")) as stop_requested:
+            assert not stop_requested()
+            os.kill(os.getpid(), first)
+            assert stop_requested()
+            assert asked == ["noticed"]
+            with pytest.raises(KeyboardInterrupt):
+                os.kill(os.getpid(), second)
         with pytest.raises(KeyboardInterrupt):
-            os.kill(os.getpid(), signal.SIGINT)
+            os.kill(os.getpid(), signal.SIGTERM)
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+
+
+def test_who_has_sigterm_ignored_keeps_it_so() -> None:
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    try:
+        with terminable():
+            os.kill(os.getpid(), signal.SIGTERM)
+        assert signal.getsignal(signal.SIGTERM) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 def test_outside_the_main_thread_nobody_asks() -> None:

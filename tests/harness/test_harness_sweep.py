@@ -43,7 +43,8 @@ from harness.designs.store import Store, failures
 from harness.designs.sweep import Progress, perform_sweep
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.ways import Way
-from harness.designs.workers import Processes, Work, here
+from harness.designs.worker_processes import Processes
+from harness.designs.workers import Work, here
 from harness.errors import UsageError
 
 

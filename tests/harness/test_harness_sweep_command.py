@@ -2,10 +2,13 @@
 
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
 import time
+import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
 import pandas as pd
@@ -114,6 +117,22 @@ def test_two_ways_at_once_are_wrong_use(slider_crank_fmu: Path, tmp_path: Path) 
     assert "--fast uses the threads of this machine" in text
 
 
+def test_the_fast_way_runs_nobody_else_s_python_untold(slider_crank_fmu: Path, tmp_path: Path) -> None:
+    """One that was changed by as little as a comment is somebody else's, whatever it says of itself."""
+    foreign = tmp_path / "SliderCrank.fmu"
+    shutil.copyfile(slider_crank_fmu, foreign)
+    with zipfile.ZipFile(foreign, "a") as archive:
+        archive.comment = b"from somebody else"
+    path = file_of(tmp_path, foreign, 1)
+    code, text = invoke(path, "-o", tmp_path / "out", "--fast")
+    assert code == 2
+    assert "--fast runs the Python sources in" in text
+    assert "add --trust if you trust whoever made it" in text
+    assert not (tmp_path / "out" / "results.parquet").exists()
+    assert invoke(path, "-o", tmp_path / "out", "--fast", "--trust")[0] == 0
+    assert invoke(file_of(tmp_path, slider_crank_fmu, 1), "-o", tmp_path / "own", "--fast")[0] == 0
+
+
 def test_what_was_begun_one_way_is_finished_the_other(slider_crank_fmu: Path, tmp_path: Path) -> None:
     path, out = file_of(tmp_path, slider_crank_fmu, 8, longest=2000), tmp_path / "out"
     assert invoke(path, "-o", out, "--workers", "1")[0] == 1
@@ -137,17 +156,31 @@ def test_mistakes_are_wrong_use_and_nothing_is_run(slider_crank_fmu: Path, tmp_p
     assert not (tmp_path / "out").exists()
 
 
-def test_ctrl_c_ends_cleanly_and_the_same_command_goes_on(slider_crank_fmu: Path, tmp_path: Path) -> None:
-    path, out = file_of(tmp_path, slider_crank_fmu, 2000), tmp_path / "out"
+@pytest.mark.parametrize(
+    ("send", "number"),
+    [(os.killpg, signal.SIGINT), (os.kill, signal.SIGTERM), (os.killpg, signal.SIGTERM)],
+    ids=["a terminal's Ctrl-C", "SIGTERM", "SIGTERM to all of the group"],
+)
+def test_ctrl_c_and_sigterm_end_cleanly(
+    slider_crank_fmu: Path, tmp_path: Path, send: Callable[[int, int], None], number: signal.Signals
+) -> None:
+    path, out, temporary = file_of(tmp_path, slider_crank_fmu, 2000), tmp_path / "out", tmp_path / "temporary"
+    temporary.mkdir()
     with subprocess.Popen(
-        [*COMMAND, path, "-o", out, "--workers", "1"], stdout=subprocess.PIPE, text=True, start_new_session=True
+        [*COMMAND, path, "-o", out, "--workers", "1"],
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        env=os.environ | {"TMPDIR": str(temporary)},
     ) as process:
         wait_for_parts(out, 3, process)
-        os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the workers, too
+        send(process.pid, number)
         text, _ = process.communicate()
     assert process.returncode == 130
     kept = len(pd.read_parquet(out / "parts"))
+    assert 3 <= kept < 2000
     assert f"Interrupted: {kept} of 2000 designs are kept" in " ".join(text.split())
+    assert [path.name for path in temporary.iterdir() if path.name.startswith("mechanism-fmu-")] == []
 
 
 def wait_for_parts(out: Path, enough: int, process: "subprocess.Popen[str]") -> None:

@@ -200,6 +200,11 @@ MISTAKES = {
         "values = 3",
         "29: vary.gear.values: must be a list, as in values = [10, 15, 20]",
     ),
+    "an empty list of values": (
+        "values = [1, 3]",
+        "values = []",
+        "29: vary.gear.values: must be a list, as in values = [10, 15, 20]",
+    ),
     "a text among values": (
         "values = [1, 3]",
         'values = [1, "3"]',

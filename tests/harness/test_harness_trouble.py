@@ -1,6 +1,7 @@
 """FMUs that fail: each in a process of its own, because what is tested is that it survives."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -91,7 +92,7 @@ def test_a_failure_at_the_start_writes_nothing(run: Run, tmp_path: Path) -> None
     assert code == 1
     assert "failed before the first step (fmi2ExitInitializationMode, status fatal): the crank is too short" in err
     assert out.strip() == ""
-    assert list(tmp_path.iterdir()) == []
+    assert [path.name for path in tmp_path.iterdir()] == [".lock"]
 
 
 def test_an_fmu_that_cannot_be_instantiated(run: Run, tmp_path: Path) -> None:
@@ -109,19 +110,24 @@ def test_a_temporary_folder_that_crashes_fmus_is_avoided(run: Run, tmp_path: Pat
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C cannot be sent to one process there")
-def test_ctrl_c_keeps_what_was_recorded(troublesome_fmu: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "results"
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_and_sigterm_keep_what_was_recorded(
+    troublesome_fmu: Path, tmp_path: Path, number: signal.Signals
+) -> None:
+    folder, temporary = tmp_path / "results", tmp_path / "temporary"
+    temporary.mkdir()
     long = ["--stop-time", "1e3", "--step", "1e-3", "--set", "trouble=4", "-o", str(folder)]
     with subprocess.Popen(
         [sys.executable, "-c", _RUN, "run", str(troublesome_fmu), *long],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        env=os.environ | {"TMPDIR": str(temporary)},
     ) as process:
         assert process.stderr is not None
         try:
             assert "Warning (Troublesome, t = 0.45" in process.stderr.readline()  # so it runs
-            process.send_signal(signal.SIGINT)
+            process.send_signal(number)
             out, _ = process.communicate(timeout=120)
         finally:
             process.kill()
@@ -131,3 +137,5 @@ def test_ctrl_c_keeps_what_was_recorded(troublesome_fmu: Path, tmp_path: Path) -
     assert how == "interrupted"
     assert 0.0 < reached < 1e3
     assert len((folder / "results.csv").read_text().splitlines()) == round(reached / 1e-3) + 2
+    assert {path.name for path in folder.iterdir()} >= {"results.csv", "impacts.csv", "summary.json", "report.html"}
+    assert list(temporary.iterdir()) == []

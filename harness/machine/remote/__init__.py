@@ -8,6 +8,6 @@ Two FMUs of pythonfmu whose scripts have the same name, for instance, cannot be 
 - `far_side`: what runs there
 """
 
-from .process import TIME_LIMIT, in_own_process, remote
+from .process import TIME_LIMIT, RemoteFmu, in_own_process, remote
 
-__all__ = ["TIME_LIMIT", "in_own_process", "remote"]
+__all__ = ["TIME_LIMIT", "RemoteFmu", "in_own_process", "remote"]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...description import Description, Value
 from ...messages import LogMessage
 from ...slave import whole_step
+from ...wire import BrokenFrameError
 from .link import Link
+from .plain import number
 from .reals import RemoteReals
 from .round_trips import RoundTrips
 
@@ -26,7 +29,7 @@ class RemoteComponent:
         process: its process.
     """
 
-    def __init__(self, link: Link, time_limit: float) -> None:
+    def __init__(self, link: Link, description: Description, time_limit: float) -> None:
         """Wait for the component; `time_limit` of a call [s].
 
         Raises:
@@ -36,9 +39,9 @@ class RemoteComponent:
         self.process = link.process
         self.messages: list[LogMessage] = link.messages
         self._link = link
-        self._trips = RoundTrips(link, time_limit)
+        self.description = description
+        self._trips = RoundTrips(link, description, time_limit)
         self._start = 0.0
-        self.description: Description = self._trips.description
 
     def reals(self, names: Sequence[str]) -> RemoteReals:
         """Bind Real variables."""
@@ -74,8 +77,11 @@ class RemoteComponent:
 
     def advance(self, time: float, size: float) -> float:
         """As `step`, but the component may return early; the time reached [s]."""
-        reached: float = self._trips.step("advance", time, size)
-        return reached
+        reached = self._trips.step("advance", time, size)
+        try:
+            return number(reached)
+        except BrokenFrameError as error:
+            raise self._link.broken("advance", str(error)) from None
 
     def terminate(self) -> None:
         """End the run."""
@@ -95,3 +101,21 @@ class RemoteComponent:
     def free_state(self, state: Any) -> None:
         """Release a snapshot."""
         self._trips.order("free_state", state)
+
+    def reset(self) -> None:
+        """Be as just after the instantiation (FMUs only)."""
+        self._link.time = None
+        self._trips.call("reset")
+
+    def serialize(self, state: Any) -> bytes:
+        """A snapshot as bytes (FMUs only)."""
+        try:
+            return base64.b64decode(self._trips.call("serialize", state), validate=True)
+        except (TypeError, ValueError) as error:
+            raise self._link.broken("serialize", f"a state that is none ({error})") from None
+
+    def deserialize(self, data: bytes) -> Any:
+        """A snapshot from bytes (FMUs only)."""
+        number = self._trips.number()
+        self._trips.call("deserialize", number, base64.b64encode(data).decode("ascii"))
+        return number

@@ -1,79 +1,103 @@
 """What a process does that has one component: it obeys the machine's process (`remote`) until that says "end".
 
-A request is a tuple of
+A request is plain data (`wire`, `plain`) of
 
 - orders: what is to be done first, as (name, arguments ...); nobody waits for each of them;
-- call: "enter_initialization", "exit_initialization", "advance", "terminate", "look" or "end", with its arguments;
+- call: "enter_initialization", "exit_initialization", "advance", "terminate", "look", "end", ..., with its arguments;
 - wanted: numbers of the questions that are to be answered with the reply.
 
-A reply is a tuple (whether all went well, result or exception, answers, messages); an answer is (whether it went well,
-values or exception). So a step costs one request and one reply, whatever is written before it and read after it.
+A reply is (whether all went well, result or error, answers, messages); an answer is (whether it went well, values or
+error). Values of Reals go as doubles in the tail of the frame, in the order in which they are mentioned. So a step
+costs one request and one reply, whatever is written before it and read after it.
 """
 
 from __future__ import annotations
 
-import pickle
+import base64
+import signal
+import socket
+from array import array
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
-from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
-from ...errors import FmuError, HarnessError
+from ...description import Description
 from ...fmu.slave import MessageHandler
 from ...messages import LogMessage
 from ...processes import serve_only
+from ...wire import BrokenFrameError, Wire
 from ..component import Component, Reals
-
-#: Makes a component that tells its messages to the given function; can be pickled.
-Opener = Callable[[MessageHandler], AbstractContextManager[Component]]
+from .plain import Numbers, Types, packed_error, packed_messages
+from .questions import packed_answer
 
 #: (orders, call, arguments of the call, numbers of wanted answers).
 Request = tuple[Sequence[tuple[Any, ...]], str, tuple[Any, ...], Sequence[int]]
 
+#: Orders with numbers, which go in the tail.
+WRITES = ("write", "write_slopes")
 
-def serve(pipe: Pipe, name: str, opener: Opener, folder: Path | None) -> None:
+
+class Opener(Protocol):
+    """Makes a component in its process; can be pickled, for the way there."""
+
+    @property
+    def description(self) -> Description:
+        """Of the component: known here, and not asked of it."""
+
+    def __call__(self, on_message: MessageHandler, /) -> AbstractContextManager[Component]:
+        """A component that tells its messages to the given function."""
+
+
+def serve(end: socket.socket, name: str, opener: Opener, folder: Path | None) -> None:
     """Have a component until the other side says "end", or is gone.
 
     Args:
-        pipe: to the other side.
+        end: of the connection to the other side.
         name: of the component, for messages.
         opener: makes it.
         folder: to be removed when the other side's process was killed.
     """
-    end = serve_only(folder)
+    leader = serve_only(folder)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # sent to all of a group: the one that leads ends this one
     try:
-        _have_component(pipe, name, opener)
+        _have_component(Wire(end), name, opener)
     except (EOFError, ConnectionError):  # nobody is there any more
-        end.join()
+        leader.join()
 
 
-def _have_component(pipe: Pipe, name: str, opener: Opener) -> None:
+def _have_component(wire: Wire, name: str, opener: Opener) -> None:
     messages: list[LogMessage] = []
     try:
         with opener(messages.append) as component:
-            _send(pipe, True, component.description, [], messages)
-            _obey(pipe, _Servant(component), messages)
-        _send(pipe, True, None, [], messages)
+            _send(wire, True, None, [], messages)
+            _obey(wire, _Servant(component), messages)
+        _send(wire, True, None, [], messages)
     except (EOFError, ConnectionError):
         raise
     except Exception as error:
-        _send(pipe, False, _told(error, name), [], messages)
+        _send(wire, False, packed_error(error, name), [], messages)
 
 
-def _obey(pipe: Pipe, servant: _Servant, messages: list[LogMessage]) -> None:
+def _obey(wire: Wire, servant: _Servant, messages: list[LogMessage]) -> None:
     while True:
-        orders, call, arguments, wanted = pickle.loads(pipe.recv_bytes())
+        (orders, call, arguments, wanted), tail = wire.receive()
         if call == "end":
             return
         try:
+            numbers = Numbers(tail)
             for order, *details in orders:
+                if order in WRITES:
+                    number, count = details
+                    details = [number, numbers.take(count)]
                 getattr(servant, order)(*details)
             result = getattr(servant, call)(*arguments)
         except Exception as error:
-            _send(pipe, False, _told(error, servant.component.name), [], messages)
+            _send(wire, False, packed_error(error, servant.component.name), [], messages)
         else:
-            _send(pipe, True, result, [servant.answer(number) for number in wanted], messages)
+            answered = array("d")
+            answers = [servant.answer(number, answered) for number in wanted]
+            _send(wire, True, result, answers, messages, answered.tobytes())
 
 
 class _Servant:
@@ -87,7 +111,7 @@ class _Servant:
         self.advance = component.advance
         self.terminate = component.terminate
         self._bound: dict[int, Reals] = {}
-        self._questions: dict[int, Callable[[], Any]] = {}
+        self._questions: dict[int, tuple[str, Types, Callable[[], Any]]] = {}
         self._states: dict[int, Any] = {}
 
     def bind(self, number: int, names: Sequence[str]) -> None:
@@ -114,40 +138,59 @@ class _Servant:
 
     def ask(self, number: int, kind: str, names: Sequence[str]) -> None:
         """Learn a question, for `answer`."""
+        types = Types.of([self.component.description.variable(name) for name in names])
         if kind == "get":
-            self._questions[number] = lambda: self.component.get(names)
+            self._questions[number] = kind, types, lambda: self.component.get(names)
             return
         reals = self.component.reals(names)
 
-        def read() -> list[float]:
+        def read() -> Sequence[float]:
             reals.read()
-            return list(reals.values)
+            return reals.values
 
-        def read_slopes() -> tuple[bool, list[float]]:
+        def read_slopes() -> tuple[bool, Sequence[float]]:
             told = reals.read_slopes()
-            return told, list(reals.values)
+            return told, reals.values
 
-        self._questions[number] = read if kind == "read" else read_slopes
+        self._questions[number] = kind, types, read if kind == "read" else read_slopes
 
-    def answer(self, number: int) -> tuple[bool, Any]:
+    def answer(self, number: int, tail: array[float]) -> tuple[bool, Any]:
         """Whether a question can be answered, and the answer, or why not: that matters to those who ask it only."""
+        kind, types, find = self._questions[number]
+        before = len(tail)
         try:
-            return True, self._questions[number]()
+            return True, packed_answer(kind, types, find(), tail)
         except Exception as error:
-            return False, _told(error, self.component.name)
+            del tail[before:]
+            return False, packed_error(error, self.component.name)
+
+    def reset(self) -> None:
+        """As `FmuSlave.reset`."""
+        self._fmu.reset()
+
+    def serialize(self, number: int) -> str:
+        """A snapshot as bytes, in base 64."""
+        return base64.b64encode(self._fmu.serialize(self._states[number])).decode("ascii")
+
+    def deserialize(self, number: int, data: str) -> None:
+        """A snapshot from bytes."""
+        self._states[number] = self._fmu.deserialize(base64.b64decode(data))
+
+    @property
+    def _fmu(self) -> Any:
+        """The component, which must be an instance of an FMU here."""
+        return self.component
 
     def look(self) -> None:
         """Nothing but orders and answers."""
 
 
-def _told(error: Exception, name: str) -> HarnessError:
-    """What the other side can raise in its turn."""
-    if isinstance(error, HarnessError):
-        return error
-    return FmuError(f"{name} failed in its process: {type(error).__name__}: {error}", instance=name)
-
-
-def _send(pipe: Pipe, well: bool, result: Any, answers: Sequence[Any], messages: list[LogMessage]) -> None:
-    said = tuple(messages)
+def _send(
+    wire: Wire, well: bool, result: Any, answers: Sequence[Any], messages: list[LogMessage], tail: bytes = b""
+) -> None:
+    said = packed_messages(messages)
     messages.clear()
-    pipe.send_bytes(pickle.dumps((well, result, answers, said), pickle.HIGHEST_PROTOCOL))
+    try:
+        wire.send((well, result, answers, said), tail)
+    except BrokenFrameError as error:
+        wire.send((False, packed_error(error, "it"), [], []))

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...description import Description
 from ...fmu import Fmu
 from ...fmu.slave import MessageHandler, discard_message
 from ...processes import starting_from
+from ...wire import Wire
 from . import far_side
 from .component import RemoteComponent
 from .far_side import Opener
@@ -46,12 +49,50 @@ def in_own_process(
 
 
 @dataclass(frozen=True)
+class RemoteFmu:
+    """An extracted FMU whose instances have a process of their own each (`slave.Instances`).
+
+    Attributes:
+        fmu: it.
+        time_limit: of a call [s].
+    """
+
+    fmu: Fmu
+    time_limit: float = TIME_LIMIT
+
+    @property
+    def path(self) -> Path:
+        """The file it came from."""
+        return self.fmu.path
+
+    @property
+    def description(self) -> Description:
+        """What it says about itself."""
+        return self.fmu.description
+
+    @property
+    def folder(self) -> Path:
+        """Where it is extracted."""
+        return self.fmu.folder
+
+    def instantiate(
+        self, name: str, on_message: MessageHandler = discard_message
+    ) -> AbstractContextManager[RemoteComponent]:
+        """A new instance in a new process; both are ended afterwards."""
+        return in_own_process(self.fmu, name, on_message, self.time_limit)
+
+
+@dataclass(frozen=True)
 class _FmuOpener:
     """How the other process makes an instance of an FMU that this one has extracted."""
 
     fmu: Fmu
     name: str
     early_return: bool
+
+    @property
+    def description(self) -> Description:
+        return self.fmu.description
 
     def __call__(self, on_message: MessageHandler) -> Any:
         return self.fmu.instantiate(self.name, on_message, self.early_return)
@@ -69,7 +110,7 @@ def remote(
 
     Args:
         name: of the part.
-        opener: makes the component there; must be such that it can be pickled.
+        opener: makes the component there; must be such that it can be pickled, for the way there.
         on_message: receives its messages, with the reply to the call during which they came.
         time_limit: of a call [s]; ten times as much for the start and the initialization.
         folder: that the component lives in; the process removes it when this one is killed.
@@ -78,13 +119,13 @@ def remote(
         FmuError: the component cannot be made, or the process ends.
     """
     context = starting_from(far_side.__name__)
-    here, there = context.Pipe()
+    here, there = socket.socketpair()
     process = context.Process(target=far_side.serve, args=(there, name, opener, folder), name=name, daemon=True)  # type: ignore[attr-defined]
     try:
         process.start()
-        there.close()  # so that the end of the process is the end of the pipe
-        link = Link(name, process, here, on_message)
-        component = RemoteComponent(link, time_limit)
+        there.close()  # so that the end of the process is the end of the connection
+        link = Link(name, process, Wire(here), on_message)
+        component = RemoteComponent(link, opener.description, time_limit)
         try:
             yield component
         finally:

@@ -24,7 +24,7 @@ class RoundTrips:
         description: of the component.
     """
 
-    def __init__(self, link: Link, time_limit: float) -> None:
+    def __init__(self, link: Link, description: Description, time_limit: float) -> None:
         """Wait for the component; `time_limit` of a call [s]."""
         self._link = link
         self._limit = time_limit
@@ -33,7 +33,8 @@ class RoundTrips:
         self._asked: dict[Question, None] = {}
         self._asked_before: dict[Question, None] = {}
         self._numbers = count(1)
-        self.description: Description = link.receive("start", self._patience)[0]
+        self.description = description
+        link.receive("start", self._patience)
 
     def number(self) -> int:
         """A new one, by which both sides know something."""
@@ -93,10 +94,7 @@ class RoundTrips:
     def _call(self, name: str, arguments: tuple[Any, ...], wanted: tuple[Question, ...]) -> Any:
         orders, self._orders = self._orders, []
         request = orders, name, arguments, [q.number for q in wanted]
-        result, answers = self._link.ask(request, self._patience)
-        for q, answer in zip(wanted, answers, strict=True):
-            q.answer = answer
-        return result
+        return self._link.ask(request, self._patience, wanted)
 
     def _question(self, kind: str, names: tuple[str, ...]) -> Question:
         if (kind, names) not in self._questions:

@@ -7,11 +7,13 @@ in one piece; work is scratch that no result depends on.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ... import codes
+from .contents import ANY, COUNT, FINITE, FLAG, MOST, NOT_NAN, NOT_NEGATIVE, WHOLE, Holds, index_of, whole
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -82,19 +84,87 @@ GIVEN_SIZES = (
 
 
 class Field(NamedTuple):
-    """A field: its room ("tables", "state" or "work"), name, shape (names of sizes, or numbers) and type."""
+    """A field: its room ("tables", "state" or "work"), name, shape (names of sizes, or numbers), type, and contents.
+
+    `holds` is what may stand in it: declared for every field of the state (None elsewhere), column by column where the
+    columns differ; the last declaration is that of all columns behind it, too.
+    """
 
     room: str
     name: str
     shape: tuple[str | int, ...]
     integer: bool = False
+    holds: tuple[Holds, ...] | None = None
 
+
+#: Subject of a guard: a contact, pattern or logical function, or the status of a failure; the guard says which.
+_SUBJECT = whole(codes.NONE, int(MOST))
+
+#: Columns of the clock and of the counters, in the order of `codes`.
+_CLOCK = {
+    "TIME": FINITE,
+    "STEP_START": FINITE,
+    "STEP_END": FINITE,
+    "STEP_SIZE": NOT_NEGATIVE,
+    "NEXT_STEP": NOT_NEGATIVE._replace(high=math.inf, nan=True),
+    "LAST_EVENT": FINITE,
+    "RAMP_START": FINITE,
+    "RAMP_END": FINITE,
+    "STEP_BEGUN": FINITE,
+}
+_COUNTERS = {
+    "COUNT_IMPACTS": COUNT,
+    "COUNT_IN_STEP": whole(0, codes.IMPACT_BUFFER_LENGTH),
+    "COUNT_LOST": COUNT,
+    "COUNT_STEPS": COUNT,
+    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_FAILED),
+    "PENDING_SUBJECT": _SUBJECT,
+    "COUNT_PULLS": WHOLE,
+    "COUNT_EVENTS": COUNT,
+    "EVENTS_IN_STEP": whole(0, codes.EVENT_BUFFER_LENGTH),
+    "PILE": COUNT,
+    "RAMPING": FLAG,
+    "RANK": whole(0, 0, "rows"),
+    "FALLING": FLAG,
+    "COUNT_INSTANTS": COUNT,
+    "STEPS_IN_STEP": COUNT,
+}
+#: Columns of an impact record, the last one for all behind it, and of an event record.
+_RECORD = {
+    "RECORD_TIME": FINITE,
+    "RECORD_CONTACT": index_of("contacts"),
+    "RECORD_TOOTH": WHOLE,
+    "RECORD_CLOSING_SPEED": FINITE,
+    "RECORD_IMPULSE": FINITE,
+    "RECORD_VELOCITY": FINITE,
+    "RECORD_INSTANT": COUNT,
+    "RECORD_ENERGY": FINITE,
+    "RECORD_CONTACT_IMPULSES": FINITE,
+}
+_EVENT = {
+    "EVENT_TIME": FINITE,
+    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_FAILED),
+    "EVENT_SUBJECT": _SUBJECT,
+    "EVENT_OLD_MODE": COUNT,
+    "EVENT_NEW_MODE": COUNT,
+    "EVENT_IMPULSE": FINITE,
+}
+
+#: Names of the columns of fields whose columns differ, as in `codes`.
+COLUMNS = {
+    "clock": tuple(_CLOCK),
+    "counters": tuple(_COUNTERS),
+    "last_impact": tuple(_RECORD),
+    "impacts": tuple(_RECORD),
+    "events": tuple(_EVENT),
+}
 
 FIELDS = (
     Field("tables", "inverse_mass", ("columns",)),
     Field("tables", "inverse_root_mass", ("columns",)),
     Field("tables", "body_start", ("bodies", 3)),
     Field("tables", "body_start_rate", ("bodies", 3)),
+    Field("tables", "body_tooth_length", ("bodies",)),
     Field("tables", "joint_kind", ("joints",), True),
     Field("tables", "joint_body_i", ("joints",), True),
     Field("tables", "joint_body_j", ("joints",), True),
@@ -113,7 +183,6 @@ FIELDS = (
     Field("tables", "contact_pattern", ("contacts",), True),
     Field("tables", "contact_function", ("contacts",), True),
     Field("tables", "contact_closes_when", ("contacts",), True),
-    Field("tables", "contact_toothed", ("contacts",), True),
     Field("tables", "contact_data", ("contacts", 6)),
     Field("tables", "contact_row_first", ("contacts",), True),
     Field("tables", "contact_alpha", ("contacts",), True),
@@ -144,7 +213,7 @@ FIELDS = (
     Field("tables", "output_index", ("outputs",), True),
     Field("tables", "output_slot", ("outputs",), True),
     Field("tables", "output_value", ("outputs",)),
-    Field("tables", "settings", (3,)),
+    Field("tables", "settings", (codes.SETTINGS,)),
     Field("tables", "node_body", ("nodes",), True),
     Field("tables", "node_point", ("nodes", 2)),
     Field("tables", "member_start", ("members",), True),
@@ -161,30 +230,30 @@ FIELDS = (
     Field("tables", "beam_body", ("beams",), True),
     Field("tables", "beam_row", ("beams",), True),
     Field("tables", "beam_data", ("beams", codes.BEAM_COLUMNS)),
-    Field("state", "clock", (codes.CLOCK_LENGTH,)),
-    Field("state", "counters", (codes.COUNTERS_LENGTH,), True),
-    Field("state", "ledger", (codes.LEDGER_LENGTH,)),
-    Field("state", "inputs", ("inputs",)),
-    Field("state", "held_inputs", ("inputs",)),
-    Field("state", "input_slopes", ("inputs",)),
-    Field("state", "held_slopes", ("inputs",)),
-    Field("state", "y_end", ("unknowns",)),
-    Field("state", "dy_end", ("unknowns",)),
-    Field("state", "dense", (5, "unknowns")),
-    Field("state", "independence_end", (1,)),
-    Field("state", "contact_mode", ("contacts",), True),
-    Field("state", "contact_touching", ("contacts",), True),
-    Field("state", "contact_clicks", ("contacts",), True),
-    Field("state", "contact_line", ("contacts", 4)),
-    Field("state", "contact_hollow", ("contacts",), True),
-    Field("state", "alpha_haste", ("alphas",)),
-    Field("state", "pattern_copy", ("patterns",), True),
-    Field("state", "pattern_line", ("patterns", 8)),
-    Field("state", "function_true", ("functions",), True),
-    Field("state", "pull_time", ("contacts",)),
-    Field("state", "last_impact", ("record",)),
-    Field("state", "impacts", ("buffer", "record")),
-    Field("state", "events", (codes.EVENT_BUFFER_LENGTH, codes.EVENT_COLUMNS)),
+    Field("state", "clock", (codes.CLOCK_LENGTH,), holds=tuple(_CLOCK.values())),
+    Field("state", "counters", (codes.COUNTERS_LENGTH,), True, tuple(_COUNTERS.values())),
+    Field("state", "ledger", (codes.LEDGER_LENGTH,), holds=(FINITE,)),
+    Field("state", "inputs", ("inputs",), holds=(FINITE,)),
+    Field("state", "held_inputs", ("inputs",), holds=(FINITE,)),
+    Field("state", "input_slopes", ("inputs",), holds=(FINITE,)),
+    Field("state", "held_slopes", ("inputs",), holds=(FINITE,)),
+    Field("state", "y_end", ("unknowns",), holds=(FINITE,)),
+    Field("state", "dy_end", ("unknowns",), holds=(ANY,)),
+    Field("state", "dense", (5, "unknowns"), holds=(FINITE,)),
+    Field("state", "independence_end", (1,), holds=(ANY,)),
+    Field("state", "contact_mode", ("contacts",), True, (whole(codes.OPEN, codes.CLOSED),)),
+    Field("state", "contact_touching", ("contacts",), True, (FLAG,)),
+    Field("state", "contact_clicks", ("contacts",), True, (COUNT,)),
+    Field("state", "contact_line", ("contacts", 4), holds=(FINITE,)),
+    Field("state", "contact_hollow", ("contacts",), True, (whole(codes.CONVEX, codes.BRIDGES),)),
+    Field("state", "alpha_haste", ("alphas",), holds=(NOT_NAN,)),
+    Field("state", "pattern_copy", ("patterns",), True, (WHOLE,)),
+    Field("state", "pattern_line", ("patterns", 8), holds=(FINITE,)),
+    Field("state", "function_true", ("functions",), True, (FLAG,)),
+    Field("state", "pull_time", ("contacts",), holds=(NOT_NAN,)),
+    Field("state", "last_impact", ("record",), holds=tuple(_RECORD.values())),
+    Field("state", "impacts", ("buffer", "record"), holds=tuple(_RECORD.values())),
+    Field("state", "events", (codes.EVENT_BUFFER_LENGTH, codes.EVENT_COLUMNS), holds=tuple(_EVENT.values())),
     Field("work", "x", ("frames",)),
     Field("work", "y", ("frames",)),
     Field("work", "phi", ("frames",)),
@@ -230,6 +299,7 @@ FIELDS = (
     Field("work", "independence", (1,)),
     Field("work", "stage", (1,), True),
     Field("work", "stage_independence", (7,)),
+    Field("work", "stage_stiffest", (1,), True),
     Field("work", "dual", ("rows",)),
     Field("work", "force", ("columns",)),
     Field("work", "applied", ("columns",)),

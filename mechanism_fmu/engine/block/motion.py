@@ -121,7 +121,7 @@ class Stages(NamedTuple):
     """Scratch of one Runge-Kutta step.
 
     `tried`: start and size of the one last tried [s]; `independence` of the rows at each of its stages, of which
-    `stage` is the one computed last.
+    `stage` is the one computed last; `stiffest` is the unknown that limited the steps, once that was asked.
     """
 
     derivatives: Array
@@ -134,6 +134,7 @@ class Stages(NamedTuple):
     new_dense: Array
     stage: Array
     independence: Array
+    stiffest: Array
 
 
 stages = room(Stages, "stage_")

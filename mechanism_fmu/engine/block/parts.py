@@ -56,6 +56,7 @@ class Bodies(NamedTuple):
     inverse_root_mass: Array
     start: Array
     start_rate: Array
+    tooth_length: Array
 
 
 bodies = room(Bodies, "body_")
@@ -112,7 +113,6 @@ class Contacts(NamedTuple):
     gap was zero when the step began, the clicks of a stop with memory, the line of the present copy (of stops and
     locks: the present angle), whether profiles have hollows (`codes.CONVEX` ...), one over how far their contact
     coordinates may go in a step [1/rad], and the first time at which a guided contact pulled [s] (infinity: never).
-    `toothed` is the body whose jump of rate an impact of the contact records, or `codes.NONE`.
     `row` is the constraint row of a closed contact; `least_push` the least contact force of the step last tried, over
     its tolerance.
     Contacts of profiles have contact coordinates, the first of which is `alpha`, and curves; `row_first` counts the
@@ -125,7 +125,6 @@ class Contacts(NamedTuple):
     pattern: Array
     function: Array
     closes_when: Array
-    toothed: Array
     data: Array
     row_first: Array
     alpha: Array

@@ -14,6 +14,7 @@ import numba
 from numba import types
 from numba.extending import lower_builtin, type_callable
 
+from .kept_code import check_files
 from .whole_program import InnerCompiler, refuse_python_calls
 
 #: Numba does not notice a change in a callee, so a compilation is kept on disk only for the copy of the library that
@@ -42,7 +43,10 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 def entry(function: _Function) -> _Function:
     """Compile a function that Python calls."""
-    return cast(_Function, numba.njit(**_OPTIONS)(function))
+    compiled = numba.njit(**_OPTIONS)(function)
+    if KEEP_COMPILED and compiled is not function:  # which it is when NUMBA_DISABLE_JIT=1
+        check_files(compiled)
+    return cast(_Function, compiled)
 
 
 def jit(function: _Function) -> _Function:

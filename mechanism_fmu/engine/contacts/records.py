@@ -5,7 +5,7 @@ from __future__ import annotations
 from ... import codes
 from ..block.layout import Array
 from ..block.motion import course, strikes
-from ..block.parts import contacts, patterns, sizes
+from ..block.parts import bodies, contacts, patterns, sizes
 from ..compiler.subset import jit, keep_small
 
 
@@ -48,7 +48,8 @@ def keep_impact(block: Array, contact: int) -> None:
 def complete_impacts(block: Array, made: int, energy: float) -> None:
     """Write what all impacts of an instant share into each of its records, which are the last `made` ones.
 
-    These are the rates before its first round and after its last one, v_I, and the `energy` [J] that all of them lost.
+    These are the rates before its first round and after it has settled, v_I, and the `energy` [J] lost from then to
+    then.
     """
     keep_small()
     now = course(block)
@@ -65,22 +66,23 @@ def complete_impacts(block: Array, made: int, energy: float) -> None:
 
 @jit
 def _share(block: Array, record: Array) -> None:
-    """Write rates before the instant, those at y_end, and v_I = l (rate after - rate before) of the toothed body."""
+    """Write rates before the instant, those at y_end, and v_I = l (rate after - rate before) of the body with teeth.
+
+    Other bodies have l = 0; there is one with teeth at the most (`model.sources`).
+    """
     keep_small()
     n = sizes(block).coordinates
-    table = contacts(block)
+    tooth_length = bodies(block).tooth_length
     rate = course(block).y_end[n:]
     before = strikes(block).rates_before
-    first = codes.RECORD_CONTACT_IMPULSES + table.mode.shape[0]
+    first = codes.RECORD_CONTACT_IMPULSES + contacts(block).mode.shape[0]
     for k in range(n):
         record[first + k] = before[k]
         record[first + n + k] = rate[k]
-    contact = int(record[codes.RECORD_CONTACT])
-    toothed = table.toothed[contact]
-    record[codes.RECORD_VELOCITY] = 0.0
-    if toothed != codes.NONE:
-        turn = 3 * toothed + 2
-        record[codes.RECORD_VELOCITY] = table.value[contact, codes.TOOTH_LENGTH] * (rate[turn] - before[turn])
+    velocity = 0.0
+    for b in range(tooth_length.shape[0]):
+        velocity += tooth_length[b] * (rate[3 * b + 2] - before[3 * b + 2])
+    record[codes.RECORD_VELOCITY] = velocity
 
 
 @jit

@@ -65,15 +65,14 @@ def transit(block: Array, guard: int, subject: int) -> int:
             hits += 1
             impulse += _struck_impulse(block)
         struck = codes.NONE
-    lost = energy + now.y_end[2 * n] - work - kinetic_energy(inverse_mass, rate, n)
+    outcome = status.CHATTERING
+    if settled:
+        outcome = _settle(block, fired, only_choose, hits > 0)
+    lost = energy + (now.y_end[2 * n] - work) - kinetic_energy(inverse_mass, rate, n)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
-    if not settled:
-        return status.CHATTERING
-    outcome = _settle(block, fired, only_choose, hits > 0)
     if outcome != status.OK:
         return outcome
-    energy += now.y_end[2 * n] - work
-    now.ledger[codes.LEDGER_LOST] += energy - kinetic_energy(inverse_mass, rate, n)
+    now.ledger[codes.LEDGER_LOST] += lost
     if not only_choose or (guard == codes.GUARD_INPUT and mode_number(block) != old_mode):
         keep_event(block, guard, subject, old_mode, impulse)
     if only_choose:

@@ -102,15 +102,22 @@ def _note_pushes(block: Array) -> None:
 def _error_norm(block: Array, h: float) -> float:
     """Root mean square of the local error over its tolerance."""
     n = sizes(block).unknowns
+    total = 0.0
+    for i in range(n):
+        error = scaled_error(block, i, h)
+        total += error * error
+    return math.sqrt(total / n)
+
+
+@jit
+def scaled_error(block: Array, i: int, h: float) -> float:
+    """Local error of unknown `i` over its tolerance, in the step of size `h` [s] last tried."""
     s = stages(block)
     k = s.derivatives
     relative = options(block).settings[codes.RELATIVE_TOLERANCE]
-    total = 0.0
-    for i in range(n):
-        error = h * (_E1 * k[0, i] + _E3 * k[2, i] + _E4 * k[3, i] + _E5 * k[4, i] + _E6 * k[5, i] + _E7 * k[6, i])
-        scale = relative * (ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i])))
-        total += (error / scale) * (error / scale)
-    return math.sqrt(total / n)
+    error: float = h * (_E1 * k[0, i] + _E3 * k[2, i] + _E4 * k[3, i] + _E5 * k[4, i] + _E6 * k[5, i] + _E7 * k[6, i])
+    scale: float = relative * (ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i])))
+    return error / scale
 
 
 @jit

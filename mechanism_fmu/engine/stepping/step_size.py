@@ -25,6 +25,8 @@ _FITS_BARELY = 0.01
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0
+#: A mechanism at rest strides ever further; an infinite step, which never gets smaller, would be tried for ever [s].
+_LONGEST_STEP = 1e100
 
 
 @jit
@@ -35,7 +37,7 @@ def accurate_step(block: Array, start: float) -> float:
     """
     keep_small()
     now = course(block)
-    wanted = now.clock[codes.NEXT_STEP]
+    wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
     step = representable(start, within_ramp(block, start, wanted))
     step = representable(start, within_motions(block, start, step))
     error = _try(block, start, step)

@@ -14,7 +14,7 @@ from ... import codes
 from .. import status
 from ..block.layout import Array
 from ..block.motion import course, stages
-from ..block.parts import contacts, ports
+from ..block.parts import contacts, options, ports
 from ..block.vectors import copy
 from ..compiler.subset import entry, jit, keep_small
 from ..contacts.records import clear_records
@@ -27,9 +27,11 @@ from .interpolation import interpolate
 from .pulling import watch_at
 from .singular import keep_independence, note_rank
 from .step import take_step
+from .stiffest import note_stiffest
 
-#: Most internal steps of one communication step.
-MOST_STEPS = 200_000
+#: When this part of the internal steps is spent, that part of the communication step must be covered.
+_LOOK_AFTER = 0.1
+_COVERED = 0.01
 
 
 @entry
@@ -68,6 +70,9 @@ def _begin_step(block: Array) -> int:
     if outcome != status.OK:
         return outcome
     clear_records(block)
+    now = course(block)
+    now.counters[codes.STEPS_IN_STEP] = 0
+    now.clock[codes.STEP_BEGUN] = now.clock[codes.TIME]
     if inputs_changed(block):
         return resume(block)
     return status.OK
@@ -82,6 +87,8 @@ def _go_on(block: Array, target: float, rule: int) -> int:
     outcome = _why_ended(block)
     if outcome == status.OK:
         outcome = _move(block, target, rule)
+        if outcome == status.TOO_MANY_STEPS or outcome == status.NO_PROGRESS or outcome == status.STEP_TOO_SMALL:
+            note_stiffest(block)
         show_reached(block)
     return outcome
 
@@ -103,12 +110,14 @@ def _move(block: Array, target: float, rule: int) -> int:
     feed(block, ports(block).held_inputs)  # a restored state brings its own
     if now.counters[codes.RAMPING] != 0:
         now.clock[codes.RAMP_END] = target
-    for _ in range(MOST_STEPS):
+    while True:
         begins = now.counters[codes.PENDING_GUARD] == codes.GUARD_BEGIN
         if now.clock[codes.TIME] >= now.clock[codes.STEP_END] and not begins:
             if now.clock[codes.TIME] >= target:
                 return status.OK
-            outcome = take_step(block)
+            outcome = _spend(block, target)
+            if outcome == status.OK:
+                outcome = take_step(block)
             if outcome != status.OK:
                 return outcome
         if now.clock[codes.STEP_END] > target:
@@ -130,7 +139,21 @@ def _move(block: Array, target: float, rule: int) -> int:
         struck = now.counters[codes.COUNT_IMPACTS] > impacts
         if rule == codes.STOP_AT_STEP or (rule == codes.STOP_AT_IMPACT and struck):
             return status.OK
-    return status.TOO_MANY_STEPS
+
+
+@jit
+def _spend(block: Array, target: float) -> int:
+    """Count one more internal step on the way to `target` [s]; return a status: no more, or no progress."""
+    now = course(block)
+    most = options(block).settings[codes.MOST_STEPS]
+    spent = now.counters[codes.STEPS_IN_STEP]
+    begun = now.clock[codes.STEP_BEGUN]
+    if spent == math.ceil(_LOOK_AFTER * most) and now.clock[codes.TIME] - begun < _COVERED * (target - begun):
+        return status.NO_PROGRESS
+    if spent >= most:
+        return status.TOO_MANY_STEPS
+    now.counters[codes.STEPS_IN_STEP] = spent + 1
+    return status.OK
 
 
 @jit

@@ -9,7 +9,6 @@ To be run in a process of its own, because numba must be imported for a generic 
 from __future__ import annotations
 
 import gc
-import os
 import sys
 from multiprocessing import Process
 from pathlib import Path
@@ -17,6 +16,7 @@ from pathlib import Path
 import llvmlite.binding as llvm
 
 from ...engine.library import EXPORTS, intermediate_code
+from ..kept import keep
 from .targets import TARGETS, Target
 
 
@@ -47,12 +47,10 @@ def object_file(codes: list[str], target: Target) -> bytes:
 
 
 def _write_object(codes: list[str], target: Target, folder: Path) -> None:
-    """Write the object of a target by one rename; to be run in a process of its own, too."""
+    """Write the object of a target, with its digest; to be run in a process of its own, too."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    temporary = folder / f".{target.name}.{os.getpid()}"
-    temporary.write_bytes(object_file(codes, target))
-    os.replace(temporary, folder / f"{target.name}.o")
+    keep(folder / f"{target.name}.o", object_file(codes, target))
 
 
 def main(folder: Path) -> None:

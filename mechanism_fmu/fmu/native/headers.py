@@ -36,6 +36,7 @@ def engine_header() -> str:
     for prefix, entries in enums.items():
         lines += ["enum {", *(f"    {prefix}_{name} = {value}," for name, value in entries.items()), "};"]
     lines += [f"#define {name} {getattr(protocol, name)!r} /* as in protocol.py */" for name in limits]
+    lines += [f"#define EVENT_FAILURES {{{', '.join(map(str, status.EVENT_FAILURES))}}}"]
     lines += [f"#define LOG_CATEGORIES {{{', '.join(map(c_text, LOG_CATEGORIES))}}}"]
     return "\n".join([*lines, _PROTOTYPES, "extern const char *const ADVICE[];", "#endif", ""])
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 from pathlib import Path
 
 from ...engine.run import library_path
 from ..archive import content_hash
+from ..kept import is_whole, keep
 from .link import has_linker, link, linked_with, surface
 from .objects import Engine, Report, compiled_engine, silently
 from .targets import TARGETS, WRAPPED, Target
@@ -46,13 +46,13 @@ def library_here(report: Report = silently) -> Path | None:
 
 
 def _linked(engine: Engine, target: Target) -> Path:
-    """The library of a platform, linked now if need be."""
+    """The library of a platform, linked now if there is none, or none that is as it was made."""
     made_from = content_hash(linked_with(*_SOURCES))[:8]
     path = engine.headers / made_from / f"{target.name}{target.suffix}"
-    if not path.is_file():
+    if not is_whole(path):
         path.parent.mkdir(exist_ok=True)
         with tempfile.TemporaryDirectory(dir=path.parent) as temporary:
             made = Path(temporary, path.name)
             link(target, [*surface(*_SOURCES), engine.objects[target.name]], [engine.headers], made)
-            os.replace(made, path)
+            keep(path, made.read_bytes(), program=True)
     return path

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from ...engine.block.layout import FIELDS, slot
+from ...admissible import Rule, rules
+from ...engine.block.layout import FIELDS, sizes_of, slot
 from ...engine.block.pack import pack
 from ...model import Mechanism, Model, compile_mechanism
 from ...model.contacts import too_deep
+from ...model.unknowns import unknown_names
 from ..variables import Variable, variables_of
 from .description3 import array_layout
 from .formulas import Formulas, c_number
@@ -31,6 +33,7 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> st
     first_of_work = next(field.name for field in FIELDS if field.room == "work")
     given = int(block.view("int64")[slot(first_of_work)])
     variables = variables_of(model)
+    held = rules(sizes_of(block))
     counts = {c: sum(v.causality == c for v in variables) for c in _CAUSALITIES}
     members = {
         "name": c_text(model.name),
@@ -57,6 +60,9 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> st
         "contacts": "CONTACTS",
         "patterns": "PATTERNS",
         "functions": "FUNCTIONS",
+        "unknowns": "UNKNOWNS",
+        "rules": "RULES",
+        "rule_count": len(held),
     }
     return "\n".join(
         [
@@ -72,6 +78,7 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> st
             _array("Finding", "WARNINGS", (f"{{{c_text(text)}, {at}}}" for text, at in formulas.warnings)),
             _array("Word", "DEPENDENT", (f"{{{word}, {c_text(label)}}}" for word, label in formulas.words)),
             *_names(mechanism),
+            _array("Rule", "RULES", map(_rule, held)),
             "const Model model = {",
             *(f"    .{name} = {value}," for name, value in members.items()),
             "};",
@@ -94,7 +101,14 @@ def _names(mechanism: Mechanism) -> list[str]:
         _array("Contact", "CONTACTS", contacts),
         _array("char *const", "PATTERNS", (c_text(pattern.name) for pattern in mechanism.patterns)),
         _array("char *const", "FUNCTIONS", (c_text(function.name) for function in mechanism.functions)),
+        _array("char *const", "UNKNOWNS", map(c_text, unknown_names(mechanism))),
     ]
+
+
+def _rule(rule: Rule) -> str:
+    numbers = (rule.first, rule.rows, rule.columns, rule.stride, rule.integer, rule.holds.whole, rule.holds.nan)
+    limits = (c_number(float(rule.holds.low)), c_number(float(rule.holds.high)))
+    return f"{{{', '.join((c_text(rule.name), *(str(int(number)) for number in numbers), *limits))}}}"
 
 
 def _variable(variable: Variable, layout: tuple[int, int]) -> str:

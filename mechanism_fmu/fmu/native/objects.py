@@ -13,7 +13,8 @@ from pathlib import Path
 
 from ...model import MechanismError
 from ..archive import content_hash
-from ..start import cache_directory
+from ..kept import is_whole, keep
+from ..start import private_cache
 from .alone import alone
 from .headers import engine_header
 from .targets import TARGETS
@@ -55,8 +56,8 @@ class Engine:
 
     @property
     def complete(self) -> bool:
-        """Whether all files are there; the header comes last."""
-        return all(path.is_file() for path in (*self.objects.values(), self.headers / "engine.h"))
+        """Whether all files are there, as they were made; the header comes last."""
+        return all(map(is_whole, (*self.objects.values(), self.headers / "engine.h")))
 
 
 def compiled_engine(report: Report = silently) -> Engine:
@@ -78,9 +79,7 @@ def compiled_engine(report: Report = silently) -> Engine:
             if not engine.complete:
                 _emit(folder, report)
                 # Always in the same place, so that the compiler of the C files finds again what it has compiled.
-                temporary = folder / f".engine.h.{os.getpid()}"
-                temporary.write_text(engine_header(), encoding="ascii")
-                os.replace(temporary, folder / "engine.h")
+                keep(folder / "engine.h", engine_header().encode("ascii"))
     return engine
 
 
@@ -89,8 +88,20 @@ def engine_is_compiled() -> bool:
     return _engine().complete
 
 
+def engine_folder() -> Path:
+    """Where the files of this state of the sources are kept.
+
+    Raises:
+        MechanismError: the user's cache directory cannot be used.
+    """
+    try:
+        return private_cache() / f"native_{_digest()}"
+    except OSError as error:
+        raise MechanismError(f"The cache directory cannot be used: {error}.") from error
+
+
 def _engine() -> Engine:
-    folder = cache_directory() / "mechanism_fmu" / f"native_{_digest()}"
+    folder = engine_folder()
     return Engine({target.name: folder / f"{target.name}.o" for target in TARGETS}, folder)
 
 

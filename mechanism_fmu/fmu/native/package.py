@@ -17,6 +17,7 @@ from ...engine.block.pack import pack
 from ...model import Model, compile_mechanism
 from ...model.trace import trace
 from ..archive import DESCRIPTION, content_hash, write_archive
+from ..built import record_build
 from ..contents import common_entries, file_in, model_of
 from ..model_description import model_description, to_bytes
 from .description3 import model_description3
@@ -29,8 +30,8 @@ from .targets import TARGETS, Target
 from .universal import universal
 
 #: The files of the C surface, each using those before it; both versions of FMI stand in one library.
-_SURFACE = ("log.c", "instance.c", "values.c", "saved.c", "fmi2.c", "fmi3.c")
-_HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h")
+SURFACE = ("log.c", "instance.c", "values.c", "saved_check.c", "saved.c", "fmi2.c", "fmi3.c")
+_HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h", "saved.h")
 
 #: The headers of both standards, which the package fmpy brings.
 _STANDARD = Path(fmpy.__file__).with_name("c-code")
@@ -92,7 +93,7 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
     for name, libraries in binaries.items():
         entries[name] = universal(libraries) if len(libraries) > 1 else libraries[0]
     write_archive(entries, path, zipfile.ZIP_DEFLATED)
-    return path
+    return record_build(path)
 
 
 def _description(model: Model, token: str, fmi: int) -> bytes:
@@ -105,7 +106,7 @@ def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], e
     parts = {
         **entries,
         "model.c": model_source(model, traced, "", bytes(16)).encode(),
-        **linked_with(*_SURFACE, *_HEADERS),
+        **linked_with(*SURFACE, *_HEADERS),
         **{file.name: file.read_bytes() for file in sorted(_STANDARD.glob("fmi[23]*.h"))},
         **{name: object_file.read_bytes() for name, object_file in engine.objects.items()},
     }
@@ -121,7 +122,7 @@ def _binaries(model: Model, source: str, engine: Engine) -> dict[Target, bytes]:
         def binary(target: Target) -> bytes:
             place = folder / target.name
             place.mkdir()
-            inputs = [*surface(*_SURFACE), folder / "model.c", engine.objects[target.name]]
+            inputs = [*surface(*SURFACE), folder / "model.c", engine.objects[target.name]]
             library = place / f"{model.name}{target.suffix}"
             link(target, inputs, [engine.headers, _STANDARD], library)
             return library.read_bytes()

@@ -64,9 +64,18 @@ def joint_friction_parameter(hinges: str = "all hinges") -> Parameter:
 
 
 def settings_parameters() -> tuple[Parameter, ...]:
-    """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s] and tolerance."""
+    """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s], tolerance, most steps."""
     return (
         Parameter("baumgarte_alpha", 10.0, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
         Parameter("baumgarte_beta", 1.0, "Baumgarte gain on the constraints, squared in use", "1/s", 0.0, 1e4),
         Parameter("relative_tolerance", 1e-9, "Relative tolerance of the integration", "1", 1e-13, 1e-3),
+        Parameter(
+            "max_internal_steps",
+            200_000,
+            "Most internal steps of one communication step, which ends early when it needs more",
+            "1",
+            10,
+            1e9,
+            "Integer",
+        ),
     )

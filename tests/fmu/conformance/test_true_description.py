@@ -13,7 +13,10 @@ def root(subject):
 
 
 def variables(root):
-    return {element.get("name"): (element, element[0]) for element in root.iter("ScalarVariable")}
+    found = {element.get("name"): (element, element[0]) for element in root.iter("ScalarVariable")}
+    assert len(found) > 10
+    assert "Real" in {value.tag for _, value in found.values()}
+    return found
 
 
 def step_beyond(kind, limit, direction):
@@ -79,7 +82,9 @@ def test_dependencies_are_what_can_be_known(root):
     causality = [element.get("causality") for element, _ in variables(root).values()]
     known = {"Outputs": {"input"}, "InitialUnknowns": {"input", "parameter"}}
     for part, allowed in known.items():
-        for unknown in root.find(f"ModelStructure/{part}"):
+        unknowns = root.find(f"ModelStructure/{part}")
+        assert len(unknowns) > 0
+        for unknown in unknowns:
             indices = [int(text) for text in unknown.get("dependencies").split()]
             assert {causality[index - 1] for index in indices} <= allowed
             assert len(unknown.get("dependenciesKind").split()) == len(indices)

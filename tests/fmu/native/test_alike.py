@@ -48,3 +48,15 @@ def test_the_words_about_a_wrong_stop_time_are_the_same(one, stop_time):
     with pytest.raises(FMICallException):
         one.slave.setupExperiment(stopTime=stop_time)
     assert f"the stop time {stop_time:g} s must be finite and not before the start time 0 s" in one.refusal
+
+
+@pytest.mark.parametrize("flavour", ["slider_crank", "native_slider_crank"])
+def test_friction_of_joints_that_jams_names_them(flavour, request):
+    """There are no contacts to be named."""
+    with Instance(request.getfixturevalue(flavour)) as one:
+        one.begin({"joint_friction_radius": 0.1, "slider_friction": 0.0})
+        with pytest.raises(FMICallException):
+            one.step(0.1)
+        assert "the mechanism jams itself. Give less friction" in one.refusal
+        assert one.refusal.rstrip().endswith("Joints with friction: crank_hinge, crank_pin, slider_pin.")
+        assert "Contacts:" not in one.refusal

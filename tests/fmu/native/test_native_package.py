@@ -81,7 +81,7 @@ def test_nothing_else_is_inside_that_does_not_belong_there(fmu, fmi):
 
 
 def test_it_is_smaller_than_half_a_megabyte_for_all_platforms(fmu):
-    assert fmu.stat().st_size < 500_000
+    assert fmu.stat().st_size < 512 * 1024
 
 
 def test_fmpy_finds_no_problem(fmu):

@@ -192,6 +192,10 @@ class WheelOpener:
     trouble: Trouble | None = None
     refusal: str = ""
 
+    @property
+    def description(self) -> Description:
+        return description(restores=True)
+
     @contextmanager
     def __call__(self, on_message: MessageHandler) -> Iterator[Wheel]:
         if self.refusal:

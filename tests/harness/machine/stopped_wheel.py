@@ -40,7 +40,7 @@ def mechanism(values):
             *impact_outputs("Impacts on the stop", [_IMPACT]),
         ),
         held=("wheel.angle",),
-        settings=Settings(values.relative_tolerance, values.baumgarte_alpha, values.baumgarte_beta),
+        settings=Settings.of(values),
     )
 
 

@@ -1,6 +1,7 @@
 """Inputs of a machine that a table drives: when they are set, and how they go on."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -105,3 +106,42 @@ def test_what_is_no_real_changes_when_the_table_does_and_is_put_back_with_its_pa
     run_machine(machine, EventAware(machine), TimeGrid.of(1.0, 0.1), {}, [looks], table)
     assert [bool(brake) for _, brake in looks.seen] == [float(str(time)) >= 0.3 for time, _ in looks.seen]
     assert told == [{"brake": False}, {"brake": True}, {"restored": True}, {"brake": True}]
+
+
+class Told(Wheel):
+    """Notes what it is told, and which of its variables are bound as Reals for that."""
+
+    def __init__(self, fmi: int, *, continuous: bool) -> None:
+        super().__init__("one", speed=0.0)
+        variables = dict(self.description.variables)
+        variables["torque"] = replace(variables["torque"], continuous=continuous)
+        self.description = replace(self.description, variables=variables, fmi=fmi, takes_slopes=False)
+        self.told: list[float] = []
+
+    def set(self, values: Mapping[str, Value]) -> None:
+        self.told.append(float(values["torque"]))
+        super().set(values)
+
+
+@pytest.mark.parametrize("algorithm", [Jacobi, GaussSeidel, EventAware])
+def test_a_discrete_real_of_fmi_3_changes_at_communication_points_only(algorithm: type) -> None:
+    """Its values may change in the event mode only (FMI 3.0, section 2.4.7.4): held in each step."""
+    one = Told(3, continuous=False)
+    machine = Machine({"one": one}, [], Extrapolation.DERIVATIVES)
+    table = InputSignals(
+        (machine.description.variable("one.torque"),), np.array([0.0, 0.3, 1.0]), np.array([[0.0], [0.3], [0.3]])
+    )
+    made = EventAware(machine) if algorithm is EventAware else algorithm()
+    run_machine(machine, made, TimeGrid.of(0.5, 0.1), {}, (), table)
+    assert one.told == pytest.approx([0.0, 0.1, 0.2, 0.3])
+    assert one.values["speed"] == pytest.approx(0.1 * (0.0 + 0.1 + 0.2 + 0.3 + 0.3))
+
+
+@pytest.mark.parametrize(("fmi", "continuous"), [(3, True), (2, False), (2, True)])
+def test_any_other_real_goes_on_during_a_step(fmi: int, continuous: bool) -> None:
+    """Held at the mean of its values at both ends, it turns the wheel as the ramp itself does."""
+    one = Told(fmi, continuous=continuous)
+    machine = Machine({"one": one}, [], Extrapolation.DERIVATIVES)
+    run_machine(machine, Jacobi(), TimeGrid.of(0.5, 0.1), {}, (), ramp(machine, "one.torque"))
+    assert one.values["speed"] == pytest.approx(0.125, rel=1e-12)
+    assert {0.05, 0.15, 0.25, 0.35, 0.45} <= {round(value, 12) for value in one.told}

@@ -11,6 +11,7 @@ from harness.errors import FmuError, UsageError
 from harness.fmu import open_fmu
 from harness.fmu.slave import FmuSlave
 from harness.messages import LogMessage, Status
+from harness.slave import whole_step
 from tests.harness.machine.fake_library import Fake2
 
 DISCARD = int(Status.DISCARD)
@@ -216,6 +217,19 @@ def test_a_discarded_step_that_has_come_nowhere_is_an_error(stops: Stops) -> Non
     pump = Fake2(**stops.functions())
     with pytest.raises(FmuError, match=r"pump failed at t = 0\.2 s \(fmi2DoStep, status discard\)"):
         pump.advance(0.2, 0.2)
+
+
+def test_an_fmu_that_discards_step_after_step_ends_the_run() -> None:
+    """A stiff mechanism may spend seconds in each, and need thousands of them."""
+
+    class Crawls(Stops):
+        def _step(self, _component: Any, begin: float, size: float, _no_way_back: int) -> int:
+            self._reached = begin + 1e-4 * size
+            return DISCARD
+
+    pump = Fake2(**Crawls().functions())
+    with pytest.raises(FmuError, match=r"20 times it ended a step early that was to reach 0\.4 s"):
+        whole_step(pump.advance, 0.2, 0.2)
 
 
 def test_an_fmu_whose_time_stands_still_ends_the_run() -> None:

@@ -79,9 +79,9 @@ def trips(component: RemoteComponent, monkeypatch: pytest.MonkeyPatch) -> list[s
     asked: list[str] = []
     ask = component._link.ask
 
-    def spy(request: Request, limit: float) -> Any:
+    def spy(request: Request, *rest: Any) -> Any:
         asked.append(request[1])
-        return ask(request, limit)
+        return ask(request, *rest)
 
     monkeypatch.setattr(component._link, "ask", spy)
     return asked

@@ -1,6 +1,7 @@
 """What is told of how components fared."""
 
 import json
+from collections import Counter
 from collections.abc import Sequence
 
 import pytest
@@ -119,3 +120,38 @@ def test_a_coupling_that_makes_much_energy_is_told() -> None:
     (lost,) = bond_cautions({"shaft": BondEnergy(1.0, 0.9, 1.0)}, 2.0)
     assert "has lost 0.1 J" in lost.text
     assert lost.time == 2.0
+
+
+def test_time_spent_in_saving_and_restoring_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A step takes 2 ms, a snapshot 30 ms, going back to it 500 ms."""
+    now, calls = 0, Counter[str]()
+    cost = {"step": 2_000_000, "save": 30_000_000, "restore": 500_000_000}
+
+    class Slow(Wheel):
+        def step(self, time: float, size: float) -> None:
+            self.spend("step")
+            super().step(time, size)
+
+        def save(self, state: object = None) -> object:
+            self.spend("save")
+            return super().save(state)
+
+        def restore(self, state: object) -> None:
+            self.spend("restore")
+            super().restore(state)
+
+        def spend(self, call: str) -> None:
+            nonlocal now
+            now += cost[call]
+            calls[call] += 1
+
+    for module in (part, watched):
+        monkeypatch.setattr(module, "perf_counter_ns", lambda: now)
+    machine = Machine({"slow": Slow("slow", (0.234,))})
+    run_machine(machine, EventAware(machine), TimeGrid.of(0.5, 0.1), {})
+    told = statistics(machine)["slow"]
+    assert (calls["restore"], told["rollbacks"]) == (1, 1)
+    assert calls["save"] >= 5
+    assert told["steps"] == calls["step"]
+    assert told["time_spent"] == pytest.approx(sum(calls[call] * cost[call] for call in cost) / 1e9, rel=1e-12)
+    assert told["time_per_step"] == pytest.approx(told["time_spent"] / told["steps"], rel=1e-12)

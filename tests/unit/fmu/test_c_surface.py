@@ -11,17 +11,17 @@ ELSEWHERE = {"library.c", "many.c", "windows.c"}
 
 
 def test_every_file_of_the_surface_is_part_of_the_fingerprint():
-    named = {*package._SURFACE, *package._HEADERS, *ELSEWHERE}
+    named = {*package.SURFACE, *package._HEADERS, *ELSEWHERE}
     assert {path.name for path in FOLDER.iterdir()} == named
 
 
 def test_a_file_calls_only_what_those_before_it_define():
     """The two versions of FMI come last, and nothing that they define is called from below."""
-    texts = {name: (FOLDER / name).read_text(encoding="utf-8") for name in package._SURFACE}
+    texts = {name: (FOLDER / name).read_text(encoding="utf-8") for name in package.SURFACE}
     defined = {
         name: set(re.findall(r"^[A-Za-z][\w ]*\W\**(\w+)\([^;{]*\) \{", text, re.M)) for name, text in texts.items()
     }
     assert all(defined.values())
-    for place, name in enumerate(package._SURFACE):
-        later = set().union(*(defined[other] for other in package._SURFACE[place + 1 :])) - defined[name]
+    for place, name in enumerate(package.SURFACE):
+        later = set().union(*(defined[other] for other in package.SURFACE[place + 1 :])) - defined[name]
         assert not later & set(re.findall(r"\b(\w+)\(", texts[name])), name

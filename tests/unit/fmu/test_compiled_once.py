@@ -9,6 +9,7 @@ from threading import Event
 
 import pytest
 
+from mechanism_fmu.fmu.kept import keep
 from mechanism_fmu.fmu.native import objects
 from mechanism_fmu.fmu.native.alone import alone
 from mechanism_fmu.fmu.native.targets import TARGETS
@@ -73,7 +74,7 @@ def test_two_that_need_the_engine_compile_it_once(tmp_path: Path, monkeypatch: p
         compiled.append(folder)
         waiting.wait(60)
         for target in TARGETS:
-            (folder / f"{target.name}.o").write_bytes(b"object")
+            keep(folder / f"{target.name}.o", b"object")
 
     monkeypatch.setenv("MECHANISM_FMU_CACHE", str(tmp_path))
     monkeypatch.setattr(objects, "_emit", emit)

@@ -56,6 +56,8 @@ def test_display_factors(unit: str, display: str, factor: float) -> None:
 
 
 def test_every_offered_display_unit_measures_its_unit() -> None:
+    assert len(OFFERED_DISPLAY_UNITS) > 2
+    assert all(OFFERED_DISPLAY_UNITS.values())
     assert all(display_factor(u, d) > 0 for u, offered in OFFERED_DISPLAY_UNITS.items() for d in offered)
 
 

@@ -1,7 +1,6 @@
 import ast
 import importlib.util
 import os
-import pickle
 import shutil
 import subprocess
 import sys
@@ -124,17 +123,6 @@ def test_a_damaged_cache_is_repaired(damage: str, tmp_path: Path, cache: Path, l
         (cache / "mechanism_fmu_aaa").mkdir(parents=True)
     assert load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
     assert contents(cache / "mechanism_fmu_aaa") == SOURCES
-
-
-@pytest.mark.parametrize("kind", ["nbi", "nbc"])
-def test_compiled_code_that_was_cut_off_is_dropped(kind: str, tmp_path: Path, cache: Path, load: Load) -> None:
-    compiled = cache / "mechanism_fmu_aaa" / "fmu" / "__pycache__"
-    compiled.mkdir(parents=True)
-    whole = pickle.dumps("machine code " * 100)
-    for name, data in {"whole": whole, "cut": whole[:-50], "empty": b"", "zeros": bytes(len(whole))}.items():
-        (compiled / f"{name}.{kind}").write_bytes(data)
-    load(write_resources(tmp_path / "unzipped", "aaa"), "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
-    assert [path.stem for path in compiled.glob(f"*.{kind}")] == ["whole"]
 
 
 def test_leftovers_of_a_killed_process_do_no_harm(tmp_path: Path, cache: Path, load: Load) -> None:

@@ -30,7 +30,6 @@ from mechanism_fmu.model import (
     Translational,
 )
 from mechanism_fmu.model.compile import compile_mechanism
-from mechanism_fmu.model.contacts import toothed_body
 
 TABLES = compile_mechanism(
     Mechanism(
@@ -154,32 +153,31 @@ def test_contacts():
             [0.6, 0.7, 0, 0, 0, 0],
         ],
     )
-    columns = ["RESTITUTION", "FRICTION", "TOOTH_LENGTH", "GUIDED", "ENABLED", "STARTS_CLOSED"]
+    columns = ["RESTITUTION", "FRICTION", "GUIDED", "ENABLED", "STARTS_CLOSED"]
     values = TABLES.contact_value[:, [getattr(codes, name) for name in columns]]
     np.testing.assert_array_equal(
         values,
         [
-            [0.5, 0.1, 0.04, 1, 1, 1],
-            [0, 0.3, 0.04, 0, 1, 0],
-            [0, 0, 0.04, 0, 0, 0],
-            [0.25, 0, 0.04, 0, 1, 0],
-            [0, 0, 0.04, 0, 1, 0],
-            [0, 0, 0.04, 0, 1, 0],
+            [0.5, 0.1, 1, 1, 1],
+            [0, 0.3, 0, 1, 0],
+            [0, 0, 0, 0, 0],
+            [0.25, 0, 0, 1, 0],
+            [0, 0, 0, 1, 0],
+            [0, 0, 0, 1, 0],
         ],
     )
 
 
-def test_whose_teeth_an_impact_shakes():
-    """The body's with teeth that is touched (body j, if both have some), else the only one's there is."""
-    assert list(TABLES.contact_toothed) == [1] * 6  # also that of the arm's stop on the ground
-    plain, toothed = Body("a", 1.0, 1.0), Body("b", 1.0, 1.0, tooth_length=0.1)
-    other = replace(plain, name="c", tooth_length=0.2)
-    here, there, far = (
-        AngleStop("stop", body, reaction, 0.0) for body, reaction in (("c", "b"), ("b", GROUND), ("a", GROUND))
-    )
-    assert [toothed_body(stop, (plain, toothed, other)) for stop in (here, there, far)] == [toothed, toothed, None]
-    assert [toothed_body(stop, (plain, toothed)) for stop in (here, there, far)] == [toothed] * 3
-    assert toothed_body(far, (plain,)) is None
+def test_one_body_with_teeth_has_the_impact_velocity():
+    np.testing.assert_array_equal(TABLES.body_tooth_length, [0.0, 0.04])
+    toothed, plain = Body("b", 1.0, 1.0, tooth_length=0.1), Body("a", 1.0, 1.0)
+    for field in ("impact.velocity", "impacts[3].velocity"):
+        output = (Output("v", field, ""),)
+        compile_mechanism(Mechanism(bodies=(plain, toothed), outputs=output))
+        with pytest.raises(MechanismError, match=r"no body has teeth; give Body\(tooth_length"):
+            compile_mechanism(Mechanism(bodies=(plain,), outputs=output))
+        with pytest.raises(MechanismError, match=r"several bodies have teeth \(b, c\)"):
+            compile_mechanism(Mechanism(bodies=(toothed, replace(toothed, name="c")), outputs=output))
 
 
 def test_patterns_repeat_the_contacts_that_name_them():

@@ -225,6 +225,8 @@ def test_the_diagram_is_well_formed_and_shows_every_guard(mechanism, counts):
     assert text == transition_diagram(replace(mechanism), counts)
     words = " ".join("".join(element.itertext()) for element in ElementTree.fromstring(text).iter())
     logic = logic_of(mechanism)
+    assert logic.transitions
+    assert logic.regions
     for arrow in logic.transitions:
         assert arrow.trigger in words
         assert all(factor.removeprefix("not ") in words for factor in (*arrow.guard, *arrow.after))

@@ -131,6 +131,31 @@ def test_table_never_overshoots(x):
         assert 1.0 - 1e-12 <= of(np.array(x)) <= 3.0 + 1e-12
 
 
+#: Columns of a table with three places.
+THREE = ((1.0,) * 3,) * 3
+
+
+def table_with(column, *values):
+    """A table one of whose columns has these values."""
+    columns = list(THREE)
+    columns[column] = values
+    return TableBeam((0.0, 0.02, 0.05), *columns)
+
+
+@pytest.mark.parametrize("column", range(3))
+def test_at_one_end_of_a_table_zero_will_do(column):
+    for values in ((0.0, 1.0, 1.0), (1.0, 1.0, 0.0)):
+        table = table_with(column, *values)
+        ends = [of(np.array([0.0, 0.05])) for of in (table.area, table.second_moment, table.outer_fibre)]
+        np.testing.assert_allclose(ends[column], values[::2], atol=1e-15)
+        assert table.breaks == (0.02,)
+
+
+def test_breaks_between_root_and_tip_are_taken():
+    beam = SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, breaks=[0.02, 0.03])
+    assert beam.breaks == (0.02, 0.03)
+
+
 @pytest.mark.parametrize(
     ("make", "said"),
     [
@@ -141,6 +166,29 @@ def test_table_never_overshoots(x):
         (lambda: SectionBeam(0.05, np.cos, np.cos, np.cos, breaks=(0.06,)), r"breaks \(0\.06,\) m must ascend"),
         (lambda: SectionBeam(0.05, np.cos, lambda x: -x, np.cos), r"second_moment of the beam gives .*positive"),
         (lambda: SectionBeam(0.05, lambda x: 1.0, np.cos, np.cos), r"area of the beam gives 1\.0 .*for each"),
+        (lambda: SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, breaks=(0.03, 0.02)), r"must ascend"),
+        (lambda: SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, breaks=(0.02, 0.02)), r"must ascend"),
+        (lambda: SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, breaks=(0.0,)), r"between root and tip"),
+        (lambda: SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, breaks=(0.05,)), r"between root and tip"),
+        (lambda: SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, 9e-7), r"tooth thickness = 9e-07 m"),
+        (lambda: SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, 1001.0), r"tooth thickness = 1001 m"),
+        (lambda: SectionBeam(9e-7, np.ones_like, np.ones_like, np.ones_like), r"tooth length = 9e-07 m"),
+        (lambda: SectionBeam(0.05, np.ones_like, np.ones_like, np.zeros_like), r"outer_fibre of the beam gives"),
+        (
+            lambda: SectionBeam(0.05, np.ones_like, np.ones_like, lambda x: np.full_like(x, math.inf)),
+            r"outer_fibre of the beam gives .*inf",
+        ),
+        (lambda: TableBeam((0.0, 0.05, 0.02), *THREE), r"places \(0\.0, 0\.05, 0\.02\) m of the table must ascend"),
+        (lambda: TableBeam((0.05, 0.02, 0.0), *THREE), r"must ascend from the root"),
+        (lambda: TableBeam((-0.01, 0.02, 0.05), *THREE), r"must ascend from the root, 0"),
+        (lambda: TableBeam((0.01, 0.02, 0.05), *THREE), r"must ascend from the root, 0"),
+        (lambda: TableBeam((0.0, 5e-7, 9e-7), *THREE), r"tooth length = 9e-07 m"),
+        (lambda: TableBeam((0.0, 0.02, 0.05), *THREE, thickness=9e-7), r"tooth thickness = 9e-07 m"),
+        *(
+            (lambda k=k, bad=bad: table_with(k, *bad), rf"{name} of the table.*positive; at one end zero will do")
+            for k, name in enumerate(("areas", "second_moments", "outer_fibres"))
+            for bad in ((1.0, 0.0, 1.0), (0.0, 1.0, 0.0), (-1.0, 1.0, 1.0), (1.0, 1.0, math.inf), (math.nan, 1.0, 1.0))
+        ),
         (lambda: TableBeam((0.0,), (1.0,), (1.0,), (1.0,)), r"must ascend from the root"),
         (lambda: TableBeam((0.0, 1.0, 1.0), (1.0,) * 3, (1.0,) * 3, (1.0,) * 3), r"must ascend from the root"),
         (lambda: TableBeam((0.0, 1.0), (1.0,) * 2, (1.0,) * 3, (1.0,) * 2), r"2 places, but 3 second_moments"),

@@ -84,6 +84,7 @@ def test_goodman():
 
 def test_every_card_is_whole_and_tells_its_sources():
     assert STEEL_CARD.material == STEEL
+    assert CARDS[STEEL_CARD.name] == STEEL_CARD
     for name, card in CARDS.items():
         assert name == card.name
         told = " ".join(re.findall(r"(?:^|; )([\w', ]+):", "; ".join(card.sources)))

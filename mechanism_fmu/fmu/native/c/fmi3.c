@@ -373,6 +373,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     int64_t events_before = COUNTERS(x)[CODE_COUNT_EVENTS];
     int stops = x->event_mode && x->early_return;
     int64_t rule = x->intermediate_update ? CODE_STOP_AT_STEP : stops ? CODE_STOP_AT_IMPACT : CODE_STOP_AT_TARGET;
+    double begun = time_of(x);
     double end = target; /* sooner when the host asks for it at an intermediate update */
     Status status = begin_step(x, target);
     while (status == OK && time_of(x) < end && !(stops && *impacts != before)) {
@@ -381,6 +382,8 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     }
     tell_news(x);
     note_impacts(x, before);
+    /* What has no more internal steps ends early where the host allows that, and is discarded where not. */
+    if (status == DISCARD && x->early_return && time_of(x) > begun) status = OK;
     /* Discrete outputs change at any event; only impacts make the clock tick, and the step end early. */
     *event = x->event_mode && COUNTERS(x)[CODE_COUNT_EVENTS] != events_before;
     *terminate = fmi3False;

@@ -120,6 +120,33 @@ static Status check_parameters(const Instance *x) {
     return OK;
 }
 
+Status check_values_together(Instance *x, const Head *head, const double *parameters) {
+    size_t size = model.parameters * sizeof(double);
+    if (memcmp(x->parameters, parameters, size) == 0 && x->head.prepared) return OK;
+    double *kept = x->allocate(model.parameters + 1, sizeof(double));
+    if (!kept) return refuse(x, "There is no memory for a copy of the parameters.");
+    double tolerance = x->head.tolerance;
+    memcpy(kept, x->parameters, size);
+    memcpy(x->parameters, parameters, size);
+    x->head.tolerance = head->tolerance;
+    write_tables(x);
+    Status status = check_parameters(x);
+    memcpy(x->parameters, kept, size);
+    x->head.tolerance = tolerance;
+    write_tables(x);
+    x->release(kept);
+    x->outputs_read = 0;
+    return status;
+}
+
+void forget_motion(const Instance *x, double *state) {
+    const int64_t *slot = (const int64_t *)x->block;
+    size_t first = (size_t)slot[SLOT_FIRST_OF_STATE], words = (size_t)slot[SLOT_END_OF_STATE] - first;
+    size_t inputs = (size_t)slot[SLOT_inputs] - first, slopes = (size_t)slot[SLOT_input_slopes] - first;
+    for (size_t k = 0; k < words; k++)
+        if (!(k - inputs < model.inputs || k - slopes < model.inputs)) state[k] = model.block[first + k];
+}
+
 /* Give the engine's state back its values from before the first call, but for the inputs. */
 static void clear_state(Instance *x) {
     const int64_t *slot = (const int64_t *)x->block;
@@ -195,7 +222,10 @@ static Status judge(Instance *x, int64_t outcome) {
     x->outputs_read = 0;
     if (outcome == STATUS_OK) return OK;
     char details[1200];
-    return refuse(x, "t = %.9g s: %s%s", time_of(x), ADVICE[outcome], advice_details(x, outcome, details, sizeof details));
+    advice_details(x, outcome, details, sizeof details);
+    if (outcome == STATUS_TOO_MANY_STEPS || outcome == STATUS_NO_PROGRESS)
+        return give_up(x, "t = %.9g s: %s%s", time_of(x), ADVICE[outcome], details);
+    return refuse(x, "t = %.9g s: %s%s", time_of(x), ADVICE[outcome], details);
 }
 
 Status begin_step(Instance *x, double target) {

@@ -20,6 +20,9 @@ Status initialized(Instance *x);
 void reset(Instance *x);
 void write_tables(Instance *x); /* for the present parameters and tolerance, if they are not yet */
 Status prepare(Instance *x);    /* assemble and begin; before the first step it is done anew after each change */
+/* Whether a mechanism can have the parameters of a saved state. */
+Status check_values_together(Instance *x, const Head *head, const double *parameters);
+void forget_motion(const Instance *x, double *state); /* all of a state but its inputs, as before the first call */
 Status require(Instance *x, const char *call, unsigned phases); /* a bit for each phase in which it is allowed */
 #define IN(phase) (1u << (phase))
 

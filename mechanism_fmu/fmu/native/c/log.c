@@ -48,6 +48,16 @@ Status refuse(const Instance *x, const char *format, ...) {
     return ERROR;
 }
 
+Status give_up(const Instance *x, const char *format, ...) {
+    char text[2400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    say(x, DISCARD, "logStatusDiscard", "%s: %s", x->name, text);
+    return DISCARD;
+}
+
 void forget_news(Instance *x) {
     const int64_t *counters = COUNTERS(x);
     x->told_impacts = counters[CODE_COUNT_IMPACTS];
@@ -162,26 +172,48 @@ static void penetration(Instance *x, char *text, size_t size) {
 }
 
 /* The contacts that a failed event is about: those of the step's events, and the closed ones. */
-static void involved(Instance *x, char *text, size_t size) {
+static void involved_contacts(Instance *x, char *text, size_t size) {
     int64_t mode = 0;
     for (int64_t k = 0; k < COUNTERS(x)[CODE_EVENTS_IN_STEP]; k++) {
         const double *record = FIELD(x, events) + k * CODE_EVENT_COLUMNS;
         mode |= (int64_t)record[CODE_EVENT_OLD_MODE] | (int64_t)record[CODE_EVENT_NEW_MODE];
     }
     int first = 1;
-    append(text, size, " Contacts: ");
     for (size_t c = 0; c < SIZE(x, contacts); c++) {
         int closed = ((const int64_t *)FIELD(x, contact_mode))[c] == CODE_CLOSED;
         if (!closed && !(mode >> c & 1)) continue;
-        append(text, size, first ? "" : ", ");
+        append(text, size, first ? " Contacts: " : ", ");
         append(text, size, model.contacts[c].name);
         first = 0;
     }
-    append(text, size, ".");
+    if (!first) append(text, size, ".");
+}
+
+/* The joints that rub. */
+static void rubbing_joints(Instance *x, char *text, size_t size) {
+    int first = 1;
+    for (size_t k = 0; k < SIZE(x, joints); k++) {
+        if (!(FIELD(x, joint_friction)[k] > 0)) continue;
+        append(text, size, first ? " Joints with friction: " : ", ");
+        append(text, size, model.joints[k].name);
+        first = 0;
+    }
+    if (!first) append(text, size, ".");
+}
+
+/* How small the steps have become, and the part whose error limits them. */
+static void stiffest(Instance *x, char *text, size_t size) {
+    long long events = COUNTERS(x)[CODE_EVENTS_IN_STEP];
+    snprintf(text, size, " Internal steps: %lld, the last of %.3g s, limited by %s. Events: %lld%s.",
+             (long long)COUNTERS(x)[CODE_STEPS_IN_STEP], FIELD(x, tried)[1],
+             model.unknowns[*(const int64_t *)FIELD(x, stage_stiffest)], events,
+             events == CODE_EVENT_BUFFER_LENGTH ? " or more" : "");
 }
 
 const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size) {
     *text = 0;
+    if (outcome == STATUS_TOO_MANY_STEPS || outcome == STATUS_NO_PROGRESS || outcome == STATUS_STEP_TOO_SMALL)
+        stiffest(x, text, size);
     if (outcome == STATUS_NOT_ASSEMBLED)
         residuals(x, FIELD(x, residual), " Left open: ", " (m, or rad between directions).", text, size);
     if (outcome == STATUS_START_RATES)
@@ -194,6 +226,7 @@ const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size
     if (outcome == STATUS_START_INSIDE || outcome == STATUS_OVERLAP) penetration(x, text, size);
     if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
         outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED)
-        involved(x, text, size);
+        involved_contacts(x, text, size);
+    if (outcome == STATUS_JAMMED) rubbing_joints(x, text, size);
     return text;
 }

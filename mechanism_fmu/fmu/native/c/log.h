@@ -6,6 +6,7 @@
 
 OWN_FRAME void say(const Instance *x, Status status, const char *category, const char *format, ...);
 OWN_FRAME Status refuse(const Instance *x, const char *format, ...); /* says why, and returns ERROR */
+OWN_FRAME Status give_up(const Instance *x, const char *format, ...); /* of a step: the same with DISCARD */
 Status set_logging(Instance *x, int on, size_t count, const char *const categories[]);
 
 void tell_news(Instance *x);

@@ -34,6 +34,15 @@ typedef struct {
     int rows;
 } Joint;
 
+/* What words of the state may hold: `rows` times `columns` of them, `stride` words from row to row. */
+typedef struct {
+    const char *name;
+    size_t first; /* in the state */
+    size_t rows, columns, stride;
+    int integer, whole, nan; /* stored as int64; whole numbers only; NaN is allowed */
+    double low, high;
+} Rule;
+
 typedef struct {
     const char *name, *before, *behind; /* the depth by which it starts inside the other body */
 } Contact;
@@ -54,6 +63,9 @@ typedef struct {
     const Contact *contacts;
     const char *const *patterns;
     const char *const *functions;
+    const char *const *unknowns; /* of the engine, as messages name them */
+    const Rule *rules;           /* what the words of the state may hold */
+    size_t rule_count;
 } Model;
 
 extern const Model model;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "instance.h"
+#include "saved.h"
 
 static const char MAGIC[] = {'M', 'e', 'c', 'h', 'F', 'M', 'U', 'n'};
 
@@ -98,5 +99,9 @@ Status deserialize(Instance *x, const unsigned char *bytes, size_t size, Saved *
     *state = x->allocate(1, saved_size());
     if (!*state) return refuse(x, "There is no memory for a saved state of %zu bytes.", saved_size());
     memcpy(*state, bytes + HEAD_SIZE, saved_size());
-    return OK;
+    double *words = (*state)->words;
+    if (check_saved(x, &(*state)->head, words, words + model.parameters) == OK) return OK;
+    x->release(*state);
+    *state = NULL;
+    return ERROR;
 }

@@ -1,0 +1,112 @@
+"""Where instances of an FMU live: here, or in processes of their own (docs/decisions/028-whose-fmu-runs-where.md).
+
+An FMU is code of whoever made it. In the own process it can end that, with whatever exit code it likes, move its
+working folder, or overwrite its memory. So only a file that this user's builds have made runs here.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+import traceback
+from collections.abc import Callable
+
+import typer
+
+from mechanism_fmu.fmu.built import was_built_here
+
+from .fmu import Fmu
+from .machine.remote import RemoteFmu
+from .slave import Instances
+from .terminal import FAILED, show_error, user_errors
+
+#: Of a call [s]; nobody else ends a step of hours.
+_TIME_LIMIT = 600.0
+
+
+def instances_of(fmu: Fmu) -> Instances:
+    """An FMU itself if a build of this user has made it, else one whose instances have processes of their own."""
+    return fmu if was_built_here(fmu.path) else RemoteFmu(fmu, _TIME_LIMIT)
+
+
+def with_instances(fmu: Fmu, in_process: bool, work: Callable[[Instances], int]) -> int:
+    """The exit code of work with instances of an FMU.
+
+    Args:
+        fmu: extracted.
+        in_process: whether instances shall be in the process that works, though no build of this user has made the FMU.
+        work: is given what makes instances, and returns an exit code.
+    """
+    instances = instances_of(fmu)
+    if instances is fmu or not in_process:
+        return work(instances)
+    return supervised(lambda: work(fmu)) if hasattr(os, "fork") else work(fmu)
+
+
+def supervised(work: Callable[[], int]) -> int:
+    """The exit code of work that is done in a copy of this process, whose every other end is a failure.
+
+    Who runs foreign code in its own process cannot promise how that ends: `exit(0)` there would look like success. Not
+    on Windows, which has no copies of processes.
+    """
+    told, tell = os.pipe()
+    alive, stay = os.pipe()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    child = os.fork()
+    if child == 0:
+        os.setpgid(0, 0)  # Ctrl-C comes once: from below
+        os.close(told)
+        os.close(stay)
+        _end_with(alive)
+        code = _code_of(work)
+        os.write(tell, bytes([code]))
+        os._exit(code)
+    os.close(tell)
+    os.close(alive)
+    passed_on = signal.SIGINT, signal.SIGTERM
+    before = {number: signal.signal(number, lambda n, _: os.kill(child, n)) for number in passed_on}
+    try:
+        _, status = os.waitpid(child, 0)
+        asked_for = os.read(told, 1)
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        os.close(told)
+        os.close(stay)
+    code = os.waitstatus_to_exitcode(status)
+    if asked_for and code == asked_for[0]:
+        return code
+    how = f"by the signal {signal.Signals(-code).name}" if code < 0 else f"with exit code {code}"
+    show_error(
+        f"The process ended {how} before the program did: the FMU crashed or ended it. What is in no file is lost; "
+        "without --in-process, an FMU has a process of its own."
+    )
+    return FAILED
+
+
+def _code_of(work: Callable[[], int]) -> int:
+    """The exit code of work, with everything that is to be said of it."""
+    try:
+        with user_errors():
+            code = work()
+    except typer.Exit as end:
+        code = end.exit_code
+    except BaseException:
+        traceback.print_exc()
+        code = FAILED
+    sys.stdout.flush()
+    sys.stderr.flush()
+    return code
+
+
+def _end_with(alive: int) -> None:
+    """End this process when the other end of a pipe is closed: its process was killed."""
+
+    def wait() -> None:
+        os.read(alive, 1)
+        os._exit(FAILED)
+
+    threading.Thread(target=wait, daemon=True).start()

@@ -1,0 +1,41 @@
+"""The kept forged states (corpus.toml) for a model."""
+
+from __future__ import annotations
+
+import struct
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+from mechanism_fmu.admissible import rules
+from mechanism_fmu.engine.block.layout import sizes_of
+from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.model import Model, compile_mechanism
+
+#: Words of the head of a native state, as in instance_data.h.
+HEAD = ("phase", "set_up", "prepared", "start_time", "stop_time", "tolerance", "clock")
+_CORPUS = tomllib.loads(Path(__file__).with_name("corpus.toml").read_text(encoding="utf-8"))
+
+
+def forged_words(model: Model) -> Iterator[tuple[str, int, int]]:
+    """Name, place in the engine's state and bits of every kept word that this model has."""
+    of_model = rules(sizes_of(pack(compile_mechanism(model.build(model.values())))))
+    known = {rule.name: rule for rule in of_model}
+    for entry in _CORPUS["state"]:
+        rule = known[entry["word"]]
+        if rule.rows * rule.columns > 0:
+            for value in entry["holds"]:
+                yield f"{rule.name} = {value}", rule.first, _bits(value)
+
+
+def forged_heads() -> Iterator[tuple[str, int, int]]:
+    """The same of the head of a native state."""
+    for entry in _CORPUS["head"]:
+        for value in entry["holds"]:
+            yield f"{entry['word']} = {value}", HEAD.index(entry["word"]), _bits(value)
+
+
+def _bits(value: float) -> int:
+    form = "<q" if isinstance(value, int) else "<d"
+    (bits,) = struct.unpack("<Q", struct.pack(form, value))
+    return int(bits)

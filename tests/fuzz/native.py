@@ -1,0 +1,107 @@
+"""Random calls and forged saved states against the C sources of native FMUs, under AddressSanitizer and UBSan.
+
+    python -m tests.fuzz.native --calls 1000000 --states 100000 [--seed 1] [--model ratchet] [--fmi 2]
+
+All models, in FMI 2.0 and 3.0; calls and states are those of all together. It needs Linux and gcc.
+"""
+
+from __future__ import annotations
+
+import argparse
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+import fmpy
+
+import mechanism_fmu.fmu.native as native
+import models
+from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.fmu.native.formulas import formulas
+from mechanism_fmu.fmu.native.model_data import model_source
+from mechanism_fmu.fmu.native.objects import compiled_engine
+from mechanism_fmu.fmu.native.package import SURFACE
+from mechanism_fmu.model import compile_mechanism
+from mechanism_fmu.model.trace import trace
+
+_FLAGS = (
+    "-std=gnu11",
+    "-O1",
+    "-g",
+    "-ffp-contract=off",
+    "-fno-omit-frame-pointer",
+    "-fsanitize=address,undefined",
+    "-fsanitize=float-cast-overflow",
+    "-fno-sanitize-recover=all",
+)
+_C = Path(native.__file__).with_name("c")
+_STANDARD = Path(fmpy.__file__).with_name("c-code")
+VERSIONS = (2, 3)
+
+
+def can_run() -> bool:
+    """Whether this machine has what the drivers need."""
+    return sys.platform == "linux" and shutil.which("gcc") is not None
+
+
+def driver(name: str, folder: Path) -> Path:
+    """The program that calls the FMU of a model at random, compiled into a folder."""
+    model = models.load(name).MODEL
+    block = pack(compile_mechanism(model.build(model.values())))
+    source = folder / f"{name}.c"
+    source.write_text(model_source(model, formulas(trace(model), block), "{fuzz}", bytes(range(16))), encoding="ascii")
+    engine = compiled_engine()
+    of_engine = engine.objects[f"{platform.machine().lower()}-linux"]
+    program = folder / name
+    inputs = [Path(__file__).with_name("driver.c"), *(_C / file for file in SURFACE), source, of_engine]
+    headers = [f"-I{place}" for place in (_C, engine.headers, _STANDARD)]
+    command = ["gcc", *_FLAGS, *headers, *map(str, inputs), "-lm", "-o", str(program)]
+    subprocess.run(command, check=True)
+    return program
+
+
+def run(program: Path, fmi: int, seed: int, calls: int, states: int, *forged: str) -> Counter[str]:
+    """Run a driver; what it counted.
+
+    Raises:
+        AssertionError: it did not end well, with what it printed.
+    """
+    command = [str(program), *map(str, (fmi, seed, calls, states)), *forged]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=3600)
+    assert done.returncode == 0, f"{' '.join(command)}\n{done.stdout[-2000:]}\n{done.stderr[:8000]}"
+    return Counter({key: int(value) for key, value in re.findall(r"(\w+) (\d+)", done.stdout)})
+
+
+def main() -> None:
+    """The long form."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--calls", type=int, default=1_000_000)
+    parser.add_argument("--states", type=int, default=100_000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--model", choices=list(models.available()))
+    parser.add_argument("--fmi", type=int, choices=VERSIONS)
+    asked = parser.parse_args()
+    names = [asked.model] if asked.model else list(models.available())
+    versions = [asked.fmi] if asked.fmi else list(VERSIONS)
+    share = len(names) * len(versions)
+    total: Counter[str] = Counter()
+    with tempfile.TemporaryDirectory() as folder:
+        for name in names:
+            program = driver(name, Path(folder))
+            for fmi in versions:
+                begun = time.perf_counter()
+                counted = run(program, fmi, asked.seed, -(-asked.calls // share), -(-asked.states // share))
+                total += counted
+                seconds = time.perf_counter() - begun
+                print(f"{name}, FMI {fmi}: {dict(counted)}, {seconds:.0f} s", flush=True)
+    print(f"all: {dict(total)}; no finding")
+
+
+if __name__ == "__main__":
+    main()
