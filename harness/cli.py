@@ -427,8 +427,8 @@ def reproduce(
     """Work every equation, table, figure, example and claim of the three documents anew, each with a verdict.
 
     Writes papers-reproduced.md (docs/papers-reproduced.md is what it wrote), report.html, rows.csv and the figures.
-    With ids, only the rows that begin so, with their worked numbers: P of Pennestrì, Valentini, Vita; E of Erdman,
-    Sandor, Oakberg; S of the ME451 slides; X for misprints and assumptions that fail, C for choices.
+    With ids or what they begin with, only those rows, with their worked numbers: P of Pennestrì, Valentini, Vita; E of
+    Erdman, Sandor, Oakberg; S of the ME451 slides; X for misprints and assumptions that fail, C for choices.
 
     Try:
 

@@ -35,7 +35,8 @@ mechanism-fmu reproduce P-eq7 E-eq13 S-3.4.1        # some rows only, with their
 ```
 
 What is at hand are the documents' texts, without their drawings, and of Erdman, Sandor and Oakberg only the first
-pages, which end with eq (14). Commands that name `build/Ratchet.fmu` need it built: `mechanism-fmu build ratchet`.
+pages, which end with eq (14). Commands that name `build/Ratchet.fmu` need it first:
+`mechanism-fmu build ratchet -o build/`.
 
 A verdict follows from a calculation of this run, and becomes FAILED when the numbers do not bear it out. Where an
 asterisk stands behind it, it is a judgement by a person who read the document: there is nothing to calculate, or the
