@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import signal
+import tempfile
 import threading
 from multiprocessing import connection, get_all_start_methods, get_context, parent_process
 from multiprocessing.context import BaseContext
@@ -13,18 +14,24 @@ from pathlib import Path
 #: How numpy's libraries are told how many threads to have, when they are loaded.
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
+#: The path of a socket has some 100 letters at the most, of which Python takes 36 behind that of the temporary folder.
+_LONGEST_FOLDER = 60
+
 
 def starting_from(module: str) -> BaseContext:
     """How to start processes that need a module.
 
     Where the system can, they are copies of one that has nothing but this module: copies of this process might hold
     half of a lock, and a start from nothing takes a second each. Threads of numpy's own would only be in each other's
-    way: twice the time.
+    way: twice the time. In a temporary folder with a long path such copies cannot be called: each starts from nothing
+    there.
     """
     for name in _THREADS:
         os.environ.setdefault(name, "1")
-    context = get_context("forkserver" if "forkserver" in get_all_start_methods() else "spawn")
-    context.set_forkserver_preload([module])
+    copies = "forkserver" in get_all_start_methods() and len(tempfile.gettempdir()) <= _LONGEST_FOLDER
+    context = get_context("forkserver" if copies else "spawn")
+    if copies:
+        context.set_forkserver_preload([module])
     return context
 
 

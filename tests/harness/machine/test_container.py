@@ -106,7 +106,10 @@ def foreign(plan: Plan, name: str, **as_it_is: object) -> dict[str, Part]:
     """The components, one variable of the gears being of another type of FMI 3.0."""
     known = parts(plan)
     description = known["gears"].description
-    types = {n: replace(v, fmi_type={"Real": "Float64"}.get(v.type, v.type)) for n, v in description.variables.items()}
+    types = {
+        n: replace(v, fmi_type={"Real": "Float64", "Integer": "Int32"}.get(v.type, v.type))
+        for n, v in description.variables.items()
+    }
     types[name] = replace(types[name], **as_it_is)  # type: ignore[arg-type]
     changed = replace(description, fmi=3, variables=types)
     return known | {"gears": replace(known["gears"], description=changed)}
