@@ -185,6 +185,8 @@ def run_study(folder: Path, path: Path | None) -> int:
 
 def _study_written(study: Study, folder: Path) -> int:
     """Show and write a study, and return the exit code."""
+    from mechanism_fmu.stress import LEAST_SLENDERNESS
+
     from .accuracy import ACCURACY
     from .report.paper_figures import paper_figures
     from .report.static import write_static
@@ -192,8 +194,15 @@ def _study_written(study: Study, folder: Path) -> int:
     from .study import write_study
 
     rows = [wheel.cells() for wheel in study.wheels]
-    headings = ["nt", "beta_0 [deg]", "t_I [s]", "omega(t_I+) [rad/s]", "v_I [m/s]", "sigma_max [Pa]"]
+    headings = ["nt", "beta_0 [deg]", "t_I [s]", "omega(t_I+) [rad/s]", "v_I [m/s]", "sigma_max [Pa]", "l/h [1]"]
     show_table("First impact of each wheel", headings, rows, numeric=range(len(headings)))
+    slender = [wheel.slenderness for wheel in study.wheels]
+    outside = sum(ratio < LEAST_SLENDERNESS for ratio in slender)
+    console.print(
+        f"[dim]l/h, length over root height of a tooth, is {min(slender):.2f} to {max(slender):.2f}: {outside} of "
+        f"{len(slender)} are outside beam theory ({LEAST_SLENDERNESS:g} or more). sigma_max: the paper's two modes.[/]",
+        soft_wrap=True,
+    )
     for warning in study.warnings:
         console.print(f"[yellow]Warning[/]: {escape(warning)}", soft_wrap=True)
     show_checks(study.checks)

@@ -67,7 +67,10 @@ class Wheel:
         return slenderness(self.tooth)
 
     def cells(self) -> list[str]:
-        """A row of the printed table: teeth, beta_0 [deg], t_I [s], omega(t_I+) [rad/s], v_I [m/s], sigma_max [Pa]."""
+        """A row of the printed table.
+
+        Teeth, beta_0 [deg], t_I [s], omega(t_I+) [rad/s], v_I [m/s], sigma_max [Pa], length over root height [1].
+        """
         return [
             str(self.tooth_count),
             str(self.slope_angle_deg),
@@ -75,6 +78,7 @@ class Wheel:
             f"{self.wheel_speed:.10f}",
             f"{self.impact_velocity:.6e}",
             f"{self.stress_max:.1f}",
+            f"{self.slenderness:.2f}",
         ]
 
     def __str__(self) -> str:

@@ -25,12 +25,13 @@ from .ritz import natural_modes
 from .scaling import ModeScaling
 from .sequence import SequenceDamage, sequence_damage
 from .shear import shear_force, shear_stress
-from .slenderness import beam_theory_note, slenderness
+from .slenderness import LEAST_SLENDERNESS, beam_theory_note, slenderness
 from .tip import LineContact, axial_stress, hertz_line_contact, peak_force, shortest_contact
 from .tooth import RectangularTooth, TrapezoidTooth, WedgeTooth, wedge_of_sawtooth
 
 __all__ = [
     "CARDS",
+    "LEAST_SLENDERNESS",
     "STEEL",
     "STEEL_CARD",
     "Beam",

@@ -20,7 +20,7 @@ from mechanism_fmu.model import (
     stiffness_parameter,
     torque_parameter,
 )
-from mechanism_fmu.model.functions import atan2, cos, sin, sqrt
+from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan
 
 from .inputs import SHAFT
 from .start import tooth
@@ -104,6 +104,11 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         *(Calculated(name, length, description, "m") for name, length, description in lengths),
         *_solid_wheel(values),
         *_stiffnesses(values),
+        Calculated(
+            "tooth_slenderness",
+            1 / tan(geometry.apex_angle),
+            "Length over root height of a tooth as a beam; beam theory wants 5 or more",
+        ),
     )
 
 
