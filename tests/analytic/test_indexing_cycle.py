@@ -157,7 +157,9 @@ def test_any_sensible_ratchet_runs_without_penetration_or_gain_of_energy(changes
         found = simulation.read()
         lines = np.array([found["face_gap"], found["slope_gap"], found["wheel_angle"] - found["latched_angle"]])
         assert lines.min() >= -1e-9
-        assert found["energy_lost"] >= lost - 1e-12
+        assert (
+            found["energy_lost"] >= lost - 1e-9 * in_play
+        )  # what the tolerance of the motion leaves of friction at rest
         lost = found["energy_lost"]
         in_play = max(in_play, abs(found["work_done"]), lost)
         assert abs(residual(found, initial)) <= 1e-7 * in_play
