@@ -20,7 +20,7 @@ from mechanism_fmu.model import (
     stiffness_parameter,
     torque_parameter,
 )
-from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan
+from mechanism_fmu.model.functions import atan2, cos, sin, sqrt
 
 from .inputs import SHAFT
 from .start import tooth
@@ -106,7 +106,7 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         *_stiffnesses(values),
         Calculated(
             "tooth_slenderness",
-            1 / tan(geometry.apex_angle),
+            cos(geometry.apex_angle) / sin(geometry.apex_angle),
             "Length over root height of a tooth as a beam; beam theory wants 5 or more",
         ),
     )
