@@ -29,6 +29,9 @@ from .impacts import WHEEL_HELD, wheel_held
 #: The calculated parameters by which an FMU describes a tooth.
 TOOTH = ("tooth_length", "tooth_apex_angle")
 
+#: The one that says how far beam theory covers it.
+SLENDERNESS = "tooth_slenderness"
+
 #: Units of the numbers that `with_stress` adds to the table of impacts.
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
 #: Those of all columns that it adds; "": a text.

@@ -10,7 +10,8 @@ import pandas as pd
 
 from ..description import Value
 from ..tooth_damage import damage_of_impacts
-from ..tooth_stress import STRESS_UNITS, tooth_of, with_stress
+from ..tooth_stress import tooth_of, with_stress
+from .quantities import asks_for_stress
 from .task import Task, When
 
 #: What makes an impact the largest, the first of them that there is.
@@ -19,10 +20,7 @@ _SIZES = ("stress_max", "velocity", "closing_speed", "impulse")
 
 def wants_stress(task: Task) -> bool:
     """Whether the task asks for what impacts do to a tooth."""
-    return any(
-        quantity.when is When.ALL_IMPACTS or (quantity.when.of_impacts and quantity.name in STRESS_UNITS)
-        for quantity in task.quantities
-    )
+    return any(asks_for_stress(quantity) for quantity in task.quantities)
 
 
 def of_impacts(task: Task, table: pd.DataFrame, tooth_values: Mapping[str, Value]) -> dict[str, Value | None]:

@@ -10,7 +10,7 @@ from ..description import Description
 from ..toml_file import TomlFile
 from .goal import Goal, read_goal, with_goal
 from .plan import shared
-from .quantities import recorded
+from .quantities import recorded, with_slenderness
 from .task import MOST_DESIGNS, Task
 from .variation import Axis, axes
 
@@ -119,7 +119,13 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
     assert running.grid is not None  # otherwise there were mistakes
     assert goal is not None
     assert count is not None
-    task = Task(running.grid, fixed, running.inputs, with_goal(quantities, goal), running.material)
+    task = Task(
+        running.grid,
+        fixed,
+        running.inputs,
+        with_slenderness(with_goal(quantities, goal), description),
+        running.material,
+    )
     return Optimum(title, task, free, goal, method or (CONTINUOUS if smooth else MIXED), count, seed or 0, around)
 
 

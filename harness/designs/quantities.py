@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ..description import Description, Variable, hint_at
 from ..impacts import ImpactCollector
 from ..toml_file import Section
 from ..tooth_damage import DAMAGE_UNITS
-from ..tooth_stress import STRESS_UNITS, TOOTH
+from ..tooth_stress import SLENDERNESS, STRESS_UNITS, TOOTH
 from .task import Quantity, When
 
 _NUMBERS = ("Real", "Integer", "Boolean")
@@ -29,6 +29,23 @@ def recorded(section: Section, description: Description) -> list[Quantity]:
                 section.wrong(when, str(error))
     section.done()
     return found
+
+
+def with_slenderness(quantities: Sequence[Quantity], description: Description) -> tuple[Quantity, ...]:
+    """The quantities, and where stresses are among them the slenderness of the tooth, if the FMU has it.
+
+    It says of each design how far beam theory, and so its stress, may be trusted.
+    """
+    known = description.variables.get(SLENDERNESS)
+    if known is None or not any(asks_for_stress(one) for one in quantities):
+        return tuple(quantities)
+    slenderness = Quantity(When.PARAMETER, SLENDERNESS, known.type, known.unit, known.display_unit)
+    return tuple(dict.fromkeys([*quantities, slenderness]))
+
+
+def asks_for_stress(quantity: Quantity) -> bool:
+    """Whether a quantity is about what impacts do to a tooth."""
+    return quantity.when is When.ALL_IMPACTS or (quantity.when.of_impacts and quantity.name in STRESS_UNITS)
 
 
 def quantity(when: When, name: str, description: Description) -> Quantity:

@@ -11,7 +11,7 @@ from ..description import Description
 from ..toml_file import TomlFile
 from . import sampling
 from .plan import shared
-from .quantities import recorded
+from .quantities import recorded, with_slenderness
 from .task import MOST_DESIGNS, Design, Task
 from .variation import Axis, axes
 
@@ -81,7 +81,7 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
     designs = sampling.grid(varied) if by_grid else sampling.sampled(varied, method, count or 1, seed or 0)
     return Sweep(
         title,
-        Task(running.grid, fixed, running.inputs, tuple(quantities), running.material),
+        Task(running.grid, fixed, running.inputs, with_slenderness(quantities, description), running.material),
         tuple(varied),
         method,
         seed or 0,

@@ -1,6 +1,8 @@
-"""Phi_q, nu and gamma of constraint rows against differences of Phi along a motion."""
+"""How far numbers are off each other, and Phi_q, nu and gamma off differences of Phi along a motion."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +14,11 @@ from .bench import FloatArray
 _FIRST = (4 / 5, -1 / 5, 4 / 105, -1 / 280)
 _SECOND = (-205 / 72, 8 / 5, -1 / 5, 8 / 315, -1 / 560)
 _STEP = 0.02
+
+
+def off_by(found: Any, wanted: Any) -> float:
+    """The largest deviation [1], relative to the largest number wanted; arrays of one shape."""
+    return float(np.abs(np.asarray(found) - np.asarray(wanted)).max() / np.abs(np.asarray(wanted)).max())
 
 
 def joint_deviations(

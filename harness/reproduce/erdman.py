@@ -12,8 +12,8 @@ from mechanism_fmu.elastodynamics import (
 )
 from mechanism_fmu.elastodynamics.elements import FloatArray
 
-from .arrays import off_by
 from .bench import Bench
+from .differences import off_by
 from .row import Found, Row, Verdict, within
 
 CONFIGURATION = "mechanism_fmu/elastodynamics/configuration.py"

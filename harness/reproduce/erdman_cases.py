@@ -12,8 +12,8 @@ from mechanism_fmu.elastodynamics import mass_matrix, quasi_static, system_force
 from mechanism_fmu.kinematics import mobility
 from mechanism_fmu.model import AngleDriver, polynomial_motion
 
-from .arrays import off_by
 from .bench import Bench
+from .differences import off_by
 from .erdman import CONFIGURATION, COORDINATES, PLACES, angles_at, at_angle, flexibility_by_hand, length_of
 from .row import Found, Row, Verdict, judged, within
 

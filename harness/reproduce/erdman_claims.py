@@ -21,8 +21,7 @@ from mechanism_fmu.elastodynamics import (
 )
 
 from .bench import Bench
-from .commands import KED
-from .row import Found, Row, Verdict, judged
+from .row import KED, Found, Row, Verdict, judged
 
 #: Crank of this project's own example, 4 in [m].
 _CRANK = 0.1016

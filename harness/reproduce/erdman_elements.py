@@ -20,8 +20,8 @@ from mechanism_fmu.elastodynamics import (
 from mechanism_fmu.elastodynamics.elements import FloatArray
 from mechanism_fmu.model import Section
 
-from .arrays import off_by
 from .bench import Bench
+from .differences import off_by
 from .row import Found, Row, Verdict, judged, within
 
 ELEMENTS = "mechanism_fmu/elastodynamics/elements.py"

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from .commands import KED
 from .redrawn import redrawn
-from .row import Found, Row, Verdict
+from .row import KED, Found, Row, Verdict
 
 _KINEMATICS, _SIMULATION = "mechanism_fmu/kinematics/motion.py", "mechanism_fmu/simulation.py"
 _CYCLE, _SYNTHESIS = "mechanism_fmu/elastodynamics/cycle.py", "mechanism_fmu/elastodynamics/synthesis.py"

@@ -15,8 +15,8 @@ from mechanism_fmu.slides import (
     tangents_of_the_rows,
 )
 
-from .arrays import off_by
 from .bench import Bench
+from .differences import off_by
 from .me451_by_hand import egg, turned
 from .me451_gears import SLIDES
 from .me451_joints import PARTS, two_bodies

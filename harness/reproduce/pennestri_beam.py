@@ -16,8 +16,8 @@ from mechanism_fmu.stress import (
     ritz_modes,
 )
 
-from .arrays import off_by
 from .bench import Bench
+from .differences import off_by
 from .pennestri_stress import MODES, RECOVERY, RESPONSE, RITZ, TOOTH, XI, times_of
 from .redrawn import redrawn
 from .row import Found, Row, Verdict, judged, within

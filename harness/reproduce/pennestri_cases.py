@@ -13,9 +13,8 @@ from mechanism_fmu.stress import STEEL, WedgeTooth, maximum_stress
 from ..paper import SLOPE_ANGLES_DEG, TOOTH_COUNTS
 from ..wheels import Wheel
 from .bench import AFTER_IMPACT, Bench
-from .commands import STUDY
 from .redrawn import redrawn
-from .row import Found, Row, Verdict, judged, within
+from .row import STUDY, Found, Row, Verdict, judged, within
 from .wedge_by_hand import largest
 
 FIGURES, PAPER = "harness/report/paper_figures.py", "harness/paper.py"

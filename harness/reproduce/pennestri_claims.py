@@ -7,8 +7,7 @@ import math
 from ..accuracy import accuracy_findings
 from ..findings import Finding
 from .bench import AFTER_IMPACT, Bench
-from .commands import STUDY
-from .row import Found, Row, Verdict, judged
+from .row import STUDY, Found, Row, Verdict, judged
 
 ACCURACY = ("harness/accuracy.py", "harness/plane_teeth.csv")
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from . import pennestri_beam, pennestri_cases, pennestri_impact, pennestri_stress
 from .bench import Bench
-from .commands import STUDY
-from .row import Found, Row, Verdict, judged
+from .row import STUDY, Found, Row, Verdict, judged
 
 _ROWS = {
     row.id: row

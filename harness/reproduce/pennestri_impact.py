@@ -6,8 +6,8 @@ import numpy as np
 
 from mechanism_fmu.model.transitions import transition_table
 
-from .arrays import off_by
 from .bench import AFTER_IMPACT, Bench, FloatArray
+from .differences import off_by
 from .pennestri_motion import IMPACT, MINIMUM_NORM, TABLE_2, augmented
 from .ratchet_by_hand import distance_to_face, rows_by_hand
 from .redrawn import redrawn

@@ -10,9 +10,8 @@ from scipy.linalg import sqrtm
 
 from mechanism_fmu.simulation import Simulation
 
-from .arrays import off_by
 from .bench import AFTER_IMPACT, Bench, FloatArray, closed_ratchet
-from .differences import joint_deviations
+from .differences import joint_deviations, off_by
 from .row import Found, Row, Verdict, within
 
 ACCELERATION = "mechanism_fmu/engine/dynamics/acceleration.py"

@@ -10,10 +10,9 @@ from mechanism_fmu.stress import wedge_of_sawtooth
 
 from ..paper import SLOPE_ANGLES_DEG, TOOTH_COUNTS
 from .bench import AFTER_IMPACT, CRANK, HINGES, PAWL, RADIUS, SLOPE_RATIO, Bench, tooth
-from .commands import RUN
 from .geometry import CASES, alpha_star, gamma_on_slope
 from .redrawn import redrawn
-from .row import Found, Row, Verdict, judged, within
+from .row import RUN, Found, Row, Verdict, judged, within
 
 PARAMETERS, SAWTOOTH = "models/ratchet/parameters.py", "mechanism_fmu/model/sawtooth.py"
 

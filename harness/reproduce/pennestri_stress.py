@@ -19,8 +19,8 @@ from mechanism_fmu.stress import (
     ritz_modes,
 )
 
-from .arrays import off_by
 from .bench import Bench, FloatArray
+from .differences import off_by
 from .redrawn import redrawn
 from .row import Found, Row, within
 from .wedge_by_hand import frequencies

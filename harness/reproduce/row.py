@@ -9,7 +9,12 @@ from enum import StrEnum
 from ..findings import Verdict
 from .bench import Bench
 
-__all__ = ["Document", "Found", "Result", "Row", "Verdict", "judged", "within"]
+__all__ = ["KED", "RUN", "STUDY", "Document", "Found", "Result", "Row", "Verdict", "judged", "within"]
+
+#: Command lines that many rows are shown by.
+KED = "mechanism-fmu ked four_bar_path_generator"
+STUDY = "mechanism-fmu study ratchet"
+RUN = "mechanism-fmu run build/Ratchet.fmu"
 
 
 class Document(StrEnum):

@@ -12,7 +12,7 @@ from ..block.parts import contacts, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..profiles.nearest import least_fit
-from .dormand_prince import ORDER, try_step
+from .dormand_prince import ORDER, scaled_error, try_step
 from .step_limits import within_motions, within_ramp
 
 #: Smallest step as a fraction of max(1 s, |t|).
@@ -112,3 +112,22 @@ def _scale(error: float, most: float) -> float:
     if not error < math.inf:
         return _SHRINK_MOST
     return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -1.0 / ORDER)))
+
+
+@jit
+def note_stiffest(block: Array) -> None:
+    """Write into `stages.stiffest` which unknown limits the size of the step last tried, for a message.
+
+    It is the one whose error is largest, measured by its tolerance.
+    """
+    keep_small()
+    s = stages(block)
+    work = 2 * sizes(block).coordinates
+    worst = -1.0
+    for i in range(sizes(block).unknowns):
+        if i == work or i == work + 1:
+            continue  # work and loss follow from the motion
+        error = abs(scaled_error(block, i, s.tried[1]))
+        if not error <= worst:
+            worst = error
+            s.stiffest[0] = i

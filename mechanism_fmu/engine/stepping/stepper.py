@@ -27,7 +27,7 @@ from .interpolation import interpolate
 from .pulling import watch_at
 from .singular import keep_independence, note_rank
 from .step import take_step
-from .stiffest import note_stiffest
+from .step_size import note_stiffest
 
 #: When this part of the internal steps is spent, that part of the communication step must be covered.
 _LOOK_AFTER = 0.1

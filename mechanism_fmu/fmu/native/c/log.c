@@ -38,24 +38,28 @@ void say(const Instance *x, Status status, const char *category, const char *for
     x->log(x, status, category, text);
 }
 
-Status refuse(const Instance *x, const char *format, ...) {
+/* A text that begins with the instance's name. */
+static Status say_named(const Instance *x, Status status, const char *category, const char *format, va_list arguments) {
     char text[2400];
+    vsnprintf(text, sizeof text, format, arguments);
+    say(x, status, category, "%s: %s", x->name, text);
+    return status;
+}
+
+Status refuse(const Instance *x, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    Status status = say_named(x, ERROR, "logStatusError", format, arguments);
     va_end(arguments);
-    say(x, ERROR, "logStatusError", "%s: %s", x->name, text);
-    return ERROR;
+    return status;
 }
 
 Status give_up(const Instance *x, const char *format, ...) {
-    char text[2400];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    Status status = say_named(x, DISCARD, "logStatusDiscard", format, arguments);
     va_end(arguments);
-    say(x, DISCARD, "logStatusDiscard", "%s: %s", x->name, text);
-    return DISCARD;
+    return status;
 }
 
 void forget_news(Instance *x) {
