@@ -42,6 +42,12 @@ def build(
         Flavour, typer.Option(help="pythonfmu: needs Python where it runs. native: needs nothing there.")
     ] = Flavour.PYTHONFMU,
     fmi: Annotated[int, typer.Option(min=2, max=3, help="Version of the standard; 3 in the native flavour only.")] = 2,
+    clocks: Annotated[
+        bool,
+        typer.Option(
+            "--clocks", help="FMI 3.0 with a clock of impacts and arrays, for tools that use them, in event mode only."
+        ),
+    ] = False,
     show_list: Annotated[bool, typer.Option("--list", help="List the models and stop.")] = False,
 ) -> None:
     """Build the FMU of a model: one file that any FMI co-simulation tool can load.
@@ -62,13 +68,13 @@ def build(
             typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
         return
     began = time.perf_counter()
-    path = built(model or "", output, flavour, fmi)
+    path = built(model or "", output, flavour, fmi, clocks)
     seconds = time.perf_counter() - began
     typer.echo(f"{path}  {path.stat().st_size / 1e3:.0f} kB  GUID {_guid(path)}  {seconds:.1f} s")
     advise(flavour)
 
 
-def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: int = 2) -> Path:
+def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: int = 2, clocks: bool = False) -> Path:
     """Build the FMU of a model as `build` does, and return its file; what is to be said goes to stderr.
 
     Raises:
@@ -93,6 +99,9 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
     if fmi == 3 and flavour is not Flavour.NATIVE:
         messages.print("FMI 3.0 comes in the native flavour only; add --flavour native.", style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR)
+    if clocks and fmi != 3:
+        messages.print("Clocks come with FMI 3.0 only; add --fmi 3.", style="red", markup=False)
+        raise typer.Exit(_USAGE_ERROR)
     try:
         with messages.status(f"Building the FMU of {model} ...") as status, ExitStack() as explanations:
 
@@ -108,7 +117,7 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
                 module, file = prepare(model, flavour is Flavour.NATIVE, warn)
                 explanations.enter_context(explained_in_fmu(file))
             if flavour is Flavour.NATIVE:
-                path = build_native_fmu(module, output, fmi, report)
+                path = build_native_fmu(module, output, fmi, report, clocks)
             else:
                 path = build_fmu(module, output, report)
     except (MechanismError, OSError) as error:

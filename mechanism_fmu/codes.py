@@ -193,10 +193,11 @@ GUARD_INPUT = 6  # an input has changed
 GUARD_BEGIN = 7  # the motion begins
 GUARD_FAILED = 8  # an event could not be resolved: nothing goes on from there (the status stands as subject)
 
-# stop rules: where `stepper.go_on` stops
+# stop rules: where `stepper.go_on` stops; those but the first may be added
 STOP_AT_TARGET = 0
 STOP_AT_IMPACT = 1  # ... or right after an event with an impact
 STOP_AT_STEP = 2  # ... or at the end of each of the engine's own steps
+STOP_BEFORE_EVENT = 4  # ... or at an event that has not happened yet: outputs are left limits
 
 # columns of an event record
 EVENT_TIME = 0

@@ -14,7 +14,7 @@ from pythonfmu import __version__ as pythonfmu_version
 from .. import __version__
 from ..model import Model
 from .units import BASE_UNITS, OFFERED_DISPLAY_UNITS, UnitError, display_factor, parse_unit
-from .variables import Variable, variables_of
+from .variables import FIRST_REFERENCE, Variable, variables_of
 
 #: FMI log categories (section 2.2.4) and when a message falls into one.
 LOG_CATEGORIES = {
@@ -243,10 +243,15 @@ def _unknown(parent: Element, variable: Variable, dependencies: Sequence[int]) -
     SubElement(
         parent,
         "Unknown",
-        index=str(variable.value_reference + 1),
-        dependencies=" ".join(str(reference + 1) for reference in dependencies),
+        index=str(_index(variable.value_reference)),
+        dependencies=" ".join(str(_index(reference)) for reference in dependencies),
         dependenciesKind=" ".join("dependent" for _ in dependencies),
     )
+
+
+def _index(reference: int) -> int:
+    """Place of a variable in the list, which the standard counts from 1, whatever the value references."""
+    return reference - FIRST_REFERENCE + 1
 
 
 def _number(kind: str, value: float) -> str:

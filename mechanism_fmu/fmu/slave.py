@@ -29,7 +29,7 @@ from .protocol import TIGHTEST, Experiment, FmiError, Phase, experiment, require
 from .saved_contents import CheckedState, Contents, check_contents
 from .saved_state import SavedState, SavedStateError
 from .self_check import require_numbers, start_explained
-from .variables import Variable, variables_of
+from .variables import FIRST_REFERENCE, Variable, variables_of
 from .wrapper import Told, fmi_call, survive_release
 
 _SETTABLE = {
@@ -146,7 +146,7 @@ class MechanismSlave(Fmi2Slave):
     @fmi_call
     def get_string(self, vrs: list[int]) -> list[str]:
         """fmi2GetString: there are no strings."""
-        self._check_types("String", vrs)
+        self._places("String", vrs)
         return []
 
     @fmi_call
@@ -167,7 +167,7 @@ class MechanismSlave(Fmi2Slave):
     @fmi_call
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """fmi2SetString: there are no strings."""
-        self._check_types("String", vrs)
+        self._places("String", vrs)
 
     # --- state -------------------------------------------------------------------------------------------------------
 
@@ -266,50 +266,54 @@ class MechanismSlave(Fmi2Slave):
         self._values = None
 
     def _get(self, kind: str, vrs: Sequence[int]) -> list[float]:
-        self._check_types(kind, vrs)
+        places = self._places(kind, vrs)
         if self._values is None:
-            if all(self.variables[vr].causality in _SETTABLE for vr in vrs):
-                return [self._setting(vr) for vr in vrs]
+            if all(self.variables[place].causality in _SETTABLE for place in places):
+                return [self._setting(place) for place in places]
             outputs = self._prepared().read_array().tolist()
             split = self._first_parameter - len(self._inputs)
             self._values = [*self._inputs, *outputs[:split], *self._parameters, *outputs[split:]]
         values = self._values
-        return [values[vr] for vr in vrs]
+        return [values[place] for place in places]
 
-    def _setting(self, vr: int) -> float:
+    def _setting(self, place: int) -> float:
         """The value of an input or parameter."""
-        return self._inputs[vr] if vr < len(self._inputs) else self._parameters[vr - self._first_parameter]
+        return self._inputs[place] if place < len(self._inputs) else self._parameters[place - self._first_parameter]
 
     def _set(self, kind: str, vrs: Sequence[int], values: Sequence[float]) -> None:
         """Set all values, or none when one is refused."""
-        self._check_types(kind, vrs)
-        for vr, value in zip(vrs, values, strict=True):
-            variable = self.variables[vr]
+        places = self._places(kind, vrs)
+        for place, value in zip(places, values, strict=True):
+            variable = self.variables[place]
             if variable.causality not in _SETTABLE:
                 raise FmiError(f"{variable.name} is of causality {variable.causality} and cannot be set.")
             require(self._phase, _SETTABLE[variable.causality], f"Setting {variable.causality} {variable.name}")
             check_value(variable, value)
-        for vr, value in zip(vrs, values, strict=True):
-            if vr < len(self._inputs):
-                self._inputs[vr] = value
+        for place, value in zip(places, values, strict=True):
+            if place < len(self._inputs):
+                self._inputs[place] = value
                 if self._phase is Phase.STEPPING:
-                    self._prepared().inputs[vr] = value
+                    self._prepared().inputs[place] = value
             else:
-                self._parameters[vr - self._first_parameter] = value
+                self._parameters[place - self._first_parameter] = value
         self._values = None
         if self._phase is not Phase.STEPPING:
             self._simulation = None
 
-    def _check_types(self, kind: str, vrs: Sequence[int]) -> None:
-        for vr in vrs:
-            if not 0 <= vr < len(self.variables):
+    def _places(self, kind: str, vrs: Sequence[int]) -> list[int]:
+        """Where variables stand among all, when they are there and of this type."""
+        places = [vr - FIRST_REFERENCE for vr in vrs]
+        for place in places:
+            if not 0 <= place < len(self.variables):
                 raise FmiError(
-                    f"There is no variable with value reference {vr % 2**32}; "
-                    f"they run from 0 to {len(self.variables) - 1}."
+                    f"There is no variable with value reference {(place + FIRST_REFERENCE) % 2**32}; "
+                    f"they run from {FIRST_REFERENCE} to {len(self.variables)}."
                 )
-            if self.variables[vr].type != kind:
-                variable = self.variables[vr]
-                raise FmiError(f"{variable.name} (value reference {vr}) is of type {variable.type}, not {kind}.")
+            variable = self.variables[place]
+            if variable.type != kind:
+                reference = variable.value_reference
+                raise FmiError(f"{variable.name} (value reference {reference}) is of type {variable.type}, not {kind}.")
+        return places
 
     def _tell(self) -> None:
         for message in self._news.since_last(self._prepared()):

@@ -14,6 +14,9 @@ Causality = Literal["input", "output", "parameter", "calculatedParameter", "inde
 Variability = Literal["fixed", "discrete", "continuous"]
 Initial = Literal["exact", "calculated"]
 
+#: Of the first variable: OMSimulator 3.0 resolves no dependency on 0.
+FIRST_REFERENCE = 1
+
 #: An output source that changes at impacts and events only, and says nothing at the start (see
 #: `mechanism_fmu.model.Output`).
 _OF_IMPACT = re.compile(r"impacts?(\[\d+\])?\.|events\[\d+\]\.|event\.in_step$")
@@ -25,7 +28,7 @@ class Variable:
 
     Attributes:
         name, description: of the port.
-        value_reference: position among all variables, from 0.
+        value_reference: position among all variables, from 1: some importers take 0 for none.
         type, causality, variability: as in the specification.
         initial: None for inputs and time, for which the specification forbids it.
         unit: SI unit of a Real, None for the other types.
@@ -60,18 +63,19 @@ class Variable:
 def variables_of(model: Model) -> tuple[Variable, ...]:
     """All variables of a model's FMU: inputs, outputs, parameters, calculated parameters.
 
-    The value reference of a variable is its position in the tuple.
+    The value reference of a variable is its position in the tuple, from `FIRST_REFERENCE`.
     """
     mechanism = model.mechanism(model.values())
     inputs, outputs = mechanism.inputs, mechanism.outputs
-    first_parameter = len(inputs) + len(outputs)
+    first_output = FIRST_REFERENCE + len(inputs)
+    first_parameter = first_output + len(outputs)
     parameters = tuple(range(first_parameter, first_parameter + len(model.parameters)))
-    input_references = {port.name: reference for reference, port in enumerate(inputs)}
+    input_references = {port.name: reference for reference, port in enumerate(inputs, FIRST_REFERENCE)}
 
     def variables() -> Iterator[Variable]:
-        for reference, port in enumerate(inputs):
+        for reference, port in enumerate(inputs, FIRST_REFERENCE):
             yield _input(port, reference)
-        for reference, output in enumerate(outputs, len(inputs)):
+        for reference, output in enumerate(outputs, first_output):
             feedthrough = tuple(sorted(input_references[name] for name in output.feedthrough))
             yield _output(output, reference, feedthrough, parameters)
         for reference, parameter in zip(parameters, model.parameters, strict=True):

@@ -20,6 +20,7 @@ from mechanism_fmu.model import (
     force_output,
     fraction_parameter,
     impact_outputs,
+    impact_speed_fields,
     joint_friction_parameter,
     length_parameter,
     load_torque_input,
@@ -28,7 +29,6 @@ from mechanism_fmu.model import (
     shaft_inputs,
     shaft_parameters,
     shaft_torque_output,
-    speed_output,
     speed_parameter,
     stiffness_parameter,
     torque_input,
@@ -51,8 +51,7 @@ _IMPACT = (
         "closing_speed", "closing_speed", "Speed at which the roller comes to the cam, {impact}", "m/s", nominal=0.1
     ),
     Output("impulse", "impulse", "Impulse on the roller, {impact}", "N.s", nominal=0.01),
-    speed_output("cam_speed", "speed:cam", "Speed of the cam just after, {impact}"),
-    speed_output("follower_speed", "speed:follower", "Speed of the follower just after, {impact}"),
+    *impact_speed_fields("cam", "follower"),
 )
 
 OUTPUTS = (

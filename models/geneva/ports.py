@@ -19,6 +19,7 @@ from mechanism_fmu.model import (
     force_output,
     fraction_parameter,
     impact_outputs,
+    impact_speed_fields,
     joint_friction_parameter,
     length_parameter,
     load_torque_input,
@@ -47,8 +48,7 @@ INPUTS = (
 _IMPACT = (
     speed_output("closing_speed", "closing_speed", "Speed at which the driver runs back, {impact}"),
     Output("impulse", "impulse", "Angular impulse, {impact}", "N.m.s", nominal=0.01),
-    speed_output("driver_speed", "speed:driver", "Driver speed just after, {impact}"),
-    speed_output("wheel_speed", "speed:wheel", "Wheel speed just after, {impact}"),
+    *impact_speed_fields("driver", "wheel"),
     whole_output("tooth", "tooth", "Tooth of the backstop, {impact}"),
 )
 

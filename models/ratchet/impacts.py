@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mechanism_fmu.model import Output, speed_output, whole_output
+from mechanism_fmu.model import Output, impact_speed_fields, whole_output
 
 _NUMBERS = "(0 slope, 1 face, 2 holding pawl)"
 _CONTACTS = f"Struck contact {_NUMBERS}"
@@ -10,18 +10,8 @@ _GUARDS = "0 gap closed, 1 force gone, 2 next tooth, 3 previous tooth, 4 click, 
 _MODE = "sum of 1 slope, 2 face, 4 holding pawl"
 
 
+_SPEEDS = impact_speed_fields("wheel", "crank", "pawl", nominal=0.1)
 _VELOCITY = "v_I of the stress recovery, tooth_length times the jump of the wheel's speed"
-
-
-def _speeds(moment: str, field: str) -> tuple[Output, ...]:
-    """Speeds of the bodies just before or after the instant of the last impact."""
-    suffix = field.removeprefix("speed")
-    return tuple(
-        speed_output(
-            f"{body}_speed{suffix}", f"{field}:{body}", f"{body.capitalize()} speed just {moment} the {{impact}}", 0.1
-        )
-        for body in ("wheel", "crank", "pawl")
-    )
 
 
 #: Of the last impact. What all impacts of one instant share stands behind what is the contact's own.
@@ -40,8 +30,7 @@ LAST_IMPACT = (
     ),
     Output("slope_impulse", "impulse:slope", "Impulse on the tooth slope at the {impact}", "N.s", nominal=0.01),
     Output("energy_lost", "energy_lost", "Energy lost at the instant of the {impact}", "J", nominal=1e-4),
-    *_speeds("before", "speed_before"),
-    *_speeds("after", "speed"),
+    *_SPEEDS,
     Output("velocity", "velocity", f"{_VELOCITY} at the {{impact}}", "m/s", nominal=1e-3),
 )
 
@@ -62,8 +51,7 @@ IMPACT = (
         nominal=0.01,
     ),
     Output("energy_lost", "energy_lost", "Energy lost at the instant of {impact}", "J", nominal=1e-4),
-    speed_output("wheel_speed_before", "speed_before:wheel", "Wheel speed before the instant of {impact}", nominal=0.1),
-    speed_output("wheel_speed", "speed:wheel", "Wheel speed after the instant of {impact}", nominal=0.1),
+    *_SPEEDS,
     Output("velocity", "velocity", f"{_VELOCITY} at the instant of {{impact}}", "m/s", nominal=1e-3),
 )
 

@@ -253,6 +253,7 @@ FIELDS = (
     Field("state", "pull_time", ("contacts",), holds=(NOT_NAN,)),
     Field("state", "last_impact", ("record",), holds=tuple(_RECORD.values())),
     Field("state", "impacts", ("buffer", "record"), holds=tuple(_RECORD.values())),
+    Field("state", "left_outputs", ("outputs",), holds=(ANY,)),  # kept by FMI 3.0's event mode, else 0
     Field("state", "events", (codes.EVENT_BUFFER_LENGTH, codes.EVENT_COLUMNS), holds=tuple(_EVENT.values())),
     Field("work", "x", ("frames",)),
     Field("work", "y", ("frames",)),

@@ -57,9 +57,11 @@ def begin_step(block: Array) -> int:
 def go_on(block: Array, target: float, rule: int) -> int:
     """Go on within the communication step until `target` [s], or until `rule` stops it earlier; return a status.
 
-    `rule` is `codes.STOP_AT_TARGET`, `STOP_AT_IMPACT` or `STOP_AT_STEP`; the motion is the same with all of them. After
-    a stop, the step may be continued to the same target (what is set meanwhile acts from the next `begin_step` on), or
-    another one be begun. Where it stops, `inputs` are the values reached. Failures: as of `advance`.
+    `rule` is `codes.STOP_AT_TARGET`, or a sum of `STOP_AT_IMPACT`, `STOP_AT_STEP` and `STOP_BEFORE_EVENT`; the motion
+    is the same with all of them. An event before which it has stopped happens with the next call, whose rule must be
+    without the last of them. After any other stop, the step may be continued to the same target (what is set meanwhile
+    acts from the next `begin_step` on), or another one be begun. Where it stops, `inputs` are the values reached.
+    Failures: as of `advance`.
     """
     return _go_on(block, target, rule)
 
@@ -111,8 +113,9 @@ def _move(block: Array, target: float, rule: int) -> int:
     if now.counters[codes.RAMPING] != 0:
         now.clock[codes.RAMP_END] = target
     while True:
-        begins = now.counters[codes.PENDING_GUARD] == codes.GUARD_BEGIN
-        if now.clock[codes.TIME] >= now.clock[codes.STEP_END] and not begins:
+        # At the very beginning, and after a stop before an event, there is one to come at TIME.
+        waits = now.counters[codes.PENDING_GUARD] != codes.GUARD_NONE
+        if now.clock[codes.TIME] >= now.clock[codes.STEP_END] and not waits:
             if now.clock[codes.TIME] >= target:
                 return status.OK
             outcome = _spend(block, target)
@@ -127,6 +130,8 @@ def _move(block: Array, target: float, rule: int) -> int:
         impacts = now.counters[codes.COUNT_IMPACTS]
         guard = now.counters[codes.PENDING_GUARD]
         if guard != codes.GUARD_NONE:
+            if rule & codes.STOP_BEFORE_EVENT:
+                return status.OK
             set_time(block, now.clock[codes.STEP_END])
             outcome = transit(block, guard, now.counters[codes.PENDING_SUBJECT])
             if outcome != status.OK:
@@ -137,7 +142,7 @@ def _move(block: Array, target: float, rule: int) -> int:
             restart(block)
             now.clock[codes.NEXT_STEP] = initial_step_size(block)
         struck = now.counters[codes.COUNT_IMPACTS] > impacts
-        if rule == codes.STOP_AT_STEP or (rule == codes.STOP_AT_IMPACT and struck):
+        if rule & codes.STOP_AT_STEP or (rule & codes.STOP_AT_IMPACT and struck):
             return status.OK
 
 

@@ -1,8 +1,8 @@
 """modelDescription.xml of FMI 3.0 for co-simulation.
 
-The variables are those of FMI 2.0 under the same value references, with two differences: what is numbered there
-(`impacts[1].time` to `impacts[8].time`) is one array here (`impacts.time`), and the Boolean that tells of an impact is
-a clock. Section numbers refer to the FMI specification 3.0.1.
+The variables are those of FMI 2.0 under the same names and value references, and time. With a clock of impacts there
+are more: the clock, what it clocks, and as one array each what is numbered elsewhere (`impacts.time` is all of
+`impacts[1].time` to `impacts[8].time`). Section numbers refer to the FMI specification 3.0.2.
 """
 
 from __future__ import annotations
@@ -24,12 +24,14 @@ from ..model_description import (
     unit_definitions,
     value_attributes,
 )
-from ..variables import Variable, variables_of
+from ..variables import FIRST_REFERENCE, Variable, variables_of
 
 _ELEMENT = re.compile(r"(?P<array>.+)\[(?P<index>\d+)\](?P<field>\.\w+)")
-_CLOCK_SOURCE = "impact.any"
+_IMPACT_FLAG = "impact.any"
 #: Fields of the last impact; counters are not among them.
-_CLOCKED_SOURCE = re.compile(r"impact\.(?!count$|in_step$|lost$|any$)")
+_OF_LAST_IMPACT = re.compile(r"impact\.(?!count$|in_step$|lost$|any$)")
+_CLOCK = "impact.clock"
+_CLOCKED = "impact.tick."
 _TYPES: dict[str, Type3] = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
 
 Type3 = Literal["Float64", "Int32", "Boolean", "Clock"]
@@ -41,11 +43,10 @@ class Variable3:
 
     Attributes:
         name, description: of the variable; those of an array speak of its element k.
-        value_reference: that of FMI 2.0, of an array that of its first element; the clock and time come behind.
+        value_reference: that of FMI 2.0; time, the clock and what comes with it stand behind.
         type: element's name in the XML file.
         scalar: the rest; of an array its first element.
         dimension: number of elements of an array, None of a scalar.
-        dependencies: value references of the inputs on which an output depends at the same instant.
         clock: value reference of the clock at whose ticks the variable changes, or None.
     """
 
@@ -55,39 +56,65 @@ class Variable3:
     type: Type3
     scalar: Variable
     dimension: int | None = None
-    dependencies: tuple[int, ...] = ()
     clock: int | None = None
 
 
-def array_layout(variables: Sequence[Variable]) -> list[tuple[int, int]]:
-    """Where the elements of FMI 3.0's variables are among those of FMI 2.0.
+@dataclass(frozen=True)
+class Again:
+    """Outputs once more, beside a clock: as an array, or as what the clock brings.
 
-    Args:
-        variables: all of a model, see `variables_of`.
-
-    Returns:
-        For each variable of FMI 2.0 the number of elements of FMI 3.0's variable under the same value reference, and
-        how many value references these lie apart; 0 elements: there is no such variable.
+    Attributes:
+        name, description: of the variable.
+        first: the output that it begins with.
+        count: number of elements; None of a scalar.
+        stride: how many value references the elements lie apart.
+        clocked: whether it has a value at ticks of the clock only.
     """
-    layout = [(1, 0)] * len(variables)
-    for elements in _arrays(variables):
-        for element in elements:
-            layout[element.value_reference] = (0, 0)
-        layout[elements[0].value_reference] = (len(elements), _stride(elements))
-    for variable in variables:
-        if variable.source == _CLOCK_SOURCE:
-            layout[variable.value_reference] = (0, 0)
-    return layout
+
+    name: str
+    description: str
+    first: Variable
+    count: int | None = None
+    stride: int = 0
+    clocked: bool = False
 
 
-def variables3(model: Model) -> tuple[Variable3, ...]:
+def outputs_again(variables: Sequence[Variable]) -> tuple[Again, ...]:
+    """What there is beside a clock of impacts, in the order of its value references; () where nothing has impacts."""
+    if not any(variable.source == _IMPACT_FLAG for variable in variables):
+        return ()
+    clocked = (
+        Again(
+            _CLOCKED + v.name.removeprefix("impact_"), v.description.replace("last impact", "impact"), v, clocked=True
+        )
+        for v in variables
+        if _OF_LAST_IMPACT.match(v.source)
+    )
+    arrays = (
+        Again(
+            _array_name(elements[0]),
+            _common_description([element.description for element in elements]),
+            elements[0],
+            len(elements),
+            _stride(elements),
+        )
+        for elements in _arrays(variables)
+    )
+    return (*clocked, *arrays)
+
+
+def variables3(model: Model, clocks: bool = False) -> tuple[Variable3, ...]:
     """All variables of a model's FMU for FMI 3.0, by value reference.
 
+    Args:
+        model: what the FMU simulates.
+        clocks: with a clock of impacts, what it clocks, and arrays.
+
     Raises:
-        MechanismError: two of them have the same name.
+        MechanismError: two of them have the same name, or there are no impacts for a clock.
     """
     variables = variables_of(model)
-    found = tuple(_variables3(variables))
+    found = tuple(_variables3(variables, clocks))
     names = sorted(variable.name for variable in found)
     for name, same in groupby(names):
         if len(list(same)) > 1:
@@ -95,21 +122,24 @@ def variables3(model: Model) -> tuple[Variable3, ...]:
                 f"In FMI 3.0, two variables of {model.name} are called {name!r}, one of them time or an array made of "
                 f"numbered outputs; give the port another name."
             )
+    if clocks and not any(variable.type == "Clock" for variable in found):
+        raise MechanismError(f"{model.name} tells of no impacts and so has no clock; build it without --clocks.")
     return found
 
 
-def model_description3(model: Model, token: str) -> Element:
+def model_description3(model: Model, token: str, clocks: bool = False) -> Element:
     """The root element `fmiModelDescription` of a model's native FMU.
 
     Args:
         model: what the FMU simulates.
         token: instantiation token, the fingerprint of the FMU.
+        clocks: as of `variables3`.
 
     Raises:
         UnitError: a port has a unit or display unit that cannot be.
-        MechanismError: two variables have the same name.
+        MechanismError: as of `variables3`.
     """
-    variables = variables3(model)
+    variables = variables3(model, clocks)
     scalars = [variable.scalar for variable in variables]
     root = Element(
         "fmiModelDescription",
@@ -134,29 +164,28 @@ def model_description3(model: Model, token: str) -> Element:
     return root
 
 
-def _variables3(variables: Sequence[Variable]) -> Iterator[Variable3]:
-    behind = len(variables)
-    ticks = next((v for v in variables if v.source == _CLOCK_SOURCE), None)
-    arrays = {elements[0].value_reference: elements for elements in _arrays(variables)}
-    for variable, (count, _) in zip(variables, array_layout(variables), strict=True):
-        if count == 0:
-            continue
-        elements = arrays.get(variable.value_reference, [variable])
-        is_array = variable.value_reference in arrays
-        yield Variable3(
-            _array_name(variable) if is_array else variable.name,
-            _common_description([element.description for element in elements]),
-            variable.value_reference,
-            _TYPES[variable.type],
-            variable,
-            len(elements) if is_array else None,
-            tuple(sorted({reference for element in elements for reference in element.dependencies})),
-            behind if ticks and _CLOCKED_SOURCE.match(variable.source) else None,
-        )
-    if ticks:
-        yield Variable3(ticks.name, "Ticks at an impact", behind, "Clock", ticks)
-    time = Variable("time", behind + 1, "Real", "independent", "continuous", None, "Time", "s")
+def _variables3(variables: Sequence[Variable], clocks: bool) -> Iterator[Variable3]:
+    for variable in variables:
+        yield Variable3(variable.name, variable.description, variable.value_reference, _TYPES[variable.type], variable)
+    behind = FIRST_REFERENCE + len(variables)
+    time = Variable("time", behind, "Real", "independent", "continuous", None, "Time", "s")
     yield Variable3(time.name, time.description, time.value_reference, "Float64", time)
+    again = outputs_again(variables) if clocks else ()
+    if not again:
+        return
+    clock = behind + 1
+    scalar = Variable(_CLOCK, clock, "Boolean", "output", "discrete", None, "Ticks at an impact")
+    yield Variable3(scalar.name, scalar.description, clock, "Clock", scalar)
+    for reference, one in enumerate(again, clock + 1):
+        yield Variable3(
+            one.name,
+            one.description,
+            reference,
+            _TYPES[one.first.type],
+            one.first,
+            one.count,
+            clock if one.clocked else None,
+        )
 
 
 def _arrays(variables: Iterable[Variable]) -> Iterator[list[Variable]]:
@@ -259,9 +288,9 @@ def _model_structure(root: Element, variables: Sequence[Variable3]) -> None:
     structure = SubElement(root, "ModelStructure")
     for variable in variables:
         if variable.scalar.causality == "output":
-            _unknown(structure, "Output", variable, variable.dependencies)
+            _unknown(structure, "Output", variable, variable.scalar.dependencies)
     for variable in variables:
-        if variable.scalar.initial == "calculated" and variable.clock is None:
+        if variable.type == "Clock" or (variable.scalar.initial == "calculated" and variable.clock is None):
             _unknown(structure, "InitialUnknown", variable, variable.scalar.initial_dependencies)
 
 

@@ -11,15 +11,15 @@ from ...engine.block.pack import pack
 from ...model import Mechanism, Model, compile_mechanism
 from ...model.contacts import too_deep
 from ...model.unknowns import unknown_names
-from ..variables import Variable, variables_of
-from .description3 import array_layout
+from ..variables import FIRST_REFERENCE, Variable, variables_of
+from .description3 import Again, outputs_again
 from .formulas import Formulas, c_number
 from .headers import advice_table, c_text
 
 _CAUSALITIES = {"input": "INPUT", "output": "OUTPUT", "parameter": "PARAMETER", "calculatedParameter": "CALCULATED"}
 
 
-def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> str:
+def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes, clocks: bool = False) -> str:
     """The text of model.c.
 
     Args:
@@ -27,12 +27,14 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> st
         formulas: its parameters-to-tables function, traced.
         guid: of the FMU.
         mark: 16 bytes by which a serialized state is recognised.
+        clocks: whether FMI 3.0 has a clock of impacts, and arrays.
     """
     mechanism = model.mechanism(model.values())
     block = pack(compile_mechanism(mechanism))
     first_of_work = next(field.name for field in FIELDS if field.room == "work")
     given = int(block.view("int64")[slot(first_of_work)])
     variables = variables_of(model)
+    again = outputs_again(variables) if clocks else ()
     held = rules(sizes_of(block))
     counts = {c: sum(v.causality == c for v in variables) for c in _CAUSALITIES}
     members = {
@@ -44,6 +46,9 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> st
         "inputs": counts["input"],
         "outputs": counts["output"],
         "parameters": counts["parameter"],
+        "has_clock": int(bool(again)),
+        "again": "AGAIN",
+        "again_count": len(again),
         "block": "(const double *)BLOCK",
         "given": given,
         "words": len(block),
@@ -71,7 +76,8 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes) -> st
             '#include "model.h"',
             "#include <math.h>",
             advice_table(),
-            _array("Variable", "VARIABLES", map(_variable, variables, array_layout(variables))),
+            _array("Variable", "VARIABLES", map(_variable, variables)),
+            _array("Again", "AGAIN", map(_again, again)),
             _array("uint64_t", "BLOCK", (f"{word:#x}" for word in block[:given].view("uint64").tolist())),
             _array("Finding", "OBJECTIONS", (f"{{{c_text(text)}, {at}}}" for text, at in formulas.objections)),
             _array("Finding", "PROBLEMS", (f"{{{c_text(text)}, {at}}}" for text, at in formulas.problems)),
@@ -111,7 +117,7 @@ def _rule(rule: Rule) -> str:
     return f"{{{', '.join((c_text(rule.name), *(str(int(number)) for number in numbers), *limits))}}}"
 
 
-def _variable(variable: Variable, layout: tuple[int, int]) -> str:
+def _variable(variable: Variable) -> str:
     unit = "" if variable.unit in (None, "1") else f" {variable.unit}"
     numbers = (
         float(variable.start or 0.0),
@@ -123,7 +129,13 @@ def _variable(variable: Variable, layout: tuple[int, int]) -> str:
         c_text(unit),
         variable.type.upper(),
         _CAUSALITIES[variable.causality],
+        str(int(variable.variability == "continuous")),
         *(c_number(float(number)) for number in numbers),
-        *map(str, layout),
     )
     return f"{{{', '.join(entries)}}}"
+
+
+def _again(again: Again) -> str:
+    place = again.first.value_reference - FIRST_REFERENCE
+    numbers = (place, again.count or 1, again.stride, int(again.clocked))
+    return f"{{{', '.join((c_text(again.name), *map(str, numbers)))}}}"

@@ -56,7 +56,9 @@ _FACTS = (
 )
 
 
-def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report: Report = silently) -> Path:
+def build_native_fmu(
+    module: ModuleType, destination: Path, fmi: int = 2, report: Report = silently, clocks: bool = False
+) -> Path:
     """Build the native FMU of a model: the same bytes from the same sources and versions of the tools.
 
     Args:
@@ -64,6 +66,7 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
         destination: folder, made if need be, for "<model name>.fmu".
         fmi: major version of the standard, 2 or 3.
         report: see `compiled_engine`.
+        clocks: FMI 3.0 with a clock of impacts and arrays, for importers that use them; it runs in event mode only.
 
     Returns:
         Path of the FMU.
@@ -81,9 +84,10 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
     if fmi == 3:
         entries = {_PLACES3.get(name, name): contents for name, contents in entries.items()}
     engine = compiled_engine(report)
-    guid = _fingerprint(model, traced, entries | {DESCRIPTION: _description(model, "", fmi)}, engine)
-    entries[DESCRIPTION] = _description(model, f"{{{guid}}}", fmi)
-    source = model_source(model, traced, f"{{{guid}}}", guid.bytes)
+    describe = partial(model_description3, clocks=clocks) if fmi == 3 else partial(model_description, native=True)
+    guid = _fingerprint(model, traced, entries | {DESCRIPTION: to_bytes(describe(model, ""))}, engine)
+    entries[DESCRIPTION] = to_bytes(describe(model, f"{{{guid}}}"))
+    source = model_source(model, traced, f"{{{guid}}}", guid.bytes, clocks)
     made = _binaries(model, source, engine)
     check_start(model, f"{{{guid}}}", made)
     binaries: dict[str, list[bytes]] = {}
@@ -94,11 +98,6 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
         entries[name] = universal(libraries) if len(libraries) > 1 else libraries[0]
     write_archive(entries, path, zipfile.ZIP_DEFLATED)
     return record_build(path)
-
-
-def _description(model: Model, token: str, fmi: int) -> bytes:
-    describe = model_description3 if fmi == 3 else partial(model_description, native=True)
-    return to_bytes(describe(model, token))
 
 
 def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], engine: Engine) -> uuid.UUID:

@@ -7,7 +7,13 @@ Builders that are given a part ("crank") form the names of its ports from it ("c
 """
 
 from .elastic import bent_point_outputs, hinged_beam_outputs, member_outputs
-from .impacts import event_buffer_outputs, impact_buffer_outputs, impact_outputs, last_impact_outputs
+from .impacts import (
+    event_buffer_outputs,
+    impact_buffer_outputs,
+    impact_outputs,
+    impact_speed_fields,
+    last_impact_outputs,
+)
 from .inputs import load_torque_input, shaft_inputs, torque_input
 from .outputs import (
     active_output,
@@ -61,6 +67,7 @@ __all__ = [
     "hinged_beam_outputs",
     "impact_buffer_outputs",
     "impact_outputs",
+    "impact_speed_fields",
     "inertia_parameter",
     "joint_friction_parameter",
     "last_impact_outputs",

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from ...codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH
 from ..ports import Output
-from .outputs import flag_output, whole_output
+from .outputs import flag_output, speed_output, whole_output
 
 _STEP = "of the last communication step"
 
@@ -32,6 +32,26 @@ def impact_outputs(what: str, fields: Sequence[Output]) -> tuple[Output, ...]:
     lost = Output("energy_lost", "energy_lost", "Energy lost at the instant, {impact}", "J")
     fields = (*fields, lost)
     return (*last_impact_outputs(what, fields), *impact_buffer_outputs((time, instant, *fields)))
+
+
+def impact_speed_fields(*bodies: str, nominal: float = 1.0) -> tuple[Output, ...]:
+    """Fields <body>_speed_before and <body>_speed [rad/s]: of bodies, just before and after the instant of an impact.
+
+    Args:
+        bodies: names.
+        nominal: a typical speed [rad/s].
+    """
+    moments = (("_before", "before"), ("", "after"))
+    return tuple(
+        speed_output(
+            f"{body}_speed{suffix}",
+            f"speed{suffix}:{body}",
+            f"Speed of the {body} just {moment} the instant: {{impact}}",
+            nominal,
+        )
+        for suffix, moment in moments
+        for body in bodies
+    )
 
 
 def last_impact_outputs(what: str, fields: Sequence[Output]) -> tuple[Output, ...]:

@@ -38,7 +38,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     x->categories = ~0u; /* a refusal to exist is told in any case */
     Status status = OK;
     if (type != fmi2CoSimulation)
-        status = refuse(x, "fmi2Instantiate: this FMU is for co-simulation; it has no model exchange.");
+        status = refuse(x, "fmi2Instantiate: built for co-simulation only; it has no Model Exchange interface.");
     else if (!guid || strcmp(guid, model.guid) != 0)
         status = refuse(x,
                         "fmi2Instantiate: the GUID %s is not this FMU's, %s: modelDescription.xml and binary are not of "

@@ -51,17 +51,23 @@ static Status check_token(const Instance *x, const char *call, const char *token
                   call, token ? token : "(null)", model.guid);
 }
 
-/* What can be read at intermediate updates, as far as the types tell: continuous variables are scalar Float64. */
 static Status check_intermediate(const Instance *x, const fmi3ValueReference vr[], size_t count) {
     for (size_t k = 0; vr && k < count; k++) {
-        const Variable *v = vr[k] < model.variable_count ? model.variables + vr[k] : NULL;
-        if (!v || v->type != REAL || v->causality != OUTPUT || v->count != 1)
+        const Variable *v = vr[k] - 1 < model.variable_count ? model.variables + (vr[k] - 1) : NULL;
+        if (!v || !v->continuous || v->causality != OUTPUT)
             return refuse(x,
                           "fmi3InstantiateCoSimulation: the required intermediate variable with value reference %u is "
                           "no continuous output (those with intermediateUpdate in modelDescription.xml).",
                           (unsigned)vr[k]);
     }
     return OK;
+}
+
+/* A clock ticks in event mode (section 4.2.1): without it, what has one is outside the standard. */
+static Status check_event_mode(const Instance *x, int event_mode) {
+    if (event_mode || !model.has_clock) return OK;
+    return refuse(x, "fmi3InstantiateCoSimulation: this FMU has a clock; use event mode (eventModeUsed = true), or build "
+                     "it without --clocks.");
 }
 
 fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
@@ -71,7 +77,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3IntermediateUpdateCallback intermediate_update) {
     Instance *x = instance(name, environment, log);
     if (!x) return NULL;
-    if (check_token(x, "fmi3InstantiateCoSimulation", token) != OK ||
+    if (check_token(x, "fmi3InstantiateCoSimulation", token) != OK || check_event_mode(x, event_mode) != OK ||
         check_intermediate(x, required, required_count) != OK) {
         free_instance(x);
         return NULL;
@@ -83,11 +89,11 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
     return x;
 }
 
-static fmi3Instance no_instance(const char *call, const char *name, fmi3InstanceEnvironment environment,
-                                fmi3LogMessageCallback log) {
+static fmi3Instance no_instance(const char *call, const char *missing, const char *name,
+                                fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
     Instance *x = instance(name, environment, log);
     if (!x) return NULL;
-    refuse(x, "%s: this FMU is for co-simulation only; call fmi3InstantiateCoSimulation.", call);
+    refuse(x, "%s: built for co-simulation only; it has no %s interface. Call fmi3InstantiateCoSimulation.", call, missing);
     free_instance(x);
     return NULL;
 }
@@ -95,7 +101,7 @@ static fmi3Instance no_instance(const char *call, const char *name, fmi3Instance
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
                                           fmi3Boolean logging, fmi3InstanceEnvironment environment,
                                           fmi3LogMessageCallback log) {
-    return no_instance("fmi3InstantiateModelExchange", name, environment, log);
+    return no_instance("fmi3InstantiateModelExchange", "Model Exchange", name, environment, log);
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token, fmi3String resources,
@@ -103,7 +109,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token
                                                fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
                                                fmi3ClockUpdateCallback clock_update, fmi3LockPreemptionCallback lock,
                                                fmi3UnlockPreemptionCallback unlock) {
-    return no_instance("fmi3InstantiateScheduledExecution", name, environment, log);
+    return no_instance("fmi3InstantiateScheduledExecution", "Scheduled Execution", name, environment, log);
 }
 
 void fmi3FreeInstance(fmi3Instance c) {
@@ -128,6 +134,25 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_def
 /* Remember whether there was an impact: then the clock ticks in the event mode that follows. */
 static void note_impacts(Instance *x, int64_t told_before) {
     x->head.clock = x->event_mode && COUNTERS(x)[CODE_COUNT_IMPACTS] != told_before;
+}
+
+/* --- left limits: at an impact, outputs are those before it until fmi3UpdateDiscreteStates --- */
+
+static void keep_left(Instance *x) {
+    mechanism_read_outputs(x->block, (int64_t)model.words);
+    memcpy(FIELD(x, left_outputs), FIELD(x, outputs), model.outputs * sizeof(double));
+    x->outputs_read = 0;
+    x->head.left = 1;
+}
+
+static int is_before_event(const Instance *x) {
+    const double *clock = FIELD(x, clock);
+    return COUNTERS(x)[CODE_PENDING_GUARD] != CODE_GUARD_NONE && clock[CODE_TIME] >= clock[CODE_STEP_END];
+}
+
+static void forget_left(Instance *x) {
+    if (x->head.left) memset(FIELD(x, left_outputs), 0, model.outputs * sizeof(double));
+    x->head.left = 0;
 }
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance c) {
@@ -180,6 +205,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *need_update, fm
         if (flags[k]) *flags[k] = fmi3False;
     if (next_event_time) *next_event_time = INFINITY;
     x->head.clock = 0;
+    forget_left(x);
     return fmi3OK;
 }
 
@@ -188,21 +214,14 @@ fmi3Status fmi3EnterStepMode(fmi3Instance c) {
     if (require(x, "fmi3EnterStepMode", IN(EVENT)) != OK) return fmi3Error;
     x->head.phase = STEPPING;
     x->head.clock = 0;
+    forget_left(x);
     return fmi3OK;
-}
-
-/* The clock stands in for a Boolean output, the only variable of that type that FMI 3.0 does not have under its own
- * value reference. */
-static int has_clock(void) {
-    for (size_t k = model.inputs; k < model.inputs + model.outputs; k++)
-        if (model.variables[k].type == BOOLEAN && model.variables[k].count == 0) return 1;
-    return 0;
 }
 
 static Status check_clocks(const Instance *x, const fmi3ValueReference vr[], size_t count, const fmi3Clock values[]) {
     if (count > 0 && (!vr || !values)) return refuse(x, "A pointer to value references or clocks is null.");
     for (size_t k = 0; k < count; k++)
-        if (vr[k] != model.variable_count || !has_clock())
+        if (!model.has_clock || vr[k] != CLOCK_REFERENCE)
             return refuse(x, "There is no clock with value reference %u.", (unsigned)vr[k]);
     return OK;
 }
@@ -372,13 +391,19 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     const int64_t *impacts = COUNTERS(x) + CODE_COUNT_IMPACTS, before = *impacts;
     int64_t events_before = COUNTERS(x)[CODE_COUNT_EVENTS];
     int stops = x->event_mode && x->early_return;
-    int64_t rule = x->intermediate_update ? CODE_STOP_AT_STEP : stops ? CODE_STOP_AT_IMPACT : CODE_STOP_AT_TARGET;
+    int64_t rule = (x->intermediate_update ? CODE_STOP_AT_STEP : 0) | (stops ? CODE_STOP_BEFORE_EVENT : 0);
     double begun = time_of(x);
     double end = target; /* sooner when the host asks for it at an intermediate update */
+    forget_left(x);
     Status status = begin_step(x, target);
     while (status == OK && time_of(x) < end && !(stops && *impacts != before)) {
         status = go_on(x, end, rule);
         if (status == OK && x->intermediate_update) end = intermediate_update(x, end);
+        if (status == OK && stops && is_before_event(x)) {
+            keep_left(x);
+            status = go_on(x, end, CODE_STOP_AT_STEP);
+            if (*impacts == before) forget_left(x);
+        }
     }
     tell_news(x);
     note_impacts(x, before);
@@ -409,7 +434,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
 #define NO_PARTIALS "partial derivatives are not provided."
 #define NO_STRUCTURE "there are no structural parameters."
 #define NO_INTERVALS "the clock is triggered by impacts and has no interval or shift."
-#define NO_MODEL_EXCHANGE "this FMU is for co-simulation; it has no model exchange."
+#define NO_MODEL_EXCHANGE "built for co-simulation only; it has no Model Exchange interface."
 
 REFUSES(fmi3GetNumberOfVariableDependencies, NO_ELEMENTS, fmi3ValueReference vr, size_t *count)
 REFUSES(fmi3GetVariableDependencies, NO_ELEMENTS, fmi3ValueReference dependent, size_t dependent_elements[],
@@ -448,5 +473,5 @@ REFUSES(fmi3GetContinuousStates, NO_MODEL_EXCHANGE, fmi3Float64 states[], size_t
 REFUSES(fmi3GetNominalsOfContinuousStates, NO_MODEL_EXCHANGE, fmi3Float64 nominals[], size_t count)
 REFUSES(fmi3GetNumberOfEventIndicators, NO_MODEL_EXCHANGE, size_t *count)
 REFUSES(fmi3GetNumberOfContinuousStates, NO_MODEL_EXCHANGE, size_t *count)
-REFUSES(fmi3ActivateModelPartition, "this FMU is for co-simulation; it has no scheduled execution.",
+REFUSES(fmi3ActivateModelPartition, "built for co-simulation only; it has no Scheduled Execution interface.",
         fmi3ValueReference clock, fmi3Float64 activation_time)

@@ -22,7 +22,8 @@ typedef void Log(const Instance *x, Status status, const char *category, const c
 typedef struct {
     int64_t phase, set_up, prepared;
     double start_time, stop_time, tolerance;
-    int64_t clock; /* FMI 3.0: the clock `impact` ticks in the event mode that is on, or may be entered next */
+    int64_t clock; /* FMI 3.0: there was an impact: the clock ticks in the event mode that is on, or may come next */
+    int64_t left;  /* FMI 3.0: outputs are those before the impact, `left_outputs`, until the discrete states are updated */
 } Head;
 
 struct Instance {
@@ -49,6 +50,11 @@ struct Instance {
 
 /* No frame may be larger than a page of the stack (4 kB): Windows would need a run-time library to grow the stack. */
 #define OWN_FRAME __attribute__((noinline))
+
+/* FMI 3.0: the value references behind those of the scalars: time, the clock, and what there is with the clock only. */
+#define TIME_REFERENCE (model.variable_count + 1)
+#define CLOCK_REFERENCE (model.variable_count + 2)
+#define FIRST_AGAIN (model.variable_count + 3)
 
 /* Where a field of the block begins. */
 #define FIELD(x, name) ((x)->block + ((const int64_t *)(x)->block)[SLOT_##name])

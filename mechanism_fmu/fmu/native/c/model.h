@@ -8,14 +8,22 @@
 enum Type { REAL, INTEGER, BOOLEAN };
 enum Causality { INPUT, OUTPUT, PARAMETER, CALCULATED };
 
-/* A scalar of FMI 2.0; its value reference is its place in the array. */
+/* A scalar; its value reference is its place in the array, from 1. In FMI 3.0, time follows behind them. */
 typedef struct {
     const char *name;
     const char *unit; /* as messages show it: with a space before it, "" of plain numbers */
     int type, causality;
+    int continuous;
     double start, minimum, maximum; /* minimum and maximum are infinite where there is no limit */
-    int count, stride;              /* FMI 3.0: elements of the array that begins here; 0 elements: within such an array */
 } Variable;
+
+/* FMI 3.0 with a clock: outputs once more, behind the clock, which stands behind time. */
+typedef struct {
+    const char *name;
+    size_t first;      /* place of the scalar that it begins with */
+    int count, stride; /* elements, and how many scalars they lie apart */
+    int clocked;       /* value of the present tick, to be read in event mode */
+} Again;
 
 /* What is wrong, or odd, with parameter values: `at` says where in the findings its condition and numbers stand. */
 typedef struct {
@@ -52,6 +60,9 @@ typedef struct {
     unsigned char mark[16];          /* what a serialized state is recognised by */
     const Variable *variables;
     size_t variable_count, inputs, outputs, parameters; /* in this order; calculated parameters follow */
+    int has_clock;
+    const Again *again;
+    size_t again_count;
     const double *block;                                /* of an instance before its first call */
     size_t given, words;                                /* without and with work, which is 0 */
     size_t numbers; /* of all findings */

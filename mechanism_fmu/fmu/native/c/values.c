@@ -9,24 +9,48 @@ static const char *const CAUSALITIES[] = {"input", "output", "parameter", "calcu
 
 static const char *type_name(const Instance *x, int type) { return TYPES[x->fmi == 3][type]; }
 
-/* In FMI 3.0, time is a variable: the one behind the clock, which is the one behind all others. */
-static int is_time(const Instance *x, unsigned vr) { return x->fmi == 3 && vr == model.variable_count + 1; }
+static int is_time(const Instance *x, unsigned vr) { return x->fmi == 3 && vr == TIME_REFERENCE; }
+
+/* What a value reference stands for: scalars that are equally far apart. */
+typedef struct {
+    const char *name;
+    const Variable *first;
+    size_t place; /* of the first */
+    int count, stride, clocked;
+} Meant;
+
+/* The meaning of a value reference that is not time's; `first` is null where it has none. */
+static Meant meant(const Instance *x, unsigned vr) {
+    if (vr >= 1 && vr <= model.variable_count) {
+        const Variable *v = model.variables + (vr - 1);
+        return (Meant){v->name, v, vr - 1, 1, 0, 0};
+    }
+    if (x->fmi == 3 && vr >= FIRST_AGAIN && vr - FIRST_AGAIN < model.again_count) {
+        const Again *again = model.again + (vr - FIRST_AGAIN);
+        return (Meant){again->name, model.variables + again->first, again->first, again->count, again->stride,
+                       again->clocked};
+    }
+    return (Meant){0};
+}
 
 static Status check_reference(const Instance *x, int type, unsigned vr) {
     if (is_time(x, vr) && type == REAL) return OK;
-    if (vr >= model.variable_count || (x->fmi == 3 && model.variables[vr].count == 0))
-        return refuse(x, "There is no variable of type %s with value reference %u; references run from 0 to %zu.",
-                      type_name(x, type), vr, model.variable_count - 1 + (x->fmi == 3 ? 2 : 0));
-    const Variable *v = model.variables + vr;
-    if (v->type == type) return OK;
-    return refuse(x, "%s (value reference %u) is of type %s, not %s.", v->name, vr, type_name(x, v->type),
-                  type_name(x, type));
+    Meant m = meant(x, vr);
+    size_t last = x->fmi == 2 ? model.variable_count : TIME_REFERENCE + (model.has_clock ? 1 + model.again_count : 0);
+    if (!m.first)
+        return refuse(x, "There is no variable of type %s with value reference %u; references run from 1 to %zu.",
+                      type_name(x, type), vr, last);
+    if (m.first->type != type)
+        return refuse(x, "%s (value reference %u) is of type %s, not %s.", m.name, vr, type_name(x, m.first->type),
+                      type_name(x, type));
+    if (m.clocked && x->head.phase != EVENT)
+        return refuse(x, "fmi3Get%s: %s is clocked; read it in event mode, or read %s.", type_name(x, type), m.name,
+                      m.first->name);
+    return OK;
 }
 
 /* Elements of a variable: arrays exist in FMI 3.0 only. */
-static size_t elements(const Instance *x, unsigned vr) {
-    return x->fmi == 3 && !is_time(x, vr) ? (size_t)model.variables[vr].count : 1;
-}
+static size_t elements(const Instance *x, unsigned vr) { return is_time(x, vr) ? 1 : (size_t)meant(x, vr).count; }
 
 /* Check references, and that the values given are as many as their elements. */
 static Status check_references(const Instance *x, int type, const unsigned vr[], size_t count, const void *values,
@@ -50,16 +74,26 @@ static double *place(const Instance *x, size_t scalar) {
     return FIELD(x, outputs) + (scalar - model.inputs - model.parameters);
 }
 
-static int is_set_from_outside(unsigned vr) {
-    return vr < model.variable_count && model.variables[vr].causality != OUTPUT &&
-           model.variables[vr].causality != CALCULATED;
+/* The value of one element; at an impact those before it, but for what its clock's tick brings. */
+static double element(const Instance *x, const Meant *m, size_t e) {
+    size_t scalar = m->place + e * (size_t)m->stride;
+    if (x->head.left && m->first->causality == OUTPUT && !m->clocked)
+        return FIELD(x, left_outputs)[scalar - model.inputs];
+    return *place(x, scalar);
+}
+
+static int is_set_from_outside(const Meant *m) {
+    return m->first && m->first->causality != OUTPUT && m->first->causality != CALCULATED;
 }
 
 /* Bring the outputs up to date if one of the references needs it. */
 static Status read_for(Instance *x, const unsigned vr[], size_t count) {
     if (x->outputs_read) return OK;
     size_t k = 0;
-    while (k < count && (is_set_from_outside(vr[k]) || is_time(x, vr[k]))) k++;
+    for (; k < count; k++) {
+        Meant m = meant(x, vr[k]);
+        if (!is_set_from_outside(&m) && !is_time(x, vr[k])) break;
+    }
     if (k == count) return OK;
     if (prepare(x) != OK) return ERROR;
     mechanism_read_outputs(x->block, (int64_t)model.words);
@@ -88,8 +122,9 @@ Status get_values(Instance *x, int type, const unsigned vr[], size_t count, Form
             put(values, next++, form, time_of(x));
             continue;
         }
-        for (size_t e = 0; e < elements(x, vr[k]); e++) {
-            double value = *place(x, vr[k] + e * (size_t)model.variables[vr[k]].stride);
+        Meant m = meant(x, vr[k]);
+        for (size_t e = 0; e < (size_t)m.count; e++) {
+            double value = element(x, &m, e);
             put(values, next++, form, type == BOOLEAN ? value != 0 : value);
         }
     }
@@ -110,10 +145,11 @@ static Status check_value(const Instance *x, const Variable *v, double value) {
 }
 
 static Status check_set(Instance *x, unsigned vr, double value) {
-    const Variable *v = model.variables + vr;
     if (is_time(x, vr)) return refuse(x, "time is the independent variable and cannot be set.");
-    if (!is_set_from_outside(vr))
-        return refuse(x, "%s is of causality %s and cannot be set.", v->name, CAUSALITIES[v->causality]);
+    Meant m = meant(x, vr);
+    const Variable *v = m.first;
+    if (!is_set_from_outside(&m))
+        return refuse(x, "%s is of causality %s and cannot be set.", m.name, CAUSALITIES[v->causality]);
     unsigned allowed = IN(INSTANTIATED) | IN(INITIALIZATION);
     if (v->causality == INPUT) allowed |= IN(STEPPING) | IN(EVENT);
     if (!(allowed & IN(x->head.phase))) {
@@ -132,7 +168,7 @@ Status set_values(Instance *x, int type, const unsigned vr[], size_t count, Form
         if (check_set(x, vr[k], take(values, k, form)) != OK) return ERROR;
     for (size_t k = 0; k < count; k++) {
         double value = take(values, k, form);
-        *place(x, vr[k]) = type == BOOLEAN ? value != 0 : value; /* hosts pass -1 and 255, too */
+        *place(x, vr[k] - 1) = type == BOOLEAN ? value != 0 : value; /* hosts pass -1 and 255, too */
     }
     x->outputs_read = 0;
     if (x->head.phase == INSTANTIATED || x->head.phase == INITIALIZATION) x->head.prepared = 0;
@@ -149,12 +185,12 @@ Status set_slopes(Instance *x, const unsigned vr[], size_t count, const int orde
         return refuse(x, "A pointer to value references, orders or values is null.");
     for (size_t k = 0; k < count; k++) {
         if (check_order(x, order[k]) != OK) return ERROR;
-        if (vr[k] >= model.inputs)
+        if (vr[k] - 1 >= model.inputs) /* 0 wraps around */
             return refuse(x, "The variable with value reference %u is no input and has no derivative to set.", vr[k]);
         if (!isfinite(values[k]))
-            return refuse(x, "The derivative of %s is not a finite number.", model.variables[vr[k]].name);
+            return refuse(x, "The derivative of %s is not a finite number.", model.variables[vr[k] - 1].name);
     }
-    for (size_t k = 0; k < count; k++) FIELD(x, input_slopes)[vr[k]] = values[k];
+    for (size_t k = 0; k < count; k++) FIELD(x, input_slopes)[vr[k] - 1] = values[k];
     return OK;
 }
 
@@ -167,11 +203,13 @@ Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order
     for (size_t k = 0; k < count; k++) {
         if (check_order(x, order[k]) != OK) return ERROR;
         if (is_time(x, vr[k])) return refuse(x, "time is no output; there are derivatives of outputs only.");
-        const Variable *v = model.variables + vr[k];
-        if (v->causality != OUTPUT) return refuse(x, "%s is no output; there are derivatives of outputs only.", v->name);
-        double rate = FIELD(x, output_rates)[vr[k] - model.inputs];
-        if (isnan(rate)) {
-            say(x, DISCARD, "logStatusDiscard", "%s: %s has no derivative with respect to time.", x->name, v->name);
+        Meant m = meant(x, vr[k]);
+        if (m.first->causality != OUTPUT)
+            return refuse(x, "%s is no output; there are derivatives of outputs only.", m.name);
+        double rate = FIELD(x, output_rates)[m.place - model.inputs];
+        if (isnan(rate) || x->head.left) {
+            say(x, DISCARD, "logStatusDiscard", "%s: %s has no derivative with respect to time%s.", x->name, m.name,
+                isnan(rate) ? "" : " at an impact, until fmi3UpdateDiscreteStates");
             return DISCARD;
         }
         values[k] = rate; /* no array gets here: they are all discrete */
