@@ -9,11 +9,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
+from xml.etree.ElementTree import Element, SubElement
 
 from ..model import MechanismError, Model
 from .documentation import documentation
 from .drawing import drawing
 from .logic import logic
+from .model_description import to_bytes
+from .terminals import terminals
 
 #: Beginning of the name of the package that a user's own file is loaded into (see `own.load`).
 OWN = "own_mechanism_"
@@ -68,8 +71,23 @@ def file_in(destination: Path, name: str) -> Path:
     return destination / name
 
 
+def no_sources(model: Model) -> dict[str, bytes]:
+    """What a tool meets that wants to compile the FMU for a platform without a binary: an error that says what to do.
+
+    Without it, such tools end in an error of their own (FMPy 0.3: IndexError).
+    """
+    root = Element("fmiBuildDescription", fmiVersion="3.0")
+    configuration = SubElement(root, "BuildConfiguration", modelIdentifier=model.name, description="None: see the file")
+    SubElement(SubElement(configuration, "SourceFileSet", language="C99"), "SourceFile", name="no_sources.c")
+    text = (
+        f"{model.name} has no C sources: its engine is compiled Python. Platforms with a binary are in its folder "
+        "binaries; for others, run mechanism-fmu build there without --flavour native, which needs Python."
+    )
+    return {"sources/buildDescription.xml": to_bytes(root), "sources/no_sources.c": f'#error "{text}"\n'.encode()}
+
+
 def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str]) -> dict[str, bytes]:
-    """Documentation, drawing, logic and icon of a model, by their paths within the FMU.
+    """Documentation, drawing, logic, terminals and icon of a model, by their paths within the FMU.
 
     Args:
         origin: the model, and its folder with README.md and model.png, if there are any.
@@ -83,5 +101,7 @@ def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str]
         **documentation(model, folder, facts, licences, origin.notes),
         **drawing(model),
         **logic(model),
+        **terminals(model),
+        **no_sources(model),
         "model.png": icon.read_bytes(),
     }

@@ -67,7 +67,7 @@ def model_description(model: Model, guid: str, native: bool = False) -> Element:
         modelName=model.name,
         guid=guid,
         description=model.description,
-        version=__version__,
+        **origin(model),
         generationTool=f"mechanism_fmu {__version__}" + ("" if native else f" (pythonfmu {pythonfmu_version})"),
         variableNamingConvention="structured",
     )
@@ -82,6 +82,15 @@ def model_description(model: Model, guid: str, native: bool = False) -> Element:
         _scalar_variable(elements, variable, types)
     _model_structure(root, variables)
     return root
+
+
+def origin(model: Model) -> dict[str, str]:
+    """Attributes that say who made the model and what, alike in FMI 2.0 and 3.0.
+
+    There is no generationDateAndTime: the same sources shall give the same bytes.
+    """
+    given = {"author": model.author, "version": __version__, "license": model.license}
+    return {name: value for name, value in given.items() if value}
 
 
 def to_bytes(root: Element) -> bytes:

@@ -17,11 +17,12 @@ from .archive import content_hash, read_entries, with_guid, write_archive
 from .built import record_build
 from .closure import Closure, Home, closure
 from .contents import common_entries, file_in, model_of
-from .native.libraries import engine_libraries
+from .native.libraries import engine_libraries, library_of
 from .native.link import has_linker
 from .native.objects import Report, silently
 from .native.targets import WRAPPED
 from .project import dependencies
+from .reference_results import reference_results
 from .self_check import StartError
 
 _LIBRARY = Path(__file__).parents[1]
@@ -106,7 +107,8 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
         },
     )
     entries |= common_entries(origin, _WRAPPER, ("mechanism_fmu", "pythonfmu"))
-    write_archive(with_guid(entries), path)
+    # Results follow from all that the fingerprint is of; last digits may be those of this machine.
+    write_archive(with_guid(entries) | reference_results(model, library_of(report)), path)
     return record_build(path)
 
 

@@ -34,6 +34,8 @@ class Model:
         warnings: likewise, for what is legal but deserves a line in the log.
         stop_time, step_size: default experiment [s].
         drawing: how its FMU can be drawn, in terms of the FMU's variables; () when it cannot.
+        author: who made it; "" leaves it open.
+        license: under which others may use it, one line; "" leaves it open.
     """
 
     name: str
@@ -45,6 +47,8 @@ class Model:
     stop_time: float = 1.0
     step_size: float = 1e-3
     drawing: tuple[Shape, ...] = ()
+    author: str = ""
+    license: str = ""
 
     def values(self, **changes: float) -> SimpleNamespace:
         """Parameter values: the defaults with `changes`.

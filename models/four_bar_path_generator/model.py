@@ -53,4 +53,6 @@ MODEL = Model(
     stop_time=0.24,
     step_size=5e-4,
     drawing=SHAPES,
+    author="The mechanism_fmu team",
+    license="MIT",
 )

@@ -75,4 +75,6 @@ MODEL = Model(
     stop_time=1.0,
     step_size=5e-3,
     drawing=SHAPES,
+    author="The mechanism_fmu team",
+    license="MIT",
 )

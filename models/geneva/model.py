@@ -126,4 +126,6 @@ MODEL = Model(
     stop_time=3.0,
     step_size=5e-3,
     drawing=SHAPES,
+    author="The mechanism_fmu team",
+    license="MIT",
 )

@@ -52,4 +52,6 @@ MODEL = Model(
     stop_time=0.5,
     step_size=1e-3,
     drawing=SHAPES,
+    author="The mechanism_fmu team",
+    license="MIT",
 )

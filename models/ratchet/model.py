@@ -190,4 +190,6 @@ MODEL = Model(
     stop_time=6.0,
     step_size=1e-2,
     drawing=SHAPES,
+    author="The mechanism_fmu team",
+    license="MIT",
 )

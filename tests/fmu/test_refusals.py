@@ -120,7 +120,7 @@ def illegal_calls():
         "the tolerance -1e-06 must be positive",
         lambda one: one.slave.setupExperiment(tolerance=-1e-6),
     )
-    yield "set a String", "is of type Real, not String", lambda one: one.slave.setString([0], ["fast"])
+    yield "set a String", "is of type Real, not String", lambda one: one.slave.setString([1], ["fast"])
     yield "exit before enter", "not allowed now", lambda one: one.slave.exitInitializationMode()
     yield "terminate before begin", "not allowed now", lambda one: one.slave.terminate()
     yield "unknown reference", "no variable with value reference 999999", lambda one: one.slave.getReal([999999])

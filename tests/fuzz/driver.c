@@ -108,7 +108,7 @@ static void begin(int well);
 static void make(void) {
     static const fmi2CallbackFunctions host = {tell2, NULL, NULL, NULL, NULL};
     calls++;
-    with_event_mode = (int)below(2), with_early_return = (int)below(2), with_updates = below(4) == 0;
+    with_event_mode = model.has_clock || below(2), with_early_return = (int)below(2), with_updates = below(4) == 0;
     if (fmi == 2) x = fmi2Instantiate("fuzz", fmi2CoSimulation, model.guid, NULL, below(8) ? &host : NULL, 0, below(8) > 0);
     else
         x = fmi3InstantiateCoSimulation("fuzz", model.guid, NULL, 0, below(8) > 0, with_event_mode, with_early_return, NULL,
@@ -153,8 +153,21 @@ static double any_number(void) {
     return below(2) ? odd[below(sizeof odd / sizeof *odd)] : (uniform() - 0.5) * pow(10, (double)below(30) - 15);
 }
 
+static unsigned reference(size_t place) { return (unsigned)place + 1; }
+
+/* The variable of a value reference, or NULL. */
+static const Variable *variable(unsigned vr) {
+    return vr >= 1 && vr <= model.variable_count ? model.variables + (vr - 1) : NULL;
+}
+
+/* How many values it has in FMI 3.0. */
+static size_t elements_of(unsigned vr) {
+    size_t k = (size_t)vr - FIRST_AGAIN;
+    return fmi == 3 && k < model.again_count ? (size_t)model.again[k].count : 1;
+}
+
 static unsigned any_reference(void) {
-    return below(16) ? (unsigned)below(model.variable_count + 3) : (unsigned)random64();
+    return below(16) ? (unsigned)below(model.variable_count + 5 + model.again_count) : (unsigned)random64();
 }
 
 /* A value near the start of a variable, or within its limits. */
@@ -180,8 +193,7 @@ static void get(void) {
     size_t n = below(MOST_VALUES + 1), values = below(16) ? 0 : below(40);
     for (size_t k = 0; k < n; k++) {
         vr[k] = any_reference();
-        size_t of = fmi == 3 && vr[k] < model.variable_count ? (size_t)model.variables[vr[k]].count : 1;
-        values += of;
+        values += elements_of(vr[k]);
     }
     switch (below(3)) {
         case 0: counted(fmi == 2 ? (int)fmi2GetReal(x, vr, n, reals) : (int)fmi3GetFloat64(x, vr, n, reals, values)); break;
@@ -192,30 +204,35 @@ static void get(void) {
 
 static void get_all(void) {
     double value[ALL];
-    for (unsigned k = 0; k < model.variable_count; k++) {
-        const Variable *v = model.variables + k;
-        if (v->type == REAL && (fmi == 2 || v->count))
-            counted(fmi == 2 ? (int)fmi2GetReal(x, &k, 1, value) : (int)fmi3GetFloat64(x, &k, 1, value, (size_t)v->count));
+    for (size_t k = 0; k < model.variable_count; k++) {
+        unsigned vr = reference(k);
+        if (model.variables[k].type == REAL)
+            counted(fmi == 2 ? (int)fmi2GetReal(x, &vr, 1, value) : (int)fmi3GetFloat64(x, &vr, 1, value, 1));
+    }
+    for (size_t k = 0; fmi == 3 && k < model.again_count; k++) {
+        unsigned vr = (unsigned)(FIRST_AGAIN + k);
+        if (model.variables[model.again[k].first].type == REAL)
+            counted((int)fmi3GetFloat64(x, &vr, 1, value, (size_t)model.again[k].count));
     }
 }
 
 static void set(unsigned vr, double value) {
     int32_t whole = value >= -2e9 && value <= 2e9 ? (int32_t)value : (int32_t)below(9);
     fmi3Boolean flag = (fmi3Boolean)below(2);
-    int type = vr < model.variable_count && below(16) ? model.variables[vr].type : (int)below(3);
-    if (vr < model.variable_count && vr - model.inputs - model.outputs == most_steps) return;
+    int type = variable(vr) && below(16) ? variable(vr)->type : (int)below(3);
+    if (vr == reference(model.inputs + model.outputs + most_steps)) return;
     if (type == REAL) counted(fmi == 2 ? (int)fmi2SetReal(x, &vr, 1, &value) : (int)fmi3SetFloat64(x, &vr, 1, &value, 1));
     else if (type == INTEGER) counted(fmi == 2 ? (int)fmi2SetInteger(x, &vr, 1, &whole) : (int)fmi3SetInt32(x, &vr, 1, &whole, 1));
     else counted(fmi == 2 ? (int)fmi2SetBoolean(x, &vr, 1, &whole) : (int)fmi3SetBoolean(x, &vr, 1, &flag, 1));
 }
 
 static void set_some(void) {
-    unsigned vr = below(3) ? (unsigned)below(model.inputs + 1) : any_reference();
-    set(vr, vr < model.variable_count && below(3) ? likely(model.variables + vr) : any_number());
+    unsigned vr = below(3) ? reference(below(model.inputs + 1)) : any_reference();
+    set(vr, variable(vr) && below(3) ? likely(variable(vr)) : any_number());
 }
 
 static void slopes(void) {
-    unsigned vr = below(2) ? (unsigned)below(model.inputs + 1) : any_reference();
+    unsigned vr = below(2) ? reference(below(model.inputs + 1)) : any_reference();
     int order = below(8) ? 1 : (int)below(4) - 1;
     double value = below(4) ? 1e-3 * (uniform() - 0.5) : any_number();
     if (fmi == 2 && below(2)) counted(fmi2SetRealInputDerivatives(x, &vr, 1, &order, &value));
@@ -239,10 +256,10 @@ static void onward(int which, int well) {
 static void begin(int well) {
     if (below(3) == 0)
         for (size_t k = below(3); k > 0; k--) {
-            unsigned vr = (unsigned)(model.inputs + model.outputs + below(model.parameters));
-            set(vr, below(4) ? likely(model.variables + vr) : any_number());
+            unsigned vr = reference(model.inputs + model.outputs + below(model.parameters));
+            set(vr, below(4) ? likely(variable(vr)) : any_number());
         }
-    unsigned budget = (unsigned)(model.inputs + model.outputs + most_steps);
+    unsigned budget = reference(model.inputs + model.outputs + most_steps);
     int32_t most = STEPS;
     counted(fmi == 2 ? (int)fmi2SetInteger(x, &budget, 1, &most) : (int)fmi3SetInt32(x, &budget, 1, &most, 1));
     for (int which = 0; well && which < 4; which++) onward(which, 1);

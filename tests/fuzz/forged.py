@@ -13,7 +13,7 @@ from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.model import Model, compile_mechanism
 
 #: Words of the head of a native state, as in instance_data.h.
-HEAD = ("phase", "set_up", "prepared", "start_time", "stop_time", "tolerance", "clock")
+HEAD = ("phase", "set_up", "prepared", "start_time", "stop_time", "tolerance", "clock", "left")
 _CORPUS = tomllib.loads(Path(__file__).with_name("corpus.toml").read_text(encoding="utf-8"))
 
 

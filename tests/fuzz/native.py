@@ -2,7 +2,7 @@
 
     python -m tests.fuzz.native --calls 1000000 --states 100000 [--seed 1] [--model ratchet] [--fmi 2]
 
-All models, in FMI 2.0 and 3.0; calls and states are those of all together. It needs Linux and gcc.
+All models, in FMI 2.0, 3.0, and 3.0 with a clock; calls and states are those of all together. It needs Linux and gcc.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import fmpy
@@ -23,10 +24,12 @@ import fmpy
 import mechanism_fmu.fmu.native as native
 import models
 from mechanism_fmu.engine.block.pack import pack
+from mechanism_fmu.fmu.native.description3 import outputs_again
 from mechanism_fmu.fmu.native.formulas import formulas
 from mechanism_fmu.fmu.native.model_data import model_source
 from mechanism_fmu.fmu.native.objects import compiled_engine
 from mechanism_fmu.fmu.native.package import SURFACE
+from mechanism_fmu.fmu.variables import variables_of
 from mechanism_fmu.model import compile_mechanism
 from mechanism_fmu.model.trace import trace
 
@@ -50,15 +53,21 @@ def can_run() -> bool:
     return sys.platform == "linux" and shutil.which("gcc") is not None
 
 
-def driver(name: str, folder: Path) -> Path:
+def has_clock(name: str) -> bool:
+    """Whether a model has impacts, and so a form with a clock."""
+    return bool(outputs_again(variables_of(models.load(name).MODEL)))
+
+
+def driver(name: str, folder: Path, clocks: bool = False) -> Path:
     """The program that calls the FMU of a model at random, compiled into a folder."""
     model = models.load(name).MODEL
     block = pack(compile_mechanism(model.build(model.values())))
-    source = folder / f"{name}.c"
-    source.write_text(model_source(model, formulas(trace(model), block), "{fuzz}", bytes(range(16))), encoding="ascii")
+    source = folder / f"{name}{'_with_clock' if clocks else ''}.c"
+    text = model_source(model, formulas(trace(model), block), "{fuzz}", bytes(range(16)), clocks)
+    source.write_text(text, encoding="ascii")
     engine = compiled_engine()
     of_engine = engine.objects[f"{platform.machine().lower()}-linux"]
-    program = folder / name
+    program = source.with_suffix("")
     inputs = [Path(__file__).with_name("driver.c"), *(_C / file for file in SURFACE), source, of_engine]
     headers = [f"-I{place}" for place in (_C, engine.headers, _STANDARD)]
     command = ["gcc", *_FLAGS, *headers, *map(str, inputs), "-lm", "-o", str(program)]
@@ -89,17 +98,18 @@ def main() -> None:
     asked = parser.parse_args()
     names = [asked.model] if asked.model else list(models.available())
     versions = [asked.fmi] if asked.fmi else list(VERSIONS)
-    share = len(names) * len(versions)
+    forms = [(name, fmi, False) for name in names for fmi in versions]
+    forms += [(name, 3, True) for name in names if 3 in versions and has_clock(name)]
     total: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as folder:
-        for name in names:
-            program = driver(name, Path(folder))
-            for fmi in versions:
-                begun = time.perf_counter()
-                counted = run(program, fmi, asked.seed, -(-asked.calls // share), -(-asked.states // share))
-                total += counted
-                seconds = time.perf_counter() - begun
-                print(f"{name}, FMI {fmi}: {dict(counted)}, {seconds:.0f} s", flush=True)
+        program = cache(lambda name, clocks: driver(name, Path(folder), clocks))
+        for name, fmi, clocks in forms:
+            begun = time.perf_counter()
+            calls, states = (-(-count // len(forms)) for count in (asked.calls, asked.states))
+            counted = run(program(name, clocks), fmi, asked.seed, calls, states)
+            total += counted
+            form = f"{name}, FMI {fmi}{' with a clock' if clocks else ''}"
+            print(f"{form}: {dict(counted)}, {time.perf_counter() - begun:.0f} s", flush=True)
     print(f"all: {dict(total)}; no finding")
 
 

@@ -6,7 +6,7 @@ import pytest
 
 import models
 from tests.fuzz.forged import HEAD, forged_heads, forged_words
-from tests.fuzz.native import VERSIONS, can_run, driver, run
+from tests.fuzz.native import VERSIONS, can_run, driver, has_clock, run
 
 pytestmark = pytest.mark.skipif(not can_run(), reason="needs Linux and gcc with its sanitizers")
 
@@ -14,7 +14,7 @@ pytestmark = pytest.mark.skipif(not can_run(), reason="needs Linux and gcc with 
 @pytest.fixture(scope="module")
 def driver_of(tmp_path_factory):
     folder = tmp_path_factory.mktemp("fuzz")
-    return cache(lambda name: driver(name, folder))
+    return cache(lambda name, clocks=False: driver(name, folder, clocks))
 
 
 @pytest.mark.parametrize("fmi", VERSIONS)
@@ -26,6 +26,14 @@ def test_random_calls_and_forged_states_do_no_harm(driver_of, name, fmi):
     assert counted["forged"] >= 300
     assert 0 < counted["accepted"] < counted["forged"]
     assert counted["ok"] > counted["refused"] > 0
+
+
+@pytest.mark.parametrize("name", list(filter(has_clock, models.available())))
+def test_nor_do_they_with_a_clock(driver_of, name):
+    counted = run(driver_of(name, clocks=True), 3, 20261122, 3000, 300)
+
+    assert counted["ok"] > counted["refused"] > 0
+    assert 0 < counted["accepted"] < counted["forged"]
 
 
 @pytest.mark.parametrize("fmi", VERSIONS)

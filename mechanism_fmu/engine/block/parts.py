@@ -177,7 +177,7 @@ class Ports(NamedTuple):
 
     `inputs` and `input_slopes` (unit of the input per second) are what the outside sets. When a communication step
     begins, the motion takes them as `held_inputs` and `held_slopes`, and `input_slopes` become zero; where it stops,
-    `inputs` become the values reached.
+    `inputs` become the values reached. `left_outputs` are kept by who stops before an event (FMI 3.0's event mode).
     """
 
     input_force: Array
@@ -193,6 +193,7 @@ class Ports(NamedTuple):
     output_value: Array
     outputs: Array
     output_rates: Array
+    left_outputs: Array
 
 
 ports = room(Ports)

@@ -21,6 +21,7 @@ from ..model_description import (
     common_types,
     default_experiment,
     log_categories,
+    origin,
     unit_definitions,
     value_attributes,
 )
@@ -147,7 +148,7 @@ def model_description3(model: Model, token: str, clocks: bool = False) -> Elemen
         modelName=model.name,
         instantiationToken=token,
         description=model.description,
-        version=__version__,
+        **origin(model),
         generationTool=f"mechanism_fmu {__version__}",
         variableNamingConvention="structured",
     )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import tempfile
+from ctypes import CDLL
 from pathlib import Path
 
-from ...engine.run import library_path
+from ...engine.run import library_path, load
 from ..archive import content_hash
 from ..kept import is_whole, keep
 from .link import has_linker, link, linked_with, surface
@@ -43,6 +44,19 @@ def library_here(report: Report = silently) -> Path | None:
     if target is None or not has_linker():
         return None
     return _linked(compiled_engine(report), target)
+
+
+def library_of(report: Report = silently) -> CDLL | None:
+    """That library, loaded; None where there is none, or the system cannot load it.
+
+    Args:
+        report: see `compiled_engine`.
+
+    Raises:
+        MechanismError: the engine cannot be compiled.
+    """
+    path = library_here(report)
+    return None if path is None else load(path)
 
 
 def _linked(engine: Engine, target: Target) -> Path:

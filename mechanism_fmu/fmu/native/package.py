@@ -20,8 +20,10 @@ from ..archive import DESCRIPTION, content_hash, write_archive
 from ..built import record_build
 from ..contents import common_entries, file_in, model_of
 from ..model_description import model_description, to_bytes
+from ..reference_results import reference_results
 from .description3 import model_description3
 from .formulas import Formulas, formulas
+from .libraries import library_of
 from .link import link, linked_with, need_linker, surface
 from .model_data import model_source
 from .objects import Engine, Report, compiled_engine, silently
@@ -96,6 +98,8 @@ def build_native_fmu(
         binaries.setdefault(f"binaries/{folder_name}/{model.name}{target.suffix}", []).append(binary)
     for name, libraries in binaries.items():
         entries[name] = universal(libraries) if len(libraries) > 1 else libraries[0]
+    # They follow from all that the fingerprint is of; last digits may be those of this machine.
+    entries |= reference_results(model, library_of(report))
     write_archive(entries, path, zipfile.ZIP_DEFLATED)
     return record_build(path)
 

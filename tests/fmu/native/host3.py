@@ -63,7 +63,8 @@ class Fmu3:
         return {v.name: v for v in self.description.modelVariables}
 
     def outputs(self) -> list[str]:
-        return [v.name for v in self.description.modelVariables if v.causality == "output" and v.type in TYPES]
+        outputs = [v for v in self.description.modelVariables if v.causality == "output" and v.type in TYPES]
+        return [v.name for v in outputs if not v.clocks]
 
 
 class Instance3:
@@ -182,14 +183,8 @@ class Instance3:
         return {name: self[name] for name in names}
 
     def outputs(self) -> dict[str, Value]:
-        """All outputs but the clock, arrays element by element under their names in FMI 2.0."""
-        flat: dict[str, Value] = {}
-        for name, value in self.get(self.fmu.outputs()).items():
-            if isinstance(value, list):
-                flat.update({name.replace(".", f"[{k}]."): element for k, element in enumerate(value, 1)})
-            else:
-                flat[name] = value
-        return flat
+        """All outputs but a clock and what it clocks."""
+        return self.get(self.fmu.outputs())
 
     # --- states ---
 

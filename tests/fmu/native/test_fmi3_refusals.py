@@ -61,11 +61,11 @@ def test_other_interface_types_are_refused(ratchet3, kind):
     )
     with pytest.raises(Exception, match="Failed to instantiate"):
         slave.instantiate(logMessage=lambda _, status, category, text: told.append(text))
-    assert b"co-simulation only" in told[0]
+    assert b"built for co-simulation only; it has no " in told[0]
 
 
 def test_what_no_intermediate_update_can_give_is_refused(ratchet3):
-    for name in ("drive_torque", "impact_count", "impacts.time", "impact"):
+    for name in ("drive_torque", "impact_count", "impacts[1].time", "impact", "time"):
         with pytest.raises(Exception, match="Failed to instantiate"):
             Instance3(ratchet3, on_update=lambda _: None, intermediate=[name])
 
@@ -100,7 +100,7 @@ def test_version(instance3):
 def test_null_pointers_are_refused(instance3):
     one = instance3().begin()
     slave, component = one.slave, one.slave.component
-    references, values = (fmpy.fmi3.fmi3ValueReference * 1)(0), (c_double * 1)()
+    references, values = (fmpy.fmi3.fmi3ValueReference * 1)(1), (c_double * 1)()
 
     for call in (
         lambda: slave.fmi3DoStep(component, 0.0, 0.1, True, None, None, None, None),

@@ -10,7 +10,7 @@ from pendulum import MODEL
 
 import models
 from mechanism_fmu.fmu.model_description import to_bytes
-from mechanism_fmu.fmu.native.description3 import array_layout, model_description3, variables3
+from mechanism_fmu.fmu.native.description3 import model_description3, outputs_again, variables3
 from mechanism_fmu.fmu.variables import variables_of
 from mechanism_fmu.model import Mechanism, MechanismError, Model, Output, Parameter
 
@@ -26,18 +26,26 @@ def with_outputs(*outputs: Output) -> Model:
     return replace(MODEL, mechanism=mechanism)
 
 
+FLAG = Output("struck", "impact.any", "Whether there was an impact", "1", type="Boolean")
+
+
 def angle(name: str, unit: str = "rad") -> Output:
     return Output(name, "arm.angle", "An angle", unit)
 
 
-def written(model: Model, folder: Path) -> Path:
-    (folder / "modelDescription.xml").write_bytes(to_bytes(model_description3(model, TOKEN)))
+def written(model: Model, folder: Path, clocks: bool = False) -> Path:
+    (folder / "modelDescription.xml").write_bytes(to_bytes(model_description3(model, TOKEN, clocks)))
     return folder
 
 
 @pytest.fixture(scope="module")
 def ratchet(tmp_path_factory: pytest.TempPathFactory) -> ModelDescription:
     return fmpy.read_model_description(str(written(RATCHET, tmp_path_factory.mktemp("ratchet"))))
+
+
+@pytest.fixture(scope="module")
+def clocked(tmp_path_factory: pytest.TempPathFactory) -> ModelDescription:
+    return fmpy.read_model_description(str(written(RATCHET, tmp_path_factory.mktemp("clocked"), clocks=True)))
 
 
 @pytest.mark.parametrize(
@@ -68,11 +76,14 @@ def test_head_and_abilities(ratchet: ModelDescription) -> None:
     assert able.maxOutputDerivativeOrder == 1
 
 
-def test_scalars_are_those_of_fmi_2_under_the_same_value_references(ratchet: ModelDescription) -> None:
-    found = {v.valueReference: v for v in ratchet.modelVariables}
+@pytest.mark.parametrize("form", ["ratchet", "clocked"])
+def test_variables_are_those_of_fmi_2_under_the_same_value_references(
+    form: str, request: pytest.FixtureRequest
+) -> None:
+    description: ModelDescription = request.getfixturevalue(form)
+    found = {v.valueReference: v for v in description.modelVariables}
     types = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
-    scalars = [v for v in variables_of(RATCHET) if "[" not in v.name and v.name != "impact"]
-    for variable in scalars:
+    for variable in variables_of(RATCHET):
         same = found[variable.value_reference]
         assert (same.name, same.description) == (variable.name, variable.description)
         assert (same.type, same.causality, same.variability) == (
@@ -85,43 +96,60 @@ def test_scalars_are_those_of_fmi_2_under_the_same_value_references(ratchet: Mod
             assert float(same.start) == variable.start
 
 
-def test_numbered_outputs_are_arrays(ratchet: ModelDescription) -> None:
-    flat = {v.name: v.value_reference for v in variables_of(RATCHET)}
-    arrays = {v.name: v for v in ratchet.modelVariables if v.dimensions}
+@pytest.mark.parametrize("name", models.available())
+def test_every_importer_can_read_the_plain_form(name: str) -> None:
+    """What OMSimulator 3.0 does not take: value reference 0, arrays, clocks."""
+    root = model_description3(models.load(name).MODEL, TOKEN)
+    variables = root.findall("ModelVariables/*")
 
+    references = [int(v.attrib["valueReference"]) for v in variables]
+    assert references == list(range(1, len(variables) + 1))
+    assert {v.tag for v in variables} <= {"Float64", "Int32", "Boolean"}
+    assert not root.findall(".//Dimension")
+    assert not [v for v in variables if "clocks" in v.attrib]
+    assert not [v for v in variables if " " in v.attrib["name"]]
+    unknowns = root.findall("ModelStructure/*")
+    named = [int(r) for u in unknowns for r in (u.attrib["valueReference"], *u.attrib["dependencies"].split())]
+    assert set(named) <= set(references)
+    assert root.attrib["modelName"].isidentifier()
+    assert root.find("CoSimulation").attrib["modelIdentifier"].isidentifier()  # type: ignore[union-attr]
+
+
+def test_time_stands_behind_all(ratchet: ModelDescription) -> None:
+    time = ratchet.modelVariables[-1]
+
+    assert (time.name, time.type, time.valueReference) == ("time", "Float64", len(variables_of(RATCHET)) + 1)
+    assert (time.causality, time.variability, time.unit) == ("independent", "continuous", "s")
+
+
+def test_with_a_clock_numbered_outputs_are_arrays_as_well(clocked: ModelDescription) -> None:
+    names = {v.name for v in clocked.modelVariables}
+    arrays = {v.name: v for v in clocked.modelVariables if v.dimensions}
+
+    assert set(arrays) == {v.name.replace("[1].", ".") for v in clocked.modelVariables if "[1]." in v.name}
     assert {name: v.shape for name, v in arrays.items()} == {
-        **{f"impacts.{f}": (8,) for f in ("time", "velocity", "closing_speed", "impulse", "energy_lost")},
-        **{f"impacts.{f}": (8,) for f in ("wheel_speed_before", "wheel_speed", "instant", "tooth", "contact")},
-        **{f"events.{f}": (16,) for f in ("time", "guard", "subject", "old_mode", "new_mode", "impulse")},
+        name: (8 if name.startswith("impacts") else 16,) for name in arrays
     }
-    assert all(v.valueReference == flat[name.replace(".", "[1].")] for name, v in arrays.items())
+    assert {"impacts.time", "impacts.pawl_speed_before", "events.guard"} <= set(arrays)
+    assert {"impacts[1].time", "impacts[8].time", "events[16].guard"} <= names
     assert arrays["impacts.time"].description == "Time of impact k of the last communication step"
     assert "(0 gap closed, 1 force gone, 2 next tooth," in arrays["events.guard"].description
 
 
-def test_the_flag_of_an_impact_is_a_clock_behind_all_others_and_time_follows(ratchet: ModelDescription) -> None:
-    count = len(variables_of(RATCHET))
-    clock, time = ratchet.modelVariables[-2:]
+def test_the_clock_is_behind_time(clocked: ModelDescription) -> None:
+    (clock,) = (v for v in clocked.modelVariables if v.type == "Clock")
 
-    assert (clock.name, clock.type, clock.valueReference) == ("impact", "Clock", count)
+    assert (clock.name, clock.valueReference) == ("impact.clock", len(variables_of(RATCHET)) + 2)
     assert (clock.causality, clock.variability, clock.intervalVariability) == ("output", "discrete", "triggered")
-    assert (time.name, time.type, time.valueReference, time.unit) == ("time", "Float64", count + 1, "s")
-    assert (time.causality, time.variability) == ("independent", "continuous")
 
 
-def test_what_describes_the_last_impact_is_clocked(ratchet: ModelDescription) -> None:
-    clocked = {v.name for v in ratchet.modelVariables if v.clocks}
+def test_what_the_clock_brings_is_beside_the_plain_variables(clocked: ModelDescription) -> None:
+    (clock,) = (v for v in clocked.modelVariables if v.type == "Clock")
+    ticked = {v.name: v for v in clocked.modelVariables if v.clocks}
+    last = [v for v in variables_of(RATCHET) if v.name.startswith("impact_") and v.name != "impact_count"]
 
-    assert all(v.clocks == [ratchet.modelVariables[-2]] for v in ratchet.modelVariables if v.clocks)
-    assert {
-        "impact_time",
-        "impact_velocity",
-        "impact_tooth",
-        "impact_wheel_speed_before",
-        "impact_energy_lost",
-    } <= clocked
-    assert all(name.startswith("impact_") for name in clocked)
-    assert not clocked & {"impact_count", "impacts_in_step", "impacts_lost"}
+    assert set(ticked) == {v.name.replace("impact_", "impact.tick.") for v in last}
+    assert all(v.clocks == [clock] for v in ticked.values())
 
 
 def test_continuous_outputs_may_be_read_between_communication_points() -> None:
@@ -144,27 +172,31 @@ def test_structure_names_dependencies_by_value_reference(ratchet: ModelDescripti
     assert outputs["drive_shaft_torque"].dependencies == [reference["drive_angle"], reference["drive_speed"]]
     assert outputs["impact"].dependencies == []
     unknown = {u.variable.name: u for u in ratchet.initialUnknowns}
-    assert "impact_time" not in unknown
     assert unknown["tooth_pitch"].dependencies == [v for v in ratchet.modelVariables if v.causality == "parameter"]
 
 
-def test_layout_tells_elements_and_strides_by_flat_index() -> None:
-    variables = variables_of(RATCHET)
-    layout = dict(zip((v.name for v in variables), array_layout(variables), strict=True))
+def test_what_is_clocked_is_no_initial_unknown(clocked: ModelDescription) -> None:
+    unknown = {u.variable.name for u in clocked.initialUnknowns}
 
-    assert layout["wheel_angle"] == layout["impact_time"] == (1, 0)
-    assert layout["impacts[1].time"] == layout["impacts[1].contact"] == (8, 10)
-    assert layout["events[1].guard"] == (16, 6)
-    assert layout["impacts[2].time"] == layout["events[16].impulse"] == (0, 0)
-    assert layout["impact"] == (0, 0)
-    present = [v.value_reference for v, (count, _) in zip(variables, layout.values(), strict=True) if count]
-    assert present == [v.value_reference for v in variables3(RATCHET)[:-2]]
+    assert {"impact_time", "impacts.time", "impact.clock"} <= unknown
+    assert not [name for name in unknown if name.startswith("impact.tick.")]
+
+
+def test_arrays_say_where_their_elements_are() -> None:
+    variables = variables_of(RATCHET)
+    by_reference = {v.value_reference: v.name for v in variables}
+    arrays = [again for again in outputs_again(variables) if again.count]
+
+    assert arrays
+    for again in arrays:
+        assert again.count is not None
+        elements = [by_reference[again.first.value_reference + k * again.stride] for k in range(again.count)]
+        assert elements == [again.name.replace(".", f"[{k}].") for k in range(1, again.count + 1)]
 
 
 def test_an_array_may_have_one_element() -> None:
-    assert array_layout(variables_of(MODEL))[variables3(MODEL)[-3].value_reference] == (1, 0)
-    (only,) = (v for v in variables3(MODEL) if v.dimension)
-    assert (only.name, only.dimension) == ("impacts.time", 1)
+    (only,) = (again for again in outputs_again(variables_of(MODEL)) if again.count)
+    assert (only.name, only.count, only.stride) == ("impacts.time", 1, 0)
 
 
 @pytest.mark.parametrize(
@@ -177,24 +209,23 @@ def test_an_array_may_have_one_element() -> None:
     ],
     ids=("of different units", "with a gap", "backwards", "unevenly spaced"),
 )
-def test_numbered_outputs_that_make_no_array_stay_what_they_are(outputs: tuple[Output, ...], tmp_path: Path) -> None:
-    model = with_outputs(*outputs)
+def test_numbered_outputs_that_make_no_array_make_none(outputs: tuple[Output, ...], tmp_path: Path) -> None:
+    model = with_outputs(*outputs, FLAG)
 
-    assert not any(v.dimension for v in variables3(model))
-    assert {o.name for o in outputs} <= {v.name for v in variables3(model)}
-    assert validate_fmu(str(written(model, tmp_path))) == []
+    assert not any(v.dimension for v in variables3(model, clocks=True))
+    assert {o.name for o in outputs} <= {v.name for v in variables3(model, clocks=True)}
+    assert validate_fmu(str(written(model, tmp_path, clocks=True))) == []
 
 
-def test_without_the_flag_there_is_no_clock(tmp_path: Path) -> None:
+def test_without_impacts_there_is_no_clock() -> None:
     model = with_outputs(Output("when", "impact.time", "Time of the last impact", "s"))
 
-    assert {v.type for v in variables3(model)} == {"Float64", "Int32", "Boolean"}
-    assert not any(v.clock for v in variables3(model))
-    assert variables3(model)[-1].value_reference == len(variables_of(model)) + 1
-    assert validate_fmu(str(written(model, tmp_path))) == []
+    assert outputs_again(variables_of(model)) == ()
+    with pytest.raises(MechanismError, match="no clock; build it without --clocks"):
+        variables3(model, clocks=True)
 
 
 @pytest.mark.parametrize("outputs", [[angle("time")], [angle("a[1].b"), angle("a.b")]], ids=("time", "array"))
 def test_a_name_that_fmi_3_needs_is_refused(outputs: list[Output]) -> None:
     with pytest.raises(MechanismError, match="give the port another name"):
-        variables3(with_outputs(*outputs))
+        variables3(with_outputs(*outputs, FLAG), clocks=True)

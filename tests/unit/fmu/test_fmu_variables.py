@@ -17,14 +17,14 @@ def test_the_order_is_inputs_outputs_parameters_calculated_parameters() -> None:
     ]
 
 
-def test_the_value_reference_is_the_position() -> None:
-    assert [v.value_reference for v in variables_of(MODEL)] == list(range(12))
+def test_value_references_count_from_1() -> None:
+    assert [v.value_reference for v in variables_of(MODEL)] == list(range(1, 13))
 
 
 def test_an_input_is_continuous_and_has_a_start_but_no_initial() -> None:
     assert BY_NAME["torque"] == Variable(
         name="torque",
-        value_reference=1,
+        value_reference=2,
         type="Real",
         causality="input",
         variability="continuous",
@@ -40,9 +40,9 @@ def test_an_input_is_continuous_and_has_a_start_but_no_initial() -> None:
 
 def test_an_output_is_calculated_from_parameters_and_passes_on_its_feedthrough_inputs() -> None:
     assert BY_NAME["angle"].dependencies == ()
-    assert BY_NAME["angle"].initial_dependencies == (7, 8, 9, 10)
-    assert BY_NAME["wall_force"].dependencies == (0, 1)
-    assert BY_NAME["wall_force"].initial_dependencies == (0, 1, 7, 8, 9, 10)
+    assert BY_NAME["angle"].initial_dependencies == (8, 9, 10, 11)
+    assert BY_NAME["wall_force"].dependencies == (1, 2)
+    assert BY_NAME["wall_force"].initial_dependencies == (1, 2, 8, 9, 10, 11)
     assert (BY_NAME["angle"].initial, BY_NAME["angle"].start) == ("calculated", None)
 
 
@@ -71,7 +71,7 @@ def test_only_reals_have_units() -> None:
 def test_a_calculated_parameter_depends_on_the_parameters() -> None:
     inertia = BY_NAME["inertia"]
     assert (inertia.causality, inertia.variability, inertia.initial) == ("calculatedParameter", "fixed", "calculated")
-    assert inertia.initial_dependencies == (7, 8, 9, 10)
+    assert inertia.initial_dependencies == (8, 9, 10, 11)
 
 
 def test_a_whole_number_as_start_of_a_real_becomes_a_float() -> None:
