@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from itertools import pairwise
 
 import fmpy.validation
 
@@ -11,11 +13,14 @@ from .checks import Check
 from .clock import TimeGrid, begin_and_size, seconds
 from .description import Description, Value
 from .errors import FmuError, HarnessError
+from .reference_results import ReferenceResults, farthest, limit_for, read_reference
 from .slave import Instance, Instances
 
 #: The run takes this many steps through the default experiment, and branches off after some of them.
 _STEPS = 100
 _BRANCH = 10
+
+_REFERENCE = "It gives the reference results that it brings along"
 
 #: Row of output values for each communication point.
 Trajectory = list[list[Value]]
@@ -38,6 +43,13 @@ def validate(fmu: Instances) -> Iterator[Check]:
         steps.append(("Going back to a saved state repeats the run exactly", conformance.rollback))
     if fmu.description.serializes_state:
         steps.append(("So does another instance with the serialized state", conformance.transfer))
+    try:
+        reference = read_reference(fmu.folder, fmu.description)
+    except FmuError as error:
+        yield Check(_REFERENCE, False, str(error))
+    else:
+        if reference is not None:
+            steps.append((_REFERENCE, partial(conformance.reference, reference)))
     for claim, step in steps:
         try:
             yield Check(claim, True, step())
@@ -100,6 +112,26 @@ class _Conformance:
             target.free_state(state)
             first = self._through(source, steps[_BRANCH:])
             return self._same(first, self._through(target, steps[_BRANCH:])) + f", state of {len(data)} bytes"
+
+    def reference(self, reference: ReferenceResults) -> str:
+        first, last = reference.times[0], reference.times[-1]
+        found: Trajectory = []
+        with self._fmu.instantiate("reference") as slave:
+            slave.initialize(first, last)
+            for begin, end in pairwise((first, *reference.times)):
+                if end > begin:
+                    slave.step(begin, end - begin)
+                found.append(slave.get(reference.names))
+        off, name, time = farthest(reference, found)
+        limit = limit_for(self._fmu.description)
+        if not off <= limit:
+            raise FmuError(
+                f"{name} at t = {time:.9g} s is off by {off:.2g} of its largest value in {reference.file}; "
+                f"{limit:g} is the limit."
+            )
+        return (
+            f"{len(reference.names)} outputs at {len(found)} points, off by at most {off:.1g} of their largest values"
+        )
 
     def _start(self, slave: Instance) -> None:
         slave.initialize(seconds(self._grid.start), seconds(self._grid.stop))

@@ -15,7 +15,7 @@ from ..model import MechanismError, Model
 from .documentation import documentation
 from .drawing import drawing
 from .logic import logic
-from .model_description import to_bytes
+from .model_description import NO_SOURCES, to_bytes
 from .terminals import terminals
 
 #: Beginning of the name of the package that a user's own file is loaded into (see `own.load`).
@@ -78,12 +78,12 @@ def no_sources(model: Model) -> dict[str, bytes]:
     """
     root = Element("fmiBuildDescription", fmiVersion="3.0")
     configuration = SubElement(root, "BuildConfiguration", modelIdentifier=model.name, description="None: see the file")
-    SubElement(SubElement(configuration, "SourceFileSet", language="C99"), "SourceFile", name="no_sources.c")
+    SubElement(SubElement(configuration, "SourceFileSet", language="C99"), "SourceFile", name=NO_SOURCES)
     text = (
         f"{model.name} has no C sources: its engine is compiled Python. Platforms with a binary are in its folder "
         "binaries; for others, run mechanism-fmu build there without --flavour native, which needs Python."
     )
-    return {"sources/buildDescription.xml": to_bytes(root), "sources/no_sources.c": f'#error "{text}"\n'.encode()}
+    return {"sources/buildDescription.xml": to_bytes(root), f"sources/{NO_SOURCES}": f'#error "{text}"\n'.encode()}
 
 
 def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str]) -> dict[str, bytes]:

@@ -26,6 +26,9 @@ LOG_CATEGORIES = {
     "logAll": "All messages.",
 }
 
+#: In the folder `sources`: an error for who wants to compile the FMU (see `contents.no_sources`).
+NO_SOURCES = "no_sources.c"
+
 #: Capability flags in which the flavours differ. Of the machine that runs it, the one by pythonfmu asks for a Python.
 _BY_PYTHONFMU = {"needsExecutionTool": "true", "canNotUseMemoryManagementFunctions": "true"}
 _NATIVE = {"needsExecutionTool": "false", "canInterpolateInputs": "true", "maxOutputDerivativeOrder": "1"}
@@ -101,14 +104,16 @@ def to_bytes(root: Element) -> bytes:
 
 def _co_simulation(root: Element, model: Model, flags: dict[str, str]) -> None:
     """Capability flags (section 4.3.1)."""
-    SubElement(
+    element = SubElement(
         root,
         "CoSimulation",
         modelIdentifier=model.name,
         canHandleVariableCommunicationStepSize="true",
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
-    ).attrib.update(flags)
+    )
+    element.attrib.update(flags)
+    SubElement(SubElement(element, "SourceFiles"), "File", name=NO_SOURCES)
 
 
 def log_categories(root: Element) -> None:

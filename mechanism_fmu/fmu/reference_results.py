@@ -1,7 +1,7 @@
 """Reference results that travel in an FMU: what its default experiment gives, and with which parameters.
 
-By the layered standard FMI-LS-REF 1.0.0-beta.1: a manifest names a CSV file of results and an SSP parameter set. Whoever
-has the FMU can see whether it does in their tool what it did where it was built.
+By the layered standard FMI-LS-REF 1.0.0-beta.1: a manifest names a CSV file of results and an SSP parameter set.
+Whoever has the FMU can see whether it does in their tool what it did where it was built.
 """
 
 from __future__ import annotations
