@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from os.path import isfile
 from pathlib import Path
 
 import build_fmu
@@ -31,7 +32,7 @@ def machine_file(name: str) -> Path:
     """
     path = Path(name)
     ready = build_fmu.machines()
-    if path.suffix == ".toml" or path.is_file():
+    if path.suffix == ".toml" or isfile(path):
         return path
     if name in ready:
         return ready[name]
@@ -79,7 +80,7 @@ def _known(file: TomlFile, parts: Sequence[ComponentPlan]) -> dict[str, Descript
     """Descriptions of those components that are FMU files: what takes no time to find out."""
     found = {}
     for part in parts:
-        if part.source.path is not None and part.source.path.is_file():
+        if part.source.path is not None and isfile(part.source.path):
             try:
                 found[part.name] = read_description(part.source.path)
             except UsageError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from os.path import isfile
 from pathlib import Path
 from urllib.parse import unquote
 from xml.etree import ElementTree
@@ -97,7 +98,7 @@ def read_structure(path: Path) -> Structure:
     Raises:
         UsageError: it is none, or has what cannot be taken over.
     """
-    if not path.is_file():
+    if not isfile(path):
         raise UsageError(f"There is no file '{path}'.")
     try:
         entries = read_entries(path)
