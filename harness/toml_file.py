@@ -195,10 +195,15 @@ class Section:
 
     def flag(self, name: str) -> bool:
         """Whether something is so; it is not when nothing is said."""
+        return self.flag_if_said(name) is True
+
+    def flag_if_said(self, name: str) -> bool | None:
+        """Whether something is so; None when nothing is said."""
         value = self.take(name)
-        if value is not None and not isinstance(value, bool):
-            self._refused(name, value, "true or false")
-        return value is True
+        if value is None or isinstance(value, bool):
+            return value
+        self._refused(name, value, "true or false")
+        return None
 
     def choice(self, name: str, among: Sequence[str], *, needed: str = "") -> str | None:
         """One of several texts."""

@@ -41,12 +41,13 @@ def machine_file(name: str) -> Path:
 
 
 @contextmanager
-def prepared(name: str, table: Path | None = None) -> Iterator[Prepared]:
+def prepared(name: str, table: Path | None = None, in_process: bool = False) -> Iterator[Prepared]:
     """The machine of a file, or a ready one, with its FMUs extracted; they are removed afterwards.
 
     Args:
         name: of the file or of the ready machine.
         table: of inputs, instead of the file's own.
+        in_process: whether components of which the file does not say it have no process of their own.
 
     Raises:
         UsageError: there is none, or the file has mistakes, all of which are told.
@@ -54,6 +55,8 @@ def prepared(name: str, table: Path | None = None) -> Iterator[Prepared]:
     """
     file = TomlFile.read(machine_file(name))
     parts = components(file, build_fmu.model_names())
+    if in_process:
+        parts = [replace(part, process=False) if part.process is None else part for part in parts]
     if file.mistakes:
         read_plan(file, parts, _known(file, parts))
     with ExitStack() as stack:

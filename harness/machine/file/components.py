@@ -43,7 +43,7 @@ def _component(section: Section, name: str, models: Collection[str]) -> Componen
     path, model = section.text("file"), section.text("model")
     flavour = section.choice("flavour", ("native", "pythonfmu"))
     fmi = section.whole("fmi", least=2, most=3)
-    process = section.flag("process")
+    process = section.flag_if_said("process")
     limit = None
     if section.take("time_limit") is not None:
         limit = time_at(section, "time_limit", None, _NO_DESCRIPTION)

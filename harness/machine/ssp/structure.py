@@ -43,7 +43,7 @@ class SspComponent:
     name: str
     source: str
     parameters: dict[str, Parameter] = field(default_factory=dict)
-    process: bool = False
+    process: bool | None = None
     time_limit: float | None = None
 
 
