@@ -1,4 +1,4 @@
-"""FMUs of others in machines and in the study: apart, unless somebody says otherwise, and never an end like a success."""
+"""FMUs of others in machines and in the study: apart, unless somebody says otherwise, and no end like a success."""
 
 import json
 import shutil
@@ -121,7 +121,8 @@ def test_whose_part_runs_where(
 def test_what_is_built_for_a_machine_is_one_s_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MECHANISM_FMU_CACHE", str(tmp_path / "empty"))
     part = ComponentPlan("ratchet", Source(None, "ratchet"))
-    assert not (part.foreign or part.apart)
+    assert not part.foreign
+    assert not part.apart
 
 
 def test_the_study_runs_an_fmu_of_others_apart(
