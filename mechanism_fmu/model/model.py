@@ -34,6 +34,9 @@ class Model:
         warnings: likewise, for what is legal but deserves a line in the log.
         stop_time, step_size: default experiment [s].
         drawing: how its FMU can be drawn, in terms of the FMU's variables; () when it cannot.
+
+    Raises:
+        MechanismError: stop_time or step_size is not positive and finite.
     """
 
     name: str
@@ -45,6 +48,11 @@ class Model:
     stop_time: float = 1.0
     step_size: float = 1e-3
     drawing: tuple[Shape, ...] = ()
+
+    def __post_init__(self) -> None:
+        for what, value in (("stop_time", self.stop_time), ("step_size", self.step_size)):
+            if not 0.0 < value < math.inf:
+                raise MechanismError(f"{self.name}: {what} = {value:g} s, but it must be positive and finite.")
 
     def values(self, **changes: float) -> SimpleNamespace:
         """Parameter values: the defaults with `changes`.
