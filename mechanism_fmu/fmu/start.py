@@ -226,7 +226,7 @@ class CheckedLoader(SourceFileLoader):
     and what was changed runs.
     """
 
-    def get_data(self, path: str) -> bytes:  # type: ignore[override]
+    def get_data(self, path: str) -> bytes:
         """The bytes of a source, or of compiled code without its digest.
 
         Raises:
@@ -240,7 +240,7 @@ class CheckedLoader(SourceFileLoader):
             raise OSError(f"{path} is not as it was written")
         return code
 
-    def set_data(self, path: str, data: bytes, *, _mode: int = 0o666) -> None:
+    def set_data(self, path: str, data: bytes, *, _mode: int = 0o666) -> None:  # type: ignore[override]
         """Keep compiled code."""
         super().set_data(path, bytes(data) + hashlib.sha256(data).digest(), _mode=_mode)
 
