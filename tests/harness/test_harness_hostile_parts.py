@@ -5,6 +5,7 @@ import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from xml.etree.ElementTree import Element
 
 import pandas as pd
 import pytest
@@ -16,6 +17,7 @@ from harness.fmu import Fmu
 from harness.machine.file.components import components
 from harness.machine.file.plan import ComponentPlan, Source
 from harness.machine.remote import RemoteFmu
+from harness.machine.ssp.own import read_component, write_component
 from harness.slave import Instances
 from harness.toml_file import TomlFile
 from mechanism_fmu.fmu.built import record_build
@@ -156,3 +158,14 @@ def test_the_study_runs_an_fmu_of_others_apart(
     assert run_study(tmp_path / "c", other, in_process=True) == 0
     assert [type(one) for one in given] == [Fmu, RemoteFmu, Fmu]
     assert watched == [False, True]
+
+
+@pytest.mark.parametrize(("said", "taken_over"), [("true", True), ("false", None)])
+def test_an_ssp_file_cannot_say_that_its_parts_run_here(said: str, taken_over: bool | None) -> None:
+    plan = ComponentPlan("one", Source(Path("One.fmu")), True)
+    element = Element("ssd:Component")
+    write_component(element, plan)
+    for own in element.iter():
+        if "process" in own.attrib:
+            own.set("process", said)
+    assert read_component(element) == (taken_over, None)
