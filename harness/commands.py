@@ -159,28 +159,31 @@ def validate_fmu(path: Path, in_process: bool = False) -> int:
         return with_instances(fmu, in_process, work)
 
 
-def run_study(folder: Path, path: Path | None) -> int:
-    """Run the paper's study and write it."""
-    from .study import ratchet_study
-
+def run_study(folder: Path, path: Path | None, in_process: bool = False) -> int:
+    """Run the paper's study and write it, wherever an FMU moves the working folder."""
+    folder = folder.absolute()
     with alone_in(folder, waits=False):
         path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
-        with (
-            open_fmu(path) as fmu,
-            show_progress(f"Loading {path.name} ...") as progress,
-            interruption(
-                lambda: console.print("Ending after this wheel; Ctrl-C again to break off.")
-            ) as stop_requested,
-        ):
+        with open_fmu(path) as fmu:
+            return with_instances(fmu, in_process, lambda instances: _study_written(_studied(instances), folder))
 
-            def on_wheel(number: int, of: int) -> None:
-                progress(f"{number} of {of} wheels", number / of)
-                if stop_requested():
-                    console.print("[yellow]Interrupted[/]: nothing was written; the same command begins anew.")
-                    raise typer.Exit(INTERRUPTED)
 
-            study = ratchet_study(fmu, on_wheel)
-        return _study_written(study, folder)
+def _studied(fmu: Instances) -> Study:
+    """The study, under the eyes of the user."""
+    from .study import ratchet_study
+
+    with (
+        show_progress(f"Loading {fmu.path.name} ...") as progress,
+        interruption(lambda: console.print("Ending after this wheel; Ctrl-C again to break off.")) as stop_requested,
+    ):
+
+        def on_wheel(number: int, of: int) -> None:
+            progress(f"{number} of {of} wheels", number / of)
+            if stop_requested():
+                console.print("[yellow]Interrupted[/]: nothing was written; the same command begins anew.")
+                raise typer.Exit(INTERRUPTED)
+
+        return ratchet_study(fmu, on_wheel)
 
 
 def _study_written(study: Study, folder: Path) -> int:

@@ -9,6 +9,7 @@ import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import product
+from os.path import isfile
 from pathlib import Path
 from typing import Any
 
@@ -141,7 +142,7 @@ def read_description(path: Path) -> Description:
     """
     import fmpy
 
-    if not path.is_file():
+    if not isfile(path):
         raise UsageError(f"There is no FMU file '{path}'. Build one with: mechanism-fmu build ratchet -o build")
     try:
         _require_safe_names(path)

@@ -20,15 +20,15 @@ from mechanism_fmu.fmu.built import was_built_here
 from .fmu import Fmu
 from .machine.remote import RemoteFmu
 from .slave import Instances
-from .terminal import FAILED, show_error, user_errors
+from .terminal import FAILED, show_error, show_note, user_errors
 
 #: Of a call [s]; nobody else ends a step of hours.
-_TIME_LIMIT = 600.0
+LONG_TIME_LIMIT = 600.0
 
 
 def instances_of(fmu: Fmu) -> Instances:
     """An FMU itself if a build of this user has made it, else one whose instances have processes of their own."""
-    return fmu if was_built_here(fmu.path) else RemoteFmu(fmu, _TIME_LIMIT)
+    return fmu if was_built_here(fmu.path) else RemoteFmu(fmu, LONG_TIME_LIMIT)
 
 
 def with_instances(fmu: Fmu, in_process: bool, work: Callable[[Instances], int]) -> int:
@@ -40,9 +40,18 @@ def with_instances(fmu: Fmu, in_process: bool, work: Callable[[Instances], int])
         work: is given what makes instances, and returns an exit code.
     """
     instances = instances_of(fmu)
-    if instances is fmu or not in_process:
-        return work(instances)
-    return supervised(lambda: work(fmu)) if hasattr(os, "fork") else work(fmu)
+    if instances is fmu or in_process:
+        return watched(lambda: work(fmu), instances is not fmu)
+    show_note(
+        f"{fmu.path.name} runs in a process of its own, as no build of yours has made it; --in-process runs it here, "
+        "faster by a round trip a step."
+    )
+    return work(instances)
+
+
+def watched(work: Callable[[], int], foreign: bool) -> int:
+    """The exit code of work; `supervised` where it runs a foreign FMU in its own process and the system can do so."""
+    return supervised(work) if foreign and hasattr(os, "fork") else work()
 
 
 def supervised(work: Callable[[], int]) -> int:
@@ -82,7 +91,7 @@ def supervised(work: Callable[[], int]) -> int:
     how = f"by the signal {signal.Signals(-code).name}" if code < 0 else f"with exit code {code}"
     show_error(
         f"The process ended {how} before the program did: the FMU crashed or ended it. What is in no file is lost; "
-        "without --in-process, an FMU has a process of its own."
+        "without --in-process (or process = false in a machine's file), an FMU of others has a process of its own."
     )
     return FAILED
 

@@ -159,6 +159,10 @@ def study_ratchet(
         Path | None,
         typer.Option(metavar="FMU", help="Ratchet FMU to use.", show_default="one is built in the folder"),
     ] = None,
+    in_process: Annotated[
+        bool,
+        typer.Option("--in-process", help="Run an FMU that no build of yours has made without processes of its own."),
+    ] = False,
 ) -> None:
     """The paper's case studies: 10 to 25 teeth, slope angle 85 to 105 deg, all through the same FMU.
 
@@ -178,7 +182,7 @@ def study_ratchet(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_study(output, fmu))
+        raise typer.Exit(run_study(output, fmu, in_process))
 
 
 @study.callback()

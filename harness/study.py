@@ -18,10 +18,10 @@ from .drawing import read_drawing
 from .errors import FmuError, UsageError
 from .experiment import Experiment, Run, perform
 from .findings import Finding
-from .fmu import Fmu
 from .paper import BASE_CASE, SLOPE_ANGLES_DEG, TOOTH_COUNTS, study_checks
 from .results import settings, write_json, write_with_units
 from .rim import Rim, rim_of
+from .slave import Instances
 from .versions import versions
 from .wheels import WHEEL_UNITS, Wheel
 
@@ -62,7 +62,7 @@ class Study:
     findings: tuple[Finding, ...]
 
 
-def ratchet_study(fmu: Fmu, on_wheel: Callable[[int, int], None]) -> Study:
+def ratchet_study(fmu: Instances, on_wheel: Callable[[int, int], None]) -> Study:
     """Run all wheels of the paper through one FMU.
 
     Args:
@@ -119,7 +119,7 @@ def _told_once(said: list[tuple[str, Wheel]]) -> str:
     return f"{first} ({same}{f'; with other numbers also {alike}' if alike else ''})"
 
 
-def _performed(fmu: Fmu, step: float, count: int, angle: float) -> Run:
+def _performed(fmu: Instances, step: float, count: int, angle: float) -> Run:
     """The run of one wheel, which has an impact."""
     run = perform(fmu, Experiment(_STOP_TIME, step, {"tooth_count": count, "tooth_slope_angle": angle}))
     if run.outcome.error is not None:

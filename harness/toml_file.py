@@ -28,6 +28,8 @@ _NESTING = f"at most {_DEEPEST} may, and no file of this project needs more than
 _LONGEST_LINE = 1000
 #: Letters of a value that a message shows.
 _LONGEST = 60
+#: A word of a mistake that nobody reads to its end; sentences quote names and values, some of them more than once.
+_LONG_WORD = re.compile(r"(\S{300})\S{30,}")
 
 
 @dataclass
@@ -70,7 +72,7 @@ class TomlFile:
 
     def wrong(self, key: Key, text: str) -> None:
         """Note a mistake; the same one only once."""
-        text = text if text.endswith((".", "?")) else f"{text}."
+        text = _LONG_WORD.sub(r"\1 ...", text if text.endswith((".", "?")) else f"{text}.")
         if (key, text) not in self.mistakes:
             self.mistakes.append((key, text))
 
@@ -193,10 +195,15 @@ class Section:
 
     def flag(self, name: str) -> bool:
         """Whether something is so; it is not when nothing is said."""
+        return self.flag_if_said(name) is True
+
+    def flag_if_said(self, name: str) -> bool | None:
+        """Whether something is so; None when nothing is said."""
         value = self.take(name)
-        if value is not None and not isinstance(value, bool):
-            self._refused(name, value, "true or false")
-        return value is True
+        if value is None or isinstance(value, bool):
+            return value
+        self._refused(name, value, "true or false")
+        return None
 
     def choice(self, name: str, among: Sequence[str], *, needed: str = "") -> str | None:
         """One of several texts."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from mechanism_fmu.stress import STEEL_CARD, MaterialCard, material_card
 
 from ..assignments import settable_variable
-from ..clock import SECOND, TimeGrid, seconds
+from ..clock import TimeGrid, nanoseconds, seconds
 from ..description import Description, Value, Variable
 from ..errors import UsageError
 from ..inputs import InputSignals, read_inputs
@@ -80,8 +80,9 @@ def course(file: TomlFile, description: Description) -> Course:
             section.wrong("material", str(error))
     if stop_time is None or step is None:
         return Course(None, None, card)
-    key = "step" if round(step * SECOND) == 0 else "stop_time"
+    key = "step"
     try:
+        key = "stop_time" if nanoseconds(step, "step") else key
         times = TimeGrid.of(stop_time, step)
         if input_file is not None:
             key = "input"

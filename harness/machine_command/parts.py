@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 
 from ..fmu.slave import MessageHandler
+from ..isolation import LONG_TIME_LIMIT
 from ..machine.component import Component
 from ..machine.file.plan import Scheme
 from ..machine.impact_times import reports_impacts
@@ -29,8 +30,9 @@ def instantiated(machine: Prepared, on_message: MessageHandler) -> Iterator[dict
             name, fmu = component.name, machine.fmus[component.name]
             # One that lists its impacts is taken to the first of them, which needs the list of the whole step.
             early = by_event and fmu.description.returns_early and not reports_impacts(fmu.description)
-            if component.process:
-                limit = TIME_LIMIT if component.time_limit is None else component.time_limit
+            if component.apart:
+                usual = TIME_LIMIT if component.process else LONG_TIME_LIMIT
+                limit = usual if component.time_limit is None else component.time_limit
                 parts[name] = stack.enter_context(in_own_process(fmu, name, on_message, limit, early))
             else:
                 parts[name] = stack.enter_context(fmu.instantiate(name, on_message, early))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from os.path import isfile
 from pathlib import Path
 
 import build_fmu
@@ -31,7 +32,7 @@ def machine_file(name: str) -> Path:
     """
     path = Path(name)
     ready = build_fmu.machines()
-    if path.suffix == ".toml" or path.is_file():
+    if path.suffix == ".toml" or isfile(path):
         return path
     if name in ready:
         return ready[name]
@@ -40,12 +41,13 @@ def machine_file(name: str) -> Path:
 
 
 @contextmanager
-def prepared(name: str, table: Path | None = None) -> Iterator[Prepared]:
+def prepared(name: str, table: Path | None = None, in_process: bool = False) -> Iterator[Prepared]:
     """The machine of a file, or a ready one, with its FMUs extracted; they are removed afterwards.
 
     Args:
         name: of the file or of the ready machine.
         table: of inputs, instead of the file's own.
+        in_process: whether components of which the file does not say it have no process of their own.
 
     Raises:
         UsageError: there is none, or the file has mistakes, all of which are told.
@@ -53,6 +55,8 @@ def prepared(name: str, table: Path | None = None) -> Iterator[Prepared]:
     """
     file = TomlFile.read(machine_file(name))
     parts = components(file, build_fmu.model_names())
+    if in_process:
+        parts = [replace(part, process=False) if part.process is None else part for part in parts]
     if file.mistakes:
         read_plan(file, parts, _known(file, parts))
     with ExitStack() as stack:
@@ -79,7 +83,7 @@ def _known(file: TomlFile, parts: Sequence[ComponentPlan]) -> dict[str, Descript
     """Descriptions of those components that are FMU files: what takes no time to find out."""
     found = {}
     for part in parts:
-        if part.source.path is not None and part.source.path.is_file():
+        if part.source.path is not None and isfile(part.source.path):
             try:
                 found[part.name] = read_description(part.source.path)
             except UsageError as error:

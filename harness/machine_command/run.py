@@ -9,6 +9,7 @@ from rich.markup import escape
 from mechanism_fmu.stress import beam_theory_note
 
 from ..errors import HarnessError
+from ..isolation import watched
 from ..machine.bonds import HEADINGS as BOND_HEADINGS
 from ..machine.bonds import bond_rows
 from ..machine.performed import MachineRun
@@ -35,18 +36,29 @@ from .performed import perform
 from .prepare import machine_file, prepared
 
 
-def run_file(name: str, table: Path | None, folder: Path | None) -> int:
-    """Run a machine with a table of inputs, write what comes of it, and return the exit code."""
-    folder = Path(machine_file(name).stem) if folder is None else folder
-    with prepared(name, table) as machine, alone_in(folder, waits=False):
+def run_file(name: str, table: Path | None, folder: Path | None, in_process: bool = False) -> int:
+    """Run a machine with a table of inputs, write what comes of it, and return the exit code.
+
+    Args:
+        name: of the machine or its file.
+        table: of inputs, instead of the file's own.
+        folder: for the results; its name stays the same whatever an FMU does to the working folder.
+        in_process: whether components of which the file does not say it have no process of their own.
+    """
+    folder = (Path(machine_file(name).stem) if folder is None else folder).absolute()
+    with prepared(name, table, in_process) as machine, alone_in(folder, waits=False):
         console.print(f"[bold]{escape(machine.plan.title)}[/]: {', '.join(machine.fmus)}", soft_wrap=True)
         show_notes(machine)
-        try:
-            run = perform(machine, folder)
-        except HarnessError:
-            tell_of_earlier_files(folder)
-            raise
-        return _ending(run, write_files(run, folder), folder)
+
+        def work() -> int:
+            try:
+                run = perform(machine, folder)
+            except HarnessError:
+                tell_of_earlier_files(folder)
+                raise
+            return _ending(run, write_files(run, folder), folder)
+
+        return watched(work, any(part.foreign and not part.apart for part in machine.plan.components))
 
 
 def show_notes(machine: Prepared) -> None:

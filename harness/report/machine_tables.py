@@ -71,7 +71,7 @@ def components_section(run: MachineRun) -> str:
     for name in in_power_flow(run):
         plan, fmu = plans[name], run.machine.fmus[name]
         built = "" if plan.source.path is not None else plan.source.flavour
-        process = "its own" if plan.process else "the run's"
+        process = "its own" if plan.apart else "the run's"
         description = fmu.description
         version = f"{description.fmi}.0"
         rows.append([name, fmu.path.name, description.model, description.generation_tool, built, version, process])

@@ -14,7 +14,7 @@ from types import ModuleType
 
 from ..engine.run import library_path
 from ..fmu.archive import read_entries
-from ..fmu.start import private_cache
+from ..fmu.start import import_checked, private_cache
 from ..model import Model
 
 _LIBRARY = Path(__file__).parents[1]
@@ -107,6 +107,7 @@ def _unpacked(files: Mapping[str, bytes], folder: Path) -> Path:
 def _imported(folder: Path, package: str, module: str) -> ModuleType:
     """A module of the FMU's folder of models, whose imports lead to the library that stands here."""
     if package not in sys.modules:
+        import_checked(folder)
         whole = ModuleType(package)
         whole.__path__ = [str(folder)]
         sys.modules[package] = whole

@@ -17,12 +17,31 @@ from ..model import Section
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
 
+def _require_positive(**values: float) -> None:
+    """Refuse a size that is not positive and finite.
+
+    Raises:
+        ValueError: with its name, value and limit.
+    """
+    for name, value in values.items():
+        if not 0.0 < value < np.inf:
+            raise ValueError(f"{name} = {value:g} of an elastic element must be positive and finite, in SI units.")
+
+
+def _require_beam(length: float, section: Section, young: float) -> None:
+    _require_positive(length=length, area=section.area, second_moment=section.second_moment, young=young)
+
+
 def cantilever(length: float, section: Section, young: float) -> FloatArray:
     """F of a beam clamped at one end and loaded at the other, eq (2), shape (3, 3).
 
     [[l/AE, 0, 0], [0, l^3/3EI, l^2/2EI], [0, l^2/2EI, l/EI]]; without the last row and column where no moment can act
     at the free end, as at a pin.
+
+    Raises:
+        ValueError: a size is not positive and finite; so do all elements here.
     """
+    _require_beam(length, section, young)
     bending = young * section.second_moment
     return np.array(
         [
@@ -35,6 +54,7 @@ def cantilever(length: float, section: Section, young: float) -> FloatArray:
 
 def two_force_member(length: float, section: Section, young: float) -> FloatArray:
     """F of a link with a pin at either end, eq (4), shape (1, 1): l/AE."""
+    _require_beam(length, section, young)
     return np.array([[length / (section.area * young)]])
 
 
@@ -43,6 +63,7 @@ def supported_beam(length: float, section: Section, young: float) -> FloatArray:
 
     diag(l/AE, l/3EI). The rotation is that against the chord. So is a link whose other end is pinned to a slider.
     """
+    _require_beam(length, section, young)
     return np.diag([length / (section.area * young), length / (3 * young * section.second_moment)])
 
 
@@ -58,6 +79,7 @@ def bent_coupler(cantilever_length: float, supported_length: float, section: Sec
 
 def torsion_shaft(length: float, polar_moment: float, shear_modulus: float) -> FloatArray:
     """F of a shaft that is twisted, eq (6), shape (1, 1): l/GJ [rad/(N m)], J the torsion constant [m4], G [Pa]."""
+    _require_positive(length=length, polar_moment=polar_moment, shear_modulus=shear_modulus)
     return np.array([[length / (shear_modulus * polar_moment)]])
 
 

@@ -66,6 +66,9 @@ def shaking(cycle: Cycle, about: Point = (0.0, 0.0)) -> Shaking:
     Args:
         cycle: of the linkage.
         about: point of the ground to which the moment belongs [m].
+
+    Raises:
+        ValueError: that point is not finite.
     """
     configurations, found = cycle.configurations, cycle.reactions
     mechanism, pose = configurations.linkage.mechanism, configurations.pose
@@ -101,5 +104,7 @@ def _places(configurations: Configurations) -> FloatArray:
 
 def _summed(about: Point, points: FloatArray, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Sum of (f_x, f_y, moment) at points, shape (times, n, 3) and (times, n, 2): force, and moment about a point."""
+    if not np.isfinite(about).all():
+        raise ValueError(f"the point of the moment, about = {about}, is not finite; give a point of the ground [m].")
     arms = left(points - np.asarray(about))
     return loads[..., :2].sum(axis=1), (loads[..., 2] + np.einsum("tnk,tnk->tn", arms, loads[..., :2])).sum(axis=1)

@@ -63,6 +63,8 @@ def growth_per_period(cycle: ElasticCycle, steps: int) -> float:
     Above 1 the periodic motion is not what a linkage settles to: its own change of stiffness excites it (parametric
     resonance). Arguments and errors are those of `transient`.
     """
+    if not 1 <= steps < np.inf:
+        raise ValueError(f"{steps} steps of a period: there must be one or more.")
     n = cycle.load.shape[1]
     unloaded = ElasticCycle(cycle.period, cycle.mass, cycle.damping, cycle.stiffness, np.zeros_like(cycle.load))
     start = np.eye(2 * n)

@@ -49,13 +49,18 @@ def turn(mechanism: Mechanism, speed: float, samples: int) -> Configurations:
 
     Args:
         mechanism: with members, and a crank of `crank_of`; drivers and held coordinates give way to a constant speed.
-        speed: of the crank [rad/s].
-        samples: steps of the turn; its angles are multiples of 2 pi / samples, from the first one at or behind the
-            angle at the start on.
+        speed: of the crank [rad/s], > 0.
+        samples: steps of the turn, 8 or more; its angles are multiples of 2 pi / samples, from the first one at or
+            behind the angle at the start on.
 
     Raises:
-        LinkageError: the crank cannot turn fully, or the mechanism is no structure of members.
+        LinkageError: speed or samples cannot be, the crank cannot turn fully, or the mechanism is no structure of
+            members.
     """
+    if not 0.0 < speed < math.inf:
+        raise LinkageError(f"The speed of the crank is {speed:g} rad/s, but must be positive and finite.")
+    if not 8 <= samples < math.inf:
+        raise LinkageError(f"{samples} samples of a turn are too few; give 8 or more, e.g. 360.")
     crank = crank_of(mechanism)
     start = next(float(body.start[2]) for body in mechanism.bodies if body.name == crank)
     step = 2 * math.pi / samples

@@ -70,10 +70,10 @@ def model_description(model: Model, guid: str, native: bool = False) -> Element:
         modelName=model.name,
         guid=guid,
         description=model.description,
-        **origin(model),
         generationTool=f"mechanism_fmu {__version__}" + ("" if native else f" (pythonfmu {pythonfmu_version})"),
         variableNamingConvention="structured",
     )
+    root.attrib.update(origin(model))
     _co_simulation(root, model, _NATIVE if native else _BY_PYTHONFMU)
     unit_definitions(root, variables)
     types = common_types(variables)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import _ctypes
 import atexit
 import ctypes
+import hashlib
 import importlib
 import importlib.util
 import os
@@ -19,6 +20,7 @@ import sys
 import tempfile
 import warnings
 from functools import cache
+from importlib.machinery import SOURCE_SUFFIXES, FileFinder, SourceFileLoader
 from pathlib import Path
 
 #: Environment variable with the folder to use instead of the user's cache directory.
@@ -28,6 +30,9 @@ _RESOURCES = Path(__file__).parent
 
 #: Sources, and the engine's library for each platform.
 _COPIED = {".py", ".so", ".dll", ".dylib"}
+
+#: Bytes of a SHA-256.
+_DIGEST_SIZE = 32
 
 #: Oldest Python that the package runs on.
 _PYTHON = (3, 11)
@@ -198,8 +203,10 @@ def _import_package(name: str, folder: Path) -> None:
     """Import a package from a folder that need not be on `sys.path`."""
     if name in sys.modules:
         return
+    import_checked(folder)
+    first = folder / "__init__.py"
     spec = importlib.util.spec_from_file_location(
-        name, folder / "__init__.py", submodule_search_locations=[str(folder)]
+        name, first, loader=CheckedLoader(name, str(first)), submodule_search_locations=[str(folder)]
     )
     if spec is None or spec.loader is None:
         raise ImportError(f"{folder} holds no package")
@@ -210,3 +217,36 @@ def _import_package(name: str, folder: Path) -> None:
     except BaseException:
         del sys.modules[name]
         raise
+
+
+class CheckedLoader(SourceFileLoader):
+    """Imports sources; what Python keeps compiled (.pyc) ends with a digest, and is compiled again if it does not fit.
+
+    Python itself looks at date and size of the source only: what a full disk has cut off ends each import from then on,
+    and what was changed runs.
+    """
+
+    def get_data(self, path: str) -> bytes:
+        """The bytes of a source, or of compiled code without its digest.
+
+        Raises:
+            OSError: there are none that fit; Python then compiles the source.
+        """
+        data = super().get_data(path)
+        if path.endswith(tuple(SOURCE_SUFFIXES)):
+            return data
+        code, digest = data[:-_DIGEST_SIZE], data[-_DIGEST_SIZE:]
+        if hashlib.sha256(code).digest() != digest:
+            raise OSError(f"{path} is not as it was written")
+        return code
+
+    def set_data(self, path: str, data: bytes, *, _mode: int = 0o666) -> None:  # type: ignore[override]
+        """Keep compiled code."""
+        super().set_data(path, bytes(data) + hashlib.sha256(data).digest(), _mode=_mode)
+
+
+def import_checked(folder: Path) -> None:
+    """Let Python import from a folder and those in it by `CheckedLoader`, and nothing but sources."""
+    for place in (folder, *folder.rglob("*")):
+        if place.is_dir():
+            sys.path_importer_cache[str(place)] = FileFinder(str(place), (CheckedLoader, SOURCE_SUFFIXES))

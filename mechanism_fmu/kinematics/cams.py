@@ -74,11 +74,13 @@ def cam_report(mechanism: Mechanism, contact: str, cam: str, angles: int = 360) 
         mechanism: with one degree of freedom when its drivers are taken away.
         contact: name of the pair of profiles; it must be closed.
         cam: name of its body that is the cam; the other one is the follower.
-        angles: how many steps the turn has.
+        angles: how many steps the turn has, 1 or more.
 
     Raises:
-        KinematicsError: there is no such pair, or it does not run through a whole turn.
+        KinematicsError: angles cannot be, there is no such pair, or it does not run through a whole turn.
     """
+    if not 1 <= angles < math.inf:
+        raise KinematicsError(f"angles = {angles} steps of a turn; give 1 or more, e.g. 360.")
     pair = _pair(mechanism, contact, cam)
     start = next(float(body.start[2]) for body in mechanism.bodies if body.name == cam)
     joints = tuple(joint for joint in mechanism.joints if joint.motion is None)

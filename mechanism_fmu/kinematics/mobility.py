@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from ..model import Mechanism
 from .around import moving, rows_around
 from .equations import Equations
+from .errors import KinematicsError
 from .rank import independence
 
 #: A row belongs to a dependency when its share is larger than this part of the largest one.
@@ -77,9 +79,11 @@ def mobility(mechanism: Mechanism, time: float = 0.0) -> Mobility:
     Of rows that depend on each other the last one is reported as redundant.
 
     Raises:
-        KinematicsError: it cannot be assembled.
+        KinematicsError: it cannot be assembled, or the time is not finite.
         MechanismError: a part of it cannot be right.
     """
+    if not math.isfinite(time):
+        raise KinematicsError(f"time = {time:g} s is not finite; give one at which the mechanism can be assembled.")
     equations = Equations(mechanism, time)
     here = equations.balanced(equations.at(equations.start, time).jacobian)
     around = [here, *rows_around(equations, equations.start, time)]

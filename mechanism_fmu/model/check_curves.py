@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
+from ..codes import AMPLITUDE
 from .conditions import finite, not_negative, plain, positive, size
 from .curves import Curve, Piece
-from .findings import Finding, literal, refuse_unless
+from .findings import Finding, first, literal, refuse_unless
 from .functions import Number, cos, is_plain, sin, where_positive
 
 #: Rounding is allowed this much, of 1 and the value at a join, or of the period.
@@ -21,9 +22,7 @@ _PLACES = 16
 def curve_findings(owner: str, curve: Curve) -> Iterator[Finding]:
     """Every problem that the numbers of a curve of the part `owner` can have."""
     label = f"The curve of {literal(repr(owner))}"
-    terms = [number for piece in curve.pieces for term in piece.terms for number in term.data()]
-    numbers = [curve.start, curve.span, *(piece.start for piece in curve.pieces), *terms]
-    yield refuse_unless(finite(*numbers), f"{label} holds a number that is not finite; give finite ones.")
+    yield from first(*_not_finite(label, curve))
     for piece, after in pairwise(curve.pieces):
         text = f"{label} has a piece from {{:g}} on behind one from {{:g}} on; give them in increasing order."
         yield refuse_unless(not_negative(plain(after.start) - plain(piece.start)), text, after.start, piece.start)
@@ -33,6 +32,25 @@ def curve_findings(owner: str, curve: Curve) -> Iterator[Finding]:
         yield refuse_unless(positive(curve.span), text, curve.span)
         if curve.pieces:
             yield from _closing(label, curve)
+
+
+def _not_finite(label: str, curve: Curve) -> Iterator[Finding]:
+    """That numbers of a curve are not finite, a few at a time."""
+    text = f"{label}: start = {{:g}} or span = {{:g}} is not finite; give finite numbers."
+    yield refuse_unless(finite(curve.start, curve.span), text, curve.start, curve.span)
+    for number, piece in enumerate(curve.pieces, start=1):
+        where = f"{label}, piece {number}"
+        text = f"{where}: start = {{:g}} is not finite; give a finite number."
+        yield refuse_unless(finite(piece.start), text, piece.start)
+        for term in piece.terms:
+            coefficients = term.polynomial[:AMPLITUDE]  # more are refused elsewhere
+            text = (
+                f"{where}: polynomial ({', '.join(['{:g}'] * len(coefficients))}) is not finite; give finite numbers."
+            )
+            yield refuse_unless(finite(*coefficients), text, *coefficients)
+            harmonic = (term.amplitude, term.frequency, term.phase)
+            text = f"{where}: amplitude {{:g}}, frequency {{:g}} or phase {{:g}} is not finite; give finite numbers."
+            yield refuse_unless(finite(*harmonic), text, *harmonic)
 
 
 def least_value(curve: Curve) -> Number:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import fields
 
 from .body import Body
 from .check_contact_numbers import contact_findings, pattern_findings
@@ -16,10 +17,17 @@ from .conditions import (
     not_negative,
     within,
 )
-from .findings import Finding, literal, refuse_unless
+from .contacts import Contact
+from .curves import Curve
+from .findings import Finding, first, literal, refuse_unless
 from .forces import CompliantShaft, Damper, DCMotor, ForceElement, SlipClutch, TorsionSpring
 from .functions import Number
+from .joints import Joint, Revolute
 from .mechanism import Mechanism, Settings, curve_owners
+from .patterns import CircularPattern
+
+#: Numbers of parts of which each kind is asked by itself whether it is finite, and more.
+_ASKED_FOR = ("restitution", "friction", "friction_radius", "enabled", "closed", "guided", "unilateral")
 
 
 def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
@@ -31,16 +39,17 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
     for pattern in mechanism.patterns:
         yield from pattern_findings(pattern)
     for function in mechanism.functions:
-        text = f"Logical function {literal(repr(function.name))}: its limit {{:g}} is not finite."
+        label = f"Logical function {literal(repr(function.name))}"
+        text = f"{label}: its limit {{:g}} is not finite; give a finite one as below."
         yield refuse_unless(finite(function.below), text, function.below)
     for force in mechanism.forces:
         yield from _force(force)
     for joint in mechanism.joints:
-        text = f"Joint {literal(repr(joint.name))}: its friction, {{:g}}, must be finite and not negative."
+        what = "friction_radius" if isinstance(joint, Revolute) else "friction"
+        text = f"Joint {literal(repr(joint.name))}: {what} = {{:g}} must be finite and not negative."
         yield refuse_unless(finite_not_negative(joint.friction), text, joint.friction)
     for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts, *mechanism.patterns):
-        label = f"{type(part).__name__} {literal(repr(part.name))}"
-        yield refuse_unless(finite(*part.data()), f"{label} holds a number that is not finite; give finite ones.")
+        yield from _not_finite(part)
     for port in mechanism.inputs:
         text = f"Input {literal(repr(port.name))}: start = {{:g}} is not finite."
         yield refuse_unless(finite(port.start), text, port.start)
@@ -55,6 +64,21 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
     for disk in mechanism.disks:
         yield from disk_findings(disk)
     yield from _settings(mechanism.settings)
+
+
+def _not_finite(part: Joint | ForceElement | Contact | CircularPattern) -> tuple[Finding, ...]:
+    """The first number of a part that is not finite, or else that what is made of them is not."""
+    label = f"{type(part).__name__} {literal(repr(part.name))}"
+    found = []
+    for field in fields(part):
+        value = getattr(part, field.name)
+        numbers = value if isinstance(value, tuple) else (value,)
+        if field.name not in _ASKED_FOR and not any(isinstance(n, str | Curve | None) for n in numbers):
+            shown = "({:g}, {:g})" if isinstance(value, tuple) else "{:g}"
+            text = f"{label}: {field.name} = {shown} is not finite; give finite numbers."
+            found.append(refuse_unless(finite(*numbers), text, *numbers))
+    text = f"{label} holds numbers whose products are too large; give smaller ones."
+    return first(*found, refuse_unless(finite(*part.data()), text))
 
 
 def _body(body: Body) -> Iterator[Finding]:

@@ -36,6 +36,9 @@ class Model:
         drawing: how its FMU can be drawn, in terms of the FMU's variables; () when it cannot.
         author: who made it; "" leaves it open.
         license: under which others may use it, one line; "" leaves it open.
+
+    Raises:
+        MechanismError: stop_time or step_size is not positive and finite.
     """
 
     name: str
@@ -49,6 +52,11 @@ class Model:
     drawing: tuple[Shape, ...] = ()
     author: str = ""
     license: str = ""
+
+    def __post_init__(self) -> None:
+        for what, value in (("stop_time", self.stop_time), ("step_size", self.step_size)):
+            if not 0.0 < value < math.inf:
+                raise MechanismError(f"{self.name}: {what} = {value:g} s, but it must be positive and finite.")
 
     def values(self, **changes: float) -> SimpleNamespace:
         """Parameter values: the defaults with `changes`.

@@ -9,6 +9,9 @@ from enum import Enum
 
 from .checks import require_within
 
+#: Largest number of anything here; it only keeps out what is not finite.
+_MOST = 1e300
+
 
 class MeanStress(Enum):
     """How the mean of a cycle counts.
@@ -51,7 +54,12 @@ class Strength:
         require_within("fatigue strength exponent", self.fatigue_exponent, -1.0, -0.01, "", "steel has -0.087")
 
     def amplitude_at(self, cycles: float) -> float:
-        """Amplitude [Pa] that is borne for a number of cycles, at zero mean stress."""
+        """Amplitude [Pa] that is borne for a number of cycles, 0.5 or more, at zero mean stress.
+
+        Raises:
+            ValueError: fewer cycles, or not a finite number of them.
+        """
+        require_within("number of cycles", cycles, 0.5, _MOST, "", "half a cycle breaks what its coefficient breaks")
         return float(self.fatigue_coefficient * (2 * cycles) ** self.fatigue_exponent)
 
     def damage_of(self, amplitude: float) -> float:
@@ -59,7 +67,11 @@ class Strength:
 
         The line goes on below any endurance limit ("elementary Miner"): small cycles of a sequence with large ones do
         harm, so every cycle counts.
+
+        Raises:
+            ValueError: a negative amplitude, or not a number; an infinite one breaks at once.
         """
+        require_within("amplitude", amplitude, 0.0, math.inf, "Pa", "give half the range of the cycle, without sign")
         return float(2 * (amplitude / self.fatigue_coefficient) ** (-1 / self.fatigue_exponent))
 
 
@@ -113,10 +125,16 @@ def effective_amplitude(
 def miner_damage(cycles: Iterable[Cycle], strength: Strength, mean_stress: MeanStress = MeanStress.GOODMAN) -> float:
     """Sum of count / N over the cycles [-]: at 1 the material fails.
 
+    Raises:
+        ValueError: a cycle has a negative amplitude or count, or one that is not finite, or no mean.
+
     Source: A. Palmgren (1924), M. A. Miner (1945).
     """
-    return sum(
-        cycle.count
-        * strength.damage_of(effective_amplitude(cycle.amplitude, cycle.mean, strength.tensile_strength, mean_stress))
-        for cycle in cycles
-    )
+    damage = 0.0
+    for cycle in cycles:
+        require_within("amplitude of a cycle", cycle.amplitude, 0.0, _MOST, "Pa", "it is half the range, without sign")
+        require_within("mean of a cycle", cycle.mean, -_MOST, _MOST, "Pa", "give a finite one")
+        require_within("count of a cycle", cycle.count, 0.0, _MOST, "", "it is 1, or 0.5 for a half cycle")
+        amplitude = effective_amplitude(cycle.amplitude, cycle.mean, strength.tensile_strength, mean_stress)
+        damage += cycle.count * strength.damage_of(amplitude)
+    return damage

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy.typing as npt
 
 from .beam import Beam
+from .checks import require_within
 from .converged import converged_modes
 from .fatigue import Cycle, MeanStress, Strength, effective_amplitude, rainflow_cycles
 from .material import Material
@@ -76,6 +77,8 @@ def sequence_damage(
     Raises:
         ValueError: as of `Ringing`, or the position is not between 0 and 1.
     """
+    if position is not None:
+        require_within("position", position, 0.0, 1.0, "", "0 is the root of the tooth, 1 its tip")
     modes = converged_modes(tooth, material) if modes is None else modes
     ringing = Ringing(tooth, material, times, velocities, modes)
     if position is None:

@@ -7,21 +7,27 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, seed, settings
 from hypothesis import strategies as st
 
 from harness.errors import UsageError
 
 Read = TypeVar("Read")
 
-#: The same examples each time, seconds in all; `FUZZ_EXAMPLES=100000` takes hours.
-fuzzed = settings(
+_SETTINGS = settings(
     max_examples=int(os.environ.get("FUZZ_EXAMPLES", "100")),
     derandomize=True,
     database=None,
     deadline=None,
     suppress_health_check=list(HealthCheck),
 )
+
+
+def fuzzed(test: Callable[..., None]) -> Callable[..., None]:
+    """Try the same examples each time, seconds in all: `FUZZ_EXAMPLES=100000` takes hours, `FUZZ_SEED=7` others."""
+    chosen = os.environ.get("FUZZ_SEED")
+    return _SETTINGS(test if chosen is None else seed(int(chosen))(test))
+
 
 CORPUS = Path(__file__).with_name("corpus")
 

@@ -224,6 +224,29 @@ def test_deep_tables_are_refused_too(path: Path) -> None:
             TomlFile.read(path)
 
 
+@pytest.mark.parametrize("kind", READERS)
+@pytest.mark.parametrize("step", ["1e300", "1e-12", "0"])
+def test_a_step_that_cannot_be_is_told_where_it_stands(path: Path, kind: str, step: str) -> None:
+    text = READERS[kind][0].replace("step = 0.1", f"step = {step}").replace('step = "1 ms"', f"step = {step}")
+    path.write_text(text)
+    with pytest.raises(UsageError, match=r"run\.step: The step is (1e\+300|1e-12|0) s"):
+        READERS[kind][1](TomlFile.read(path))
+
+
+@pytest.mark.parametrize("kind", READERS)
+def test_mistakes_do_not_quote_thousands_of_letters(path: Path, kind: str) -> None:
+    text = READERS[kind][0]
+    for name in ("minimise", "from", "to", "max", "signals", "model"):
+        text = "\n".join(
+            f'{name} = "{"9" * 5000}"' if line.startswith(f"{name} = ") else line for line in text.splitlines()
+        )
+    path.write_text(text)
+    with pytest.raises(UsageError) as refusal:
+        READERS[kind][1](TomlFile.read(path))
+    assert "9" * 50 in str(refusal.value)
+    assert "9" * 301 not in str(refusal.value)
+
+
 def test_a_long_line_takes_no_time(path: Path) -> None:
     """Names of keys are looked for in lines; one of a million blanks once took minutes."""
     path.write_text('a = """\n' + " " * 1_000_000 + '\n"""\n')

@@ -260,6 +260,17 @@ def test_any_bytes_of_a_system_are_imported_or_refused(
     imported(ssp[0], system | {name: data.draw(damaged(system[name]))}, ssp[1])
 
 
+@pytest.mark.parametrize("encoding", ["TF-8", "hex", "shift_jis", "idna", "utf-16", "\u00fc"])
+@pytest.mark.parametrize("name", ["SystemStructure.ssd", "resources/one.ssv"])
+def test_an_encoding_that_nobody_knows_is_refused(
+    ssp: tuple[Path, Path], system: dict[str, bytes], name: str, encoding: str
+) -> None:
+    assert b"'UTF-8'" in system[name]
+    assert not imported(ssp[0], system | {name: system[name].replace(b"UTF-8", encoding.encode(), 1)}, ssp[1])
+    found = read(ssp[0], FMI2.replace("UTF-8", encoding, 1))
+    assert found is None or encoding == "shift_jis"  # which the reader of descriptions knows
+
+
 @pytest.mark.parametrize("name", ["../out.fmu", "/tmp/out.fmu", "resources/..\\out.fmu"])
 def test_a_component_s_file_cannot_lie_outside(ssp: tuple[Path, Path], system: dict[str, bytes], name: str) -> None:
     fmu = next(entry for entry in system if entry.endswith(".fmu"))

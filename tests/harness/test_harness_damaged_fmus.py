@@ -63,6 +63,38 @@ def test_so_it_is_by_every_command(command: str, damage: str, tmp_path: Path, mo
     assert len(result.stderr.strip().splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        "run",
+        "validate",
+        "modes",
+        "machine run",
+        "machine check",
+        "machine import",
+        "sweep",
+        "optimise",
+        "study",
+        "build",
+    ],
+)
+@pytest.mark.parametrize("name", ["x" * 300, "x/" * 3000])
+def test_a_name_that_no_file_can_have_is_no_file(
+    command: str, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The system objects to such a name with an error of its own, not by saying that there is none."""
+    monkeypatch.chdir(tmp_path)
+    if command in ("sweep", "optimise"):
+        (tmp_path / "file.toml").write_text(f'[fmu]\nfile = "{name}.fmu"\n')
+        result = invoked(command, "file.toml")
+    else:
+        more = ["ratchet", "--fmu"] if command == "study" else []
+        result = invoked(*command.split(), *more, f"{name}.py" if command == "build" else name)
+    assert result.exit_code == 2
+    assert "xx" in result.stderr or "x/x" in result.stderr
+    assert "Traceback" not in result.stderr
+
+
 def test_arrays_beyond_all_memory_are_refused(tmp_path: Path) -> None:
     text = (
         '<fmiModelDescription fmiVersion="3.0" modelName="Big" instantiationToken="1">'

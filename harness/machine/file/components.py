@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Collection, Mapping
 from dataclasses import replace
+from os.path import isfile
 
 from ...assignments import settable_variable
 from ...description import Description, Value, hint_at
@@ -42,7 +43,7 @@ def _component(section: Section, name: str, models: Collection[str]) -> Componen
     path, model = section.text("file"), section.text("model")
     flavour = section.choice("flavour", ("native", "pythonfmu"))
     fmi = section.whole("fmi", least=2, most=3)
-    process = section.flag("process")
+    process = section.flag_if_said("process")
     limit = None
     if section.take("time_limit") is not None:
         limit = time_at(section, "time_limit", None, _NO_DESCRIPTION)
@@ -59,12 +60,12 @@ def _component(section: Section, name: str, models: Collection[str]) -> Componen
         for key in ("flavour", "fmi"):
             if key in section.table:
                 section.wrong(key, "goes with model = only; an FMU file is what it is")
-        if not (folder / path).is_file():
+        if not isfile(folder / path):
             section.wrong("file", f"there is no FMU file '{folder / path}'")
         return ComponentPlan(name, Source(folder / path), process, limit)
     model = model or ""
     if model.endswith(".py"):
-        if not (folder / model).is_file():
+        if not isfile(folder / model):
             section.wrong("model", f"there is no file '{folder / model}'")
         model = str(folder / model)
     elif model and model not in models:

@@ -39,6 +39,7 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
     found += _without_units(plan.connections, machine.description)
     found += _extrapolation(plan, descriptions)
     found += [_pushed(bond) for bond in plan.bonds if pushes(Bond(bond.flow, bond.effort, bond.reaction))]
+    found += _apart(plan)
     stiff = [name for name, description in descriptions.items() if not description.saves_state]
     if plan.policy.scheme is Scheme.EVENT_AWARE and stiff:
         found.append(
@@ -46,6 +47,16 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
             "at the end of the step."
         )
     return found
+
+
+def _apart(plan: Plan) -> list[str]:
+    others = [part.name for part in plan.components if part.process is None and part.apart]
+    if not others:
+        return []
+    return [
+        f"In a process of its own, as no build of yours has made its FMU: {', '.join(others)}. process = false below "
+        "[component.NAME], or --in-process, runs it here, faster by a round trip a step."
+    ]
 
 
 def _without_units(connections: Sequence[Connection], machine: Description) -> list[str]:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 from pathlib import Path
+
+from mechanism_fmu.fmu.built import was_built_here
 
 from ...description import Value
 from ..connection import Connection
@@ -45,16 +48,26 @@ class ComponentPlan:
     Attributes:
         name: in the machine.
         source: of its FMU.
-        process: whether it runs in a process of its own.
-        time_limit: for each of its calls, in a process of its own [s]; None: it may take its time.
+        process: whether it runs in a process of its own; None: nobody has said.
+        time_limit: for each of its calls, in a process of its own [s]; None: nobody has said.
         values: start values of its parameters and free inputs, in their units.
     """
 
     name: str
     source: Source
-    process: bool = False
+    process: bool | None = None
     time_limit: float | None = None
     values: Mapping[str, Value] = field(default_factory=dict)
+
+    @cached_property
+    def foreign(self) -> bool:
+        """Whether no build of this user has made its FMU."""
+        return self.source.path is not None and not was_built_here(self.source.path)
+
+    @property
+    def apart(self) -> bool:
+        """Whether it runs in a process of its own (docs/decisions/028-whose-fmu-runs-where.md)."""
+        return self.foreign if self.process is None else self.process
 
 
 @dataclass(frozen=True)

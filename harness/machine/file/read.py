@@ -99,7 +99,7 @@ def _check_processes(
     first: dict[tuple[str, str], str] = {}
     for component in components:
         description = descriptions.get(component.name)
-        if description is None or component.process or not description.once_per_process:
+        if description is None or component.apart or not description.once_per_process:
             continue
         other = first.setdefault((description.identifier, description.guid), component.name)
         if other != component.name:

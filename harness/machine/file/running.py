@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from mechanism_fmu.stress import material_card
 
-from ...clock import TimeGrid
+from ...clock import TimeGrid, nanoseconds
 from ...description import Description, Variable, hint_at
 from ...errors import UsageError
 from ...inputs import read_inputs
@@ -39,10 +39,12 @@ def policy(file: TomlFile) -> tuple[Policy | None, Section]:
     stop_time, step = times
     if stop_time is None or step is None:
         return None, section
+    key = "step"
     try:
+        key = "stop_time" if nanoseconds(step, "step") else key
         TimeGrid.of(stop_time, step)
     except UsageError as error:
-        section.wrong("step" if step < 1e-9 else "stop_time", str(error))
+        section.wrong(key, str(error))
         return None, section
     kind = Extrapolation(extrapolation) if extrapolation else Extrapolation.DERIVATIVES
     return Policy(stop_time, step, Scheme(scheme), kind, tolerance), section

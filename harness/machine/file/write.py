@@ -56,8 +56,8 @@ def _component(component: ComponentPlan, description: Description, folder: Path)
         table["file"] = _relative(source.path, folder)
     else:
         table |= {"model": source.model, "flavour": source.flavour, "fmi": source.fmi}
-    if component.process:
-        table["process"] = True
+    if component.process is not None:
+        table["process"] = component.process
     if component.time_limit is not None:
         table["time_limit"] = component.time_limit
     blocks = [_table(f"[component.{component.name}]", table)]

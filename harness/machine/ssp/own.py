@@ -40,13 +40,16 @@ def write_connection(parent: Element, connection: Connection, converted: bool) -
         child(annotation(parent, OWN, "ssd"), "own:Connection", attributes)
 
 
-def read_component(element: Element) -> tuple[bool, float | None]:
-    """Whether a component runs in a process of its own, and its time limit."""
+def read_component(element: Element) -> tuple[bool | None, float | None]:
+    """Whether a component runs in a process of its own, and its time limit.
+
+    That it shall not is for the user to say, and not for a file that others have made.
+    """
     own = annotated(element, OWN, "own:Component")
-    if own is None:
-        return False, None
+    if own is None or own.get("process") != "true":
+        return None, None
     limit = own.get("time_limit")
-    return own.get("process") == "true", None if limit is None else float(limit)
+    return True, None if limit is None else float(limit)
 
 
 def read_connection(element: Element) -> tuple[str, float | None, float | None]:

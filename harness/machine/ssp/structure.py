@@ -5,16 +5,16 @@ from __future__ import annotations
 import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from os.path import isfile
 from pathlib import Path
 from urllib.parse import unquote
-from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from mechanism_fmu.fmu.archive import read_entries
 
 from ...errors import UsageError
 from .own import read_component, read_connection
-from .xml import OSP, TYPES, annotated, tag
+from .xml import OSP, TYPES, annotated, from_bytes, tag
 
 _STRUCTURE = "SystemStructure.ssd"
 
@@ -42,7 +42,7 @@ class SspComponent:
     name: str
     source: str
     parameters: dict[str, Parameter] = field(default_factory=dict)
-    process: bool = False
+    process: bool | None = None
     time_limit: float | None = None
 
 
@@ -97,14 +97,14 @@ def read_structure(path: Path) -> Structure:
     Raises:
         UsageError: it is none, or has what cannot be taken over.
     """
-    if not path.is_file():
+    if not isfile(path):
         raise UsageError(f"There is no file '{path}'.")
     try:
         entries = read_entries(path)
-        root = ElementTree.fromstring(entries[_STRUCTURE])
+        root = from_bytes(entries[_STRUCTURE])
     except KeyError:
         raise UsageError(f"'{path}' is no SSP file: it has no {_STRUCTURE}.") from None
-    except (OSError, zipfile.BadZipFile, ElementTree.ParseError) as error:
+    except (OSError, zipfile.BadZipFile, ValueError) as error:
         raise UsageError(f"'{path}' cannot be read as an SSP file: {error}.") from error
     system = root.find(tag("ssd:System"))
     if root.tag != tag("ssd:SystemStructureDescription") or system is None:
@@ -187,8 +187,8 @@ def _parameters(structure: Structure, binding: Element, component: str) -> Itera
         sets += binding.iterfind(f"{tag('ssd:ParameterValues')}/{tag('ssv:ParameterSet')}")
     elif source in structure.entries:
         try:
-            sets.append(ElementTree.fromstring(structure.entries[source]))
-        except ElementTree.ParseError as error:
+            sets.append(from_bytes(structure.entries[source]))
+        except ValueError as error:
             raise ValueError(f"its parameters '{source}' cannot be read: {error}") from error
     else:
         structure.left_out.append(f"The parameters '{source}' of '{component or 'the system'}' are not in the file.")

@@ -91,6 +91,18 @@ def unit_elements(parent: Element, room: str, names: Iterable[str], description:
         child(unit, "ssc:BaseUnit", {**exponents, **scale, **shift})
 
 
+def from_bytes(file: bytes) -> Element:
+    """The root of a file.
+
+    Raises:
+        ValueError: it is no XML, or in an encoding that nobody knows.
+    """
+    try:
+        return ElementTree.fromstring(file)
+    except (ElementTree.ParseError, LookupError) as error:
+        raise ValueError(str(error)) from error
+
+
 def to_bytes(element: Element) -> bytes:
     """A whole file."""
     ElementTree.indent(element)

@@ -148,10 +148,10 @@ def model_description3(model: Model, token: str, clocks: bool = False) -> Elemen
         modelName=model.name,
         instantiationToken=token,
         description=model.description,
-        **origin(model),
         generationTool=f"mechanism_fmu {__version__}",
         variableNamingConvention="structured",
     )
+    root.attrib.update(origin(model))
     _co_simulation(root, model)
     unit_definitions(root, scalars)
     types = common_types(scalars)

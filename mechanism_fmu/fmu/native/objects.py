@@ -110,10 +110,10 @@ def _emit(folder: Path, report: Report) -> None:
     # Settings of numba that the user has for other work would change what is compiled.
     inherited = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     environment = {**inherited, **_GENERIC, "PYTHONPATH": path}
-    command = [sys.executable, "-m", "mechanism_fmu.fmu.native.emit", str(folder.absolute())]
+    # -P: no file of the folder that it works in stands in for a module.
+    command = [sys.executable, "-P", "-m", "mechanism_fmu.fmu.native.emit", str(folder.absolute())]
     with (
         tempfile.TemporaryFile("w+") as complaints,
-        # Not in the user's folder, where a file of theirs could stand in for a module: python -m looks there first.
         subprocess.Popen(
             command, env=environment, cwd=folder, stdout=subprocess.PIPE, stderr=complaints, text=True
         ) as process,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from difflib import get_close_matches
+from os.path import exists, isdir
 from pathlib import Path
 
 from ...model import MechanismError
@@ -18,7 +19,7 @@ class WrongUseError(MechanismError):
 
 def looks_like_a_file(text: str) -> bool:
     """Whether a text is a path rather than the name of a ready-made model."""
-    return text.endswith(".py") or "/" in text or "\\" in text or Path(text).exists()
+    return text.endswith(".py") or "/" in text or "\\" in text or exists(text)
 
 
 def find(text: str) -> Path:
@@ -28,10 +29,10 @@ def find(text: str) -> Path:
         WrongUseError: there is none, or one that can be no mechanism's.
     """
     path = Path(text)
-    if path.is_dir():
+    if isdir(path):
         files = ", ".join(_python_files(path)) or "none"
         raise WrongUseError(f"{path} is a folder; give the file in it that sets MODEL (Python files there: {files}).")
-    if not path.exists():
+    if not exists(path):
         raise WrongUseError(f"There is no file {path}{_instead(path)}")
     if path.suffix != ".py":
         raise WrongUseError(f"{path} is not a Python file; give the file ending in .py that sets MODEL.")
@@ -46,7 +47,7 @@ def find(text: str) -> Path:
 
 def _instead(path: Path) -> str:
     """What there is instead of a file that does not exist."""
-    if not path.parent.is_dir():
+    if not isdir(path.parent):
         return f", nor a folder {path.parent}; check the path."
     there = _python_files(path.parent)
     near = get_close_matches(path.name, [*there, *(Path(name).stem for name in there)], 1)

@@ -91,6 +91,28 @@ def test_a_library_is_linked_again(damage: str, cache: Path, monkeypatch: pytest
     assert len(linked) == 2
 
 
+def test_the_compiler_takes_no_module_from_the_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It works in the cache's folder, where Python would look for modules first, also for compiled ones."""
+    started: list[list[str]] = []
+
+    def start(command: list[str], **_more: object) -> None:
+        started.append(command)
+        raise InterruptedError
+
+    monkeypatch.setattr(subprocess, "Popen", start)
+    with pytest.raises(InterruptedError):
+        objects._emit(tmp_path, lambda *_: None)
+    monkeypatch.undo()
+    (tmp_path / "json.py").write_text("raise SystemExit(3)")
+    ((python, *options),) = started
+    options = options[: options.index("-m")]
+    for chosen, code in ((options, 0), ([], 3)):
+        assert (
+            subprocess.run([python, *chosen, "-m", "json.tool", "--help"], cwd=tmp_path, capture_output=True).returncode
+            == code
+        )
+
+
 posix = pytest.mark.skipif(sys.platform == "win32", reason="no modes of files there")
 
 
