@@ -84,7 +84,7 @@ def test_an_experiment_that_cannot_be_finished_leaves_no_results():
             (Body("rotor", 1.0, 1.0, (0.0, 0.0, 1.0)),),
             forces=(TorsionSpring("spring", "rotor", stiffness=1e6),),
             outputs=(Output("angle", "rotor.angle", "", "rad"),),
-            settings=Settings(max_internal_steps=10),
+            settings=Settings(max_internal_steps=1000),
         )
 
     assert reference_results(Model("Rotor", "", (), swings, stop_time=1e3, step_size=10.0)) == {}
