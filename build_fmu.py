@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from mechanism_fmu.model import Mechanism
+    from mechanism_fmu.model.baked import Baked
 
 # Everything else is imported where it is used: --help must not wait for numba.
 
@@ -68,8 +69,17 @@ def build(
     advise(flavour)
 
 
-def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: int = 2) -> Path:
+def built(
+    model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: int = 2, baked: Baked | None = None
+) -> Path:
     """Build the FMU of a model as `build` does, and return its file; what is to be said goes to stderr.
+
+    Args:
+        model: name of a ready-made model, or file of your own mechanism.
+        output: folder for the FMU.
+        flavour: of it.
+        fmi: version of the standard.
+        baked: numbers that this FMU has as its own.
 
     Raises:
         typer.Exit: it cannot be built; the reason has been said.
@@ -81,7 +91,9 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
     from mechanism_fmu.fmu.own.prepare import prepare
     from mechanism_fmu.fmu.package import build_fmu
     from mechanism_fmu.model import MechanismError
+    from mechanism_fmu.model.baked import NOTHING_BAKED
 
+    own = baked or NOTHING_BAKED
     messages = _messages()
     if not model or not (model in models.available() or looks_like_a_file(model)):
         asked = f"There is no model {model!r}" if model else "Say which model to build"
@@ -108,9 +120,9 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
                 module, file = prepare(model, flavour is Flavour.NATIVE, warn)
                 explanations.enter_context(explained_in_fmu(file))
             if flavour is Flavour.NATIVE:
-                path = build_native_fmu(module, output, fmi, report)
+                path = build_native_fmu(module, output, fmi, report, own)
             else:
-                path = build_fmu(module, output, report)
+                path = build_fmu(module, output, report, own)
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None

@@ -15,6 +15,7 @@ import fmpy
 
 from ...engine.block.pack import pack
 from ...model import Model, compile_mechanism
+from ...model.baked import NOTHING_BAKED, Baked
 from ...model.trace import trace
 from ..archive import DESCRIPTION, content_hash, write_archive
 from ..built import record_build
@@ -56,7 +57,13 @@ _FACTS = (
 )
 
 
-def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report: Report = silently) -> Path:
+def build_native_fmu(
+    module: ModuleType,
+    destination: Path,
+    fmi: int = 2,
+    report: Report = silently,
+    baked: Baked = NOTHING_BAKED,
+) -> Path:
     """Build the native FMU of a model: the same bytes from the same sources and versions of the tools.
 
     Args:
@@ -64,6 +71,7 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
         destination: folder, made if need be, for "<model name>.fmu".
         fmi: major version of the standard, 2 or 3.
         report: see `compiled_engine`.
+        baked: numbers that this FMU has as its own.
 
     Returns:
         Path of the FMU.
@@ -73,7 +81,7 @@ def build_native_fmu(module: ModuleType, destination: Path, fmi: int = 2, report
         OSError: the destination cannot be written.
     """
     need_linker()
-    origin = model_of(module)
+    origin = model_of(module, baked)
     model = origin.model
     path = file_in(destination, f"{model.name}.fmu")
     traced = formulas(trace(model), pack(compile_mechanism(model.build(model.values()))))
