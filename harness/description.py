@@ -71,6 +71,17 @@ class Variable:
         """Whether it may be set before the initialization."""
         return self.causality in ("input", "parameter")
 
+    @property
+    def start_value(self) -> Value | None:
+        """Its default value; None when it has none."""
+        if self.start is None:
+            return None
+        if self.type == "Boolean":
+            return self.start in ("true", "1")
+        if self.type == "Real":
+            return float(self.start)
+        return int(self.start) if self.type == "Integer" else self.start
+
 
 @dataclass(frozen=True)
 class Description:

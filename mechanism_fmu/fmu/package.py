@@ -96,8 +96,8 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently, 
 
     given = _as_arguments(baked)
     # One name for one content: a process that loads several FMUs then never runs the code of the wrong one.
-    slave = f"{_SLAVE}{model.name}{main}{given}".encode()
-    digest = content_hash({**code, "start": start.encode(), "slave": slave})[:12]
+    starting = f"{_SLAVE}{model.name}{main}{given}".encode()
+    digest = content_hash({**code, "start": start.encode(), "slave": starting})[:12]
     package, starter = f"mechanism_fmu_{digest}", f"start_{digest}"
     slave = _SLAVE.format(start=starter, model=model.name, package=package, module=main, baked=given)
     entries = _built_by_pythonfmu(

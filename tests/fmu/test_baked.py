@@ -10,14 +10,11 @@ from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
 import models
-from harness.clock import TimeGrid
 from harness.fmu import open_fmu
-from harness.master import Ending, run_fixed_step
 from mechanism_fmu.engine.block.layout import field_of
 from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
-from mechanism_fmu.fmu.protocol import FmiError
 from mechanism_fmu.model import MechanismError, compile_mechanism
 from mechanism_fmu.model.baked import NOTHING_BAKED, Baked, Seen, baked_model
 
