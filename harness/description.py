@@ -7,7 +7,7 @@ import math
 import re
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from mechanism_fmu.fmu.archive_names import unsafe_name
 
 from .errors import UsageError
 from .si import BASE_UNITS, Measure
+from .terminals import Terminal, read_terminals
 from .units import Units
 
 #: Value of a variable: Real, Integer, Boolean or String.
@@ -101,6 +102,7 @@ class Description:
         has_event_mode, returns_early: of FMI 3, whether it can let the importer handle events, and end a step at one.
         varies_step: whether its steps may have different sizes (canHandleVariableCommunicationStepSize).
         once_per_process: whether a process can have one instance only (canBeInstantiatedOnlyOncePerProcess).
+        terminals: by name.
     """
 
     model: str
@@ -122,6 +124,7 @@ class Description:
     returns_early: bool = False
     varies_step: bool = True
     once_per_process: bool = False
+    terminals: Mapping[str, Terminal] = field(default_factory=dict)
 
     def variable(self, name: str) -> Variable:
         """The variable with this name.
@@ -158,6 +161,7 @@ def read_description(path: Path) -> Description:
         _require_safe_names(path)
         with open(path, "rb") as file:  # fmpy would leave a damaged one open
             raw = fmpy.read_model_description(file, validate=False)
+        terminals = read_terminals(path)
     except Exception as error:  # fmpy raises whatever zipfile, lxml and its own conversions raise
         raise damaged(path, error) from error
     version = raw.fmiVersion.partition(".")[0]
@@ -167,7 +171,7 @@ def read_description(path: Path) -> Description:
             "the harness runs no other kind."
         )
     try:
-        return _described(raw, int(version))
+        return replace(_described(raw, int(version)), terminals=terminals)
     except (ValueError, TypeError, AttributeError, OverflowError) as error:  # a text where a number should be, ...
         raise damaged(path, error) from error
 

@@ -54,7 +54,7 @@ class SspConnection:
         source, target: "<component>.<connector>".
         factor, offset: of the transformation.
         converts: whether units are still to be converted, before the transformation.
-        rate, gain, own_offset: of our own annotation.
+        rate, gain, own_offset, convert: of our own annotation.
     """
 
     source: str
@@ -65,6 +65,7 @@ class SspConnection:
     rate: str = ""
     gain: float | None = None
     own_offset: float | None = None
+    convert: bool = False
 
 
 @dataclass
@@ -147,7 +148,7 @@ def _read_connection(structure: Structure, element: Element, path: Path) -> None
         raise UsageError(f"'{path}': the connection from '{source}' to '{target}' maps values one by one.")
     linear = element.find(tag("ssc:LinearTransformation"))
     given = {} if linear is None else linear.attrib
-    rate, gain, offset = read_connection(element)
+    rate, gain, offset, convert = read_connection(element)
     structure.connections.append(
         SspConnection(
             source,
@@ -158,6 +159,7 @@ def _read_connection(structure: Structure, element: Element, path: Path) -> None
             rate,
             gain,
             offset,
+            convert,
         )
     )
 
