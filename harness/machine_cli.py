@@ -66,6 +66,28 @@ def run_machine(
         Path | None,
         typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
     ] = None,
+    step: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TIME", help="Communication step, e.g. `2ms`; seconds.", show_default="run.step of the file"
+        ),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE[UNIT]",
+            help="Set a parameter or a free input, e.g. `cam.drive_stiffness=3`, for this run; repeat it for more.",
+        ),
+    ] = None,
+    as_others: Annotated[
+        bool,
+        typer.Option(
+            "--as-others",
+            help="Step as the masters of other tools do: fixed steps, all components at once, inputs held, each output "
+            "read once. Compare their curves of an exported machine with these.",
+        ),
+    ] = False,
 ) -> None:
     """Run a machine and write results.parquet, impacts.csv, summary.json and report.html.
 
@@ -75,15 +97,19 @@ def run_machine(
 
         mechanism-fmu machine run my_machine.toml -o result
 
+        mechanism-fmu machine run my_machine.toml --step 1ms --set "cam.drive_damping=0.1 N.m.s/rad"
+
     Ctrl-C or SIGTERM ends the run early and keeps what was recorded.
 
     Exit code: 0 all well, 1 the run failed, 2 wrong use, 130 interrupted.
     """
+    from .machine.file.changes import Changes
     from .machine_command.run import run_file
     from .terminal import user_errors
 
+    changes = Changes(step, tuple(settings or ()), as_others)
     with user_errors():
-        raise typer.Exit(run_file(name, input_file, output))
+        raise typer.Exit(run_file(name, input_file, output, changes))
 
 
 @machine.command("check")

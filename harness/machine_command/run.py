@@ -11,6 +11,7 @@ from mechanism_fmu.stress import beam_theory_note
 from ..errors import HarnessError
 from ..machine.bonds import HEADINGS as BOND_HEADINGS
 from ..machine.bonds import bond_rows
+from ..machine.file.changes import NO_CHANGES, Changes
 from ..machine.performed import MachineRun
 from ..machine.prepared import Prepared
 from ..machine.statistics import HEADINGS as PART_HEADINGS
@@ -35,10 +36,10 @@ from .performed import perform
 from .prepare import machine_file, prepared
 
 
-def run_file(name: str, table: Path | None, folder: Path | None) -> int:
-    """Run a machine with a table of inputs, write what comes of it, and return the exit code."""
+def run_file(name: str, table: Path | None, folder: Path | None, changes: Changes = NO_CHANGES) -> int:
+    """Run a machine with a table of inputs and changes, write what comes of it, and return the exit code."""
     folder = Path(machine_file(name).stem) if folder is None else folder
-    with prepared(name, table) as machine, alone_in(folder, waits=False):
+    with prepared(name, table, changes) as machine, alone_in(folder, waits=False):
         console.print(f"[bold]{escape(machine.plan.title)}[/]: {', '.join(machine.fmus)}", soft_wrap=True)
         show_notes(machine)
         try:

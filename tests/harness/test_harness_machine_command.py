@@ -286,3 +286,37 @@ def test_container(machine, tmp_path, monkeypatch):
     invoke("run", machine, "-o", tmp_path / "machine")
     ours = pd.read_parquet(tmp_path / "machine/results.parquet")
     assert results["cam.cam_angle"].to_numpy()[::2] == pytest.approx(ours["cam.cam_angle"].to_numpy(), rel=1e-9)
+
+
+def test_a_run_with_another_step_other_values_and_as_others_do(machine, tmp_path):
+    """What is changed for one run is in its record, and so is how it stepped."""
+    code, text = invoke(
+        *("run", machine, "-o", tmp_path / "out", "--step", "10 ms", "--as-others"),
+        *("--set", "cam.drive_stiffness=4", "--set", "gears.drive_damping=0.4 N.m.s/rad"),
+    )
+    assert code == 0
+    assert "100 steps in" in text
+    assert "Stepped as the masters of other tools do" in text
+    summary = json.loads((tmp_path / "out/summary.json").read_text())
+    run = summary["run"]
+    assert (run["step"], run["algorithm"]) == (0.01, "jacobi")
+    assert (run["extrapolation"], run["reads_once"]) == ("constant", True)
+    assert summary["components"]["cam"]["start_values"]["drive_stiffness"] == 4.0
+    assert summary["components"]["gears"]["start_values"]["drive_damping"] == 0.4
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--step", "0"), "step"),
+        (("--step", "5 m"), "does not measure the same quantity"),
+        (("--set", "cam.drive_angle=1"), "'cam.drive_angle' follows gears.wheel_angle, by a connection"),
+        (("--set", "cam.stiffness=1"), "has no variable 'cam.stiffness'. Did you mean cam."),
+        (("--set", "cam.drive_stiffness"), "is not a setting"),
+        (("--set", "cam.drive_stiffness=-1"), "is below its limit"),
+    ],
+)
+def test_changes_that_cannot_be(machine, tmp_path, arguments, said):
+    code, text = invoke("run", machine, "-o", tmp_path / "out", *arguments)
+    assert (code, said in text) == (2, True), text
+    assert not (tmp_path / "out/summary.json").exists()

@@ -14,7 +14,7 @@ from mechanism_fmu.fmu.archive import read_entries
 
 from ...errors import UsageError
 from .own import read_component, read_connection
-from .xml import OSP, TYPES, annotated, tag
+from .xml import OSP, OWN, TYPES, annotated, tag
 
 _STRUCTURE = "SystemStructure.ssd"
 
@@ -110,7 +110,9 @@ def read_structure(path: Path) -> Structure:
     system = root.find(tag("ssd:System"))
     if root.tag != tag("ssd:SystemStructureDescription") or system is None:
         raise UsageError(f"'{path}' is no SSP 1.0 file: {_STRUCTURE} has no ssd:System.")
-    structure = Structure(entries, root, root.get("name") or system.get("name") or path.stem)
+    # Our own files have the title there; in others it may be a text of any length.
+    title = root.get("description") if annotated(root, OWN, "own:Machine") is not None else None
+    structure = Structure(entries, root, title or root.get("name") or system.get("name") or path.stem)
     _read_elements(structure, system, path)
     for element in system.iterfind(f"{tag('ssd:Connections')}/{tag('ssd:Connection')}"):
         _read_connection(structure, element, path)
