@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import tempfile
 import time
+from collections.abc import Mapping
 from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
@@ -14,7 +16,6 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from mechanism_fmu.model import Mechanism
-    from mechanism_fmu.model.baked import Baked
 
 # Everything else is imported where it is used: --help must not wait for numba.
 
@@ -70,7 +71,12 @@ def build(
 
 
 def built(
-    model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: int = 2, baked: Baked | None = None
+    model: str,
+    output: Path,
+    flavour: Flavour = Flavour.PYTHONFMU,
+    fmi: int = 2,
+    starts: Mapping[str, float] | None = None,
+    inputs: Mapping[str, tuple[float, float, str | None]] | None = None,
 ) -> Path:
     """Build the FMU of a model as `build` does, and return its file; what is to be said goes to stderr.
 
@@ -79,7 +85,8 @@ def built(
         output: folder for the FMU.
         flavour: of it.
         fmi: version of the standard.
-        baked: numbers that this FMU has as its own.
+        starts: start values that this FMU has as its own, of parameters and inputs.
+        inputs: those that are given otherwise than in the model: factor, offset and unit (None: the model's).
 
     Raises:
         typer.Exit: it cannot be built; the reason has been said.
@@ -91,9 +98,9 @@ def built(
     from mechanism_fmu.fmu.own.prepare import prepare
     from mechanism_fmu.fmu.package import build_fmu
     from mechanism_fmu.model import MechanismError
-    from mechanism_fmu.model.baked import NOTHING_BAKED
+    from mechanism_fmu.model.baked import Baked, Seen
 
-    own = baked or NOTHING_BAKED
+    own = Baked(starts or {}, {name: Seen(*given) for name, given in (inputs or {}).items()})
     messages = _messages()
     if not model or not (model in models.available() or looks_like_a_file(model)):
         asked = f"There is no model {model!r}" if model else "Say which model to build"
@@ -151,6 +158,26 @@ def mechanism(model: str, **parameters: float) -> Mechanism:
         _messages().print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR) from None
     return described
+
+
+def model_with_guid(name: str, guid: str, flavour: Flavour, fmi: int) -> str | None:
+    """The ready-made model whose FMU, built here and now, has this GUID; None if there is none.
+
+    A GUID is a fingerprint of all that an FMU is made from, so that a copy with other numbers is the same in all else.
+
+    Args:
+        name: of the FMU's model.
+        guid: of the FMU.
+        flavour: of it.
+        fmi: version of the standard.
+    """
+    import models
+
+    for known in models.available():
+        if models.load(known).MODEL.name == name:
+            with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as place:
+                return known if _guid(built(known, Path(place), flavour, fmi)) == guid else None
+    return None
 
 
 def models_that_bend() -> list[str]:

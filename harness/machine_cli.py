@@ -136,6 +136,14 @@ def export_machine(
             "-o", "--output", metavar="FILE.ssp", help="File to write.", show_default="NAME.ssp", dir_okay=False
         ),
     ] = None,
+    baked: Annotated[
+        bool,
+        typer.Option(
+            "--baked",
+            help="For tools that apply neither parameters nor gains and offsets, as fmpy and containers: put them into "
+            "copies of the FMUs.",
+        ),
+    ] = False,
 ) -> None:
     """Write a machine as SSP 1.0, one file with all FMUs, for other tools.
 
@@ -143,13 +151,17 @@ def export_machine(
 
         mechanism-fmu machine export my_machine.toml -o my_machine.ssp
 
+        mechanism-fmu machine export my_machine.toml -o for_everyone.ssp --baked
+
+    Curves of other tools are those of `machine run --as-others`.
+
     Exit code: 0 all well, 2 wrong use.
     """
     from .machine_command.exchange import export_file
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(export_file(name, output))
+        raise typer.Exit(export_file(name, output, baked))
 
 
 @machine.command("import")

@@ -26,7 +26,7 @@ from ..loops import in_order
 from ..names import part_of
 from ..structure import structure_of
 from .description import Exposed, container_description
-from .gains import CHANNELS, GUID, NAME, factor_reference, gains_entries, in_reference, offset_reference, out_reference
+from .gains import CHANNELS, NAME, factor_reference, gains_entries, guid, in_reference, offset_reference, out_reference
 
 _BINARIES = Path(container_fmu.__file__).with_name("binaries")
 _PLATFORMS = {
@@ -160,7 +160,7 @@ def _components(parts: Mapping[str, Part], scaled: bool) -> list[dict[str, str]]
         }
         for name, part in parts.items()
     ]
-    ours = {"fmiMajorVersion": "2", "name": f"{NAME} of connections", "instantiationToken": GUID}
+    ours = {"fmiMajorVersion": "2", "name": f"{NAME} of connections", "instantiationToken": guid()}
     return [*components, *([{**ours, "modelIdentifier": NAME, "path": NAME}] if scaled else [])]
 
 

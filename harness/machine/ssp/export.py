@@ -47,7 +47,9 @@ def write_ssp(plan: Plan, fmus: Mapping[str, tuple[Path, Description]], path: Pa
             entries[inputs] = plan.inputs.read_bytes()
         for component in plan.components:
             if component.values:
-                entries[_values_name(component)] = to_bytes(_values(component, descriptions[component.name]))
+                entries[_values_name(component)] = to_bytes(
+                    _values(plan.title, component, descriptions[component.name])
+                )
         entries["SystemStructure.ssd"] = to_bytes(_structure(plan, files, descriptions, machine, inputs))
         write_archive(entries, path)
     except OSError as error:
@@ -160,9 +162,9 @@ def _values_name(component: ComponentPlan) -> str:
     return f"resources/{component.name}.ssv"
 
 
-def _values(component: ComponentPlan, description: Description) -> Element:
-    """The start values of a component."""
-    values = root("ssv:ParameterSet", {"version": "1.0", "name": component.name, "generationTool": TOOL})
+def _values(title: str, component: ComponentPlan, description: Description) -> Element:
+    """The start values of a component; the sets of all have one name, by which ecos chooses them."""
+    values = root("ssv:ParameterSet", {"version": "1.0", "name": identifier(title), "generationTool": TOOL})
     parameters = child(values, "ssv:Parameters")
     for name, value in component.values.items():
         parameter = child(parameters, "ssv:Parameter", {"name": name})
