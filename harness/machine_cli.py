@@ -112,6 +112,23 @@ def run_machine(
         raise typer.Exit(run_file(name, input_file, output, changes))
 
 
+@machine.command("new")
+def new_machine(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Of the file.", show_default=False)],
+) -> None:
+    """Write NAME.toml, a machine of your own to begin with: gears that turn a cam.
+
+    It runs as it is, and its comments say what to change. See docs/machines.md.
+
+    Exit code: 0 all well, 2 a name that cannot be, or a file that is there already.
+    """
+    from .machine_command.new import new_file
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(new_file(name))
+
+
 @machine.command("check")
 def check_machine(name: MachineName) -> None:
     """Show what is in a machine's file: components in their order, connections, cycles; or all of its mistakes.
