@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 import build_fmu
 from harness.cli import main
+from harness.description import read_description
 from harness.errors import UsageError
 from harness.machine import growing_table, record
 from harness.machine_command import exchange, files, prepare
@@ -228,7 +229,9 @@ def test_a_component_in_a_process_of_its_own(machine, tmp_path):
 def test_export_and_import(machine, tmp_path):
     code, text = invoke("export", machine, "-o", tmp_path / "geared.ssp")
     assert code == 0
-    assert "fmpy's simulate_ssp leaves out gains and offsets" in text
+    assert "The file has parameters and gains, offsets or conversions of units: it is for tools that apply them" in text
+    assert 'parameter_set="Geared_cam"' in text
+    assert "--baked puts them into copies of the FMUs" in text
     code, text = invoke("import", tmp_path / "geared.ssp", "-o", tmp_path / "back")
     assert code == 0
     assert f"mechanism-fmu machine run {tmp_path / 'back' / 'geared.toml'}" in text
@@ -320,3 +323,32 @@ def test_changes_that_cannot_be(machine, tmp_path, arguments, said):
     code, text = invoke("run", machine, "-o", tmp_path / "out", *arguments)
     assert (code, said in text) == (2, True), text
     assert not (tmp_path / "out/summary.json").exists()
+
+
+def test_export_of_a_machine_with_numbers_of_its_own(machine, tmp_path):
+    """Files of this version's models are built anew; nothing is left for the tool to apply."""
+    code, text = invoke("export", machine, "--baked", "-o", tmp_path / "baked.ssp")
+    assert code == 0, text
+    assert "Building gear_train (native) with the numbers of gears" in text
+    assert "it is for tools that apply them" not in text
+    assert "not 0 at the start" not in text  # from rest, at 0
+    entries = read_entries(tmp_path / "baked.ssp")
+    assert sorted(entries) == ["SystemStructure.ssd", "resources/cam.fmu", "resources/gears.fmu"]
+    assert b"LinearTransformation" not in entries["SystemStructure.ssd"]
+    cam = read_description(_file(tmp_path / "cam.fmu", entries["resources/cam.fmu"]))
+    assert float(str(cam.variables["drive_stiffness"].start)) == 5.0
+    gears = read_description(_file(tmp_path / "gears.fmu", entries["resources/gears.fmu"]))
+    assert "acts as -1 * value + 0.001 N.m" in gears.variables["load_torque"].description
+
+
+def _file(path: Path, contents: bytes) -> Path:
+    path.write_bytes(contents)
+    return path
+
+
+def test_export_says_where_the_first_step_of_fmpy_is_another(machine, tmp_path):
+    moved = machine.read_text().replace("drive_torque = 0.0\n", 'drive_torque = 0.0\npinion_angle_start = "90 deg"\n')
+    machine.write_text(moved)
+    code, text = invoke("export", machine, "-o", tmp_path / "plain.ssp")
+    assert code == 0
+    assert "not 0 at the start are gears.wheel_angle" in text

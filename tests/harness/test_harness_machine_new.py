@@ -26,7 +26,7 @@ def test_it_runs_as_it_is(tmp_path, monkeypatch, native_gear_train_fmu, native_c
     assert all(f"[{table}" in written or f"{table} =" in written for table in TABLES)
     for model, fmu in (("gear_train", native_gear_train_fmu), ("cam_drive", native_cam_drive_fmu)):
         written = written.replace(f'model = "{model}"', f'file = "{fmu}"')
-    # What is commented out is a machine, too, if a signal is there: the torque that an impact switches on.
+    # The connection that is commented out can be, too.
     switched = written.partition("# [[connect]]")[2].partition("\n\n")[0]
     asked = "\n".join(line.removeprefix("# ") for line in f"# [[connect]]{switched}".splitlines())
     file.write_text(written.replace("drive_torque = 0.0\n", "").replace("[[bond]]", f"{asked}\n\n[[bond]]"))
