@@ -40,10 +40,13 @@ class Connection:
 
 
 def changes(connection: Connection, description: Description) -> str:
-    """Gain and offset of a connection among the variables of a machine, where they do something."""
+    """Gain and offset of a connection among the variables of a machine, where they do something, and its conversion."""
     gain = "" if connection.gain == 1.0 else f"* {connection.gain:g}"
     offset = shown(connection.offset, connection.target, description, digits=6) if connection.offset else ""
-    return f"{gain} + {offset}".strip() if offset else gain
+    numbers = f"{gain} + {offset}".strip() if offset else gain
+    kinds = [kind_of(description.variables[name]) for name in (connection.source, connection.target)]
+    converted = f"{kinds[0]} to {kinds[1]}" if kinds[0] != kinds[1] else ""
+    return ", ".join(filter(None, (converted, numbers)))
 
 
 @dataclass(frozen=True)

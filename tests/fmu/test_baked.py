@@ -38,10 +38,13 @@ def moved(path: Path, values: dict[str, float], given: Callable[[float], float])
     return np.array(rows)
 
 
-@pytest.mark.parametrize("by", [build_native_fmu, build_fmu])
-def test_it_moves_as_the_one_that_is_given_the_same(by, tmp_path: Path, built: Callable[..., Path]) -> None:
-    path = by(models.load("cam_drive"), tmp_path, baked=BAKED)
-    expected = moved(built("cam_drive", by), STARTS, lambda t: 0.3 + 2.0 * t)
+@pytest.mark.parametrize(("by", "fmi"), [(build_native_fmu, 2), (build_native_fmu, 3), (build_fmu, None)])
+def test_it_moves_as_the_one_that_is_given_the_same(
+    by, fmi: int | None, tmp_path: Path, built: Callable[..., Path]
+) -> None:
+    version = {} if fmi is None else {"fmi": fmi}
+    path = by(models.load("cam_drive"), tmp_path, baked=BAKED, **version)
+    expected = moved(built("cam_drive", by, **version), STARTS, lambda t: 0.3 + 2.0 * t)
     found = moved(path, {}, lambda t: -2.0 * t * 180.0 / np.pi)
     assert np.ptp(expected, axis=0).min() > 1e-3
     assert np.abs(found - expected).max() < 1e-12

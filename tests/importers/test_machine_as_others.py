@@ -28,6 +28,7 @@ from harness.machine.machine import Machine
 from harness.machine.prepared import Prepared
 from harness.machine.run import run_machine
 from harness.machine.ssp.export import identifier, write_ssp
+from harness.machine.ssp.importing import import_ssp
 from harness.machine.structure import structure_of
 from harness.machine_command.baking import baked_machine
 from harness.master import Ending
@@ -116,6 +117,18 @@ def baked(indexing: Prepared, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_indexing_table_baked(tool: str, baked: Path, indexing: Prepared, expected: np.ndarray) -> None:
     """No parameters, no gains, no offsets are left for the tool to do."""
     found = curves(tool, baked, indexing.plan.policy.step, _STEPS, compared(indexing))
+    assert same(found, expected)
+
+
+def test_the_baked_file_here(baked: Path, indexing: Prepared, expected: np.ndarray, tmp_path: Path) -> None:
+    """Imported again, it is the same machine, with nothing to set and nothing to transform."""
+    plan = import_ssp(baked, tmp_path).plan
+    assert plan.start_values == {}
+    assert {(c.gain, c.offset) for c in plan.connections} == {(1.0, 0.0)}
+    with ExitStack() as stack:
+        paths = {part.name: part.source.path for part in plan.components}
+        fmus = {name: stack.enter_context(open_fmu(path)) for name, path in paths.items() if path is not None}
+        found = as_others(Prepared(plan, fmus, indexing.description, None), _STEPS, compared(indexing))
     assert same(found, expected)
 
 
