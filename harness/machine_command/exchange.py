@@ -113,6 +113,12 @@ def _for_others(machine: Prepared) -> list[str]:
         notes.append(f"Other tools step as they do; algorithm = '{plan.policy.scheme}' is known to this one only.")
     if plan.policy.extrapolation is not Extrapolation.CONSTANT:
         notes.append(f"Most tools hold inputs during a step. {_HELD}")
+    newer = [name for name, description in machine.descriptions.items() if description.fmi == 3]
+    if newer:
+        notes.append(
+            f"Of FMI 3.0 are {', '.join(newer)}, which libcosim and fmpy's simulate_ssp do not run; take fmi = 2 for "
+            "these two."
+        )
     if plan.inputs is not None:
         notes.append(f"No tool reads the table of inputs that goes with it: {plan.inputs.name}.")
     return notes

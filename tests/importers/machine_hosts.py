@@ -86,7 +86,7 @@ def _in_ecos(ssp: Path, step: float, steps: int, signals: Sequence[str]) -> list
 
     rows = []
     simulation = EcosSimulation(ssp_path=str(ssp), step_size=step)
-    simulation.init(parameter_set=os.environ["PARAMETER_SET"] or None)
+    simulation.init(parameter_set=os.environ.get("PARAMETER_SET") or None)
     for _ in range(steps):
         simulation.step(1)
         rows.append([simulation.get_real(signal.replace(".", "::")) for signal in signals])

@@ -53,12 +53,18 @@ def same(found: np.ndarray, expected: np.ndarray) -> bool:
     return bool(np.all(np.abs(found - expected).max(axis=0) < _TOLERANCE * np.abs(expected).max(axis=0)))
 
 
-def prepared(file: Path, by: Callable[..., Path], built: Callable[..., Path], stack: ExitStack) -> Prepared:
+def prepared(
+    file: Path, by: Callable[..., Path], built: Callable[..., Path], stack: ExitStack, fmi: int = 2
+) -> Prepared:
     """A machine of ready-made models whose FMUs are built already."""
+    version = {"fmi": fmi} if fmi == 3 else {}
     text = TomlFile.read(file)
     flavour = "native" if by is build_native_fmu else "pythonfmu"
-    parts = [replace(p, source=replace(p.source, flavour=flavour)) for p in components(text, build_fmu.model_names())]
-    fmus = {part.name: stack.enter_context(open_fmu(built(part.source.model, by))) for part in parts}
+    parts = [
+        replace(p, source=replace(p.source, flavour=flavour, fmi=fmi))
+        for p in components(text, build_fmu.model_names())
+    ]
+    fmus = {part.name: stack.enter_context(open_fmu(built(part.source.model, by, **version))) for part in parts}
     descriptions = {name: fmu.description for name, fmu in fmus.items()}
     plan = replace(read_plan(text, parts, descriptions), inputs=None)
     return Prepared(plan, fmus, structure_of(descriptions, plan.connections).description, None)
@@ -141,18 +147,22 @@ def test_the_indexing_table_plain(tool: str, indexing: Prepared, expected: np.nd
     assert same(found, expected)
 
 
-@pytest.fixture(scope="module", params=[build_native_fmu, build_python_fmu], ids=["native", "pythonfmu"])
-def from_rest(
-    request: pytest.FixtureRequest, built: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Prepared]:
+def geared_cam(folder: Path) -> Path:
     """Gears and a cam that start at 0, at rest: then fmpy's first step, with 0 at all inputs, is as it should be."""
-    file = tmp_path_factory.mktemp("rest") / "geared_cam.toml"
+    file = folder / "geared_cam.toml"
     text = GEARED_CAM.replace('file = "{gear_train}"', 'model = "gear_train"')
     text = text.replace('file = "{cam_drive}"', 'model = "cam_drive"').replace("{unilateral}", "true")
     back = '[[connect]]\nfrom = "cam.drive_shaft_torque"\nto = "gears.load_torque"\ngain = -1.0\n'
     file.write_text(text.replace("{back}", back), encoding="utf-8")
+    return file
+
+
+@pytest.fixture(scope="module", params=[build_native_fmu, build_python_fmu], ids=["native", "pythonfmu"])
+def from_rest(
+    request: pytest.FixtureRequest, built: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Prepared]:
     with ExitStack() as stack:
-        yield prepared(file, request.param, built, stack)
+        yield prepared(geared_cam(tmp_path_factory.mktemp("rest")), request.param, built, stack)
 
 
 @pytest.fixture(scope="module")
@@ -165,6 +175,15 @@ def test_a_machine_from_rest_baked(tool: str, from_rest: Prepared, from_rest_bak
     signals = compared(from_rest)
     found = curves(tool, from_rest_baked, from_rest.plan.policy.step, 200, signals)
     assert same(found, as_others(from_rest, 200, signals))
+
+
+@pytest.mark.parametrize("tool", tools("container"))
+def test_a_machine_of_fmi_3_baked(tool: str, built: Callable[..., Path], tmp_path: Path) -> None:
+    """In a tool that runs FMI 3.0."""
+    with ExitStack() as stack:
+        machine = prepared(geared_cam(tmp_path), build_native_fmu, built, stack, fmi=3)
+        found = curves(tool, exported(machine, tmp_path, baked=True), machine.plan.policy.step, 200, compared(machine))
+        assert same(found, as_others(machine, 200, compared(machine)))
 
 
 @pytest.fixture(scope="module")
