@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import tempfile
 import time
+from collections.abc import Mapping
 from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
@@ -68,14 +70,31 @@ def build(
             typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
         return
     began = time.perf_counter()
-    path = built(model or "", output, flavour, fmi, clocks)
+    path = built(model or "", output, flavour, fmi, clocks=clocks)
     seconds = time.perf_counter() - began
     typer.echo(f"{path}  {path.stat().st_size / 1e3:.0f} kB  GUID {_guid(path)}  {seconds:.1f} s")
     advise(flavour)
 
 
-def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: int = 2, clocks: bool = False) -> Path:
+def built(
+    model: str,
+    output: Path,
+    flavour: Flavour = Flavour.PYTHONFMU,
+    fmi: int = 2,
+    starts: Mapping[str, float] | None = None,
+    inputs: Mapping[str, tuple[float, float, str | None]] | None = None,
+    clocks: bool = False,
+) -> Path:
     """Build the FMU of a model as `build` does, and return its file; what is to be said goes to stderr.
+
+    Args:
+        model: name of a ready-made model, or file of your own mechanism.
+        output: folder for the FMU.
+        flavour: of it.
+        fmi: version of the standard.
+        starts: start values that this FMU has as its own, of parameters and inputs.
+        inputs: those that are given otherwise than in the model: factor, offset and unit (None: the model's).
+        clocks: FMI 3.0 with a clock of impacts and arrays.
 
     Raises:
         typer.Exit: it cannot be built; the reason has been said.
@@ -87,7 +106,9 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
     from mechanism_fmu.fmu.own.prepare import prepare
     from mechanism_fmu.fmu.package import build_fmu
     from mechanism_fmu.model import MechanismError
+    from mechanism_fmu.model.baked import Baked, Seen
 
+    own = Baked(starts or {}, {name: Seen(*given) for name, given in (inputs or {}).items()})
     messages = _messages()
     if not model or not (model in models.available() or looks_like_a_file(model)):
         asked = f"There is no model {model!r}" if model else "Say which model to build"
@@ -117,9 +138,9 @@ def built(model: str, output: Path, flavour: Flavour = Flavour.PYTHONFMU, fmi: i
                 module, file = prepare(model, flavour is Flavour.NATIVE, warn)
                 explanations.enter_context(explained_in_fmu(file))
             if flavour is Flavour.NATIVE:
-                path = build_native_fmu(module, output, fmi, report, clocks)
+                path = build_native_fmu(module, output, fmi, report, clocks, own)
             else:
-                path = build_fmu(module, output, report)
+                path = build_fmu(module, output, report, own)
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
@@ -148,6 +169,26 @@ def mechanism(model: str, **parameters: float) -> Mechanism:
         _messages().print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR) from None
     return described
+
+
+def model_with_guid(name: str, guid: str, flavour: Flavour, fmi: int) -> str | None:
+    """The ready-made model whose FMU, built here and now, has this GUID; None if there is none.
+
+    A GUID is a fingerprint of all that an FMU is made from, so that a copy with other numbers is the same in all else.
+
+    Args:
+        name: of the FMU's model.
+        guid: of the FMU.
+        flavour: of it.
+        fmi: version of the standard.
+    """
+    import models
+
+    for known in models.available():
+        if models.load(known).MODEL.name == name:
+            with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as place:
+                return known if _guid(built(known, Path(place), flavour, fmi)) == guid else None
+    return None
 
 
 def models_that_bend() -> list[str]:

@@ -7,7 +7,7 @@ import math
 import re
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 from os.path import isfile
 from pathlib import Path
@@ -17,6 +17,7 @@ from mechanism_fmu.fmu.archive_names import unsafe_name
 
 from .errors import UsageError
 from .si import BASE_UNITS, Measure
+from .terminals import Terminal, read_terminals
 from .units import Units
 
 #: Value of a variable: Real, Integer, Boolean or String.
@@ -72,6 +73,17 @@ class Variable:
         """Whether it may be set before the initialization."""
         return self.causality in ("input", "parameter")
 
+    @property
+    def start_value(self) -> Value | None:
+        """Its default value; None when it has none."""
+        if self.start is None:
+            return None
+        if self.type == "Boolean":
+            return self.start in ("true", "1")
+        if self.type == "Real":
+            return float(self.start)
+        return int(self.start) if self.type == "Integer" else self.start
+
 
 @dataclass(frozen=True)
 class Description:
@@ -91,6 +103,7 @@ class Description:
         has_event_mode, returns_early: of FMI 3, whether it can let the importer handle events, and end a step at one.
         varies_step: whether its steps may have different sizes (canHandleVariableCommunicationStepSize).
         once_per_process: whether a process can have one instance only (canBeInstantiatedOnlyOncePerProcess).
+        terminals: by name.
     """
 
     model: str
@@ -112,6 +125,7 @@ class Description:
     returns_early: bool = False
     varies_step: bool = True
     once_per_process: bool = False
+    terminals: Mapping[str, Terminal] = field(default_factory=dict)
 
     def variable(self, name: str) -> Variable:
         """The variable with this name.
@@ -148,6 +162,7 @@ def read_description(path: Path) -> Description:
         _require_safe_names(path)
         with open(path, "rb") as file:  # fmpy would leave a damaged one open
             raw = fmpy.read_model_description(file, validate=False)
+        terminals = read_terminals(path)
     except Exception as error:  # fmpy raises whatever zipfile, lxml and its own conversions raise
         raise damaged(path, error) from error
     version = raw.fmiVersion.partition(".")[0]
@@ -157,7 +172,7 @@ def read_description(path: Path) -> Description:
             "the harness runs no other kind."
         )
     try:
-        return _described(raw, int(version))
+        return replace(_described(raw, int(version)), terminals=terminals)
     except (ValueError, TypeError, AttributeError, OverflowError) as error:  # a text where a number should be, ...
         raise damaged(path, error) from error
 

@@ -66,6 +66,28 @@ def run_machine(
         Path | None,
         typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
     ] = None,
+    step: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TIME", help="Communication step, e.g. `2ms`; seconds.", show_default="run.step of the file"
+        ),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE[UNIT]",
+            help="Set a parameter or a free input, e.g. `cam.drive_stiffness=3`, for this run; repeat it for more.",
+        ),
+    ] = None,
+    as_others: Annotated[
+        bool,
+        typer.Option(
+            "--as-others",
+            help="Step as the masters of other tools do: fixed steps, all components at once, inputs held, each output "
+            "read once. Compare their curves of an exported machine with these.",
+        ),
+    ] = False,
     in_process: Annotated[
         bool,
         typer.Option(
@@ -83,16 +105,37 @@ def run_machine(
 
         mechanism-fmu machine run my_machine.toml -o result
 
+        mechanism-fmu machine run my_machine.toml --step 1ms --set "cam.drive_damping=0.1 N.m.s/rad"
+
     Ctrl-C or SIGTERM ends the run early and keeps what was recorded. An FMU that no build of yours has made runs in a
     process of its own.
 
     Exit code: 0 all well, 1 the run failed, 2 wrong use, 130 interrupted.
     """
+    from .machine.file.changes import Changes
     from .machine_command.run import run_file
     from .terminal import user_errors
 
+    changes = Changes(step, tuple(settings or ()), as_others)
     with user_errors():
-        raise typer.Exit(run_file(name, input_file, output, in_process))
+        raise typer.Exit(run_file(name, input_file, output, changes, in_process))
+
+
+@machine.command("new")
+def new_machine(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Of the file.", show_default=False)],
+) -> None:
+    """Write NAME.toml, a machine of your own to begin with: gears that turn a cam.
+
+    It runs as it is, and its comments say what to change. See docs/machines.md.
+
+    Exit code: 0 all well, 2 a name that cannot be, or a file that is there already.
+    """
+    from .machine_command.new import new_file
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(new_file(name))
 
 
 @machine.command("check")
@@ -119,6 +162,14 @@ def export_machine(
             "-o", "--output", metavar="FILE.ssp", help="File to write.", show_default="NAME.ssp", dir_okay=False
         ),
     ] = None,
+    baked: Annotated[
+        bool,
+        typer.Option(
+            "--baked",
+            help="For tools that apply neither parameters nor gains and offsets, as fmpy and containers: put them into "
+            "copies of the FMUs.",
+        ),
+    ] = False,
 ) -> None:
     """Write a machine as SSP 1.0, one file with all FMUs, for other tools.
 
@@ -126,13 +177,17 @@ def export_machine(
 
         mechanism-fmu machine export my_machine.toml -o my_machine.ssp
 
+        mechanism-fmu machine export my_machine.toml -o for_everyone.ssp --baked
+
+    Curves of other tools are those of `machine run --as-others`.
+
     Exit code: 0 all well, 2 wrong use.
     """
     from .machine_command.exchange import export_file
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(export_file(name, output))
+        raise typer.Exit(export_file(name, output, baked))
 
 
 @machine.command("import")

@@ -28,6 +28,7 @@ _MAX_PINS, _MAX_FORCES, _MAX_CONTACTS, _MAX_INPUTS, _MAX_COLUMNS = 5, 8, 4, 8, 1
 #: What `export` reads.
 _TABLES = (
     *("inverse_mass", "inverse_root_mass", "settings", "input_force", "input_column"),
+    *("input_factor", "input_offset"),
     *("joint_kind", "joint_body_i", "joint_body_j", "joint_data", "joint_friction"),
     *("force_kind", "force_body", "force_reaction", "force_data"),
     *("contact_kind", "contact_body_i", "contact_body_j", "contact_data", "contact_value", "contact_line"),
@@ -214,6 +215,7 @@ def _objections(of: dict[str, Any], enabled: list[int]) -> dict[str, bool]:
         "stops": any(of["contact_kind"][c] != codes.POINT_LINE for c in enabled),
         "logical functions": any(of["contact_function"][c] != codes.NONE for c in enabled),
         "patterns": any(of["pattern_enabled"]),
+        "inputs that are transformed": any(of["input_offset"]) or any(factor != 1.0 for factor in of["input_factor"]),
     }
 
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from ..description import Description, Variable
+from ..description import Description, Value, Variable
 from ..errors import UsageError
 from ..numbers import shown
 from ..units import UnitMismatchError
 from .names import part_of
-from .part_units import converted
+from .part_units import converted, rate_factor
 
 
 @dataclass(frozen=True)
@@ -21,8 +22,9 @@ class Connection:
         source: "<part>.<output>".
         target: "<part>.<input>"; its unit must measure the same quantity, and the source is converted to it. One of
             both that has no unit is taken to have the other's.
-        gain: not 0.
-        offset: in the unit of the target.
+        gain: not 0; of numbers that become Real ones.
+        offset: in the unit of the target; likewise.
+        convert: whether the target may be of another kind: Boolean, Integer, Enumeration, Real (`_converts`).
         rate: "<part>.<output>", the source's derivative, for the extrapolation by derivatives; "" leaves it to the FMU.
     """
 
@@ -31,27 +33,68 @@ class Connection:
     gain: float = 1.0
     offset: float = 0.0
     rate: str = ""
+    convert: bool = False
 
     def __str__(self) -> str:
         return f"{self.source} -> {self.target}"
 
 
 def changes(connection: Connection, description: Description) -> str:
-    """Gain and offset of a connection among the variables of a machine, where they do something."""
+    """Gain and offset of a connection among the variables of a machine, where they do something, and its conversion."""
     gain = "" if connection.gain == 1.0 else f"* {connection.gain:g}"
     offset = shown(connection.offset, connection.target, description, digits=6) if connection.offset else ""
-    return f"{gain} + {offset}".strip() if offset else gain
+    numbers = f"{gain} + {offset}".strip() if offset else gain
+    kinds = [kind_of(description.variables[name]) for name in (connection.source, connection.target)]
+    converted = f"{kinds[0]} to {kinds[1]}" if kinds[0] != kinds[1] else ""
+    return ", ".join(filter(None, (converted, numbers)))
 
 
 @dataclass(frozen=True)
 class Link:
-    """A connection whose unit conversion is worked out: target = factor * source + offset."""
+    """A connection whose unit conversion is worked out: target = factor * source + offset.
+
+    Attributes:
+        source, target, factor, offset: as said.
+        rate: output that is the source's derivative, "" for none.
+        rate_factor: from its unit to that of the source, per second.
+        type: of the target, as of `Variable.type`.
+        held: the signal changes at communication points only, and never in between: one of both ends is not continuous.
+    """
 
     source: str
     target: str
     factor: float
     offset: float
     rate: str = ""
+    rate_factor: float = 1.0
+    type: str = "Real"
+    held: bool = False
+
+    def of(self, value: Value) -> Value:
+        """What the target gets for a value of the source."""
+        if self.type == "Real":
+            return self.factor * float(value) + self.offset
+        return _MAKE[self.type](value)
+
+
+#: How a value becomes one of a type; a Boolean is 0 or 1, and any number but 0 is true.
+_MAKE: Mapping[str, Callable[[Value], Value]] = {"Boolean": bool, "Integer": int, "String": str}
+
+#: What may become what if the connection says so: nothing that would lose a part of a number.
+_CONVERTS = {
+    "Boolean": ("Integer", "Enumeration", "Real"),
+    "Integer": ("Boolean", "Enumeration", "Real"),
+    "Enumeration": ("Integer", "Boolean", "Real"),
+}
+
+#: What a conversion means, for messages.
+_MEANS = {
+    ("Boolean", "Integer"): "false = 0, true = 1",
+    ("Boolean", "Enumeration"): "false = 0, true = 1",
+    ("Boolean", "Real"): "false = 0, true = 1",
+    ("Integer", "Boolean"): "0 = false, all others = true",
+    ("Enumeration", "Boolean"): "0 = false, all others = true",
+}
 
 
 def linked(connection: Connection, description: Description) -> Link:
@@ -62,10 +105,11 @@ def linked(connection: Connection, description: Description) -> Link:
     """
     where = f"Connection from '{connection.source}' to '{connection.target}'"
     source, target = (_end(name, where, description) for name in (connection.source, connection.target))
-    if source.causality != "output" or source.type != "Real":
-        raise UsageError(f"{where}: the source is no Real output, but {_what(source)}; connect an output.")
-    if target.causality != "input" or target.type != "Real":
-        raise UsageError(f"{where}: the target is no Real input, but {_what(target)}; connect an input.")
+    if source.causality != "output":
+        raise UsageError(f"{where}: the source is no output, but {_what(source)}; connect an output.")
+    if target.causality != "input":
+        raise UsageError(f"{where}: the target is no input, but {_what(target)}; connect an input.")
+    _check_kinds(connection, source, target)
     if not (math.isfinite(connection.gain) and math.isfinite(connection.offset)) or connection.gain == 0.0:
         numbers = f"gain = {connection.gain:g}, offset = {connection.offset:g}"
         raise UsageError(f"{where}: {numbers}; give finite numbers, and a gain that is not 0.")
@@ -74,27 +118,59 @@ def linked(connection: Connection, description: Description) -> Link:
     except UnitMismatchError as mismatch:
         raise UsageError(f"{where}: {mismatch}.") from None
     factor, offset = connection.gain * (one - shift), connection.gain * shift + connection.offset
-    return Link(source.name, target.name, factor, offset, _rate(connection, source, where, description))
+    held = source.type != "Real" or not source.continuous or target.type != "Real" or _by_event(target)
+    rate, scale = _rate(connection, source, where, description)
+    if rate and held:
+        raise UsageError(f"{where}: a signal that is held has no rate; leave rate out.")
+    return Link(source.name, target.name, factor, offset, rate, scale, target.type, held)
 
 
-def _rate(connection: Connection, source: Variable, where: str, description: Description) -> str:
+def kind_of(variable: Variable) -> str:
+    """Boolean, Integer, Enumeration, Real or String."""
+    return "Enumeration" if variable.fmi_type == "Enumeration" else variable.type
+
+
+def _check_kinds(connection: Connection, source: Variable, target: Variable) -> None:
+    """Refuse what is of two kinds, unless it is to be converted and can be.
+
+    Raises:
+        UsageError: it cannot be; the message says what it would mean, or why not.
+    """
+    kinds = given, wanted = kind_of(source), kind_of(target)
+    if given != wanted and wanted not in _CONVERTS.get(given, ()):
+        raise UsageError(
+            f"connection {connection}: {given} to {wanted} cannot be converted; connect an output that is {wanted}."
+        )
+    if given != wanted and not connection.convert:
+        means = f" ({_MEANS[kinds]})" if kinds in _MEANS else ""
+        raise UsageError(f"connection {connection}: {given} to {wanted}{means}; say convert = true.")
+    if target.type != "Real" and (connection.gain != 1.0 or connection.offset != 0.0):
+        raise UsageError(
+            f"connection {connection}: a gain or an offset goes with Real inputs only, and {target.name} is {wanted}."
+        )
+
+
+def _by_event(target: Variable) -> bool:
+    """Whether an input is one of FMI 3.0 that changes in event mode only."""
+    return target.fmi_type.startswith("Float") and not target.continuous
+
+
+def _rate(connection: Connection, source: Variable, where: str, description: Description) -> tuple[str, float]:
+    """The rate, and the factor from its unit to that of the source per second."""
     if not connection.rate:
-        return ""
+        return "", 1.0
     rate = _end(connection.rate, where, description)
     if rate.causality != "output" or rate.type != "Real":
         raise UsageError(f"{where}: the rate is no Real output, but {_what(rate)}.")
     if part_of(rate.name) != part_of(source.name):
         raise UsageError(f"{where}: the rate '{rate.name}' is of another part than the source.")
-    try:
-        factor = description.units.convert(1.0, rate.unit, f"{source.unit}/s") if rate.unit and source.unit else 1.0
-    except UnitMismatchError:
-        factor = 0.0
-    if not math.isclose(factor, 1.0, rel_tol=1e-9):
+    factor = rate_factor(rate, source, description.units)
+    if factor is None:
         raise UsageError(
-            f"{where}: the rate '{rate.name}' is in {rate.unit or '1'}, not in {source.unit or '1'}/s; name an output "
-            "that is, or leave rate out."
+            f"{where}: the rate '{rate.name}' is in {rate.unit}, which does not measure the same as {source.unit}/s; "
+            "name an output that does, or leave rate out."
         )
-    return rate.name
+    return rate.name, factor
 
 
 def _end(name: str, where: str, description: Description) -> Variable:

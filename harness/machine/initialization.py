@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from ..description import Value
 from ..errors import FmuError
 from ..messages import Status
 from .component import Component
@@ -36,18 +37,18 @@ def initialize(
     Raises:
         FmuError: a component refuses or fails.
     """
-    known: dict[str, float] = {}
+    known: dict[str, Value] = {}
     for group in groups:
         to = [link for link in links if part_of(link.target) in group]
         within = [link.source for link in to if part_of(link.source) in group]
         known |= _declared(parts, within)
         for name in group:
             parts[name].component.enter_initialization(start_time, stop_time)
-        told: dict[str, float] = {}
+        told: dict[str, Value] = {}
         for _ in range(len(within) + 1):
             for name in group:
                 known |= _told_early(parts[name].component, name, within)
-            now = {link.target: link.factor * known[link.source] + link.offset for link in to if link.source in known}
+            now = {link.target: link.of(known[link.source]) for link in to if link.source in known}
             changed = {target: value for target, value in now.items() if told.get(target) != value}
             if not changed:
                 break
@@ -59,13 +60,13 @@ def initialize(
             known |= _outputs(parts[name].component, name, [link.source for link in links])
 
 
-def _declared(parts: Mapping[str, Part], sources: Sequence[str]) -> dict[str, float]:
+def _declared(parts: Mapping[str, Part], sources: Sequence[str]) -> dict[str, Value]:
     """What the descriptions say that outputs start with."""
     variables = {source: parts[part_of(source)].component.description.variables[own_of(source)] for source in sources}
-    return {source: float(variable.start) for source, variable in variables.items() if variable.start is not None}
+    return {source: start for source, variable in variables.items() if (start := variable.start_value) is not None}
 
 
-def _told_early(component: Component, name: str, sources: Sequence[str]) -> dict[str, float]:
+def _told_early(component: Component, name: str, sources: Sequence[str]) -> dict[str, Value]:
     """Outputs in the initialization mode, where a component may refuse to tell them; an end is an end there, too."""
     try:
         return _outputs(component, name, sources)
@@ -75,15 +76,15 @@ def _told_early(component: Component, name: str, sources: Sequence[str]) -> dict
         return {}
 
 
-def _outputs(component: Component, name: str, sources: Sequence[str]) -> dict[str, float]:
+def _outputs(component: Component, name: str, sources: Sequence[str]) -> dict[str, Value]:
     own = [source for source in dict.fromkeys(sources) if part_of(source) == name]
     if not own:
         return {}
-    values = zip(own, map(float, component.get([own_of(source) for source in own])), strict=True)
-    return {source: value for source, value in values if math.isfinite(value)}
+    values = zip(own, component.get([own_of(source) for source in own]), strict=True)
+    return {source: value for source, value in values if not (isinstance(value, float) and not math.isfinite(value))}
 
 
-def _tell(parts: Mapping[str, Part], values: Mapping[str, float]) -> None:
+def _tell(parts: Mapping[str, Part], values: Mapping[str, Value]) -> None:
     for name, part in parts.items():
         own = {own_of(target): value for target, value in values.items() if part_of(target) == name}
         if own:

@@ -12,6 +12,7 @@ from .component import Component
 from .connection import Connection, Link
 from .driven import Driven
 from .extrapolation import Extrapolation
+from .held import Held
 from .initialization import initialize
 from .names import own_of, part_of
 from .part import Part
@@ -39,6 +40,8 @@ class Machine:
         unsettled: how often an exchange has ended though a loop without delay (`Structure.loops`) was still changing
             inputs beyond rounding.
         extrapolation: of inputs between communication points.
+        reads_once: all outputs are read once at a communication point, and only then inputs are set, as the masters of
+            other tools do: what follows an input at once is then a step behind.
     """
 
     def __init__(
@@ -47,6 +50,8 @@ class Machine:
         connections: Sequence[Connection] = (),
         extrapolation: Extrapolation = Extrapolation.CONSTANT,
         model: str = "Machine",
+        *,
+        reads_once: bool = False,
     ) -> None:
         """Connect components.
 
@@ -56,12 +61,15 @@ class Machine:
         descriptions = {name: component.description for name, component in components.items()}
         self.structure = structure_of(descriptions, connections, model)
         self.description = self.structure.description
-        links = self.structure.links
+        links = [link for link in self.structure.links if not link.held]
         self.unsettled = 0
         self.point: int | None = 0
         self.extrapolation = extrapolation
+        self.reads_once = reads_once
         self._holds = extrapolation is Extrapolation.CONSTANT
         self.parts = {name: _connected(name, components[name], links) for name in self.structure.order}
+        self._held = Held(self.parts, [link for link in self.structure.links if link.held])
+        self._links = len(links)
         # What a step looks at, without detours.
         self._outputs = {name: part.outputs for name, part in self.parts.items()}
         for outputs in self._outputs.values():
@@ -128,6 +136,30 @@ class Machine:
         self._slopes.clear()
         if self._driven is not None:
             self._driven.exchange(time)
+        if self.reads_once:
+            self._exchange_once(time)
+            return
+        self._flow(time)
+        if not self._held:
+            return
+        for _ in range(len(self._held) + 1):
+            self._held.read()
+            if not self._held.write():
+                return
+            self._flow(time)
+        self.unsettled += 1
+
+    def _exchange_once(self, time: int) -> None:
+        """Read all outputs, then set all inputs."""
+        for outputs in self._outputs.values():
+            outputs.read(time)
+        self._held.read()
+        for name in self._wires:
+            self._write(name)
+        self._held.write()
+
+    def _flow(self, time: int) -> None:
+        """The exchange of what is continuous."""
         if self._holds:
             for refresh in self._refreshers:
                 refresh()
@@ -135,7 +167,7 @@ class Machine:
             for outputs in self._outputs.values():
                 outputs.read(time)
         names: Iterable[str] = self._wires
-        for _ in self.structure.links:
+        for _ in range(self._links):
             changed = [name for name in names if self._write(name)]
             if not changed:
                 return
@@ -206,6 +238,7 @@ class Machine:
     def restored(self, name: str) -> None:
         """A part was put back: what its inputs are is not known any more."""
         self._given.pop(name, None)
+        self._held.restored(name)
         if self._driven is not None:
             self._driven.restored(name)
 
@@ -251,7 +284,10 @@ def _connected(name: str, component: Component, links: Sequence[Link]) -> Part:
     sources = {own_of(link.source): "" for link in own}
     sources |= {own_of(link.source): own_of(link.rate) for link in own if link.rate}
     targets = [own_of(link.target) for link in links if part_of(link.target) == name]
-    return Part(component, list(sources), list(sources.values()), targets)
+    scales = {own_of(link.source): link.rate_factor for link in own if link.rate}
+    return Part(
+        component, list(sources), list(sources.values()), targets, [scales.get(source, 1.0) for source in sources]
+    )
 
 
 def _by_part(names: Sequence[str]) -> dict[str, list[str]]:

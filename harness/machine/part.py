@@ -45,11 +45,16 @@ class Part:
     """
 
     def __init__(
-        self, component: Component, sources: Sequence[str], rates: Sequence[str], targets: Sequence[str]
+        self,
+        component: Component,
+        sources: Sequence[str],
+        rates: Sequence[str],
+        targets: Sequence[str],
+        scales: Sequence[float] = (),
     ) -> None:
         description = component.description
         self.component = component
-        self.outputs = Signals(component, sources, rates)
+        self.outputs = Signals(component, sources, rates, scales)
         self.targets = tuple(targets)
         self.inputs = component.reals(targets)
         self.statistics = Statistics()

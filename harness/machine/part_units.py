@@ -13,7 +13,7 @@ from .names import part_of
 
 #: Tools write so many digits at least.
 _SAME = 1e-9
-_RADIAN = BASE_UNITS.index("rad")
+_RADIAN, _SECOND = BASE_UNITS.index("rad"), BASE_UNITS.index("s")
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,28 @@ def converted(value: float, source: Variable, target: Variable, units: Units) ->
     if source.unit == target.unit and _same(given, wanted):
         return value
     return (given.factor * value + given.offset - wanted.offset) / wanted.factor
+
+
+def rate_factor(rate: Variable, source: Variable, units: Units) -> float | None:
+    """The factor from the unit of a rate to that of its source, per second; None: they do not measure the same.
+
+    One without a unit has the other's; radians do not count.
+    """
+    if not rate.unit or not source.unit:
+        return 1.0
+    own, of = (_meaning(end, units) for end in (rate, source))
+    if own is None or of is None:
+        return 1.0 if rate.unit == f"{source.unit}/s" else None
+    per_second = tuple(n - (place == _SECOND) for place, n in enumerate(of.exponents))
+    if _without_radians(own) != _without_radians(replace(of, exponents=per_second)):
+        return None
+    return own.factor / of.factor
+
+
+def _meaning(variable: Variable, units: Units) -> Measure | None:
+    """What the unit of a variable means to its own part."""
+    own = units.parts.get(part_of(variable.name), units) if isinstance(units, PartUnits) else units
+    return own.meaning(variable.unit)
 
 
 def _same(one: Measure, other: Measure) -> bool:

@@ -31,13 +31,16 @@ class Signals:
         remembers: whether they will be asked for differences; if not, nobody need keep what they were before.
     """
 
-    def __init__(self, component: Component, names: Sequence[str], rates: Sequence[str]) -> None:
+    def __init__(
+        self, component: Component, names: Sequence[str], rates: Sequence[str], scales: Sequence[float] = ()
+    ) -> None:
         """Bind outputs.
 
         Args:
             component: whose they are.
             names: of the outputs.
             rates: for each its derivative among the outputs, "" where none is known.
+            scales: for each the factor from the rate's unit to that of the output, per second; none: 1 for all.
         """
         self.names = tuple(names)
         self._component = component
@@ -45,6 +48,7 @@ class Signals:
         self.values, self.refresh = reals.values, reals.read
         self._now = component.reals(names)
         # A rate that others follow, too, is among the values already.
+        self._scales = tuple(scales) or (1.0,) * len(self.names)
         self._followed = [(k, names.index(rate)) for k, rate in enumerate(rates) if rate in names]
         self._rates = [k for k, rate in enumerate(rates) if rate and rate not in names]
         self._rate = component.reals([rates[k] for k in self._rates])
@@ -100,11 +104,11 @@ class Signals:
         """Slopes of now [unit/s]: rates that are outputs, else what the component tells, else from earlier values."""
         slopes = self.differences()
         for k, rate in self._followed:
-            slopes[k] = self.values[rate]
+            slopes[k] = self._scales[k] * self.values[rate]
         if self._rates:
             self._rate.read()
             for k, slope in zip(self._rates, self._rate.values, strict=True):
-                slopes[k] = slope
+                slopes[k] = self._scales[k] * slope
         if self._told is None:
             known = {*self._rates, *(k for k, _ in self._followed)}
             self._told = [k for k in range(len(self.names)) if k not in known and self._tells(self.names[k])]

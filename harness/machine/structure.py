@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from ..description import Description, Variable
 from ..errors import UsageError
+from ..terminals import Terminal
 from .connection import Connection, Link, linked
 from .loops import loops
 from .names import part_of
@@ -54,7 +55,8 @@ def structure_of(
     """
     variables = {v.name: v for name, description in descriptions.items() for v in _variables(name, description)}
     units = units_of_parts({name: description.units for name, description in descriptions.items()})
-    whole = Description(model, model, "", variables, units)
+    terminals = {t.name: t for name, description in descriptions.items() for t in _terminals(name, description)}
+    whole = Description(model, model, "", variables, units, terminals=terminals)
     links = [linked(connection, whole) for connection in connections]
     for link in links:
         if not variables[link.target].settable:
@@ -63,6 +65,12 @@ def structure_of(
     edges = [(part_of(link.source), part_of(link.target)) for link in links]
     order, cycles = dependency_order(list(descriptions), edges)
     return Structure(whole, links, order, cycles, loops(links, whole))
+
+
+def _terminals(part: str, description: Description) -> Iterator[Terminal]:
+    for terminal in description.terminals.values():
+        members = tuple(replace(member, variable=f"{part}.{member.variable}") for member in terminal.members)
+        yield replace(terminal, name=f"{part}.{terminal.name}", members=members)
 
 
 def _variables(part: str, description: Description) -> Iterator[Variable]:

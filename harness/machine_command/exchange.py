@@ -9,15 +9,20 @@ from pathlib import Path
 from rich.markup import escape
 
 from ..errors import UsageError
+from ..fmu.slave import discard_message
 from ..fmu.workspace import temporary_folder
 from ..machine.container.write import Part, left_out, require_name, write_container
 from ..machine.extrapolation import Extrapolation
 from ..machine.file.plan import Scheme
+from ..machine.machine import Machine
 from ..machine.prepared import Prepared
-from ..machine.ssp.export import write_ssp
+from ..machine.ssp.export import identifier, write_ssp
 from ..machine.ssp.importing import import_ssp
+from ..machine.structure import structure_of
 from ..results import prepare_folder, write_bytes
 from ..terminal import console, show_note
+from .baking import baked_machine
+from .parts import instantiated
 from .prepare import machine_file, prepared
 
 #: What held inputs do to shafts.
@@ -28,14 +33,27 @@ _HELD = (
 )
 
 
-def export_file(name: str, output: Path | None) -> int:
-    """Write a machine as SSP, and say what other tools will not do alike."""
+def export_file(name: str, output: Path | None, baked: bool = False) -> int:
+    """Write a machine as SSP, and say what other tools will not do alike.
+
+    Args:
+        name: of the machine's file, or of a ready one.
+        output: file to write; None: named after the machine's.
+        baked: whether parameters, gains and offsets go into copies of the FMUs.
+    """
     output = Path(f"{machine_file(name).stem}.ssp") if output is None else output
     with prepared(name) as machine:
         prepare_folder(output.parent)
-        files = {part: (fmu.path, fmu.description) for part, fmu in machine.fmus.items()}
-        write_ssp(machine.plan, files, output)
-        for note in _for_others(machine):
+        if baked:
+            with temporary_folder() as place:
+                found, files = baked_machine(machine, place)
+                write_ssp(found.plan, files, output, by_name=True)
+            notes = list(found.notes)
+        else:
+            files = {part: (fmu.path, fmu.description) for part, fmu in machine.fmus.items()}
+            write_ssp(machine.plan, files, output)
+            notes = _needs(machine)
+        for note in [*notes, *_for_others(machine), *_first_inputs(machine)]:
             show_note(note)
     console.print(f"Written: {escape(str(output))}", soft_wrap=True)
     return 0
@@ -95,11 +113,49 @@ def _for_others(machine: Prepared) -> list[str]:
         notes.append(f"Other tools step as they do; algorithm = '{plan.policy.scheme}' is known to this one only.")
     if plan.policy.extrapolation is not Extrapolation.CONSTANT:
         notes.append(f"Most tools hold inputs during a step. {_HELD}")
-    if any(connection.gain != 1.0 or connection.offset != 0.0 for connection in plan.connections):
+    newer = [name for name, description in machine.descriptions.items() if description.fmi == 3]
+    if newer:
         notes.append(
-            "fmpy's simulate_ssp leaves out gains and offsets of connections (docs/machines.md); libcosim has them."
+            f"Of FMI 3.0 are {', '.join(newer)}, which libcosim and fmpy's simulate_ssp do not run; take fmi = 2 for "
+            "these two."
         )
+    if plan.inputs is not None:
+        notes.append(f"No tool reads the table of inputs that goes with it: {plan.inputs.name}.")
     return notes
+
+
+def _needs(machine: Prepared) -> list[str]:
+    """Which tools a plain file is for."""
+    links = structure_of(machine.descriptions, machine.plan.connections).links
+    has = {
+        "parameters": bool(machine.plan.start_values),
+        "gains, offsets or conversions of units": any((x.factor, x.offset) != (1.0, 0.0) for x in links),
+    }
+    what = " and ".join(name for name, there in has.items() if there)
+    if not what:
+        return []
+    return [
+        f"The file has {what}: it is for tools that apply them, as libcosim does, and ecos if its init is given "
+        f'parameter_set="{identifier(machine.plan.title)}". fmpy and the container of fmu-manipulation-toolbox leave '
+        "them out without a word: for these, --baked puts them into copies of the FMUs."
+    ]
+
+
+def _first_inputs(machine: Prepared) -> list[str]:
+    """Where fmpy's first step is another one: it gives 0 to all inputs."""
+    with instantiated(machine, discard_message) as parts:
+        whole = Machine(parts, machine.plan.connections)
+        whole.set(machine.plan.start_values)
+        whole.initialize(0.0, machine.plan.policy.stop_time)
+        sources = [link.source for link in whole.structure.links if link.type != "String"]
+        moved = [name for name, value in zip(sources, whole.get(sources), strict=True) if value]
+    if not moved:
+        return []
+    return [
+        "fmpy's simulate_ssp gives 0 to all inputs in its first step, but the machine does not start from rest: not 0 "
+        f"at the start are {', '.join(dict.fromkeys(moved))}. Its curves will be others; docs/examples/ssp_in_fmpy.py "
+        "runs the plain file there as it is meant."
+    ]
 
 
 def contain_file(name: str, output: Path | None) -> int:

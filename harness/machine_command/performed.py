@@ -114,7 +114,9 @@ def perform(machine: Prepared, folder: Path) -> MachineRun:
         interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop_requested,
         instantiated(machine, said) as parts,
     ):
-        unit = Machine(parts, plan.connections, plan.policy.extrapolation, plan.title)
+        unit = Machine(
+            parts, plan.connections, plan.policy.extrapolation, plan.title, reads_once=plan.policy.reads_once
+        )
         impacts = Impacts(unit)
         bonds = Bonds(unit, {bond.name: Bond(bond.flow, bond.effort, bond.reaction) for bond in plan.bonds})
         signals = [variable.name for variable in chosen(plan.recording.signals, unit.description)]

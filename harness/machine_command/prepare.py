@@ -15,6 +15,7 @@ from ..errors import UsageError
 from ..fmu import Fmu, open_fmu
 from ..fmu.workspace import temporary_folder
 from ..inputs import read_inputs
+from ..machine.file.changes import NO_CHANGES, Changes, changed
 from ..machine.file.components import components
 from ..machine.file.plan import ComponentPlan, Source
 from ..machine.file.read import read_plan
@@ -41,12 +42,15 @@ def machine_file(name: str) -> Path:
 
 
 @contextmanager
-def prepared(name: str, table: Path | None = None, in_process: bool = False) -> Iterator[Prepared]:
+def prepared(
+    name: str, table: Path | None = None, changes: Changes = NO_CHANGES, in_process: bool = False
+) -> Iterator[Prepared]:
     """The machine of a file, or a ready one, with its FMUs extracted; they are removed afterwards.
 
     Args:
         name: of the file or of the ready machine.
         table: of inputs, instead of the file's own.
+        changes: of the command, for this run.
         in_process: whether components of which the file does not say it have no process of their own.
 
     Raises:
@@ -70,6 +74,8 @@ def prepared(name: str, table: Path | None = None, in_process: bool = False) -> 
         plan = read_plan(file, parts, descriptions)
         plan = plan if table is None else replace(plan, inputs=table)
         whole = structure_of(descriptions, plan.connections).description
+        fixed = [name for name, description in descriptions.items() if not description.varies_step]
+        plan = changed(plan, changes, whole, fixed)
         inputs = (
             None if plan.inputs is None else read_inputs(plan.inputs, whole, 0.0, plan.policy.stop_time, plan.sources)
         )

@@ -12,6 +12,7 @@ from ..errors import HarnessError
 from ..isolation import watched
 from ..machine.bonds import HEADINGS as BOND_HEADINGS
 from ..machine.bonds import bond_rows
+from ..machine.file.changes import NO_CHANGES, Changes
 from ..machine.performed import MachineRun
 from ..machine.prepared import Prepared
 from ..machine.statistics import HEADINGS as PART_HEADINGS
@@ -36,17 +37,20 @@ from .performed import perform
 from .prepare import machine_file, prepared
 
 
-def run_file(name: str, table: Path | None, folder: Path | None, in_process: bool = False) -> int:
-    """Run a machine with a table of inputs, write what comes of it, and return the exit code.
+def run_file(
+    name: str, table: Path | None, folder: Path | None, changes: Changes = NO_CHANGES, in_process: bool = False
+) -> int:
+    """Run a machine with a table of inputs and changes, write what comes of it, and return the exit code.
 
     Args:
         name: of the machine or its file.
         table: of inputs, instead of the file's own.
         folder: for the results; its name stays the same whatever an FMU does to the working folder.
+        changes: of the command, for this run.
         in_process: whether components of which the file does not say it have no process of their own.
     """
     folder = (Path(machine_file(name).stem) if folder is None else folder).absolute()
-    with prepared(name, table, in_process) as machine, alone_in(folder, waits=False):
+    with prepared(name, table, changes, in_process) as machine, alone_in(folder, waits=False):
         console.print(f"[bold]{escape(machine.plan.title)}[/]: {', '.join(machine.fmus)}", soft_wrap=True)
         show_notes(machine)
 

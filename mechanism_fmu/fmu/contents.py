@@ -12,6 +12,7 @@ from types import ModuleType
 from xml.etree.ElementTree import Element, SubElement
 
 from ..model import MechanismError, Model
+from ..model.baked import NOTHING_BAKED, Baked, baked_model
 from .documentation import documentation
 from .drawing import drawing
 from .logic import logic
@@ -39,11 +40,11 @@ class Origin:
     notes: str
 
 
-def model_of(module: ModuleType) -> Origin:
-    """The model that a module holds, and where it comes from.
+def model_of(module: ModuleType, baked: Baked = NOTHING_BAKED) -> Origin:
+    """The model that a module holds, with what is baked into this FMU of it, and where it comes from.
 
     Raises:
-        MechanismError: the module has no model, or one whose name no FMU can have.
+        MechanismError: the module has no model, or one whose name no FMU can have, or nothing to bake that into.
     """
     model = getattr(module, "MODEL", None)
     if not isinstance(model, Model) or module.__file__ is None:
@@ -53,7 +54,9 @@ def model_of(module: ModuleType) -> Origin:
             f"The model name {model.name!r} cannot name an FMU; use letters, digits and '_', and no Python keyword."
         )
     own = module.__name__.startswith(OWN)
-    return Origin(model, Path(module.__file__).parent, own, inspect.getdoc(module) or "" if own else "")
+    return Origin(
+        baked_model(model, baked), Path(module.__file__).parent, own, inspect.getdoc(module) or "" if own else ""
+    )
 
 
 def file_in(destination: Path, name: str) -> Path:

@@ -13,6 +13,7 @@ from types import ModuleType
 from pythonfmu.builder import FmuBuilder
 
 from ..model import MechanismError
+from ..model.baked import NOTHING_BAKED, Baked
 from .archive import content_hash, read_entries, with_guid, write_archive
 from .built import record_build
 from .closure import Closure, Home, closure
@@ -57,12 +58,12 @@ _SLAVE = '''"""What pythonfmu's wrapper runs first; the code is in the package b
 
 from {start} import slave_class, tidy_up
 
-{model} = slave_class("{package}", "{module}")
+{model} = slave_class("{package}", "{module}"{baked})
 tidy_up(globals())
 '''
 
 
-def build_fmu(module: ModuleType, destination: Path, report: Report = silently) -> Path:
+def build_fmu(module: ModuleType, destination: Path, report: Report = silently, baked: Baked = NOTHING_BAKED) -> Path:
     """Build the FMU of a model: the same bytes from the same sources and versions of the tools.
 
     Where the package ziglang is installed, the engine travels compiled. Where it is not, the engine is compiled on the
@@ -72,6 +73,7 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
         module: what holds `MODEL`, e.g. `models.ratchet.model`; it may import its neighbours and `mechanism_fmu`.
         destination: folder, made if need be, for "<model name>.fmu".
         report: see `native.objects.compiled_engine`.
+        baked: numbers that this FMU has as its own.
 
     Returns:
         Path of the FMU.
@@ -80,23 +82,25 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
         MechanismError: the module has no model, or a model that cannot travel.
         OSError: the destination cannot be written.
     """
-    origin = model_of(module)
+    origin = model_of(module, baked)
     model, folder = origin.model, origin.folder
     path = file_in(destination, f"{model.name}.fmu")
     place = f"models.{model.name.lower()}"
     home = Home(module.__name__.rpartition(".")[0], folder, place, is_package=not origin.own)
     homes = (Home("mechanism_fmu", _LIBRARY, ""), home)
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
-    sources = closure(homes, ("fmu.slave", main))
+    sources = closure(homes, ("fmu.slave", *(() if baked == NOTHING_BAKED else ("model.baked",)), main))
     code = {name: text.encode() for name, text in sources.files.items()}
     compiled = engine_libraries(report) if has_linker() else {}
     code |= {f"engine/compiled/{name}": library for name, library in compiled.items()}
     start = (_LIBRARY / "fmu" / "start.py").read_text(encoding="utf-8")
 
+    given = _as_arguments(baked)
     # One name for one content: a process that loads several FMUs then never runs the code of the wrong one.
-    digest = content_hash({**code, "start": start.encode(), "slave": f"{_SLAVE}{model.name}{main}".encode()})[:12]
+    starting = f"{_SLAVE}{model.name}{main}{given}".encode()
+    digest = content_hash({**code, "start": start.encode(), "slave": starting})[:12]
     package, starter = f"mechanism_fmu_{digest}", f"start_{digest}"
-    slave = _SLAVE.format(start=starter, model=model.name, package=package, module=main)
+    slave = _SLAVE.format(start=starter, model=model.name, package=package, module=main, baked=given)
     entries = _built_by_pythonfmu(
         f"{model.name}_{digest}",
         {
@@ -110,6 +114,15 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
     # Results follow from all that the fingerprint is of; last digits may be those of this machine.
     write_archive(with_guid(entries) | reference_results(model, library_of(report)), path)
     return record_build(path)
+
+
+def _as_arguments(baked: Baked) -> str:
+    """What is baked, as further arguments of `start.slave_class`; "" for nothing."""
+    if baked == NOTHING_BAKED:
+        return ""
+    starts = tuple((name, float(start)) for name, start in baked.starts.items())
+    inputs = tuple((name, (float(s.factor), float(s.offset), s.unit)) for name, s in baked.inputs.items())
+    return f", {starts!r}, {inputs!r}"
 
 
 def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str, bytes]:

@@ -42,12 +42,19 @@ _entry: str | None = None
 
 
 @cache
-def slave_class(package: str, model: str) -> type:
+def slave_class(
+    package: str,
+    model: str,
+    starts: tuple[tuple[str, float], ...] = (),
+    inputs: tuple[tuple[str, tuple[object, ...]], ...] = (),
+) -> type:
     """The slave class of the FMU.
 
     Args:
         package: name of the package beside this file, which no other contents have.
         model: module of the package, relative to it, that holds `MODEL`.
+        starts: names and start values that this FMU has as its own.
+        inputs: names of those that are given otherwise than in the model, with factor, offset and unit.
 
     Raises:
         ImportError: Python is too old, or a package is missing; the message says what to install.
@@ -58,7 +65,12 @@ def slave_class(package: str, model: str) -> type:
     try:
         _import_package(package, _cached(_RESOURCES / package))
         slave = importlib.import_module(f"{package}.fmu.slave")
-        made: type = slave.make_slave_class(importlib.import_module(f"{package}.{model}").MODEL)
+        described = importlib.import_module(f"{package}.{model}").MODEL
+        if starts or inputs:
+            baked = importlib.import_module(f"{package}.model.baked")
+            seen = {name: baked.Seen(*given) for name, given in inputs}
+            described = baked.baked_model(described, baked.Baked(dict(starts), seen))
+        made: type = slave.make_slave_class(described)
     except ModuleNotFoundError as error:
         lines = (_RESOURCES / "requirements.txt").read_text(encoding="utf-8").splitlines()
         # Of the comments, those that are no sentence are packages for platforms without a compiled engine.

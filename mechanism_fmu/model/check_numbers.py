@@ -53,6 +53,8 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
     for port in mechanism.inputs:
         text = f"Input {literal(repr(port.name))}: start = {{:g}} is not finite."
         yield refuse_unless(finite(port.start), text, port.start)
+        text = f"Input {literal(repr(port.name))}: factor {{:g}} and offset {{:g}} must be finite."
+        yield refuse_unless(finite(port.factor, port.offset), text, port.factor, port.offset)
     for joint in mechanism.joints:
         yield from joint_findings(joint)
     for contact in mechanism.contacts:

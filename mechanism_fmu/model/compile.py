@@ -94,6 +94,8 @@ class MechanismTables:
     input_force: Table
     input_column: Table
     input_start: Table
+    input_factor: Table
+    input_offset: Table
     output_kind: Table
     output_index: Table
     output_slot: Table
@@ -212,6 +214,8 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
         input_force=_integers([forces[force] for force, _ in targets]),
         input_column=_integers([mechanism.forces[forces[force]].columns[entry] for force, entry in targets]),
         input_start=_numbers([i.start for i in mechanism.inputs]),
+        input_factor=_numbers([i.factor for i in mechanism.inputs]),
+        input_offset=_numbers([i.offset for i in mechanism.inputs]),
         output_kind=_integers([kind for kind, _, _ in outputs + constants]),
         output_index=_integers([index for _, index, _ in outputs + constants]),
         output_slot=_integers([slot for _, _, slot in outputs + constants]),

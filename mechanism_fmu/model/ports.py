@@ -43,6 +43,7 @@ class Input:
         name: FMI name.
         target: the table entry it writes, "<force>.<column>", e.g. "drive.torque" or "spring.preload".
         start, unit, minimum, maximum, display_unit, description: as of `Parameter`.
+        factor, offset: the entry gets factor * value + offset, in SI units; the factor is not 0.
     """
 
     name: str
@@ -53,6 +54,8 @@ class Input:
     minimum: float | None = None
     maximum: float | None = None
     display_unit: str | None = None
+    factor: float = 1.0
+    offset: float = 0.0
 
 
 @dataclass(frozen=True)

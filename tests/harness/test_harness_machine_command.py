@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 import build_fmu
 from harness.cli import main
+from harness.description import read_description
 from harness.errors import UsageError
 from harness.machine import growing_table, record
 from harness.machine_command import exchange, files, prepare
@@ -228,7 +229,9 @@ def test_a_component_in_a_process_of_its_own(machine, tmp_path):
 def test_export_and_import(machine, tmp_path):
     code, text = invoke("export", machine, "-o", tmp_path / "geared.ssp")
     assert code == 0
-    assert "fmpy's simulate_ssp leaves out gains and offsets" in text
+    assert "The file has parameters and gains, offsets or conversions of units: it is for tools that apply them" in text
+    assert 'parameter_set="Geared_cam"' in text
+    assert "--baked puts them into copies of the FMUs" in text
     code, text = invoke("import", tmp_path / "geared.ssp", "-o", tmp_path / "back")
     assert code == 0
     assert f"mechanism-fmu machine run {tmp_path / 'back' / 'geared.toml'}" in text
@@ -286,3 +289,66 @@ def test_container(machine, tmp_path, monkeypatch):
     invoke("run", machine, "-o", tmp_path / "machine")
     ours = pd.read_parquet(tmp_path / "machine/results.parquet")
     assert results["cam.cam_angle"].to_numpy()[::2] == pytest.approx(ours["cam.cam_angle"].to_numpy(), rel=1e-9)
+
+
+def test_a_run_with_another_step_other_values_and_as_others_do(machine, tmp_path):
+    """What is changed for one run is in its record, and so is how it stepped."""
+    code, text = invoke(
+        *("run", machine, "-o", tmp_path / "out", "--step", "10 ms", "--as-others"),
+        *("--set", "cam.drive_stiffness=4", "--set", "gears.drive_damping=0.4 N.m.s/rad"),
+    )
+    assert code == 0
+    assert "100 steps in" in text
+    assert "Stepped as the masters of other tools do" in text
+    summary = json.loads((tmp_path / "out/summary.json").read_text())
+    run = summary["run"]
+    assert (run["step"], run["algorithm"]) == (0.01, "jacobi")
+    assert (run["extrapolation"], run["reads_once"]) == ("constant", True)
+    assert summary["components"]["cam"]["start_values"]["drive_stiffness"] == 4.0
+    assert summary["components"]["gears"]["start_values"]["drive_damping"] == 0.4
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--step", "0"), "step"),
+        (("--step", "5 m"), "does not measure the same quantity"),
+        (("--set", "cam.drive_angle=1"), "'cam.drive_angle' follows gears.wheel_angle, by a connection"),
+        (("--set", "cam.stiffness=1"), "has no variable 'cam.stiffness'. Did you mean cam."),
+        (("--set", "cam.drive_stiffness"), "is not a setting"),
+        (("--set", "cam.drive_stiffness=-1"), "is below its limit"),
+    ],
+)
+def test_changes_that_cannot_be(machine, tmp_path, arguments, said):
+    code, text = invoke("run", machine, "-o", tmp_path / "out", *arguments)
+    assert (code, said in text) == (2, True), text
+    assert not (tmp_path / "out/summary.json").exists()
+
+
+def test_export_of_a_machine_with_numbers_of_its_own(machine, tmp_path):
+    """Files of this version's models are built anew; nothing is left for the tool to apply."""
+    code, text = invoke("export", machine, "--baked", "-o", tmp_path / "baked.ssp")
+    assert code == 0, text
+    assert "Building gear_train (native) with the numbers of gears" in text
+    assert "it is for tools that apply them" not in text
+    assert "not 0 at the start" not in text  # from rest, at 0
+    entries = read_entries(tmp_path / "baked.ssp")
+    assert sorted(entries) == ["SystemStructure.ssd", "resources/cam.fmu", "resources/gears.fmu"]
+    assert b"LinearTransformation" not in entries["SystemStructure.ssd"]
+    cam = read_description(_file(tmp_path / "cam.fmu", entries["resources/cam.fmu"]))
+    assert float(str(cam.variables["drive_stiffness"].start)) == 5.0
+    gears = read_description(_file(tmp_path / "gears.fmu", entries["resources/gears.fmu"]))
+    assert "acts as -1 * value + 0.001 N.m" in gears.variables["load_torque"].description
+
+
+def _file(path: Path, contents: bytes) -> Path:
+    path.write_bytes(contents)
+    return path
+
+
+def test_export_says_where_the_first_step_of_fmpy_is_another(machine, tmp_path):
+    moved = machine.read_text().replace("drive_torque = 0.0\n", 'drive_torque = 0.0\npinion_angle_start = "90 deg"\n')
+    machine.write_text(moved)
+    code, text = invoke("export", machine, "-o", tmp_path / "plain.ssp")
+    assert code == 0
+    assert "not 0 at the start are gears.wheel_angle" in text

@@ -1,12 +1,13 @@
 /* An FMU (FMI 2.0 for co-simulation) whose outputs are factor * input + offset at every instant; nothing moves in it.
-   Channel k has the value references 4 k (input), 4 k + 1 (output), 4 k + 2 (factor) and 4 k + 3 (offset). */
+   Channel k has the value references 4 k (input), 4 k + 1 (output), 4 k + 2 (factor) and 4 k + 3 (offset).
+   given.h has its GUID, and what the first factors and offsets are before anybody sets them; others are 1 and 0. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "fmi2Functions.h"
+#include "given.h"
 
 #define CHANNELS 256
-#define GUID "{mechanism_fmu gains 1}"
 
 enum Place { IN, OUT, FACTOR, OFFSET };
 
@@ -17,6 +18,10 @@ typedef struct {
 static void begin(Gains *x) {
     memset(x, 0, sizeof *x);
     for (int k = 0; k < CHANNELS; k++) x->of[k][FACTOR] = 1.0;
+    for (int k = 0; k < GIVEN; k++) {
+        x->of[k][FACTOR] = given[k][0];
+        x->of[k][OFFSET] = given[k][1];
+    }
 }
 
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }

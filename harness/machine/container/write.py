@@ -26,7 +26,7 @@ from ..loops import in_order
 from ..names import part_of
 from ..structure import structure_of
 from .description import Exposed, container_description
-from .gains import CHANNELS, GUID, NAME, factor_reference, gains_entries, in_reference, offset_reference, out_reference
+from .gains import CHANNELS, NAME, factor_reference, gains_entries, guid, in_reference, offset_reference, out_reference
 
 _BINARIES = Path(container_fmu.__file__).with_name("binaries")
 _PLATFORMS = {
@@ -77,7 +77,15 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
             raise UsageError(f"{name} is an element of an array, which fmpy's container cannot connect.")
         if not _readable(machine.variables[name], parts):
             kind = machine.variables[name].fmi_type
-            raise UsageError(f"{name} is of type {kind}, which fmpy's container cannot connect; it knows Float64 only.")
+            known = ", ".join(_TYPES.values())
+            raise UsageError(f"{name} is of type {kind}, which fmpy's container cannot connect; it knows {known} only.")
+    for link in links:
+        kinds = [machine.variables[name].type for name in (link.source, link.target)]
+        if kinds[0] != kinds[1]:
+            raise UsageError(
+                f"{link.source} -> {link.target}: {kinds[0]} to {kinds[1]}, which fmpy's container cannot convert. "
+                "Run the machine here, or connect signals of one kind."
+            )
     scaled = [link for link in links if link.factor != 1.0 or link.offset != 0.0]
     if len(scaled) > CHANNELS:
         raise UsageError(
@@ -152,14 +160,15 @@ def _components(parts: Mapping[str, Part], scaled: bool) -> list[dict[str, str]]
         }
         for name, part in parts.items()
     ]
-    ours = {"fmiMajorVersion": "2", "name": f"{NAME} of connections", "instantiationToken": GUID}
+    ours = {"fmiMajorVersion": "2", "name": f"{NAME} of connections", "instantiationToken": guid()}
     return [*components, *([{**ours, "modelIdentifier": NAME, "path": NAME}] if scaled else [])]
 
 
 def _readable(variable: Variable, parts: Mapping[str, Part]) -> bool:
     """Whether fmpy's container has the functions for its type; it takes an Int64 of FMI 3.0 for an Int32, and fails."""
     fmi = parts[part_of(variable.name)].description.fmi
-    return variable.elements == 1 and (fmi == 2 or variable.fmi_type in _TYPES.values())
+    known = variable.type in _TYPES if fmi == 2 else variable.fmi_type in _TYPES.values()
+    return variable.elements == 1 and known
 
 
 def left_out(plan: Plan, parts: Mapping[str, Part]) -> list[str]:
@@ -242,13 +251,13 @@ def _connections(
             found.append(_connection(first, source.reference, len(names), in_reference(channel)))
             found.append(_connection(len(names), out_reference(channel), last, target.reference))
         else:
-            found.append(_connection(first, source.reference, last, target.reference))
+            found.append(_connection(first, source.reference, last, target.reference, _TYPES[target.type]))
     return found
 
 
-def _connection(source: int, output: int, target: int, entry: int) -> dict[str, Any]:
+def _connection(source: int, output: int, target: int, entry: int, kind: str = "Float64") -> dict[str, Any]:
     return {
-        "variableType": "Float64",
+        "variableType": kind,
         "srcComponent": source,
         "srcValueReferences": [output],
         "dstComponent": target,

@@ -10,6 +10,7 @@ from ...toml_file import Section, TomlFile
 from ...toml_values import as_text, parsed
 from ..connection import Connection, linked
 from ..names import own_of, part_of
+from ..plugs import SHIFTED, plugged
 from .plan import BondPlan
 
 
@@ -27,35 +28,70 @@ def connections(
     found: list[Connection] = []
     first: dict[str, Section] = {}
     for section in file.sections("connect"):
-        connection = _connection(section, description)
-        if connection is None:
-            continue
-        if connection.target in first:
-            earlier = first[connection.target].key[-1]
-            section.wrong("to", f"'{connection.target}' has a connection already, {earlier}; an input can have one")
-        first.setdefault(connection.target, section)
-        if _checked(section, connection, description, known, names):
-            found.append(connection)
+        for connection in _connections(section, description):
+            if connection.target in first:
+                earlier = first[connection.target].key[-1]
+                section.wrong("to", f"'{connection.target}' has a connection already, {earlier}; an input can have one")
+            first.setdefault(connection.target, section)
+            if _checked(section, connection, description, known, names):
+                found.append(connection)
     return found
 
 
-def _connection(section: Section, description: Description) -> Connection | None:
+def _connections(section: Section, description: Description) -> list[Connection]:
+    """What a table says: a connection, or those of two terminals."""
     source = section.text("from", needed='write the output that is followed, as in from = "motor.speed"')
     target = section.text("to", needed='write the input that follows, as in to = "gears.drive_speed"')
+    ends = [end for end in (source, target) if end in description.terminals and end not in description.variables]
+    if source is not None and target is not None and ends:
+        return _plugged(section, source, target, description)
     gain = section.number("gain", 1.0)
     rate = section.text("rate") or ""
-    given = section.take("offset")
+    convert = section.flag("convert")
+    offset = _offset(section, description.variables.get(target or ""), description)
     section.done()
-    offset: float | None = 0.0
-    if given is not None and target is not None and target in description.variables:
-        unit = description.variables[target].unit
-        value = parsed(
-            section, "offset", as_text(given), Variable("offset", -1, "Real", "input", unit=unit), description
-        )
-        offset = None if value is None else float(value)
     if source is None or target is None or gain is None or offset is None:
-        return None
-    return Connection(source, target, gain, offset, rate)
+        return []
+    return [Connection(source, target, gain, offset, rate, convert)]
+
+
+def _plugged(section: Section, source: str, target: str, description: Description) -> list[Connection]:
+    """The connections of two terminals."""
+    for key in ("gain", "rate", "convert"):
+        if section.take(key) is not None:
+            section.wrong(key, "goes with a connection of variables, not of terminals: these say it themselves")
+    terminals = [description.terminals.get(end) for end in (source, target)]
+    for key, end, terminal in zip(("from", "to"), (source, target), terminals, strict=True):
+        if terminal is None:
+            there = ", ".join(description.terminals)
+            section.wrong(key, f"'{end}' is no terminal, as the other end is; there are: {there}")
+    angle = None
+    for terminal in terminals:
+        for member in () if terminal is None else terminal.members:
+            variable = description.variables.get(member.variable)
+            if member.name in SHIFTED and variable is not None and variable.causality == "input":
+                angle = variable
+    offset = _offset(section, angle, description)
+    section.done()
+    if offset is None or terminals[0] is None or terminals[1] is None:
+        return []
+    try:
+        return plugged(terminals[0], terminals[1], description, offset)
+    except UsageError as error:
+        section.wrong("from", str(error))
+        return []
+
+
+def _offset(section: Section, target: Variable | None, description: Description) -> float | None:
+    """The offset, in the unit of the variable that it is added to; None if it is wrong."""
+    given = section.take("offset")
+    if given is None:
+        return 0.0
+    if target is None:
+        return 0.0  # what is wrong with the target is told elsewhere
+    unit = Variable("offset", -1, "Real", "input", unit=target.unit)
+    value = parsed(section, "offset", as_text(given), unit, description)
+    return None if value is None else float(value)
 
 
 def _checked(

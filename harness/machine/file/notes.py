@@ -38,6 +38,17 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
     found += _free_inputs(plan, machine.description, driven)
     found += _without_units(plan.connections, machine.description)
     found += _extrapolation(plan, descriptions)
+    held = [f"{link.source} -> {link.target}" for link in machine.links if link.held]
+    if held:
+        found.append(
+            f"Held, and never interpolated or extrapolated: {', '.join(held)}. A change takes effect at the first "
+            "communication point at which it is seen, with every algorithm; until there its receiver has the old value."
+        )
+    if plan.policy.reads_once:
+        found.append(
+            "Stepped as the masters of other tools do (--as-others): fixed steps, all components at once, inputs held, "
+            "each output read once at a communication point."
+        )
     found += [_pushed(bond) for bond in plan.bonds if pushes(Bond(bond.flow, bond.effort, bond.reaction))]
     found += _apart(plan)
     stiff = [name for name, description in descriptions.items() if not description.saves_state]

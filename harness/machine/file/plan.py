@@ -97,6 +97,7 @@ class Policy:
         scheme: algorithm.
         extrapolation: of inputs between communication points.
         tolerance: of adaptive steps; None for others.
+        reads_once: outputs are read once at a communication point (`Machine.reads_once`); no key of the file says so.
     """
 
     stop_time: float
@@ -104,6 +105,7 @@ class Policy:
     scheme: Scheme = Scheme.EVENT_AWARE
     extrapolation: Extrapolation = Extrapolation.DERIVATIVES
     tolerance: float | None = None
+    reads_once: bool = False
 
 
 @dataclass(frozen=True)

@@ -76,6 +76,8 @@ def _connection(connection: Connection, descriptions: Mapping[str, Description])
         table["offset"] = _with_unit(connection.offset, descriptions[part].variables[name])
     if connection.rate:
         table["rate"] = connection.rate
+    if connection.convert:
+        table["convert"] = True
     return _table("[[connect]]", table)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Mapping
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -16,23 +17,25 @@ from ..file.plan import ComponentPlan, Plan
 from ..recorded import chosen
 from ..structure import structure_of
 from . import own
-from .xml import OSP, TOOL, TYPES, annotation, child, root, to_bytes, unit_elements, value_element
+from .xml import OMS, OSP, TOOL, TYPES, annotation, child, root, to_bytes, unit_elements, value_element
 
 _FMU = "application/x-fmu-sharedlibrary"
 
 
-def write_ssp(plan: Plan, fmus: Mapping[str, tuple[Path, Description]], path: Path) -> Path:
+def write_ssp(plan: Plan, fmus: Mapping[str, tuple[Path, Description]], path: Path, *, by_name: bool = False) -> Path:
     """Write a machine as SSP 1.0: SystemStructure.ssd, and FMUs, parameters (.ssv) and input table in resources.
 
     Args:
         plan: the machine.
         fmus: file and description of each component's FMU, by the component's name.
         path: of the .ssp file.
+        by_name: each component has an FMU of its own, which is named after it.
 
     Raises:
         UsageError: the disk refuses.
     """
-    files = _fmu_names({name: file for name, (file, _) in fmus.items()})
+    paths = {name: file for name, (file, _) in fmus.items()}
+    files = {name: f"resources/{name}.fmu" for name in paths} if by_name else _fmu_names(paths)
     descriptions = {name: description for name, (_, description) in fmus.items()}
     machine = structure_of(descriptions).description
     entries: dict[str, bytes] = {}
@@ -44,7 +47,9 @@ def write_ssp(plan: Plan, fmus: Mapping[str, tuple[Path, Description]], path: Pa
             entries[inputs] = plan.inputs.read_bytes()
         for component in plan.components:
             if component.values:
-                entries[_values_name(component)] = to_bytes(_values(component, descriptions[component.name]))
+                entries[_values_name(component)] = to_bytes(
+                    _values(plan.title, component, descriptions[component.name])
+                )
         entries["SystemStructure.ssd"] = to_bytes(_structure(plan, files, descriptions, machine, inputs))
         write_archive(entries, path)
     except OSError as error:
@@ -59,8 +64,10 @@ def _structure(
     machine: Description,
     inputs: str | None,
 ) -> Element:
-    structure = root("ssd:SystemStructureDescription", {"version": "1.0", "name": plan.title, "generationTool": TOOL})
-    system = child(structure, "ssd:System", {"name": re.sub(r"\W+", "_", plan.title) or "machine"})
+    # Tools make names of files and prefixes of variables of these names.
+    named = {"name": identifier(plan.title), "description": plan.title}
+    structure = root("ssd:SystemStructureDescription", {"version": "1.0", **named, "generationTool": TOOL})
+    system = child(structure, "ssd:System", named)
     elements = child(system, "ssd:Elements")
     connectors = _connectors(plan, machine)
     for component in plan.components:
@@ -78,6 +85,7 @@ def _structure(
         connections = child(system, "ssd:Connections")
         for connection in plan.connections:
             _add_connection(connections, connection, machine)
+    _add_step(system, plan.policy.step)
     units = [v.unit for name, found in connectors.items() for v in _of(found, descriptions[name]) if v.unit]
     unit_elements(structure, "ssd", units, machine)
     experiment = child(structure, "ssd:DefaultExperiment", {"startTime": 0.0, "stopTime": plan.policy.stop_time})
@@ -85,6 +93,20 @@ def _structure(
     child(algorithm, "osp:FixedStepAlgorithm", {"baseStepSize": plan.policy.step})
     own.write_machine(structure, plan, inputs)
     return structure
+
+
+def identifier(title: str) -> str:
+    """A title as a C identifier: "Geared cam" is Geared_cam."""
+    plain = unicodedata.normalize("NFKD", title).encode("ascii", "ignore").decode()
+    plain = re.sub(r"\W+", "_", plain).strip("_") or "machine"
+    return f"_{plain}" if plain[0].isdigit() else plain
+
+
+def _add_step(system: Element, step: float) -> None:
+    """The step where OMSimulator looks for it; its tolerances mean nothing to a fixed step."""
+    tolerances = {"absoluteTolerance": "1e-4", "relativeTolerance": "1e-4"}
+    information = child(child(annotation(system, OMS, "ssd"), "oms:Annotations"), "oms:SimulationInformation")
+    child(information, "oms:FixedStepMaster", {"description": "oms-ma", "stepSize": step, **tolerances})
 
 
 def _connectors(plan: Plan, machine: Description) -> dict[str, list[str]]:
@@ -140,9 +162,9 @@ def _values_name(component: ComponentPlan) -> str:
     return f"resources/{component.name}.ssv"
 
 
-def _values(component: ComponentPlan, description: Description) -> Element:
-    """The start values of a component."""
-    values = root("ssv:ParameterSet", {"version": "1.0", "name": component.name, "generationTool": TOOL})
+def _values(title: str, component: ComponentPlan, description: Description) -> Element:
+    """The start values of a component; the sets of all have one name, by which ecos chooses them."""
+    values = root("ssv:ParameterSet", {"version": "1.0", "name": identifier(title), "generationTool": TOOL})
     parameters = child(values, "ssv:Parameters")
     for name, value in component.values.items():
         parameter = child(parameters, "ssv:Parameter", {"name": name})

@@ -11,7 +11,7 @@ from ...assignments import parse_value, settable_variable
 from ...description import Description, Value, read_description
 from ...errors import UsageError
 from ...results import write_bytes, write_text
-from ..connection import Connection, linked
+from ..connection import Connection, kind_of, linked
 from ..file.plan import ComponentPlan, Plan, Policy, Recording, Source
 from ..file.write import machine_toml
 from ..structure import structure_of
@@ -119,18 +119,24 @@ def _connection(connection: SspConnection, names: Mapping[str, str], machine: De
     """
     (first, _, output), (second, _, entry) = connection.source.partition("."), connection.target.partition(".")
     source, target = f"{names[first]}.{output}", f"{names[second]}.{entry}"
-    rate = connection.rate
-    plain = Connection(source, target, rate=rate)
+    rate, convert = connection.rate, connection.convert or _kinds_differ(source, target, machine)
+    plain = Connection(source, target, rate=rate, convert=convert)
     unit = linked(plain, machine)
     if connection.gain is not None and connection.own_offset is not None:
-        ours = Connection(source, target, connection.gain, connection.own_offset, rate)
+        ours = Connection(source, target, connection.gain, connection.own_offset, rate, convert)
         link = linked(ours, machine)
         if (link.factor, link.offset) == (connection.factor, connection.offset):
             return ours
     if connection.converts:
-        return Connection(source, target, connection.factor, connection.offset, rate)
+        return Connection(source, target, connection.factor, connection.offset, rate, convert)
     gain = connection.factor / unit.factor
-    return Connection(source, target, gain, connection.offset - gain * unit.offset, rate)
+    return Connection(source, target, gain, connection.offset - gain * unit.offset, rate, convert)
+
+
+def _kinds_differ(source: str, target: str, machine: Description) -> bool:
+    """Whether a file of another tool connects a Boolean, say, with an Integer; `linked` says whether that can be."""
+    ends = [machine.variables.get(name) for name in (source, target)]
+    return None not in ends and len({kind_of(end) for end in ends if end is not None}) == 2
 
 
 def _plan(

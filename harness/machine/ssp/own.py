@@ -33,10 +33,10 @@ def write_component(parent: Element, component: ComponentPlan) -> None:
 
 
 def write_connection(parent: Element, connection: Connection, converted: bool) -> None:
-    """The rate of a connection; gain and offset if the transformation `converted` units, too."""
+    """The rate of a connection, whether it converts; gain and offset if the transformation `converted` units, too."""
     numbers = {"gain": connection.gain, "offset": connection.offset} if converted else {}
-    if connection.rate or converted:
-        attributes = {"rate": connection.rate or None, **numbers}
+    if connection.rate or connection.convert or converted:
+        attributes = {"rate": connection.rate or None, "convert": connection.convert or None, **numbers}
         child(annotation(parent, OWN, "ssd"), "own:Connection", attributes)
 
 
@@ -52,13 +52,13 @@ def read_component(element: Element) -> tuple[bool | None, float | None]:
     return True, None if limit is None else float(limit)
 
 
-def read_connection(element: Element) -> tuple[str, float | None, float | None]:
-    """Rate, gain and offset of a connection; None for those that the transformation has."""
+def read_connection(element: Element) -> tuple[str, float | None, float | None, bool]:
+    """Rate, gain and offset of a connection, None for those that the transformation has; whether it converts."""
     own = annotated(element, OWN, "own:Connection")
     if own is None:
-        return "", None, None
-    gain, offset = own.get("gain"), own.get("offset")
-    return own.get("rate", ""), None if gain is None else float(gain), None if offset is None else float(offset)
+        return "", None, None, False
+    gain, offset = (None if number is None else float(number) for number in (own.get("gain"), own.get("offset")))
+    return own.get("rate", ""), gain, offset, own.get("convert") == "true"
 
 
 def machine_element(root: Element) -> Element | None:

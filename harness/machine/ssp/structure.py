@@ -14,7 +14,7 @@ from mechanism_fmu.fmu.archive import read_entries
 
 from ...errors import UsageError
 from .own import read_component, read_connection
-from .xml import OSP, TYPES, annotated, from_bytes, tag
+from .xml import OSP, OWN, TYPES, annotated, from_bytes, tag
 
 _STRUCTURE = "SystemStructure.ssd"
 
@@ -54,7 +54,7 @@ class SspConnection:
         source, target: "<component>.<connector>".
         factor, offset: of the transformation.
         converts: whether units are still to be converted, before the transformation.
-        rate, gain, own_offset: of our own annotation.
+        rate, gain, own_offset, convert: of our own annotation.
     """
 
     source: str
@@ -65,6 +65,7 @@ class SspConnection:
     rate: str = ""
     gain: float | None = None
     own_offset: float | None = None
+    convert: bool = False
 
 
 @dataclass
@@ -109,7 +110,9 @@ def read_structure(path: Path) -> Structure:
     system = root.find(tag("ssd:System"))
     if root.tag != tag("ssd:SystemStructureDescription") or system is None:
         raise UsageError(f"'{path}' is no SSP 1.0 file: {_STRUCTURE} has no ssd:System.")
-    structure = Structure(entries, root, root.get("name") or system.get("name") or path.stem)
+    # Our own files have the title there; in others it may be a text of any length.
+    title = root.get("description") if annotated(root, OWN, "own:Machine") is not None else None
+    structure = Structure(entries, root, title or root.get("name") or system.get("name") or path.stem)
     _read_elements(structure, system, path)
     for element in system.iterfind(f"{tag('ssd:Connections')}/{tag('ssd:Connection')}"):
         _read_connection(structure, element, path)
@@ -147,7 +150,7 @@ def _read_connection(structure: Structure, element: Element, path: Path) -> None
         raise UsageError(f"'{path}': the connection from '{source}' to '{target}' maps values one by one.")
     linear = element.find(tag("ssc:LinearTransformation"))
     given = {} if linear is None else linear.attrib
-    rate, gain, offset = read_connection(element)
+    rate, gain, offset, convert = read_connection(element)
     structure.connections.append(
         SspConnection(
             source,
@@ -158,6 +161,7 @@ def _read_connection(structure: Structure, element: Element, path: Path) -> None
             rate,
             gain,
             offset,
+            convert,
         )
     )
 

@@ -16,13 +16,14 @@ _NAMESPACES = {
     "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
     "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
     "osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
+    "oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd",
     "own": "urn:mechanism-fmu:machine",
 }
 for _prefix, _address in _NAMESPACES.items():
     ElementTree.register_namespace(_prefix, _address)
 
-#: Of the annotations of the Open Simulation Platform, and of our own.
-OSP, OWN = "com.opensimulationplatform", "mechanism_fmu"
+#: Of the annotations of the Open Simulation Platform, of OMSimulator, and of our own.
+OSP, OMS, OWN = "com.opensimulationplatform", "org.openmodelica", "mechanism_fmu"
 
 #: What FMI and SSP call the types alike.
 TYPES = ("Real", "Integer", "Boolean", "String")

@@ -209,6 +209,8 @@ FIELDS = (
     Field("tables", "input_force", ("inputs",), True),
     Field("tables", "input_column", ("inputs",), True),
     Field("tables", "input_start", ("inputs",)),
+    Field("tables", "input_factor", ("inputs",)),
+    Field("tables", "input_offset", ("inputs",)),
     Field("tables", "output_kind", ("outputs",), True),
     Field("tables", "output_index", ("outputs",), True),
     Field("tables", "output_slot", ("outputs",), True),

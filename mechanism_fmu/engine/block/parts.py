@@ -177,12 +177,16 @@ class Ports(NamedTuple):
 
     `inputs` and `input_slopes` (unit of the input per second) are what the outside sets. When a communication step
     begins, the motion takes them as `held_inputs` and `held_slopes`, and `input_slopes` become zero; where it stops,
-    `inputs` become the values reached. `left_outputs` are kept by who stops before an event (FMI 3.0's event mode).
+    `inputs` become the values reached. All of them are as the outside has them; `input_factor` and `input_offset` make
+    of them what a table entry gets. `left_outputs` are kept by who
+    stops before an event (FMI 3.0's event mode).
     """
 
     input_force: Array
     input_column: Array
     input_start: Array
+    input_factor: Array
+    input_offset: Array
     inputs: Array
     held_inputs: Array
     input_slopes: Array

@@ -1,4 +1,4 @@
-"""Inputs: each is written into an entry of the force table. No model-specific code.
+"""Inputs: factor * value + offset of each is written into an entry of the force table. No model-specific code.
 
 An input may have a slope, which acts during one communication step only. The step's first value and slope are kept
 (`held_inputs`, `held_slopes`, from RAMP_START on), and whoever moves the time calls `set_time` before forces or rows
@@ -44,11 +44,12 @@ def take_inputs(block: Array) -> None:
 
 @jit
 def feed(block: Array, values: Array) -> None:
-    """Write `values`, shape (inputs,), into the table entries that the inputs feed."""
+    """Write what `values`, shape (inputs,), stand for into the table entries that the inputs feed."""
     table = ports(block)
     data = forces(block).data
     for k in range(values.shape[0]):
-        data[table.input_force[k], table.input_column[k]] = values[k]
+        entry = table.input_factor[k] * values[k] + table.input_offset[k]
+        data[table.input_force[k], table.input_column[k]] = entry
 
 
 @jit
@@ -65,7 +66,8 @@ def _feed_ramp(block: Array, time: float) -> None:
     table = ports(block)
     data = forces(block).data
     for k in range(table.inputs.shape[0]):
-        data[table.input_force[k], table.input_column[k]] = _reached(block, k, time)
+        entry = table.input_factor[k] * _reached(block, k, time) + table.input_offset[k]
+        data[table.input_force[k], table.input_column[k]] = entry
 
 
 @jit

@@ -15,6 +15,7 @@ import fmpy
 
 from ...engine.block.pack import pack
 from ...model import Model, compile_mechanism
+from ...model.baked import NOTHING_BAKED, Baked
 from ...model.trace import trace
 from ..archive import DESCRIPTION, content_hash, write_archive
 from ..built import record_build
@@ -59,7 +60,12 @@ _FACTS = (
 
 
 def build_native_fmu(
-    module: ModuleType, destination: Path, fmi: int = 2, report: Report = silently, clocks: bool = False
+    module: ModuleType,
+    destination: Path,
+    fmi: int = 2,
+    report: Report = silently,
+    clocks: bool = False,
+    baked: Baked = NOTHING_BAKED,
 ) -> Path:
     """Build the native FMU of a model: the same bytes from the same sources and versions of the tools.
 
@@ -69,6 +75,7 @@ def build_native_fmu(
         fmi: major version of the standard, 2 or 3.
         report: see `compiled_engine`.
         clocks: FMI 3.0 with a clock of impacts and arrays, for importers that use them; it runs in event mode only.
+        baked: numbers that this FMU has as its own.
 
     Returns:
         Path of the FMU.
@@ -78,7 +85,7 @@ def build_native_fmu(
         OSError: the destination cannot be written.
     """
     need_linker()
-    origin = model_of(module)
+    origin = model_of(module, baked)
     model = origin.model
     path = file_in(destination, f"{model.name}.fmu")
     traced = formulas(trace(model), pack(compile_mechanism(model.build(model.values()))))

@@ -32,10 +32,10 @@ class Trouble:
 
 def description(restores: bool) -> Description:
     variables = [
-        Variable("torque", 0, "Real", "input", unit="N.m"),
-        Variable("angle", 1, "Real", "output", unit="rad", depends_on=frozenset()),
-        Variable("speed", 2, "Real", "output", unit="rad/s", depends_on=frozenset()),
-        Variable("drag", 3, "Real", "output", unit="N.m", depends_on=frozenset({"torque"})),
+        Variable("torque", 0, "Real", "input", continuous=True, unit="N.m"),
+        Variable("angle", 1, "Real", "output", continuous=True, unit="rad", depends_on=frozenset()),
+        Variable("speed", 2, "Real", "output", continuous=True, unit="rad/s", depends_on=frozenset()),
+        Variable("drag", 3, "Real", "output", continuous=True, unit="N.m", depends_on=frozenset({"torque"})),
         Variable("steps", 4, "Integer", "output", depends_on=frozenset()),
         Variable("forward", 5, "Boolean", "output", depends_on=frozenset()),
         Variable("note", 6, "String", "output"),
@@ -160,7 +160,7 @@ class Wheel:
 class WheelReals:
     """Bound variables of a `Wheel`; what is no number is refused, as by FMUs (docs/machines.md)."""
 
-    def __init__(self, component: Wheel, names: list[str]) -> None:
+    def __init__(self, component: Any, names: list[str]) -> None:
         self._component, self._names = component, names
         self.values: MutableSequence[float] = [0.0] * len(names)
 

@@ -16,16 +16,16 @@ class Mass:
         self, name: str = "mass", *, slopes: bool = False, units: Units = UNITS, fails_at: float = math.inf
     ) -> None:
         variables = (
-            Variable("force", 0, "Real", "input", unit="N"),
-            Variable("rest", 1, "Real", "input", unit="m"),
-            Variable("x", 2, "Real", "output", unit="m"),
-            Variable("v", 3, "Real", "output", unit="m/s"),
-            Variable("pull", 4, "Real", "output", unit="N"),
+            Variable("force", 0, "Real", "input", continuous=True, unit="N"),
+            Variable("rest", 1, "Real", "input", continuous=True, unit="m"),
+            Variable("x", 2, "Real", "output", continuous=True, unit="m"),
+            Variable("v", 3, "Real", "output", continuous=True, unit="m/s"),
+            Variable("pull", 4, "Real", "output", continuous=True, unit="N"),
             Variable("count", 5, "Integer", "output"),
-            Variable("ratio", 6, "Real", "output"),
+            Variable("ratio", 6, "Real", "output", continuous=True),
             Variable("mass", 7, "Real", "parameter", unit="kg"),
-            Variable("plain", 8, "Real", "input"),
-            Variable("angle", 9, "Real", "input", unit="rad"),
+            Variable("plain", 8, "Real", "input", continuous=True),
+            Variable("angle", 9, "Real", "input", continuous=True, unit="rad"),
         )
         self.description = Description("Mass", "mass", "", {v.name: v for v in variables}, units, takes_slopes=slopes)
         self.name = name

@@ -79,13 +79,16 @@ def test_units_are_converted() -> None:
         (Connection("three.x", "two.rest"), "'three.x' is none of <part>.<variable>; parts: one, two"),
         (Connection("x", "two.rest"), "none of <part>.<variable>"),
         (Connection("one.z", "two.rest"), "has no variable 'one.z'"),
-        (Connection("one.force", "two.rest"), "source is no Real output, but of causality input"),
-        (Connection("one.count", "two.rest"), "source is no Real output, but of causality output and type Integer"),
-        (Connection("one.x", "two.mass"), "target is no Real input, but of causality parameter"),
+        (Connection("one.force", "two.rest"), "source is no output, but of causality input"),
+        (Connection("one.count", "two.rest"), "connection one.count -> two.rest: Integer to Real; say convert = true"),
+        (Connection("one.x", "two.mass"), "target is no input, but of causality parameter"),
         (Connection("one.x", "two.angle"), "unit 'm' does not measure the same quantity"),
         (Connection("one.x", "two.rest", gain=0.0), "gain = 0, offset = 0; give finite numbers"),
         (Connection("one.x", "two.rest", offset=math.nan), "offset = nan"),
-        (Connection("one.x", "two.rest", rate="one.x"), "the rate 'one.x' is in m, not in m/s"),
+        (
+            Connection("one.x", "two.rest", rate="one.x"),
+            "the rate 'one.x' is in m, which does not measure the same as m/s",
+        ),
         (Connection("one.x", "two.rest", rate="one.count"), "the rate is no Real output"),
     ],
 )
@@ -181,6 +184,37 @@ def test_slopes_go_to_parts_that_take_them_and_others_are_held_at_the_middle(slo
     assert two.values["rest"] == pytest.approx(0.0 if slopes else 0.05)
     two.step(0.0, 0.1)
     assert two.values["rest"] == pytest.approx(0.1 if slopes else 0.05)
+
+
+@pytest.mark.parametrize(("unit", "rate"), [("km/s", 0.5e-3), ("mm/s", 500.0), ("m/ms", 0.5e-3), ("", 0.5)])
+def test_a_rate_in_another_unit_is_converted(unit: str, rate: float) -> None:
+    """0.5 m/s, in whatever unit the output is: the input goes on as if it were said in m/s."""
+    one, two = Mass(), Mass(slopes=True)
+    known = one.description.variables
+    one.description = replace(one.description, variables={**known, "v": replace(known["v"], unit=unit)})
+    one.values["v"] = rate
+    connections = [
+        Connection("one.x", "two.rest", gain=2.0, rate="one.v"),
+        *([Connection("one.v", "two.plain")] if unit == "mm/s" else []),  # followed, too: read with the others
+    ]
+    pair = Machine({"one": one, "two": two}, connections, Extrapolation.DERIVATIVES)
+    pair.initialize(0.0, 1.0)
+    pair.give("two", 0, SECOND // 10)
+    assert two.slopes["rest"] == pytest.approx(2.0 * 0.5)
+
+
+def test_a_machine_that_reads_once_passes_on_what_outputs_were() -> None:
+    """A pull follows the rest at once: read again, it reaches the third mass now; read once, a step later."""
+    for reads_once, expected in ((False, 3.0), (True, 0.0)):
+        one, two, three = (Mass(name) for name in ("one", "two", "three"))
+        chain = [Connection("one.x", "two.rest"), Connection("two.pull", "three.force")]
+        machine = Machine({"one": one, "two": two, "three": three}, chain, reads_once=reads_once)
+        machine.initialize(0.0, 1.0)
+        one.values["x"] = 1.0
+        machine.exchange(SECOND)
+        assert (two.values["rest"], three.values["force"]) == (1.0, expected)
+        machine.exchange(2 * SECOND)
+        assert three.values["force"] == 3.0
 
 
 def test_parts_are_initialized_behind_those_that_they_follow() -> None:

@@ -3,6 +3,7 @@
 import zipfile
 from dataclasses import replace
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from harness.machine.connection import Connection
 from harness.machine.file.plan import Plan, Source
 from harness.machine.ssp.export import write_ssp
 from harness.machine.ssp.importing import import_ssp
+from harness.machine.ssp.xml import tag
 from mechanism_fmu.fmu.archive import read_entries, write_archive
 from tests.harness.machine.in_other_tools import in_fmpy, in_libcosim
 from tests.harness.machine.machines import SIGNALS, ReadOnce, geared_cam, plan_of, run
@@ -86,6 +88,28 @@ def test_fmpy_finds_it_true_to_the_schema(plan, tmp_path):
         "drive_stiffness": ("Real", "5.0", "N.m/rad"),
         "drive_damping": ("Real", "0.2", "N.m.s/rad"),
     }
+
+
+def test_names_are_identifiers(plan, tmp_path):
+    """Tools make names of files and prefixes of them; the title stands in the description."""
+    ssp = exported(replace(plan, title="2 Räder & <Kurve>"), tmp_path)
+    root = ElementTree.fromstring(read_entries(ssp)["SystemStructure.ssd"])
+    system = root.find(tag("ssd:System"))
+    assert system is not None
+    for element in (root, system):
+        assert (element.get("name"), element.get("description")) == ("_2_Rader_Kurve", "2 Räder & <Kurve>")
+    master = system.find(f".//{tag('oms:FixedStepMaster')}")
+    assert master is not None
+    assert float(master.attrib["stepSize"]) == plan.policy.step
+    sets = {read_ssv(ssp, f"resources/{part.name}.ssv").name for part in plan.components}
+    assert sets == {"_2_Rader_Kurve"}  # ecos knows them by one name
+
+
+def test_a_converting_connection_goes_there_and_back(plan, tmp_path):
+    switched = Connection("cam.impact", "gears.drive_torque", 0.5, convert=True)
+    found = import_ssp(exported(replace(plan, connections=(*plan.connections, switched)), tmp_path), tmp_path)
+    assert found.plan.connections[-1] == switched
+    assert plan_of(found.file).connections[-1] == switched
 
 
 def test_two_components_of_one_fmu_share_its_file(plan, tmp_path):
