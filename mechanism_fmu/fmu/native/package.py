@@ -62,6 +62,7 @@ def build_native_fmu(
     destination: Path,
     fmi: int = 2,
     report: Report = silently,
+    *,
     baked: Baked = NOTHING_BAKED,
 ) -> Path:
     """Build the native FMU of a model: the same bytes from the same sources and versions of the tools.
