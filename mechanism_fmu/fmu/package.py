@@ -63,7 +63,9 @@ tidy_up(globals())
 '''
 
 
-def build_fmu(module: ModuleType, destination: Path, report: Report = silently, baked: Baked = NOTHING_BAKED) -> Path:
+def build_fmu(
+    module: ModuleType, destination: Path, report: Report = silently, *, baked: Baked = NOTHING_BAKED
+) -> Path:
     """Build the FMU of a model: the same bytes from the same sources and versions of the tools.
 
     Where the package ziglang is installed, the engine travels compiled. Where it is not, the engine is compiled on the

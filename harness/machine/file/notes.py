@@ -37,7 +37,9 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
     ]
     found += _free_inputs(plan, machine.description, driven)
     found += _without_units(plan.connections, machine.description)
-    found += _extrapolation(plan, descriptions)
+    flowing = {link.target for link in machine.links if not link.held}
+    connections = [connection for connection in plan.connections if connection.target in flowing]
+    found += _extrapolation(plan.policy.extrapolation, connections, descriptions)
     held = [f"{link.source} -> {link.target}" for link in machine.links if link.held]
     if held:
         found.append(
@@ -74,7 +76,7 @@ def _without_units(connections: Sequence[Connection], machine: Description) -> l
     told: dict[str, str] = {}
     for connection in connections:
         source, target = machine.variables[connection.source], machine.variables[connection.target]
-        if bool(source.unit) is not bool(target.unit):
+        if source.type == target.type == "Real" and bool(source.unit) is not bool(target.unit):
             bare, other = (target, source) if source.unit else (source, target)
             told[bare.name] = f"{bare.name} ({other.unit}, as {other.name})"
         rate = machine.variables.get(connection.rate)
@@ -116,11 +118,12 @@ def _kept(variable: Variable, machine: Description) -> str:
     return f"{name} = {shown(float(variable.start), variable.name, machine)}"
 
 
-def _extrapolation(plan: Plan, descriptions: Mapping[str, Description]) -> list[str]:
-    kind = plan.policy.extrapolation
+def _extrapolation(
+    kind: Extrapolation, connections: Sequence[Connection], descriptions: Mapping[str, Description]
+) -> list[str]:
     if kind is Extrapolation.CONSTANT:
         return []
-    targets = {part_of(connection.target) for connection in plan.connections}
+    targets = {part_of(connection.target) for connection in connections}
     held = [name for name, description in descriptions.items() if name in targets and not description.takes_slopes]
     found = []
     if held:
@@ -128,7 +131,7 @@ def _extrapolation(plan: Plan, descriptions: Mapping[str, Description]) -> list[
             f"{', '.join(held)} takes no slopes of inputs (canInterpolateInputs): its inputs are held during a step, "
             "at what they would be in its middle."
         )
-    unknown = [c.source for c in plan.connections if _has_no_slope(c, descriptions)]
+    unknown = [c.source for c in connections if _has_no_slope(c, descriptions)]
     if kind is Extrapolation.DERIVATIVES and unknown:
         found.append(
             f"No derivative is known of {', '.join(dict.fromkeys(unknown))}: what follows goes on as in the step "

@@ -64,6 +64,7 @@ def build_native_fmu(
     destination: Path,
     fmi: int = 2,
     report: Report = silently,
+    *,
     clocks: bool = False,
     baked: Baked = NOTHING_BAKED,
 ) -> Path:
