@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import sys
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -23,6 +22,7 @@ from .native.objects import Report, silently
 from .native.targets import WRAPPED
 from .project import dependencies
 from .self_check import StartError
+from .temporary import temporary_folder
 
 _LIBRARY = Path(__file__).parents[1]
 
@@ -112,8 +112,8 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
 
 def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str, bytes]:
     """Entries of the FMU that pythonfmu makes of a slave module and other files beside it."""
-    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary, _imports_left_alone(slave):
-        staged = Path(temporary, "staged")
+    with temporary_folder() as temporary, _imports_left_alone(slave):
+        staged = temporary / "staged"
         for name, contents in resources.items():
             path = staged / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -121,7 +121,7 @@ def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str,
         script = staged / f"{slave}.py"
         others = set(staged.iterdir()) - {script}
         try:
-            return read_entries(FmuBuilder.build_FMU(script, dest=Path(temporary, "built"), project_files=others))
+            return read_entries(FmuBuilder.build_FMU(script, dest=temporary / "built", project_files=others))
         except ValueError as error:
             # pythonfmu makes an instance; the copy of the library in it has error classes of its own.
             for known in (MechanismError, StartError):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from functools import cache
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
@@ -13,6 +12,7 @@ from mechanism_fmu.fmu.model_description import to_bytes
 from mechanism_fmu.fmu.native.link import INSTALL, has_linker, link
 from mechanism_fmu.fmu.native.targets import TARGETS
 from mechanism_fmu.fmu.native.universal import universal
+from mechanism_fmu.fmu.temporary import temporary_folder
 
 from ...errors import UsageError
 
@@ -64,9 +64,9 @@ def gains_entries(channels: int) -> dict[str, bytes]:
 def _binaries() -> dict[str, bytes]:
     """The libraries, by name."""
     libraries: dict[str, list[bytes]] = {}
-    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary:
+    with temporary_folder() as temporary:
         for target in TARGETS:
-            place = Path(temporary) / target.name
+            place = temporary / target.name
             place.mkdir()
             library = place / f"{NAME}{target.suffix}"
             link(target, [_SOURCE], [_STANDARD], library)

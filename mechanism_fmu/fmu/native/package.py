@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 import uuid
 import zipfile
 from collections.abc import Mapping
@@ -20,6 +19,7 @@ from ..archive import DESCRIPTION, content_hash, write_archive
 from ..built import record_build
 from ..contents import common_entries, file_in, model_of
 from ..model_description import model_description, to_bytes
+from ..temporary import temporary_folder
 from .description3 import model_description3
 from .formulas import Formulas, formulas
 from .link import link, linked_with, need_linker, surface
@@ -115,8 +115,7 @@ def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], e
 
 def _binaries(model: Model, source: str, engine: Engine) -> dict[Target, bytes]:
     """The shared library of each platform."""
-    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary:
-        folder = Path(temporary)
+    with temporary_folder() as folder:
         (folder / "model.c").write_text(source, encoding="ascii")
 
         def binary(target: Target) -> bytes:
