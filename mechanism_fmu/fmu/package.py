@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import sys
+import tempfile
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -28,6 +30,9 @@ _LIBRARY = Path(__file__).parents[1]
 
 #: Imports that ask for nothing: pythonfmu travels in the FMU, and numba brings llvmlite.
 _BROUGHT_ALONG = {"pythonfmu", "llvmlite"}
+
+#: The first that a zip archive can write down.
+_FIRST_YEAR = 1980
 
 #: What compiles the engine where it does not travel compiled.
 _COMPILER = "numba"
@@ -111,8 +116,17 @@ def build_fmu(module: ModuleType, destination: Path, report: Report = silently) 
 
 
 def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Entries of the FMU that pythonfmu makes of a slave module and other files beside it."""
-    with temporary_folder() as temporary, _imports_left_alone(slave):
+    """Entries of the FMU that pythonfmu makes of a slave module and other files beside it.
+
+    Raises:
+        MechanismError: the model cannot start, or the clock is wrong.
+    """
+    if time.localtime().tm_year < _FIRST_YEAR:
+        raise MechanismError(
+            f"The clock of this machine says {time.strftime('%Y-%m-%d')}, and pythonfmu's archives begin with "
+            f"{_FIRST_YEAR}; set the clock, or build with --flavour native."
+        )
+    with temporary_folder() as temporary, _temporary_files_in(temporary), _imports_left_alone(slave):
         staged = temporary / "staged"
         for name, contents in resources.items():
             path = staged / name
@@ -128,6 +142,16 @@ def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str,
                 if type(error).__name__ == known.__name__:
                     raise known(str(error)) from error
             raise
+
+
+@contextmanager
+def _temporary_files_in(folder: Path) -> Iterator[None]:
+    """Let pythonfmu make its temporary folder where somebody removes it if this process is killed."""
+    before, tempfile.tempdir = tempfile.tempdir, str(folder)
+    try:
+        yield
+    finally:
+        tempfile.tempdir = before
 
 
 @contextmanager
