@@ -26,12 +26,12 @@ from tests.faults import trials
 from tests.faults.commands import commands
 from tests.faults.limits import own_mounts
 from tests.faults.running import Place
-from tests.faults.surroundings import Begin, as_nobody, clock_library, engine_cache, with_own_cache
+from tests.faults.surroundings import Begin, as_nobody, clock_library, engine_cache, least_memory, with_own_cache
 from tests.faults.trials import Trial, Undisturbed
 
 FAULTS = ("kill", "disk", "read-only", "cache", "clock", "memory", "two")
-#: Less than this [bytes], and Python itself does not begin; the least disk.
-_LEAST_MEMORY, _LEAST_DISK = 300e6, 8e3
+#: The least disk [bytes].
+_LEAST_DISK = 8e3
 #: What an FMU takes, unpacked, and as much for building it [bytes].
 _TEMPORARY = 8e6
 _HOUR, _BEFORE_ZIP = 3600.0, 50 * 365.25 * 86400.0
@@ -114,7 +114,7 @@ def _trials(
         yield partial(trials.clock_set_back, usual, library=library, after=draw.random() * usual.took, back=_HOUR)
         yield partial(trials.clock_set_back, usual, library=library, after=0.0, back=_BEFORE_ZIP)
     elif fault == "memory":
-        for size in spread(_LEAST_MEMORY, usual.largest, few):
+        for size in spread(1.05 * least_memory(), usual.largest, few):
             yield partial(trials.out_of_memory, usual, size=round(size))
     else:
         yield partial(trials.two_writers, usual, later=0.0)

@@ -5,14 +5,23 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 from mechanism_fmu.fmu.native.objects import compiled_engine, engine_folder
 from tests.faults.limits import NOBODY, become_nobody
-from tests.faults.running import Place
+from tests.faults.running import ROOT, Place
 from tests.faults.trials import Trial
+
+_IMPORTS = """
+import build_fmu, harness.commands, harness.designs_command.optimise, harness.designs_command.sweep
+import harness.machine_command.run, harness.report.study_report, harness.report.sweep_report
+import mechanism_fmu.fmu.package, pyarrow.dataset, scipy.optimize, scipy.stats
+print(open("/proc/self/status").read().partition("VmPeak:")[2].split()[0])
+"""
 
 #: A trial that lacks nothing but its place.
 Begin = Callable[[Place], Trial]
@@ -41,6 +50,17 @@ def as_nobody(begin: Begin, place: Place) -> Trial:
     for path in [place.folder, cache, *cache.rglob("*")]:
         os.chown(path, NOBODY, NOBODY)
     return begin(replace(place, cache=cache, environment={"HOME": str(place.folder)}, before=become_nobody))
+
+
+@cache
+def least_memory() -> int:
+    """The address space that the program takes with all that it imports [bytes].
+
+    With less, it is OpenBLAS that decides what happens: it may ask for memory for ever.
+    """
+    command = [sys.executable, "-c", _IMPORTS]
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
+    return int(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout) * 1024
 
 
 def clock_library(folder: Path) -> Path:

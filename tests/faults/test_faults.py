@@ -11,7 +11,7 @@ import pytest
 from tests.faults import trials
 from tests.faults.commands import Command, commands
 from tests.faults.running import Place
-from tests.faults.surroundings import as_nobody, clock_library, engine_cache
+from tests.faults.surroundings import as_nobody, clock_library, engine_cache, least_memory
 from tests.faults.trials import Trial, Undisturbed
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits as Linux has them")
@@ -66,7 +66,7 @@ def test_the_console_is_full(usual: Usual, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_too_little_memory(usual: Usual, tmp_path: Path) -> None:
-    assert as_promised(trials.out_of_memory(usual("optimise"), Place(tmp_path), 500_000_000))
+    assert as_promised(trials.out_of_memory(usual("optimise"), Place(tmp_path), round(1.2 * least_memory())))
 
 
 @pytest.mark.slow

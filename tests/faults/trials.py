@@ -221,7 +221,12 @@ def two_writers(usual: Undisturbed, place: Place, later: float) -> Trial:
 
 def _ends_in_words(trial: Trial, usual: Undisturbed, running: Running, by_signal: bool = False) -> int:
     """Wait for its end: with all results, or a failure that is said; its exit code."""
-    code = running.end()
+    try:
+        code = running.end()
+    except TimeoutError as error:
+        trial.expect(False, str(error))
+        running.process.kill()
+        return -9
     said = running.words()
     trial.expect(_TRACEBACK not in said, f"a traceback: ... {said[-700:]}")
     if code == 0:
