@@ -36,8 +36,8 @@ def starting_from(module: str) -> BaseContext:
         os.environ.setdefault(name, "1")
     copies = "forkserver" in get_all_start_methods() and len(tempfile.gettempdir()) <= _LONGEST_FOLDER
     context = get_context("forkserver" if copies else "spawn")
+    _own_folder()
     if copies:
-        _own_folder()
         context.set_forkserver_preload([module])
     return context
 

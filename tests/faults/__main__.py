@@ -18,12 +18,14 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from functools import partial
 from itertools import count
 from pathlib import Path
 
 from tests.faults import trials
-from tests.faults.commands import commands
+from tests.faults.commands import Command, commands
 from tests.faults.limits import own_mounts
 from tests.faults.running import Place
 from tests.faults.surroundings import Begin, as_nobody, clock_library, engine_cache, least_memory, with_own_cache
@@ -53,37 +55,67 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--size", type=int, default=200, metavar="N", help="designs, or seconds of a machine")
     parser.add_argument("--faults", nargs="+", choices=FAULTS, default=FAULTS, metavar="FAULT", help=", ".join(FAULTS))
     parser.add_argument("--commands", nargs="+", metavar="NAME", help="beginnings of their names, e.g. sweep machine")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="commands that are tried side by side")
     asked = parser.parse_args(arguments)
     mounts = own_mounts()
     chosen = [one for one in commands(asked.size) if one.name.startswith(tuple(asked.commands or [""]))]
     began = time.monotonic()
     print(f"Seed {asked.seed}.", flush=True)
-    done: list[Trial] = []
-    with tempfile.TemporaryDirectory(prefix="faults-") as folder:
+    with tempfile.TemporaryDirectory(prefix="faults-") as folder, ThreadPoolExecutor(asked.jobs) as pool:
         os.chmod(folder, 0o755)
-        here = Path(folder)
-        cache = engine_cache(here / "cache")
-        draw = random.Random(asked.seed)
-        numbers = count(1)
-        for command in chosen:
-            usual = trials.undisturbed(command, Place(_new(here, numbers), cache))
-            print(f"{command.name}: {usual.took:.1f} s, {len(usual.recorded)} results", flush=True)
-            for fault in asked.faults:
-                for begin in _trials(fault, usual, draw, asked.count, mounts, here):
-                    place = Place(_new(here, numbers), cache)
-                    trial = begin(place)
-                    done.append(trial)
-                    verdict = "; ".join(trial.broken) or "as promised"
-                    print(f"  {trial.fault}, {trial.how}: {trial.kept} kept, {trial.lost} lost, {verdict}", flush=True)
-                    shutil.rmtree(place.folder)
+        tools = Tools(Path(folder), engine_cache(Path(folder, "cache")), mounts, count(1))
+        if "clock" in asked.faults:
+            clock_library(tools.folder)
+        least_memory()
+        of_commands = pool.map(lambda command: _tried(command, asked, tools), chosen)
+        done = [trial for of_one in of_commands for trial in of_one]
     _show(done)
     print(f"Seed {asked.seed}, {(time.monotonic() - began) / 60:.0f} min.")
     return 1 if any(trial.lost or trial.broken for trial in done) else 0
 
 
-def _trials(
-    fault: str, usual: Undisturbed, draw: random.Random, many: int, mounts: bool, here: Path
-) -> Iterator[Begin]:
+@dataclass(frozen=True)
+class Tools:
+    """What all trials use.
+
+    Attributes:
+        folder: for theirs, which go.
+        cache: with the engine in it.
+        mounts: whether disks may be mounted.
+        numbers: of their folders.
+    """
+
+    folder: Path
+    cache: Path
+    mounts: bool
+    numbers: Iterator[int]
+
+    def place(self) -> Place:
+        """A new one."""
+        folder = self.folder / str(next(self.numbers))
+        folder.mkdir()
+        return Place(folder, self.cache)
+
+
+def _tried(command: Command, asked: argparse.Namespace, tools: Tools) -> list[Trial]:
+    """All faults, one after the other, that come to a command."""
+    draw = random.Random(f"{asked.seed} {command.name}")
+    usual = trials.undisturbed(command, tools.place())
+    print(f"{command.name}: {usual.took:.1f} s, {len(usual.recorded)} results without faults", flush=True)
+    done = []
+    for fault in asked.faults:
+        for begin in _trials(fault, usual, draw, asked.count, tools):
+            place = tools.place()
+            trial = begin(place)
+            done.append(trial)
+            verdict = "; ".join(trial.broken) or "as promised"
+            told = f"{trial.kept} kept, {trial.lost} lost, {verdict}"
+            print(f"{command.name}: {trial.fault}, {trial.how}: {told}", flush=True)
+            shutil.rmtree(place.folder)
+    return done
+
+
+def _trials(fault: str, usual: Undisturbed, draw: random.Random, many: int, tools: Tools) -> Iterator[Begin]:
     """What is to be tried of a fault."""
 
     def spread(low: float, high: float, parts: int = many) -> list[float]:
@@ -98,8 +130,8 @@ def _trials(
     elif fault == "disk":
         for power in spread(0.0, 1.0, few):
             size = round(_LEAST_DISK * (0.98 * usual.size / _LEAST_DISK) ** power)
-            yield partial(trials.disk_full if mounts else trials.file_full, usual, size=size)
-        if mounts:
+            yield partial(trials.disk_full if tools.mounts else trials.file_full, usual, size=size)
+        if tools.mounts:
             yield partial(trials.temporary_full, usual, size=round(spread(_LEAST_DISK, _TEMPORARY, 1)[0]))
         yield partial(trials.console_full, usual)
     elif fault == "read-only":
@@ -110,7 +142,7 @@ def _trials(
         for moment in spread(0.0, usual.took, few):
             yield partial(with_own_cache, partial(trials.cache_deleted, usual, moment=moment))
     elif fault == "clock":
-        library = clock_library(here)
+        library = clock_library(tools.folder)
         yield partial(trials.clock_set_back, usual, library=library, after=draw.random() * usual.took, back=_HOUR)
         yield partial(trials.clock_set_back, usual, library=library, after=0.0, back=_BEFORE_ZIP)
     elif fault == "memory":
@@ -120,12 +152,6 @@ def _trials(
         yield partial(trials.two_writers, usual, later=0.0)
         for later in spread(0.0, 0.9 * usual.took, max(1, few - 1)):
             yield partial(trials.two_writers, usual, later=later)
-
-
-def _new(here: Path, numbers: Iterator[int]) -> Path:
-    folder = here / str(next(numbers))
-    folder.mkdir()
-    return folder
 
 
 def _show(done: Sequence[Trial]) -> None:

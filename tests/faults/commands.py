@@ -72,7 +72,7 @@ def files(folder: Path) -> Recorded:
 def changed(text: str, **values: int | str) -> str:
     """A file with other values, each of a key that is there; the first one of two is meant."""
     for name, value in values.items():
-        new, count = re.subn(rf"(?m)^{name} = (\S+|\"[^\"]*\")", f"{name} = {json.dumps(value)}", text, count=1)
+        new, count = re.subn(rf"(?m)^{name} = (\"[^\"]*\"|\S+)", f"{name} = {json.dumps(value)}", text, count=1)
         if not count:
             raise ValueError(f"no {name} in the example")
         text = new

@@ -70,8 +70,9 @@ def test_too_little_memory(usual: Usual, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_two_writers(usual: Usual, tmp_path: Path) -> None:
-    assert as_promised(trials.two_writers(usual("machine run"), Place(tmp_path), 0.0))
+@pytest.mark.parametrize("name", ["sweep", "machine run"])
+def test_two_writers(usual: Usual, tmp_path: Path, name: str) -> None:
+    assert as_promised(trials.two_writers(usual(name), Place(tmp_path), 0.0))
 
 
 @pytest.mark.slow
