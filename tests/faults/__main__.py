@@ -31,9 +31,9 @@ from tests.faults.running import Place
 from tests.faults.surroundings import Begin, as_nobody, clock_library, engine_cache, least_memory, with_own_cache
 from tests.faults.trials import Trial, Undisturbed
 
-FAULTS = ("kill", "disk", "read-only", "cache", "clock", "memory", "two")
-#: The least disk [bytes].
-_LEAST_DISK = 8e3
+FAULTS = ("kill", "disk", "read-only", "cache", "clock", "memory", "two", "filling")
+#: The least disk, and what parts of results may take at most while they come [bytes].
+_LEAST_DISK, _PARTS = 8e3, 200e3
 #: What an FMU takes, unpacked, and as much for building it [bytes].
 _TEMPORARY = 8e6
 _HOUR, _BEFORE_ZIP = 3600.0, 50 * 365.25 * 86400.0
@@ -129,7 +129,7 @@ def _trials(fault: str, usual: Undisturbed, draw: random.Random, many: int, tool
             yield partial(trials.killed, usual, moment=0.0, results=round(there))
     elif fault == "disk":
         for power in spread(0.0, 1.0, few):
-            size = round(_LEAST_DISK * (0.98 * usual.size / _LEAST_DISK) ** power)
+            size = round(_LEAST_DISK * (0.98 * sum(usual.sizes.values()) / _LEAST_DISK) ** power)
             yield partial(trials.disk_full if tools.mounts else trials.file_full, usual, size=size)
         if tools.mounts:
             yield partial(trials.temporary_full, usual, size=round(spread(_LEAST_DISK, _TEMPORARY, 1)[0]))
@@ -148,6 +148,12 @@ def _trials(fault: str, usual: Undisturbed, draw: random.Random, many: int, tool
     elif fault == "memory":
         for size in spread(1.05 * least_memory(), usual.largest, few):
             yield partial(trials.out_of_memory, usual, size=round(size))
+    elif fault == "filling":
+        # Most of a folder is an FMU, which comes first, and a report, which comes last; parts have whole pages.
+        first = usual.sizes.get(".fmu", 0) + _LEAST_DISK
+        others = sum(usual.sizes.values()) - usual.sizes.get(".fmu", 0) - usual.sizes.get(".html", 0)
+        for size in spread(first, first + max(others, _PARTS), few):
+            yield partial(trials.disk_full if tools.mounts else trials.file_full, usual, size=round(size))
     else:
         yield partial(trials.two_writers, usual, later=0.0)
         for later in spread(0.0, 0.9 * usual.took, max(1, few - 1)):

@@ -16,7 +16,7 @@ from tests.faults.commands import Command, Recorded
 ROOT = Path(__file__).parents[2]
 _PROGRAM = "from harness.cli import main; main()"
 #: Nothing here takes so long [s], on a machine that is busy otherwise: even the engine is compiled in less.
-_PATIENCE = 400.0
+_PATIENCE = 1200.0
 _GLANCE = 0.05
 
 

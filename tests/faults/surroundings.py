@@ -19,7 +19,7 @@ from tests.faults.trials import Trial
 _IMPORTS = """
 import build_fmu, harness.commands, harness.designs_command.optimise, harness.designs_command.sweep
 import harness.machine_command.run, harness.report.study_report, harness.report.sweep_report
-import mechanism_fmu.fmu.package, pyarrow.dataset, scipy.optimize, scipy.stats
+import mechanism_fmu.fmu.package, scipy.optimize, scipy.stats
 print(open("/proc/self/status").read().partition("VmPeak:")[2].split()[0])
 """
 

@@ -100,7 +100,7 @@ def test_results_that_are_gone_or_others_are_noticed(tmp_path: Path) -> None:
     """What counts results would otherwise say that all is well whatever happens."""
     files = {"kept": "1", "gone": "2", "changed": "3"}
     command = Command("fake", (), "", lambda folder: {p.name: p.read_text() for p in folder.iterdir()}, (), True)
-    usual = Undisturbed(command, 1.0, 0, files, {}, 0)
+    usual = Undisturbed(command, 1.0, 0, files, {}, {})
     place = Place(tmp_path)
     place.results.mkdir()
     (place.results / "kept").write_text("1")
@@ -116,6 +116,6 @@ def test_a_part_that_cannot_be_read_is_lost(tmp_path: Path) -> None:
     (place.results / "parts").mkdir(parents=True)
     (place.results / "parts" / "000000001.parquet").write_bytes(b"half")
     trial = Trial("fault", "sweep", "")
-    trials.keeps(trial, Undisturbed(COMMANDS["sweep"], 1.0, 0, {}, {}, 0), place, {1: "", 2: ""})
+    trials.keeps(trial, Undisturbed(COMMANDS["sweep"], 1.0, 0, {}, {}, {}), place, {1: "", 2: ""})
     assert trial.lost == 2
     assert "cannot be read" in trial.broken[0]

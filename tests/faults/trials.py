@@ -6,6 +6,7 @@ import re
 import shutil
 import signal
 import time
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -28,7 +29,7 @@ class Undisturbed:
         largest: its address space [bytes].
         recorded: in the end.
         came_out: the files that are the same each time.
-        size: of its folder [bytes].
+        sizes: of all files in its folder [bytes], by their suffixes.
     """
 
     command: Command
@@ -36,7 +37,13 @@ class Undisturbed:
     largest: int
     recorded: Recorded
     came_out: Mapping[str, bytes]
-    size: int
+    sizes: Mapping[str, int]
+
+    def others(self, folder: Path) -> list[str]:
+        """What is not the same in another folder, to the byte or to the bit of every number."""
+        came_out = self.command.came_out(folder)
+        names = [name for name, data in came_out.items() if data != self.came_out[name]]
+        return names + ([] if self.command.recorded(folder) == self.recorded else ["what is recorded"])
 
 
 @dataclass
@@ -75,9 +82,11 @@ def undisturbed(command: Command, place: Place) -> Undisturbed:
         code = running.end()
     if code:
         raise RuntimeError(f"{command.name} fails without any fault, with exit code {code}:\n{running.words()}")
-    size = sum(file.stat().st_size for file in place.results.rglob("*") if file.is_file())
+    sizes: Counter[str] = Counter()
+    for file in filter(Path.is_file, place.results.rglob("*")):
+        sizes[file.suffix] += file.stat().st_size
     recorded, came_out = command.recorded(place.results), command.came_out(place.results)
-    return Undisturbed(command, running.took, running.largest, recorded, came_out, size)
+    return Undisturbed(command, running.took, running.largest, recorded, came_out, sizes)
 
 
 def killed(usual: Undisturbed, place: Place, moment: float, results: int = 0) -> Trial:
@@ -156,7 +165,7 @@ def read_only(usual: Undisturbed, place: Place, moment: float | None) -> Trial:
         code = _ends_in_words(trial, usual, running)
     if moment is None:
         trial.expect(code == _REFUSED, f"exit code {code} instead of {_REFUSED}")
-        trial.expect(usual.command.came_out(place.results) == usual.came_out, "earlier results are not as they were")
+        trial.expect(not usual.others(place.results), "earlier results are not as they were")
     keeps(trial, usual, place, running.seen)
     set_writable(place.results, True)
     _again(trial, usual, place)
@@ -213,7 +222,7 @@ def two_writers(usual: Undisturbed, place: Place, later: float) -> Trial:
         refused = code == _REFUSED and "Another command is at work" in running.words()
         trial.expect(code == 0 or refused, f"exit code {code}: {running.words()[-500:]}")
     trial.expect(0 in codes, "neither of the two came to its end")
-    trial.expect(usual.command.came_out(place.results) == usual.came_out, "results are not those of one alone")
+    trial.expect(not usual.others(place.results), "results are not those of one alone")
     keeps(trial, usual, place, one.seen)
     _again(trial, usual, place)
     return trial
@@ -230,8 +239,8 @@ def _ends_in_words(trial: Trial, usual: Undisturbed, running: Running, by_signal
     said = running.words()
     trial.expect(_TRACEBACK not in said, f"a traceback: ... {said[-700:]}")
     if code == 0:
-        whole = usual.command.came_out(running.place.results) == usual.came_out
-        trial.expect(whole, "exit code 0, but results are not those of an undisturbed run")
+        others = usual.others(running.place.results)
+        trial.expect(not others, f"exit code 0, but not the results of an undisturbed run: {others}")
     else:
         trial.expect(code > 0 or by_signal, f"ended by signal {-code}: {said[-500:]}")
         trial.expect(code < 0 or bool(running.errors().strip()), f"exit code {code} without a word: {said[-500:]}")
@@ -260,8 +269,7 @@ def _again(trial: Trial, usual: Undisturbed, place: Place) -> None:
     trial.expect(code == 0, f"the same command again ends with {code}: {said[-700:]}")
     if usual.command.goes_on and (found := re.search(r"(\d+) (?:of them )?there before", said)):
         trial.expect(int(found[1]) >= trial.kept, f"{found[1]} there before, but {trial.kept} had been recorded")
-    came_out = usual.command.came_out(place.results)
-    others = [name for name, data in came_out.items() if data != usual.came_out[name]]
+    others = usual.others(place.results)
     trial.expect(not others, f"not the results of an undisturbed run: {others}")
     time.sleep(0.2)  # processes of the killed one
     left = [*place.temporary.iterdir(), *place.results.rglob(".*.unfinished"), *place.results.glob("*parts")]
