@@ -15,7 +15,7 @@ from tests.faults.commands import Command, Recorded
 
 ROOT = Path(__file__).parents[2]
 _PROGRAM = "from harness.cli import main; main()"
-#: Nothing here takes so long [s], on a machine that is busy otherwise: even the engine is compiled in less.
+#: Nothing here takes so long [s], though the machine is busy otherwise: even the engine is compiled in less.
 _PATIENCE = 1200.0
 _GLANCE = 0.05
 
@@ -117,14 +117,14 @@ class Running:
         self.look()
         return self.at_work
 
-    def end(self) -> int:
-        """Look on until it ends; its exit code, negative for a signal.
+    def end(self, patience: float = _PATIENCE) -> int:
+        """Look on until it ends, so many seconds at the most; its exit code, negative for a signal.
 
         Raises:
             TimeoutError: it does not.
         """
-        if self.until(_PATIENCE):
-            raise TimeoutError(f"{self.command.name} has not ended in {_PATIENCE:g} s")
+        if self.until(patience):
+            raise TimeoutError(f"{self.command.name} has not ended in {patience:.0f} s")
         self.took = time.monotonic() - self.began
         return int(self.process.wait())
 

@@ -204,7 +204,7 @@ def out_of_memory(usual: Undisturbed, place: Place, size: int) -> Trial:
     """No process of the command has more than so many bytes of addresses."""
     trial = Trial("out of memory", usual.command.name, f"{size / 1e6:.0f} MB")
     with Running(usual.command, replace(place, before=lambda: limit_memory(size))) as running:
-        _ends_in_words(trial, usual, running, by_signal=True)
+        _ends_in_words(trial, usual, running, in_library=True)
     keeps(trial, usual, place, running.seen)
     _again(trial, usual, place)
     return trial
@@ -228,21 +228,26 @@ def two_writers(usual: Undisturbed, place: Place, later: float) -> Trial:
     return trial
 
 
-def _ends_in_words(trial: Trial, usual: Undisturbed, running: Running, by_signal: bool = False) -> int:
-    """Wait for its end: with all results, or a failure that is said; its exit code."""
+def _ends_in_words(trial: Trial, usual: Undisturbed, running: Running, in_library: bool = False) -> int:
+    """Wait for its end: with all results, or a failure that is said; its exit code.
+
+    A library that gets no memory may end the process (`in_library`), or, as OpenBLAS, ask for it for ever.
+    """
     try:
-        code = running.end()
+        code = running.end(*([60.0 + 10.0 * usual.took] if in_library else []))
     except TimeoutError as error:
-        trial.expect(False, str(error))
+        trial.expect(in_library, str(error))
+        trial.how += ", hung and was killed"
         running.process.kill()
-        return -9
+        running.process.wait()
+        return -signal.SIGKILL
     said = running.words()
     trial.expect(_TRACEBACK not in said, f"a traceback: ... {said[-700:]}")
     if code == 0:
         others = usual.others(running.place.results)
         trial.expect(not others, f"exit code 0, but not the results of an undisturbed run: {others}")
     else:
-        trial.expect(code > 0 or by_signal, f"ended by signal {-code}: {said[-500:]}")
+        trial.expect(code > 0 or in_library, f"ended by signal {-code}: {said[-500:]}")
         trial.expect(code < 0 or bool(running.errors().strip()), f"exit code {code} without a word: {said[-500:]}")
     return code
 
