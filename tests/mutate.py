@@ -154,7 +154,9 @@ class Nearest:
         files = [f"{name.replace('.', '/')}.py" for name in sorted(tests, key=lambda name: (distance[name], name))]
         files = [file for file in files if not any(part in file for part in _LEFT_OUT)]
         own, folder = Path(path).stem, Path(path).parent.name
-        files.sort(key=lambda file: (not _named_after(file, own), not _named_after(file, folder), not _akin(file, path)))
+        files.sort(
+            key=lambda file: (not _named_after(file, own), not _named_after(file, folder), not _akin(file, path))
+        )
         ends = [0, *(min(end, len(files)) for end in _STAGES)]
         portions = [("not slow", *files[begin:end]) for begin, end in pairwise(ends) if begin < end]
         named = [file for file in files[: _STAGES[0]] if _named_after(file, own, folder)]
