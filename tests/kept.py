@@ -8,6 +8,7 @@ numbers must be is said elsewhere. Numbers may differ in the last digits, as oth
 
 from __future__ import annotations
 
+import base64
 import json
 import math
 import os
@@ -16,12 +17,12 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-import plotly.io as pio
+import numpy as np
 
 FOLDER = Path(__file__).parent / "data" / "kept"
 
 _NUMBER = re.compile(r"(?<![\w#.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
-#: By how much numbers may differ, in parts of themselves, and what is nothing.
+#: By how much numbers may differ: in parts of themselves, and what is nothing beside the largest of a line, or 1.
 _RELATIVE, _NOTHING = 1e-6, 1e-12
 #: Scripts and styles are files of their own; versions are those of this machine.
 _LEFT_OUT = (
@@ -43,9 +44,8 @@ def same_as_kept(name: str, text: str) -> None:
         return
     kept = path.read_text(encoding="utf-8")
     for number, (old, new) in enumerate(zip_longest(kept.splitlines(), text.splitlines()), start=1):
-        assert old is not None and new is not None and _alike(old, new), (
-            f"{name}, line {number}, was\n{old}\nand is\n{new}\nIf this is meant: KEPT=write, see tests/kept.py."
-        )
+        how = f"{name}, line {number}, was\n{old}\nand is\n{new}\nIf this is meant: KEPT=write, see tests/kept.py."
+        assert _alike(old, new), how
 
 
 def plain_page(html: str) -> str:
@@ -56,9 +56,9 @@ def plain_page(html: str) -> str:
     return re.sub(r"(?<=>)(?=<(?:section|div|h2|p>|table|tr|ul|li|svg|figure))", "\n", html)
 
 
-def plain_figure(figure: Any) -> str:
-    """A figure of plotly in lines."""
-    return _lines(json.loads(pio.to_json(figure, engine="json")))
+def plain_data(data: Any) -> str:
+    """What JSON can hold, in lines."""
+    return _lines(json.loads(json.dumps(data)))
 
 
 def _opened(found: re.Match[str]) -> str:
@@ -82,17 +82,17 @@ def _lines(data: Any, indent: str = "") -> str:
 
 
 def _numbers(array: dict[str, Any]) -> list[Any]:
-    import base64
-
-    import numpy as np
-
     return np.frombuffer(base64.b64decode(array["bdata"]), dtype=array["dtype"]).tolist()
 
 
-def _alike(old: str, new: str) -> bool:
-    if old == new:
-        return True
+def _alike(old: str | None, new: str | None) -> bool:
+    """Of lines; None is the end of the text."""
+    if old is None or new is None or old == new:
+        return old == new
     if _NUMBER.split(old) != _NUMBER.split(new):
         return False
-    pairs = zip(map(float, _NUMBER.findall(old)), map(float, _NUMBER.findall(new)), strict=True)
-    return all(math.isclose(one, other, rel_tol=_RELATIVE, abs_tol=_NOTHING) for one, other in pairs)
+    were, are = ([float(text) for text in _NUMBER.findall(line)] for line in (old, new))
+    nothing = _NOTHING * max((1.0, *map(abs, were)))
+    return all(
+        math.isclose(one, other, rel_tol=_RELATIVE, abs_tol=nothing) for one, other in zip(were, are, strict=True)
+    )

@@ -3,9 +3,9 @@
     python -m tests.mutate harness mechanism_fmu/stress --sample 100 --seed 1
 
 Works in a copy of the tree, which goes afterwards. The tests of a file are those that import it, then those that import
-what imports it, and so on, those named after it or its folder first, then nearest first; at last, of those so named, also
-the slow ones. `-- ARGUMENTS` are pytest's, e.g. `-- tests/harness/machine`, and take their place. What lives is printed.
-See docs/how-it-is-tested.md.
+what imports it, and so on. Those named after it or its folder are asked first, with the slow ones among them, then the
+others, nearest first. `-- ARGUMENTS` are pytest's, e.g. `-- tests/harness/machine`, and take their place. What lives is
+printed. See docs/how-it-is-tested.md.
 """
 
 from __future__ import annotations
@@ -141,7 +141,7 @@ class Nearest:
         self._importers: Mapping[str, set[str]] = _importers()
 
     def stages(self, path: str) -> list[Tests]:
-        """The tests of a source file in portions, nearest first, and at last the slow ones that are named after it."""
+        """The tests of a source file in portions: those named after it, the slow ones of them, then the nearest."""
         module = _module(path)
         distance = {module: 0}
         queue = [module]
@@ -160,7 +160,7 @@ class Nearest:
         ends = [0, *(min(end, len(files)) for end in _STAGES)]
         portions = [("not slow", *files[begin:end]) for begin, end in pairwise(ends) if begin < end]
         named = [file for file in files[: _STAGES[0]] if _named_after(file, own, folder)]
-        return [*portions, ("slow", *named)] if named else portions
+        return [*portions[:1], ("slow", *named), *portions[1:]] if named else portions
 
 
 def _named_after(test: str, *names: str) -> bool:

@@ -266,7 +266,7 @@ def test_a_text_that_reads_upwards_begins_below() -> None:
 
 
 def test_a_text_that_reads_upwards_covers_no_more_than_it_needs() -> None:
-    """A margin of two fine pixels on each side, two thirds of a px."""
+    """A margin of two fine pixels on each side, and what the font says of its height."""
     png = Png(100, 60)
     png.area([(0, 0), (100, 0), (100, 60), (0, 60)], RED)
     png.text((50, 30), "HHHH", 12, upright=False)
@@ -274,4 +274,4 @@ def test_a_text_that_reads_upwards_covers_no_more_than_it_needs() -> None:
     rows, columns = np.nonzero(pixels[:, :, 0] - pixels[:, :, 1] < 100)
     box = ink(lambda png: png.text((50, 30), "HHHH", 12, upright=False))
     for mine, of_text in zip((columns.min(), rows.min(), columns.max() + 1, rows.max() + 1), box, strict=True):
-        assert mine / 1.5 == pytest.approx(of_text, abs=1.5)
+        assert mine / 1.5 == pytest.approx(of_text, abs=2.5)

@@ -14,8 +14,8 @@ from harness.report.paper_figures import paper_figures
 from harness.report.run_report import run_report
 from harness.report.static import svg_text
 from harness.report.study_report import study_report
-from harness.rim import rim_of
 from harness.results import settings
+from harness.rim import rim_of
 from harness.study import Study
 from harness.wheels import Wheel
 from tests.kept import plain_page, same_as_kept
