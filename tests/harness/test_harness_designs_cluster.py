@@ -36,7 +36,7 @@ class Future:
 
 def test_results_come_as_they_are() -> None:
     pairs = [(DESIGN, Result(7, "cheap", (4.0,)))]
-    assert cluster._came(Future(pairs), [DESIGN], Tools()) == pairs  # type: ignore[arg-type]
+    assert cluster._came(Future(pairs), [DESIGN], TOOLS) == pairs
 
 
 def test_designs_that_killed_their_workers_have_failed() -> None:

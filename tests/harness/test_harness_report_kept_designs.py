@@ -59,7 +59,7 @@ def results(designs: list[Design], quantities: tuple[Quantity, ...], warned: boo
 @pytest.mark.parametrize("warned", [False, True])
 def test_kept_page_of_a_sweep(warned: bool) -> None:
     axes = (
-        replace(axis("tooth_slope_angle", 85.0, 95.0, unit="deg")),
+        axis("tooth_slope_angle", 85.0, 95.0, unit="deg"),
         replace(axis("tooth_count"), values=(10, 20)),
         axis("restitution", 0.0, 0.5),
     )
@@ -83,7 +83,7 @@ class Search:
 @pytest.mark.parametrize("largest", [False, True])
 def test_kept_page_of_an_optimum(largest: bool) -> None:
     axes = (
-        axis("tooth_slope_angle", 85.0, 95.0, unit="deg"),
+        axis("tooth_slope_angle", 1400.0, 1700.0, unit="mrad"),
         replace(axis("tooth_count"), values=(10, 20)),
         axis("gear", 1, 9),
     )
