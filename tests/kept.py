@@ -9,12 +9,15 @@ numbers must be is said elsewhere. Numbers may differ in the last digits, as oth
 from __future__ import annotations
 
 import base64
+import inspect
 import json
 import math
 import os
 import re
+from dataclasses import is_dataclass
 from itertools import zip_longest
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -59,6 +62,23 @@ def plain_page(html: str) -> str:
 def plain_data(data: Any) -> str:
     """What JSON can hold, in lines."""
     return _lines(json.loads(json.dumps(data)))
+
+
+def defaults_of(package: ModuleType) -> dict[str, Any]:
+    """Of what a package offers: fields of records and arguments of functions that have a default, and numbers."""
+    told: dict[str, Any] = {}
+    for name in sorted(package.__all__):
+        one = getattr(package, name)
+        if isinstance(one, int | float):
+            told[name] = one
+        elif inspect.isfunction(one) or is_dataclass(one):
+            arguments = inspect.signature(one).parameters.values()  # type: ignore[arg-type]
+            told[name] = {each.name: _said(each.default) for each in arguments if each.default is not each.empty}
+    return told
+
+
+def _said(default: Any) -> str:
+    return default.__name__ if inspect.isfunction(default) else repr(default)
 
 
 def _opened(found: re.Match[str]) -> str:
