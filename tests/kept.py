@@ -69,10 +69,10 @@ def defaults_of(package: ModuleType) -> dict[str, Any]:
     told: dict[str, Any] = {}
     for name in sorted(package.__all__):
         one = getattr(package, name)
-        if isinstance(one, int | float):
-            told[name] = one
+        if isinstance(one, int | float) or (is_dataclass(one) and not isinstance(one, type)):
+            told[name] = repr(one)
         elif inspect.isfunction(one) or is_dataclass(one):
-            arguments = inspect.signature(one).parameters.values()  # type: ignore[arg-type]
+            arguments = inspect.signature(one).parameters.values()
             told[name] = {each.name: _said(each.default) for each in arguments if each.default is not each.empty}
     return told
 
