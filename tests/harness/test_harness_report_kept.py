@@ -18,7 +18,7 @@ from harness.results import settings
 from harness.rim import rim_of
 from harness.study import Study
 from harness.wheels import Wheel
-from tests.kept import plain_page, same_as_kept
+from tests.kept import plain_data, plain_page, same_as_kept
 from tests.replayed import EXPERIMENT, ReplayedFmu
 
 
@@ -83,3 +83,7 @@ def test_kept_page_of_a_study(study: Study) -> None:
 
 def test_kept_figures_of_a_study(study: Study) -> None:
     same_as_kept("study_figures.svg", "".join(svg_text(figure.plots) for figure in paper_figures(study)))
+
+
+def test_kept_units_of_a_run(whole: Run) -> None:
+    same_as_kept("run_units.json", plain_data({table: dict(units) for table, units in whole.units.items()}))
