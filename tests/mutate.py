@@ -154,13 +154,13 @@ class Nearest:
         tests = [name for name in distance if name.rpartition(".")[2].startswith("test_")]
         files = [f"{name.replace('.', '/')}.py" for name in sorted(tests, key=lambda name: (distance[name], name))]
         files = [file for file in files if not any(part in file for part in _LEFT_OUT)]
-        own, folder = Path(path).stem, Path(path).parent.name
+        own, folders = Path(path).stem, Path(path).parts[1:-1]
         files.sort(
-            key=lambda file: (not _named_after(file, own), not _named_after(file, folder), not _akin(file, path))
+            key=lambda file: (not _named_after(file, own), not _named_after(file, *folders), not _akin(file, path))
         )
         ends = [0, *(min(end, len(files)) for end in _STAGES)]
         portions = [("not slow", *files[begin:end]) for begin, end in pairwise(ends) if begin < end]
-        named = [file for file in files[: _STAGES[0]] if _named_after(file, own, folder)]
+        named = [file for file in files[: _STAGES[0]] if _named_after(file, own, *folders)]
         return [*portions[:1], ("slow", *named), *portions[1:]] if named else portions
 
 

@@ -13,7 +13,7 @@ from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model,
 from mechanism_fmu.model.compile import compile_tables
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan, where_positive
 from mechanism_fmu.model.symbol import Operation, Recorder
-from mechanism_fmu.model.trace import trace
+from mechanism_fmu.model.trace import _limits, trace
 from models.ratchet.model import MODEL as RATCHET
 from tests.parameter_sets import near_defaults, within_limits
 
@@ -179,3 +179,15 @@ def test_what_cannot_be_traced_is_shown_with_its_line():
     model = Model("Numpy", "Uses numpy.", (Parameter("mass", 1.0, "Mass", "kg", 0.1, 10.0),), mechanism)
     with pytest.raises(MechanismError, match=r"Numpy cannot be traced, .*test_trace\.py, line \d+ \(return Mechanism"):
         trace(model)
+
+
+@pytest.mark.parametrize("least", [None, -2.0])
+@pytest.mark.parametrize("largest", [None, 3.0])
+def test_limits_of_a_parameter_that_is_traced(least, largest):
+    found = _limits(Parameter("x", 1.0, "", minimum=least, maximum=largest))
+    assert (found.low, found.high) == (-math.inf if least is None else least, math.inf if largest is None else largest)
+    assert not found.whole
+    assert _limits(Parameter("n", 1, "", type="Integer")).whole
+    assert _limits(Parameter("b", 1, "", type="Boolean")) == _limits(
+        Parameter("b", 0, "", minimum=5.0, maximum=7.0, type="Boolean")
+    )

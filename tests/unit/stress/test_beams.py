@@ -156,6 +156,14 @@ def test_breaks_between_root_and_tip_are_taken():
     assert beam.breaks == (0.02, 0.03)
 
 
+def test_a_break_may_be_anywhere_between_root_and_tip() -> None:
+    for place in (1e-9, 1e-4, 0.05 - 1e-9):
+        assert SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, breaks=(place,)).breaks == (place,)
+    for place in (0.0, -1e-9, 0.05):
+        with pytest.raises(ValueError, match="must ascend and lie between root and tip"):
+            SectionBeam(0.05, np.ones_like, np.ones_like, np.ones_like, breaks=(place,))
+
+
 @pytest.mark.parametrize(
     ("make", "said"),
     [
