@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import mimetypes
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from markdown_it.token import Token
 
 from ..model import Model
 from ..statechart import definitions_table, diagram, markdown
+from .arrays import common_description, numbered
 from .logic import default_logic
 from .project import licence_text
 from .units import display_factor
@@ -47,10 +49,11 @@ def documentation(
 def page(model: Model, folder: Path | None, facts: Sequence[str], notes: str = "") -> str:
     """The page of a model as HTML; see `documentation`."""
     variables = variables_of(model)
+    shown = _together(variables)
     readme = None if folder is None else folder / "README.md"
     text = readme.read_text(encoding="utf-8") if readme is not None and readme.is_file() else notes
     tables = "".join(
-        _table(title, [v for v in variables if v.causality == causality])
+        _table(title, [v for v in shown if v.causality == causality])
         for title, causality in (
             ("Inputs", "input"),
             ("Outputs", "output"),
@@ -81,6 +84,23 @@ def _modes(model: Model, folder: Path | None) -> str:
         "each other; an arrow has its event, [its guard] and / what it resets.</p>\n"
         f"{diagram(logic)}{_markdown(markdown(logic), folder)}{_markdown(definitions_table(logic), folder)}"
     )
+
+
+def _together(variables: Sequence[Variable]) -> list[Variable]:
+    """The variables with one in place of those that are numbered: `impacts[1..8].time`."""
+    arrays = {elements[0].value_reference: elements for elements in numbered(variables)}
+    left_out = {element.value_reference for elements in arrays.values() for element in elements[1:]}
+    return [
+        replace(
+            variable,
+            name=variable.name.replace("[1]", f"[1..{len(arrays[variable.value_reference])}]"),
+            description=common_description([element.description for element in arrays[variable.value_reference]]),
+        )
+        if variable.value_reference in arrays
+        else variable
+        for variable in variables
+        if variable.value_reference not in left_out
+    ]
 
 
 def _table(title: str, variables: Sequence[Variable]) -> str:

@@ -21,7 +21,7 @@ from .variables import Variable, variables_of
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 
 #: Most rows of results behind the first.
-_ROWS = 100
+_ROWS = 60
 #: Significant digits: what differs behind them does so from one C library to another.
 _DIGITS = 12
 

@@ -8,14 +8,15 @@ are more: the clock, what it clocks, and as one array each what is numbered else
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
 from ... import __version__
 from ...model import MechanismError, Model
+from ..arrays import array_name, common_description, numbered, stride
 from ..model_description import (
     CommonType,
     common_types,
@@ -27,7 +28,6 @@ from ..model_description import (
 )
 from ..variables import FIRST_REFERENCE, Variable, variables_of
 
-_ELEMENT = re.compile(r"(?P<array>.+)\[(?P<index>\d+)\](?P<field>\.\w+)")
 _IMPACT_FLAG = "impact.any"
 #: Fields of the last impact; counters are not among them.
 _OF_LAST_IMPACT = re.compile(r"impact\.(?!count$|in_step$|lost$|any$)")
@@ -96,13 +96,13 @@ def outputs_again(variables: Sequence[Variable]) -> tuple[Again, ...]:
     )
     arrays = (
         Again(
-            _array_name(elements[0]),
-            _common_description([element.description for element in elements]),
+            array_name(elements[0]),
+            common_description([element.description for element in elements]),
             elements[0],
             len(elements),
-            _stride(elements),
+            stride(elements),
         )
-        for elements in _arrays(variables)
+        for elements in numbered(variables)
     )
     return (*clocked, *arrays)
 
@@ -189,47 +189,6 @@ def _variables3(variables: Sequence[Variable], clocks: bool) -> Iterator[Variabl
             one.count,
             clock if one.clocked else None,
         )
-
-
-def _arrays(variables: Iterable[Variable]) -> Iterator[list[Variable]]:
-    """Outputs `name[1].field`, `name[2].field`, ... that differ in nothing else and lie equally far apart."""
-    groups: dict[tuple[str, str], list[Variable]] = {}
-    for variable in variables:
-        match = _ELEMENT.fullmatch(variable.name)
-        if match and variable.causality == "output":
-            groups.setdefault((match["array"], match["field"]), []).append(variable)
-    for (array, field), elements in groups.items():
-        first, stride = elements[0], _stride(elements)
-        expected = [
-            (f"{array}[{k + 1}]{field}", first.value_reference + k * stride, _nature(first))
-            for k in range(len(elements))
-        ]
-        if [(v.name, v.value_reference, _nature(v)) for v in elements] == expected:
-            yield elements
-
-
-def _nature(variable: Variable) -> Variable:
-    """All that the elements of an array share."""
-    return replace(variable, name="", description="", value_reference=0, source="", dependencies=())
-
-
-def _stride(elements: Sequence[Variable]) -> int:
-    return 0 if len(elements) == 1 else elements[1].value_reference - elements[0].value_reference
-
-
-def _array_name(first: Variable) -> str:
-    match = _ELEMENT.fullmatch(first.name)
-    assert match is not None  # `_arrays` has matched it
-    return match["array"] + match["field"]
-
-
-def _common_description(descriptions: Sequence[str]) -> str:
-    """The first description, with k for the numbers that count the elements."""
-    split = [re.split(r"(\d+)", description) for description in descriptions]
-    if len(split) == 1 or len({len(parts) for parts in split}) > 1:
-        return descriptions[0]
-    indices = [str(k) for k in range(1, len(split) + 1)]
-    return "".join("k" if list(column) == indices else column[0] for column in zip(*split, strict=True))
 
 
 def _co_simulation(root: Element, model: Model) -> None:

@@ -45,7 +45,7 @@ def test_every_variable_is_listed_with_unit_start_and_limits(tmp_path: Path) -> 
     assert "<td><code>length</code></td><td>Real</td><td>m</td><td>1.5 (1500 mm)</td>" in html
     assert "<td>0.1 (100 mm) … 10 (10000 mm)</td><td>Length of the arm</td>" in html
     assert "<td><code>guided</code></td><td>Boolean</td><td></td><td>true</td><td></td>" in html
-    assert "<td><code>impacts[1].time</code></td><td>Real</td><td>s</td>" in html
+    assert "<td><code>impacts[1..1].time</code></td><td>Real</td><td>s</td>" in html
 
 
 def test_special_letters_are_escaped(tmp_path: Path) -> None:
