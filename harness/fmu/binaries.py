@@ -47,8 +47,8 @@ def require_library(path: Path, description: Description, names: Iterable[str]) 
     here = [name for name in found if name.startswith(f"{platform}/") and name.endswith(fmpy.sharedLibraryExtension)]
     if here:
         raise UsageError(
-            f"'{path}' names its library {description.identifier} (modelIdentifier), but binaries has {listed(here)}: by "
-            f"the standard the file must be {platform}/{wanted}. Rename the one, or change the other, in the FMU."
+            f"'{path}' names its library {description.identifier} (modelIdentifier), but in binaries there is "
+            f"{listed(here)}: by the standard the file must be {platform}/{wanted}. Rename the file in the FMU."
         )
     sources = any(name.startswith("sources/") for name in names)
     way_out = "compile its sources" if sources else "ask whoever made it"

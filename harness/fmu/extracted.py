@@ -53,8 +53,8 @@ class Fmu:
             if clock.type == "Clock" and clock.causality == "input" and clock.interval != "triggered":
                 raise UsageError(
                     f"'{self.path}' has the input clock {clock.name}, which ticks by time (intervalVariability = "
-                    f"{clock.interval or 'none'}); the harness lets triggered clocks tick, and no others. Ask for an FMU "
-                    "that keeps its own time, or run it in a tool for scheduled execution."
+                    f"{clock.interval or 'none'}); the harness lets triggered clocks tick, and no others. Ask for an "
+                    "FMU that keeps its own time, or run it in a tool for scheduled execution."
                 )
         slave: FmuSlave
         if self.description.fmi == 3:

@@ -114,8 +114,8 @@ def linked(connection: Connection, description: Description) -> Link:
     _check_kinds(connection, source, target)
     if target.type == "Clock" and target.interval != "triggered":
         raise UsageError(
-            f"{where}: the target ticks by time ({target.interval or 'no intervalVariability'}); connect a clock that is "
-            "triggered."
+            f"{where}: the target ticks by time ({target.interval or 'no intervalVariability'}); connect a clock that "
+            "is triggered."
         )
     if not (math.isfinite(connection.gain) and math.isfinite(connection.offset)) or connection.gain == 0.0:
         numbers = f"gain = {connection.gain:g}, offset = {connection.offset:g}"

@@ -104,7 +104,8 @@ class Events:
             changed, ticked = pass_on(), self._tick()
             if not (again or changed or ticked):
                 break
-            again = any([mode.update() for mode in self._modes.values()])
+            wishes = [mode.update() for mode in self._modes.values()]
+            again = any(wishes)
         else:
             raise FmuError(
                 f"The discrete states of {', '.join(self._modes)} do not settle in {MOST_UPDATES} updates: each update "

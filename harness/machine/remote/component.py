@@ -10,8 +10,8 @@ from ...description import Description, Value
 from ...messages import LogMessage
 from ...slave import whole_step
 from ...wire import BrokenFrameError
-from .link import Link
 from .event_mode import RemoteEventMode
+from .link import Link
 from .plain import number
 from .reals import RemoteReals
 from .round_trips import RoundTrips
