@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 from .description import Description, Value, Variable, hint_at
 from .errors import UsageError
@@ -111,7 +111,12 @@ def _boolean(text: str, variable: Variable, _description: Description) -> bool:
     return _BOOLEANS[text.lower()]
 
 
-_PARSERS = {"Real": _real, "Integer": _integer, "Boolean": _boolean, "Binary": _binary}
+_PARSERS: Mapping[str, Callable[[str, Variable, Description], Value]] = {
+    "Real": _real,
+    "Integer": _integer,
+    "Boolean": _boolean,
+    "Binary": _binary,
+}
 
 
 def _check_limits(value: Value, text: str, variable: Variable, description: Description) -> None:

@@ -6,7 +6,7 @@ import difflib
 import math
 import re
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import product
 from os.path import isfile
@@ -155,6 +155,13 @@ class Description:
     def has_clocks(self) -> bool:
         """Whether it must be instantiated with the event mode in use (FMI 3.0, fmi3InstantiateCoSimulation)."""
         return any(variable.type == "Clock" for variable in self.variables.values())
+
+
+def not_in_step_mode(variable: Variable) -> str:
+    """Why a variable cannot be read between events, as the beginning of a sentence."""
+    if variable.type == "Clock":
+        return f"'{variable.name}' is a clock, which ticks at events and has no value between them"
+    return f"'{variable.name}' ticks by {' and '.join(variable.clocks)}: it has a value at events only, in event mode"
 
 
 def hint_at(name: str, known: Iterable[str]) -> str:
@@ -345,8 +352,9 @@ def _is_value(text: str, kind: str) -> bool:
     """Whether a text means a value of a type."""
     if kind == "Boolean":
         return text in ("true", "false", "1", "0")
+    makes: Mapping[str, Callable[[str], object]] = {"Real": float, "Integer": int, "Binary": bytes.fromhex}
     try:
-        {"Real": float, "Integer": int, "Binary": bytes.fromhex}.get(kind, str)(text)
+        makes.get(kind, str)(text)
     except ValueError:
         return False
     return True

@@ -154,6 +154,5 @@ class Fmi3Slave(FmuSlave):
 
     def _set(self, batch: Batch, numbers: Sequence[Value]) -> None:
         name = _NAMES.get(batch.kind, batch.kind)
-        if name == "Binary":
-            numbers = [_bytes(number) for number in numbers]
-        self._call(f"fmi3Set{name}", getattr(self._instance, f"set{name}"), batch.references, numbers)
+        values = [_bytes(number) for number in numbers] if name == "Binary" else numbers
+        self._call(f"fmi3Set{name}", getattr(self._instance, f"set{name}"), batch.references, values)
