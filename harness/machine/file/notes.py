@@ -37,12 +37,19 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
     ]
     found += _free_inputs(plan, machine.description, driven)
     found += _without_units(plan.connections, machine.description)
-    found += _extrapolation(plan, descriptions)
-    held = [f"{link.source} -> {link.target}" for link in machine.links if link.held]
+    flowing = {link.target for link in machine.links if not link.held}
+    found += _extrapolation(plan, [c for c in plan.connections if c.target in flowing], descriptions)
+    held = [f"{link.source} -> {link.target}" for link in machine.links if link.held and not link.ticks]
     if held:
         found.append(
             f"Held, and never interpolated or extrapolated: {', '.join(held)}. A change takes effect at the first "
             "communication point at which it is seen, with every algorithm; until there its receiver has the old value."
+        )
+    ticking = [f"{link.source} -> {link.target}" for link in machine.links if link.ticks]
+    if ticking:
+        found.append(
+            f"By clocks: {', '.join(ticking)}. They are passed on in event mode, at the first communication point "
+            "behind an event; with event_aware that is the event itself, where an FMU can end its step there."
         )
     if plan.policy.reads_once:
         found.append(
@@ -116,11 +123,11 @@ def _kept(variable: Variable, machine: Description) -> str:
     return f"{name} = {shown(float(variable.start), variable.name, machine)}"
 
 
-def _extrapolation(plan: Plan, descriptions: Mapping[str, Description]) -> list[str]:
+def _extrapolation(plan: Plan, connections: Sequence[Connection], descriptions: Mapping[str, Description]) -> list[str]:
     kind = plan.policy.extrapolation
     if kind is Extrapolation.CONSTANT:
         return []
-    targets = {part_of(connection.target) for connection in plan.connections}
+    targets = {part_of(connection.target) for connection in connections}
     held = [name for name, description in descriptions.items() if name in targets and not description.takes_slopes]
     found = []
     if held:
@@ -128,7 +135,7 @@ def _extrapolation(plan: Plan, descriptions: Mapping[str, Description]) -> list[
             f"{', '.join(held)} takes no slopes of inputs (canInterpolateInputs): its inputs are held during a step, "
             "at what they would be in its middle."
         )
-    unknown = [c.source for c in plan.connections if _has_no_slope(c, descriptions)]
+    unknown = [c.source for c in connections if _has_no_slope(c, descriptions)]
     if kind is Extrapolation.DERIVATIVES and unknown:
         found.append(
             f"No derivative is known of {', '.join(dict.fromkeys(unknown))}: what follows goes on as in the step "

@@ -6,8 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
+from typer.testing import CliRunner
 
+from harness.cli import main
 from harness.clock import TimeGrid
 from harness.errors import FmuError, UsageError
 from harness.fmu import Fmu, open_fmu
@@ -183,3 +186,58 @@ def test_clocks_go_to_clocks(
 def test_a_clock_has_one_connection(parts: Callable[..., Mapping[str, Component]]) -> None:
     with pytest.raises(UsageError, match=r"b\.poke has two connections"):
         Machine(parts(), [Connection("a.tick", "b.poke"), Connection("c.tick", "b.poke")])
+
+
+FILE = """
+[run]
+stop_time = 1.0
+step = 0.1
+algorithm = "event_aware"
+[component.a]
+file = "{path}"
+[component.b]
+file = "{path}"
+process = false
+[component.b.set]
+period = 0.0
+[[connect]]
+from = "a.tick"
+to = "b.poke"
+[[connect]]
+from = "a.number"
+to = "b.weight"
+"""
+
+
+def command(*words: str) -> tuple[int, str]:
+    done = CliRunner().invoke(main, list(words))
+    return done.exit_code, " ".join(done.output.split())
+
+
+def test_a_file_connects_clocks(pulse: Path, tmp_path: Path) -> None:
+    file = tmp_path / "chain.toml"
+    file.write_text(FILE.format(path=pulse), encoding="utf-8")
+    code, said = command("machine", "run", str(file), "-o", str(tmp_path / "out"))
+    assert code == 0, said
+    assert "By clocks: a.tick -> b.poke, a.number -> b.weight. They are passed on in event mode" in said
+    assert "No derivative is known" not in said
+    table = pd.read_parquet(tmp_path / "out" / "results.parquet")
+    n = np.floor(table["time"].to_numpy() / 0.25 + 1e-6)
+    assert table["b.sum"].to_numpy() == pytest.approx(n * (n + 1) / 2)
+    assert "a.number" not in table
+    code, said = command("machine", "export", str(file), "-o", str(tmp_path / "x.ssp"))
+    assert (code, "a.tick -> b.poke is one of clocks, which SSP 1.0 does not know" in said) == (2, True)
+    code, said = command("machine", "container", str(file), "-o", str(tmp_path / "X.fmu"))
+    assert (code, "a.tick is of type Clock, which fmpy's container cannot connect" in said) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("signal", "message"),
+    [("a.number", "'a.number' ticks by a.tick: it has a value at events only"), ("a.tick", "'a.tick' is a clock")],
+)
+def test_what_ticks_is_not_recorded(pulse: Path, tmp_path: Path, signal: str, message: str) -> None:
+    file = tmp_path / "chain.toml"
+    file.write_text(FILE.format(path=pulse) + f'[record]\nsignals = ["{signal}"]\n', encoding="utf-8")
+    code, said = command("machine", "check", str(file))
+    assert code == 2
+    assert message in said
