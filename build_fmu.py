@@ -81,6 +81,7 @@ def built(
     output: Path,
     flavour: Flavour = Flavour.PYTHONFMU,
     fmi: int = 2,
+    *,
     starts: Mapping[str, float] | None = None,
     inputs: Mapping[str, tuple[float, float, str | None]] | None = None,
     clocks: bool = False,
@@ -138,9 +139,9 @@ def built(
                 module, file = prepare(model, flavour is Flavour.NATIVE, warn)
                 explanations.enter_context(explained_in_fmu(file))
             if flavour is Flavour.NATIVE:
-                path = build_native_fmu(module, output, fmi, report, clocks, own)
+                path = build_native_fmu(module, output, fmi, report, clocks=clocks, baked=own)
             else:
-                path = build_fmu(module, output, report, own)
+                path = build_fmu(module, output, report, baked=own)
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None

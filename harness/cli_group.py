@@ -6,6 +6,7 @@ from typing import Any
 
 from typer.core import TyperGroup
 
+from .exhausted import exhaustion_told
 from .termination import terminable
 
 
@@ -17,8 +18,8 @@ class Group(TyperGroup):
     """
 
     def main(self, *arguments: Any, **options: Any) -> Any:
-        """Run the command; SIGTERM ends it as Ctrl-C does."""
-        with terminable():
+        """Run the command; SIGTERM ends it as Ctrl-C does, and what is full is told in a line."""
+        with terminable(), exhaustion_told():
             return super().main(*arguments, **options)
 
     def get_help_option(self, ctx: Any) -> Any:

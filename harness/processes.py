@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import shutil
 import signal
 import tempfile
 import threading
-from multiprocessing import connection, get_all_start_methods, get_context, parent_process
+from contextlib import ExitStack
+from functools import cache
+from multiprocessing import connection, current_process, get_all_start_methods, get_context, parent_process
 from multiprocessing.context import BaseContext
 from pathlib import Path
+from typing import Any
+
+from mechanism_fmu.fmu.temporary import temporary_folder
 
 #: How numpy's libraries are told how many threads to have, when they are loaded.
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
-#: The path of a socket has some 100 letters at the most, of which Python takes 36 behind that of the temporary folder.
-_LONGEST_FOLDER = 60
+#: The path of a socket has 103 letters at the most, of which 49 stand behind that of the temporary folder.
+_LONGEST_FOLDER = 54
 
 
 def starting_from(module: str) -> BaseContext:
@@ -30,9 +36,29 @@ def starting_from(module: str) -> BaseContext:
         os.environ.setdefault(name, "1")
     copies = "forkserver" in get_all_start_methods() and len(tempfile.gettempdir()) <= _LONGEST_FOLDER
     context = get_context("forkserver" if copies else "spawn")
+    _own_folder()
     if copies:
         context.set_forkserver_preload([module])
     return context
+
+
+@cache
+def _own_folder() -> None:
+    """Let Python keep the socket of the process that is copied in a folder that others remove if this one is killed.
+
+    Its own would stay, and nobody could say whose it was.
+    """
+    settings = _settings()
+    if "tempdir" not in settings:
+        stack = ExitStack()
+        atexit.register(stack.close)
+        settings["tempdir"] = str(stack.enter_context(temporary_folder()))
+
+
+def _settings() -> dict[str, Any]:
+    """What processes have from the one that starts them; "tempdir" is a folder for temporary files."""
+    settings: dict[str, Any] = getattr(current_process(), "_config", {})
+    return settings
 
 
 def serve_only(folder: Path | None) -> threading.Thread:
@@ -46,6 +72,8 @@ def serve_only(folder: Path | None) -> threading.Thread:
         that ends by itself leaves the folder half removed.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # What an FMU leaves here when this process is ended goes with the folder of the one that leads.
+    tempfile.tempdir = _settings().get("tempdir") or tempfile.tempdir
     end = threading.Thread(target=_end_with_parent, args=(folder,), daemon=True)
     end.start()
     return end

@@ -44,7 +44,9 @@ JUST_IN_TIME = (
     "tests/fmu/native/test_just_in_time_agrees.py",
 )
 #: Whose tests run the engine without saying so by a fixture.
-_ENGINE = ("tests/analytic/", "tests/convergence/", "tests/docs/", "tests/fmu/", "tests/fuzz/", "tests/unit/engine/")
+_ENGINE = tuple(
+    f"tests/{name}/" for name in ("analytic", "convergence", "docs", "faults", "fmu", "fuzz", "unit/engine")
+)
 #: Tests that are to begin early, and files whose tests are a piece each.
 _LONG = (
     "tests/harness/test_harness_sweep_command.py::test_two_thousand_designs_killed_ten_times",

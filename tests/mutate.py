@@ -3,8 +3,9 @@
     python -m tests.mutate harness mechanism_fmu/stress --sample 100 --seed 1
 
 Works in a copy of the tree, which goes afterwards. The tests of a file are those that import it, then those that import
-what imports it, and so on, nearest first; `-- ARGUMENTS` are pytest's, e.g. `-- tests/harness/machine`, and take their
-place. What lives is printed. See docs/how-it-is-tested.md.
+what imports it, and so on. Those named after it or its folder are asked first, with the slow ones among them, then the
+others, nearest first. `-- ARGUMENTS` are pytest's, e.g. `-- tests/harness/machine`, and take their place. What lives is
+printed. See docs/how-it-is-tested.md.
 """
 
 from __future__ import annotations
@@ -31,6 +32,8 @@ ROOT = Path(__file__).parents[1]
 _STAGES = (3, 9, 18)
 #: A browser, other tools and whole models: they say little of a line, and take long.
 _LEFT_OUT = ("browser", "phone", "test_house", "benchmark", "docs", "million", "fmu/", "example_files")
+#: A marker and files: what pytest is asked.
+Tests = tuple[str, ...]
 _PACKAGES = ("harness", "mechanism_fmu", "models", "tests", "build_fmu")
 
 
@@ -41,6 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--sample", type=int, metavar="N", help="so many of all mutants (default: all)")
     parser.add_argument("--part", default="1/1", metavar="K/N", help="the K-th of N parts, for as many processes")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--portions", type=int, metavar="N", help="ask the first N portions of tests only: quick")
     parser.add_argument(
         "--timeout", type=float, default=300.0, metavar="S", help="a mutant that takes longer is noticed"
     )
@@ -58,9 +62,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with tempfile.TemporaryDirectory(prefix="mutants-") as place:
         copy = copied(Path(place))
         for number, mutant in enumerate(chosen, start=1):
-            tests = [given[own + 1 :]] if own < len(given) else nearest.stages(mutant.path)
+            tests = [("not slow", *given[own + 1 :])] if own < len(given) else nearest.stages(mutant.path)
             began = time.monotonic()
-            how = verdict(copy, mutant, tests, asked.timeout)
+            how = verdict(copy, mutant, tests[: asked.portions], asked.timeout)
             print(f"{number:4d} {how:8} {time.monotonic() - began:5.0f} s  {mutant}", flush=True)
             if how == "LIVES":
                 alive.append(mutant)
@@ -92,17 +96,17 @@ def copied(place: Path) -> Path:
     return place
 
 
-def verdict(copy: Path, mutant: Mutant, stages: Sequence[Sequence[str]], timeout: float) -> str:
+def verdict(copy: Path, mutant: Mutant, stages: Sequence[Tests], timeout: float) -> str:
     """Whether tests notice a mutant: "noticed", "too long" or "LIVES"."""
     file = copy / mutant.path
     source = file.read_bytes()
     file.write_bytes(mutant.apply(source))
     try:
         for tests in stages:
-            how = _run(copy, tuple(tests), timeout) if tests else None
+            how = _run(copy, tests, timeout)
             if how == "too long":
                 file.write_bytes(source)
-                how = how if _run_unchanged(copy, tuple(tests), timeout) is None else None
+                how = how if _run_unchanged(copy, tests, timeout) is None else None
                 file.write_bytes(mutant.apply(source))
             if how is not None:
                 return how
@@ -112,13 +116,13 @@ def verdict(copy: Path, mutant: Mutant, stages: Sequence[Sequence[str]], timeout
 
 
 @cache
-def _run_unchanged(copy: Path, tests: tuple[str, ...], timeout: float) -> str | None:
+def _run_unchanged(copy: Path, tests: Tests, timeout: float) -> str | None:
     """Tests that take too long of themselves say nothing of a mutant."""
     return _run(copy, tests, timeout)
 
 
-def _run(copy: Path, tests: tuple[str, ...], timeout: float) -> str | None:
-    options = ["-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", "-m", "not slow"]
+def _run(copy: Path, tests: Tests, timeout: float) -> str | None:
+    options = ["-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", "-m"]
     command = [sys.executable, "-m", "pytest", *options, *tests]
     environment = os.environ | {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1"}
     with subprocess.Popen(
@@ -137,8 +141,8 @@ class Nearest:
     def __init__(self) -> None:
         self._importers: Mapping[str, set[str]] = _importers()
 
-    def stages(self, path: str) -> list[list[str]]:
-        """The test files of a source file, nearest first, in portions."""
+    def stages(self, path: str) -> list[Tests]:
+        """The tests of a source file in portions: those named after it, the slow ones of them, then the nearest."""
         module = _module(path)
         distance = {module: 0}
         queue = [module]
@@ -150,16 +154,26 @@ class Nearest:
         tests = [name for name in distance if name.rpartition(".")[2].startswith("test_")]
         files = [f"{name.replace('.', '/')}.py" for name in sorted(tests, key=lambda name: (distance[name], name))]
         files = [file for file in files if not any(part in file for part in _LEFT_OUT)]
-        files.sort(key=lambda file: (Path(path).stem not in Path(file).stem, not _akin(file, path)))
+        own, folder = Path(path).stem, Path(path).parent.name
+        files.sort(
+            key=lambda file: (not _named_after(file, own), not _named_after(file, folder), not _akin(file, path))
+        )
         ends = [0, *(min(end, len(files)) for end in _STAGES)]
-        return [files[begin:end] for begin, end in pairwise(ends)]
+        portions = [("not slow", *files[begin:end]) for begin, end in pairwise(ends) if begin < end]
+        named = [file for file in files[: _STAGES[0]] if _named_after(file, own, folder)]
+        return [*portions[:1], ("slow", *named), *portions[1:]] if named else portions
+
+
+def _named_after(test: str, *names: str) -> bool:
+    return any(name in Path(test).stem.removeprefix("test_harness_") for name in names)
 
 
 def _akin(test: str, path: str) -> bool:
     """Whether a test file lies in the folder of tests that mirrors the source's."""
     parts = Path(path).parts
-    folder = f"tests/unit/{parts[1]}" if parts[0] == "mechanism_fmu" else "tests/harness"
-    return test.startswith(folder)
+    if parts[0] == "mechanism_fmu":
+        return test.startswith(f"tests/unit/{parts[1]}")
+    return test.startswith("/".join(("tests", *parts[:-1]))) or (len(parts) == 2 and test.startswith("tests/harness"))
 
 
 def _importers() -> dict[str, set[str]]:

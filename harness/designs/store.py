@@ -15,6 +15,7 @@ import json
 import os
 import shutil
 from collections.abc import Iterable, Mapping, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -207,6 +208,7 @@ def _schema(identity: Identity, axes: Sequence[Axis], quantities: Sequence[Quant
 
 
 def _read(path: Path, schema: pa.Schema) -> pa.Table:
+    import_module("pyarrow.dataset")  # else read_table complains of the schema where there is no memory to load it
     try:
         return pq.read_table(path, schema=schema)
     except (OSError, pa.ArrowException) as error:

@@ -12,6 +12,7 @@ import fmpy
 
 from ..description import Description, damaged, read_description
 from ..errors import UsageError
+from ..exhausted import NO_ROOM
 from .binaries import require_library
 from .fmi2 import Fmi2Slave
 from .fmi3 import Fmi3Slave
@@ -88,5 +89,10 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
         try:
             fmpy.extract(str(path), unzipdir=str(folder))
         except Exception as error:
+            if isinstance(error, OSError) and error.errno in NO_ROOM:
+                raise UsageError(
+                    f"'{path}' cannot be unpacked into '{folder.parent}': {error.strerror}. Make room there, or set "
+                    "the environment variable TMPDIR to another folder."
+                ) from error
             raise damaged(path, error) from error
         yield Fmu(path, description, folder)

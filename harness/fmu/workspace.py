@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+
+from mechanism_fmu.fmu import temporary
 
 from ..errors import UsageError
 
@@ -18,24 +19,26 @@ _PLAIN = re.compile(r"[A-Za-z0-9_./\\:~-]+")
 
 @contextmanager
 def temporary_folder() -> Iterator[Path]:
-    """A new empty folder with a plain path; it is removed afterwards.
+    """A new empty folder with a plain path; it is removed afterwards, and those of killed processes before.
 
     Raises:
         UsageError: there is no place for it.
     """
-    folder = Path(tempfile.mkdtemp(prefix="mechanism-fmu-", dir=_plain_place()))
-    try:
+    with ExitStack() as stack:
+        try:
+            folder = stack.enter_context(temporary.temporary_folder(_plain_place()))
+        except OSError as error:
+            raise UsageError(
+                f"No temporary folder can be made ({error}); set the environment variable TMPDIR to a folder with room."
+            ) from error
         yield folder
-    finally:
-        # On Windows the library stays locked until the process ends; a leftover there is not worth a failure.
-        shutil.rmtree(folder, ignore_errors=True)
 
 
-def _plain_place() -> str:
+def _plain_place() -> Path:
     places = [tempfile.gettempdir(), "/tmp", "/var/tmp", os.environ.get("PUBLIC", "")]
     for place in places:
         if _PLAIN.fullmatch(place) and os.path.isdir(place) and os.access(place, os.W_OK):
-            return place
+            return Path(place)
     raise UsageError(
         f"The temporary folder '{places[0]}' has characters in its path that make FMUs crash "
         "(only plain letters, digits and _ . - are safe); set the environment variable TMPDIR to another one."

@@ -57,4 +57,6 @@ def _maker(source: Source, description: Description) -> Source | None:
 def _copy(name: str, source: Source, numbers: Numbers, place: Path) -> Path:
     console.print(f"Building {source.model} ({source.flavour}) with the numbers of {name} ...", markup=False)
     flavour = build_fmu.Flavour(source.flavour)
-    return build_fmu.built(source.model, place / name, flavour, source.fmi, numbers.starts, numbers.inputs)
+    return build_fmu.built(
+        source.model, place / name, flavour, source.fmi, starts=numbers.starts, inputs=numbers.inputs
+    )

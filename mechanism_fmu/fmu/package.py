@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import tempfile
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -25,11 +26,15 @@ from .native.targets import WRAPPED
 from .project import dependencies
 from .reference_results import reference_results
 from .self_check import StartError
+from .temporary import temporary_folder
 
 _LIBRARY = Path(__file__).parents[1]
 
 #: Imports that ask for nothing: pythonfmu travels in the FMU, and numba brings llvmlite.
 _BROUGHT_ALONG = {"pythonfmu", "llvmlite"}
+
+#: The first that a zip archive can write down.
+_FIRST_YEAR = 1980
 
 #: What compiles the engine where it does not travel compiled.
 _COMPILER = "numba"
@@ -63,7 +68,9 @@ tidy_up(globals())
 '''
 
 
-def build_fmu(module: ModuleType, destination: Path, report: Report = silently, baked: Baked = NOTHING_BAKED) -> Path:
+def build_fmu(
+    module: ModuleType, destination: Path, report: Report = silently, *, baked: Baked = NOTHING_BAKED
+) -> Path:
     """Build the FMU of a model: the same bytes from the same sources and versions of the tools.
 
     Where the package ziglang is installed, the engine travels compiled. Where it is not, the engine is compiled on the
@@ -126,9 +133,18 @@ def _as_arguments(baked: Baked) -> str:
 
 
 def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Entries of the FMU that pythonfmu makes of a slave module and other files beside it."""
-    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary, _imports_left_alone(slave):
-        staged = Path(temporary, "staged")
+    """Entries of the FMU that pythonfmu makes of a slave module and other files beside it.
+
+    Raises:
+        MechanismError: the model cannot start, or the clock is wrong.
+    """
+    if time.localtime().tm_year < _FIRST_YEAR:
+        raise MechanismError(
+            f"The clock of this machine says {time.strftime('%Y-%m-%d')}, and pythonfmu's archives begin with "
+            f"{_FIRST_YEAR}; set the clock, or build with --flavour native."
+        )
+    with temporary_folder() as temporary, _temporary_files_in(temporary), _imports_left_alone(slave):
+        staged = temporary / "staged"
         for name, contents in resources.items():
             path = staged / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -136,13 +152,23 @@ def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str,
         script = staged / f"{slave}.py"
         others = set(staged.iterdir()) - {script}
         try:
-            return read_entries(FmuBuilder.build_FMU(script, dest=Path(temporary, "built"), project_files=others))
+            return read_entries(FmuBuilder.build_FMU(script, dest=temporary / "built", project_files=others))
         except ValueError as error:
             # pythonfmu makes an instance; the copy of the library in it has error classes of its own.
             for known in (MechanismError, StartError):
                 if type(error).__name__ == known.__name__:
                     raise known(str(error)) from error
             raise
+
+
+@contextmanager
+def _temporary_files_in(folder: Path) -> Iterator[None]:
+    """Let pythonfmu make its temporary folder where somebody removes it if this process is killed."""
+    before, tempfile.tempdir = tempfile.tempdir, str(folder)
+    try:
+        yield
+    finally:
+        tempfile.tempdir = before
 
 
 @contextmanager

@@ -72,8 +72,13 @@ def terminals(model: Model) -> dict[str, bytes]:
     return {TERMINALS: to_bytes(root)}
 
 
+def _inputs(mechanism: Mechanism) -> dict[str, str]:
+    """Names of inputs by what they feed; not of those that are given otherwise, as in baked machines: no plug fits."""
+    return {p.target: p.name for p in mechanism.inputs if (p.factor, p.offset) == (1.0, 0.0)}
+
+
 def _driven_ends(mechanism: Mechanism) -> Iterator[Shaft]:
-    by_target = {port.target: port.name for port in mechanism.inputs}
+    by_target = _inputs(mechanism)
     by_source = {port.source: port.name for port in mechanism.outputs}
     for force in mechanism.forces:
         if not isinstance(force, CompliantShaft) or force.reaction != GROUND:
@@ -86,7 +91,7 @@ def _driven_ends(mechanism: Mechanism) -> Iterator[Shaft]:
 
 
 def _bodies(mechanism: Mechanism) -> Iterator[Shaft]:
-    by_target = {port.target: port.name for port in mechanism.inputs}
+    by_target = _inputs(mechanism)
     by_source = {port.source: port.name for port in mechanism.outputs}
     taken = {shaft.name for shaft in _driven_ends(mechanism)}
     for force in mechanism.forces:

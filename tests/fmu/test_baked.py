@@ -10,6 +10,7 @@ from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
 import models
+from harness.errors import FmuError
 from harness.fmu import open_fmu
 from mechanism_fmu.engine.block.layout import field_of
 from mechanism_fmu.engine.block.pack import pack
@@ -23,6 +24,20 @@ STARTS = {"drive_stiffness": 5.0, "unilateral": True, "cam_speed_start": 0.5, "d
 SEEN = Seen(-math.pi / 180.0, 0.3, "deg")
 BAKED = Baked(STARTS, {"drive_angle": SEEN})
 SIGNALS = ("cam_angle", "cam_speed", "follower_angle", "drive_shaft_torque")
+
+
+@pytest.fixture(scope="module")
+def own(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """A function that builds the FMU with numbers of its own, once for each flavour and version."""
+    made: dict[str, Path] = {}
+
+    def build(by: Callable[..., Path], **version: int) -> Path:
+        key = f"{by.__name__}{version}"
+        if key not in made:
+            made[key] = by(models.load("cam_drive"), tmp_path_factory.mktemp("own"), baked=BAKED, **version)
+        return made[key]
+
+    return build
 
 
 def moved(path: Path, values: dict[str, float], given: Callable[[float], float]) -> np.ndarray:
@@ -40,10 +55,10 @@ def moved(path: Path, values: dict[str, float], given: Callable[[float], float])
 
 @pytest.mark.parametrize(("by", "fmi"), [(build_native_fmu, 2), (build_native_fmu, 3), (build_fmu, None)])
 def test_it_moves_as_the_one_that_is_given_the_same(
-    by, fmi: int | None, tmp_path: Path, built: Callable[..., Path]
+    by, fmi: int | None, own: Callable[..., Path], built: Callable[..., Path]
 ) -> None:
     version = {} if fmi is None else {"fmi": fmi}
-    path = by(models.load("cam_drive"), tmp_path, baked=BAKED, **version)
+    path = own(by, **version)
     expected = moved(built("cam_drive", by, **version), STARTS, lambda t: 0.3 + 2.0 * t)
     found = moved(path, {}, lambda t: -2.0 * t * 180.0 / np.pi)
     assert np.ptp(expected, axis=0).min() > 1e-3
@@ -51,13 +66,13 @@ def test_it_moves_as_the_one_that_is_given_the_same(
 
 
 @pytest.mark.parametrize("by", [build_native_fmu, build_fmu])
-def test_its_description_says_so(by, tmp_path: Path, built: Callable[..., Path]) -> None:
-    path = by(models.load("cam_drive"), tmp_path, baked=BAKED)
+def test_its_description_says_so(by, own: Callable[..., Path], built: Callable[..., Path]) -> None:
+    path = own(by)
     assert validate_fmu(str(path)) == []
-    plain, own = (read_model_description(str(p)) for p in (built("cam_drive", by), path))
-    assert plain.guid != own.guid
-    before, now = ({v.name: v for v in one.modelVariables} for one in (plain, own))
-    assert [v.valueReference for v in plain.modelVariables] == [v.valueReference for v in own.modelVariables]
+    plain, mine = (read_model_description(str(p)) for p in (built("cam_drive", by), path))
+    assert plain.guid != mine.guid
+    before, now = ({v.name: v for v in one.modelVariables} for one in (plain, mine))
+    assert [v.valueReference for v in plain.modelVariables] == [v.valueReference for v in mine.modelVariables]
     assert {n: now[n].start for n in STARTS} == {
         "drive_stiffness": "5.0",
         "unilateral": "true",
@@ -70,20 +85,19 @@ def test_its_description_says_so(by, tmp_path: Path, built: Callable[..., Path])
     assert "acts as -0.0174532925199 * value + 0.3 rad" in angle.description
 
 
-def test_saved_states_are_of_one_build_only(tmp_path: Path, built: Callable[..., Path]) -> None:
-    """Other numbers, other GUID: a state of the plain FMU is refused, and its GUID as well."""
-    path = build_native_fmu(models.load("cam_drive"), tmp_path, baked=BAKED)
+def test_saved_states_are_of_one_build_only(own: Callable[..., Path], built: Callable[..., Path]) -> None:
+    """Other numbers, other GUID: a state of the plain FMU is refused."""
     with open_fmu(built("cam_drive", build_native_fmu)) as fmu, fmu.instantiate("plain") as plain:
         plain.initialize(0.0, 1.0)
         state = plain.serialize(plain.save())
-    with open_fmu(path) as fmu, fmu.instantiate("own") as own:
-        own.initialize(0.0, 1.0)
-        with pytest.raises(Exception, match="state"):
-            own.deserialize(state)
+    with open_fmu(own(build_native_fmu)) as fmu, fmu.instantiate("mine") as mine:
+        mine.initialize(0.0, 1.0)
+        with pytest.raises(FmuError, match="state"):
+            mine.deserialize(state)
 
 
-def test_slopes_and_limits_are_those_of_the_outside(tmp_path: Path) -> None:
-    """Half of the way on in a step, as given from outside; and an input with limits refuses what it means by them."""
+def test_slopes_are_those_of_the_outside(own: Callable[..., Path]) -> None:
+    """A ramp in degrees, turned round, is what many short steps with held inputs come to."""
     model = baked_model(models.load("cam_drive").MODEL, BAKED)
     block = pack(compile_mechanism(model.mechanism(model.values())))
     names = [port.name for port in model.mechanism(model.values()).inputs]
@@ -91,8 +105,7 @@ def test_slopes_and_limits_are_those_of_the_outside(tmp_path: Path) -> None:
     assert field_of(block, "input_factor")[k] == pytest.approx(-np.pi / 180.0)
     assert field_of(block, "input_offset")[k] == 0.3
     assert np.delete(field_of(block, "input_factor"), k) == pytest.approx(1.0)
-    path = build_native_fmu(models.load("cam_drive"), tmp_path, baked=BAKED)
-    with open_fmu(path) as fmu, fmu.instantiate("ramp") as ramp, fmu.instantiate("fine") as fine:
+    with open_fmu(own(build_native_fmu)) as fmu, fmu.instantiate("ramp") as ramp, fmu.instantiate("fine") as fine:
         for one in (ramp, fine):
             one.initialize(0.0, 1.0)
         slope = ramp.reals(["drive_angle"])

@@ -2,17 +2,21 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
+import time
 import zipfile
 from pathlib import Path
 
 import fmpy
 import pytest
 from fmpy.validation import validate_fmu
+from pythonfmu import builder
 
 import build_fmu as command
 import models
 from mechanism_fmu.fmu.archive import read_entries, with_guid
 from mechanism_fmu.fmu.package import build_fmu
+from mechanism_fmu.model import MechanismError
 
 #: What the FMU must run without.
 NOT_NEEDED = ("scipy", "fmpy", "typer", "rich", "plotly", "pandas", "markdown_it", "harness", "stress")
@@ -175,3 +179,30 @@ assert sys.path[1:] == before, sys.path
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_clock_before_the_first_year_of_zip_archives_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a machine without a battery."""
+    monkeypatch.setattr("time.localtime", lambda *_: time.gmtime(200_000_000))
+    with pytest.raises(MechanismError, match="archives begin with 1980; set the clock, or build with"):
+        build_fmu(models.load("motor"), tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_all_that_is_temporary_lies_in_one_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """So that it goes with the next one if the process is killed (mechanism_fmu.fmu.temporary)."""
+    seen: list[list[str]] = []
+    usual = builder.get_model_description
+
+    def looking(*given: object) -> object:
+        seen.append([path.name for path in temporary.iterdir()])
+        return usual(*given)
+
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(temporary))
+    monkeypatch.setattr(builder, "get_model_description", looking)
+    build_fmu(models.load("motor"), tmp_path)
+    assert [[name.rpartition("-")[0] for name in names] for names in seen] == [[f"mechanism-fmu-{os.getpid()}"]]
+    assert list(temporary.iterdir()) == []
+    assert tempfile.tempdir == str(temporary)

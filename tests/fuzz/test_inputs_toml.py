@@ -213,6 +213,16 @@ def test_deep_nesting_is_refused_in_one_line(path: Path, kind: str, form: str, d
     assert "at most 20 may" in str(refusal.value)
 
 
+@pytest.mark.parametrize("open_and_close", ["[]", "{}"])
+def test_twenty_may_stand_within_one_another(path: Path, open_and_close: str) -> None:
+    first, last = ("[", "]") if open_and_close == "[]" else ("{ b = ", " }")
+    path.write_text(f"a = {first * 19}{open_and_close}{last * 19}")
+    assert TomlFile.read(path).data["a"]
+    path.write_text(f"a = {first * 20}{open_and_close}{last * 20}")
+    with pytest.raises(UsageError, match="stand within one another"):
+        TomlFile.read(path)
+
+
 def test_deep_tables_are_refused_too(path: Path) -> None:
     for text in (
         "a = " + "{ b = " * 2000 + "1" + "}" * 2000,

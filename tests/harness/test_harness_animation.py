@@ -121,6 +121,13 @@ def test_what_has_no_size_is_a_note(radius: float) -> None:
     assert "nothing to draw" in animation(run_of(FakeSlave(), shapes=(disc,)))
 
 
+@pytest.mark.parametrize(("radius", "drawn"), [(1e-10, True), (1.1e-12, True), (0.4e-12, False)])
+def test_how_small_a_mechanism_may_be(radius: float, drawn: bool) -> None:
+    """Its picture is at least 1e-12 m wide or high."""
+    html = animation(run_of(FakeSlave(), shapes=(Shape("disc", (0.0, 0.0), "d", {"radius": radius}),)))
+    assert ("nothing to draw" not in html) is drawn
+
+
 def test_a_parameter_that_is_not_finite_is_a_note() -> None:
     slave = FakeSlave()
     slave.values["tooth_pitch"] = float("nan")

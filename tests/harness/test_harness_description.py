@@ -75,3 +75,15 @@ def test_an_fmu_for_model_exchange_is_refused(tmp_path: Path) -> None:
         UsageError, match=r"it has Model Exchange only, of FMI 2\.0\. The harness runs no other kind; exp"
     ):
         read(tmp_path, text)
+
+
+@pytest.mark.parametrize(("size", "elements"), [(0, []), (1, ["y[1]"]), (2, ["y[1]", "y[2]"])])
+def test_an_array_has_as_many_elements_as_it_says(tmp_path: Path, size: int, elements: list[str]) -> None:
+    """FMI 3.0; none at all is allowed."""
+    text = (
+        '<fmiModelDescription fmiVersion="3.0" modelName="Small" instantiationToken="1">'
+        '<CoSimulation modelIdentifier="Small"/><ModelVariables>'
+        f'<Float64 name="y" valueReference="1" causality="output"><Dimension start="{size}"/></Float64>'
+        "</ModelVariables><ModelStructure/></fmiModelDescription>"
+    )
+    assert list(read(tmp_path, text).variables) == elements

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from harness.ked.agreement import agreement
 from harness.ked.files import Result, write_result
 from harness.ked.judged_by import JudgedBy
 from harness.ked.options import Limits, asked
+from harness.ked.solution import solution_checks
 from harness.ked.solve import prepared, solved, swept
 from harness.ked.synthesis import bounds_of, synthesised
 from harness.ked.tables import (
@@ -184,6 +186,17 @@ def test_limits_alone_are_verdicts(plain):
     assert quasi.passed
     assert not Limits(2e-3).checks(plain)[0].passed
     assert Limits().checks(plain) == ()
+
+
+def test_verdicts_of_a_turn_change_at_their_limits(plain):
+    """The limits themselves are kept: 1e-9 of the power, 1e-8 of the force on the frame and of the motion."""
+    rigid = replace(plain.rigid, power_gap=1e-9, shaking_gap=1e-8)
+    assert [check.passed for check in solution_checks(replace(plain, rigid=rigid, residual=1e-8, jump=0.0))] == [
+        True
+    ] * 3
+    rigid = replace(plain.rigid, power_gap=1.01e-9, shaking_gap=1.01e-8)
+    assert not any(check.passed for check in solution_checks(replace(plain, rigid=rigid, residual=1.01e-8, jump=0.0)))
+    assert solution_checks(replace(plain, residual=1e-3, jump=1e-3))[2].passed
 
 
 def test_shaking_is_always_in_table_and_files(plain):

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -18,6 +19,7 @@ from harness.errors import UsageError
 from harness.fmu import Fmu
 from harness.occupied import alone_in
 from harness.results import sweep_up, write_text
+from mechanism_fmu.fmu.temporary import remove_abandoned
 
 #: Opens an FMU and waits in it, as a command does while it builds, validates or draws.
 _OPEN = """
@@ -35,6 +37,19 @@ def wait():
 @main.command()
 def other(): pass
 main(["wait"])
+"""
+#: Starts a process that makes a temporary folder, says all that lies about, and waits.
+_PROCESS = """
+import tempfile, time
+from pathlib import Path
+from harness.processes import starting_from
+work = "import tempfile; from harness.processes import serve_only; serve_only(None); print(tempfile.mkdtemp(), flush=1)"
+context = starting_from("harness.processes")
+process = context.Process(target=exec, args=(work,), daemon=True)
+process.start()
+process.join()
+print(*(path.name for path in Path(tempfile.gettempdir()).iterdir()), flush=True)
+time.sleep(60)
 """
 #: Is killed in the middle of writing a report.
 _WRITE = """
@@ -79,6 +94,31 @@ def test_what_a_killed_command_left_unfinished_goes_with_the_next_one(tmp_path: 
     assert (tmp_path / "report.html").read_text() == "an earlier one"
     with alone_in(tmp_path):
         assert sorted(path.name for path in tmp_path.iterdir()) == [".lock", "report.html"]
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes start from nothing elsewhere")
+@pytest.mark.parametrize("copies", [True, False], ids=["copies", "from nothing"])
+def test_what_processes_beside_a_killed_command_left_goes_too(tmp_path: Path, copies: bool) -> None:
+    """The socket of the one that they are copies of, and what an FMU in them has made."""
+    if not copies:
+        _left_by_processes(tmp_path)
+        return
+    with tempfile.TemporaryDirectory() as place:  # of a socket the path must be short
+        _left_by_processes(Path(place))
+
+
+def _left_by_processes(temporary: Path) -> None:
+    with subprocess.Popen(
+        [sys.executable, "-c", _PROCESS], stdout=subprocess.PIPE, text=True, env=os.environ | {"TMPDIR": str(temporary)}
+    ) as process:
+        assert process.stdout is not None
+        made, about = Path(process.stdout.readline().strip()), process.stdout.readline().split()
+        process.kill()
+    assert [name.rpartition("-")[0] for name in about] == [f"mechanism-fmu-{process.pid}"]
+    assert made.parent == temporary / about[0]
+    assert made.is_dir()
+    remove_abandoned(temporary)
+    assert list(temporary.iterdir()) == []
 
 
 def test_nobody_else_s_file_is_swept_up(tmp_path: Path) -> None:

@@ -25,6 +25,7 @@ from harness.machine.prepared import Prepared
 from harness.machine.structure import structure_of
 from harness.machine_command import performed
 from harness.machine_command.files import summary
+from harness.master import Ending
 from harness.report import machine_signals
 from harness.report.machine_animation import in_power_flow
 from harness.report.machine_report import machine_report
@@ -148,6 +149,13 @@ def test_the_summary_has_the_damage_by_cycles_too(run: Any) -> None:
     assert fatigue["cycles_in_run"] == 1
     assert fatigue["damage_per_1000_cycles"] == 1000 * fatigue["damage"] > 0.0
     assert told["two"]["fatigue"] is None
+
+
+def test_the_summary_says_how_the_run_ended(run: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = run(Wheel("one"))
+    assert (summary(whole)["ending"], summary(whole)["error"]) == ("completed", None)
+    early = replace(whole, outcome=replace(whole.outcome, ending=Ending.FAILED, error=FmuError("the wheel is stuck")))
+    assert (summary(early)["ending"], summary(early)["error"]) == ("failed", "the wheel is stuck")
 
 
 def test_signals_are_drawn_by_component_and_unit_and_what_stands_still_is_a_table(run: Any) -> None:

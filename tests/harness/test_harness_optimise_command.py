@@ -1,7 +1,11 @@
 """The command `optimise`."""
 
 import json
+import os
+import signal
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pandas as pd
@@ -89,3 +93,31 @@ def test_without_optuna_the_extra_is_named(slider_crank_fmu: Path, tmp_path: Pat
     code, text = invoke(path, "-o", tmp_path / "out", "--workers", "1")
     assert code == 2
     assert 'python -m pip install "mechanism_fmu[optimise]"' in text
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGTERM there")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_and_sigterm_keep_the_designs_there_are(
+    slider_crank_fmu: Path, tmp_path: Path, number: signal.Signals
+) -> None:
+    path, out, temporary = file_of(tmp_path, slider_crank_fmu), tmp_path / "out", tmp_path / "temporary"
+    path.write_text(path.read_text().replace("count = 40", "count = 4000"))
+    temporary.mkdir()
+    with subprocess.Popen(
+        [sys.executable, "-c", "from harness.cli import main; main()", "optimise", path, "-o", out, "--workers", "1"],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"TMPDIR": str(temporary)},
+    ) as process:
+        while len(list((out / "parts").glob("*.parquet"))) < 3 and process.poll() is None:
+            time.sleep(5e-3)
+        process.send_signal(number)
+        said, _ = process.communicate(timeout=120)
+    assert process.returncode == 130
+    kept = pd.read_parquet(out / "parts")
+    assert 3 <= len(kept) < 4000
+    text = " ".join(said.split())
+    assert f"Interrupted: {len(kept)} designs are kept in {out}." in text
+    assert "The same command goes on." in text
+    assert list(temporary.iterdir()) == []
+    assert not list(out.rglob(".*.unfinished"))

@@ -177,7 +177,7 @@ def test_a_machine_from_rest_baked(tool: str, from_rest: Prepared, from_rest_bak
     assert same(found, as_others(from_rest, 200, signals))
 
 
-@pytest.mark.parametrize("tool", tools("container"))
+@pytest.mark.parametrize("tool", tools("container", "ecos"))
 def test_a_machine_of_fmi_3_baked(tool: str, built: Callable[..., Path], tmp_path: Path) -> None:
     """In a tool that runs FMI 3.0."""
     with ExitStack() as stack:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 import uuid
 from functools import cache
 from pathlib import Path
@@ -15,6 +14,7 @@ from mechanism_fmu.fmu.model_description import to_bytes
 from mechanism_fmu.fmu.native.link import INSTALL, has_linker, link
 from mechanism_fmu.fmu.native.targets import TARGETS
 from mechanism_fmu.fmu.native.universal import universal
+from mechanism_fmu.fmu.temporary import temporary_folder
 
 from ...errors import UsageError
 
@@ -79,13 +79,13 @@ def gains_entries(channels: int, given: Given = ()) -> dict[str, bytes]:
 def _binaries(given: Given) -> dict[str, bytes]:
     """The libraries, by name."""
     libraries: dict[str, list[bytes]] = {}
-    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary:
-        (Path(temporary) / "given.h").write_text(_header(given), encoding="ascii")
+    with temporary_folder() as temporary:
+        (temporary / "given.h").write_text(_header(given), encoding="ascii")
         for target in TARGETS:
-            place = Path(temporary) / target.name
+            place = temporary / target.name
             place.mkdir()
             library = place / f"{NAME}{target.suffix}"
-            link(target, [_SOURCE], [Path(temporary), _STANDARD], library)
+            link(target, [_SOURCE], [temporary, _STANDARD], library)
             libraries.setdefault(f"binaries/{target.fmi2}/{library.name}", []).append(library.read_bytes())
     return {name: found[0] if len(found) == 1 else universal(found) for name, found in libraries.items()}
 

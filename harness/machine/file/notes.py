@@ -38,7 +38,8 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
     found += _free_inputs(plan, machine.description, driven)
     found += _without_units(plan.connections, machine.description)
     flowing = {link.target for link in machine.links if not link.held}
-    found += _extrapolation(plan, [c for c in plan.connections if c.target in flowing], descriptions)
+    connections = [connection for connection in plan.connections if connection.target in flowing]
+    found += _extrapolation(plan.policy.extrapolation, connections, descriptions)
     held = [f"{link.source} -> {link.target}" for link in machine.links if link.held and not link.ticks]
     if held:
         found.append(
@@ -81,7 +82,7 @@ def _without_units(connections: Sequence[Connection], machine: Description) -> l
     told: dict[str, str] = {}
     for connection in connections:
         source, target = machine.variables[connection.source], machine.variables[connection.target]
-        if bool(source.unit) is not bool(target.unit):
+        if source.type == target.type == "Real" and bool(source.unit) is not bool(target.unit):
             bare, other = (target, source) if source.unit else (source, target)
             told[bare.name] = f"{bare.name} ({other.unit}, as {other.name})"
         rate = machine.variables.get(connection.rate)
@@ -123,8 +124,9 @@ def _kept(variable: Variable, machine: Description) -> str:
     return f"{name} = {shown(float(variable.start), variable.name, machine)}"
 
 
-def _extrapolation(plan: Plan, connections: Sequence[Connection], descriptions: Mapping[str, Description]) -> list[str]:
-    kind = plan.policy.extrapolation
+def _extrapolation(
+    kind: Extrapolation, connections: Sequence[Connection], descriptions: Mapping[str, Description]
+) -> list[str]:
     if kind is Extrapolation.CONSTANT:
         return []
     targets = {part_of(connection.target) for connection in connections}

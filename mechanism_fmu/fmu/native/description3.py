@@ -80,10 +80,13 @@ class Again:
     clocked: bool = False
 
 
+def tells_impacts(variables: Sequence[Variable]) -> bool:
+    """Whether there can be a clock: an output says that there was an impact."""
+    return any(variable.source == _IMPACT_FLAG for variable in variables)
+
+
 def outputs_again(variables: Sequence[Variable]) -> tuple[Again, ...]:
-    """What there is beside a clock of impacts, in the order of its value references; () where nothing has impacts."""
-    if not any(variable.source == _IMPACT_FLAG for variable in variables):
-        return ()
+    """What there is beside a clock of impacts, in the order of its value references."""
     clocked = (
         Again(
             _CLOCKED + v.name.removeprefix("impact_"), v.description.replace("last impact", "impact"), v, clocked=True
@@ -115,6 +118,8 @@ def variables3(model: Model, clocks: bool = False) -> tuple[Variable3, ...]:
         MechanismError: two of them have the same name, or there are no impacts for a clock.
     """
     variables = variables_of(model)
+    if clocks and not tells_impacts(variables):
+        raise MechanismError(f"{model.name} tells of no impacts and so has no clock; build it without --clocks.")
     found = tuple(_variables3(variables, clocks))
     names = sorted(variable.name for variable in found)
     for name, same in groupby(names):
@@ -123,8 +128,6 @@ def variables3(model: Model, clocks: bool = False) -> tuple[Variable3, ...]:
                 f"In FMI 3.0, two variables of {model.name} are called {name!r}, one of them time or an array made of "
                 f"numbered outputs; give the port another name."
             )
-    if clocks and not any(variable.type == "Clock" for variable in found):
-        raise MechanismError(f"{model.name} tells of no impacts and so has no clock; build it without --clocks.")
     return found
 
 
@@ -171,13 +174,12 @@ def _variables3(variables: Sequence[Variable], clocks: bool) -> Iterator[Variabl
     behind = FIRST_REFERENCE + len(variables)
     time = Variable("time", behind, "Real", "independent", "continuous", None, "Time", "s")
     yield Variable3(time.name, time.description, time.value_reference, "Float64", time)
-    again = outputs_again(variables) if clocks else ()
-    if not again:
+    if not clocks or not tells_impacts(variables):
         return
     clock = behind + 1
     scalar = Variable(_CLOCK, clock, "Boolean", "output", "discrete", None, "Ticks at an impact")
     yield Variable3(scalar.name, scalar.description, clock, "Clock", scalar)
-    for reference, one in enumerate(again, clock + 1):
+    for reference, one in enumerate(outputs_again(variables), clock + 1):
         yield Variable3(
             one.name,
             one.description,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tempfile
 from ctypes import CDLL
 from pathlib import Path
 
 from ...engine.run import library_path, load
 from ..archive import content_hash
 from ..kept import is_whole, keep
+from ..temporary import temporary_folder
 from .link import has_linker, link, linked_with, surface
 from .objects import Engine, Report, compiled_engine, silently
 from .targets import TARGETS, WRAPPED, Target
@@ -65,8 +65,8 @@ def _linked(engine: Engine, target: Target) -> Path:
     path = engine.headers / made_from / f"{target.name}{target.suffix}"
     if not is_whole(path):
         path.parent.mkdir(exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=path.parent) as temporary:
-            made = Path(temporary, path.name)
+        with temporary_folder(path.parent) as temporary:
+            made = temporary / path.name
             link(target, [*surface(*_SOURCES), engine.objects[target.name]], [engine.headers], made)
             keep(path, made.read_bytes(), program=True)
     return path

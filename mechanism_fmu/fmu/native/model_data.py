@@ -46,7 +46,7 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes, clock
         "inputs": counts["input"],
         "outputs": counts["output"],
         "parameters": counts["parameter"],
-        "has_clock": int(bool(again)),
+        "has_clock": int(clocks),
         "again": "AGAIN",
         "again_count": len(again),
         "block": "(const double *)BLOCK",

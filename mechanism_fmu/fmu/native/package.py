@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 import uuid
 import zipfile
 from collections.abc import Mapping
@@ -22,6 +21,7 @@ from ..built import record_build
 from ..contents import common_entries, file_in, model_of
 from ..model_description import model_description, to_bytes
 from ..reference_results import reference_results
+from ..temporary import temporary_folder
 from .description3 import model_description3
 from .formulas import Formulas, formulas
 from .libraries import library_of
@@ -64,6 +64,7 @@ def build_native_fmu(
     destination: Path,
     fmi: int = 2,
     report: Report = silently,
+    *,
     clocks: bool = False,
     baked: Baked = NOTHING_BAKED,
 ) -> Path:
@@ -125,8 +126,7 @@ def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], e
 
 def _binaries(model: Model, source: str, engine: Engine) -> dict[Target, bytes]:
     """The shared library of each platform."""
-    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_") as temporary:
-        folder = Path(temporary)
+    with temporary_folder() as folder:
         (folder / "model.c").write_text(source, encoding="ascii")
 
         def binary(target: Target) -> bytes:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 from fmpy.fmi1 import FMICallException
@@ -14,6 +12,7 @@ from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2Ca
 from ...engine.run import library_path
 from ...model import MechanismError, Model
 from ..self_check import require_numbers, start_explained
+from ..temporary import temporary_folder
 from ..variables import variables_of
 from .targets import Target
 
@@ -31,14 +30,14 @@ def check_start(model: Model, guid: str, libraries: Mapping[Target, bytes]) -> N
     Raises:
         StartError: the mechanism cannot start.
     """
-    with tempfile.TemporaryDirectory(prefix="mechanism_fmu_", ignore_cleanup_errors=True) as folder:
-        path = library_path(Path(folder))
+    with temporary_folder() as folder:
+        path = library_path(folder)
         by_name = {target.name + target.suffix: binary for target, binary in libraries.items()}
         if path is None or path.name not in by_name:
             return
         path.write_bytes(by_name[path.name])
         slave = FMU2Slave(
-            guid=guid, modelIdentifier=model.name, unzipDirectory=folder, instanceName="", libraryPath=str(path)
+            guid=guid, modelIdentifier=model.name, unzipDirectory=str(folder), instanceName="", libraryPath=str(path)
         )
         outputs = [
             v for v in variables_of(model) if v.type == "Real" and v.causality in ("output", "calculatedParameter")

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
@@ -89,37 +89,12 @@ def plan_of(path: Path) -> Plan:
         return read_plan(file, parts, {name: fmu.description for name, fmu in fmus.items()})
 
 
-class ReadOnce(Machine):
-    """A machine that reads each output once at a communication point, and only then sets inputs, as other tools do."""
-
-    def __init__(self, *given: Any) -> None:
-        super().__init__(*given)
-        for part in self.parts.values():
-            part.outputs.read = _first_time(part.outputs.read)
-
-    def exchange(self, time: int) -> None:
-        """All outputs, then all inputs."""
-        for part in self.parts.values():
-            part.outputs.read(time)
-        for name in self._wires:
-            self._write(name)
-
-
-def _first_time(read: Callable[[int], None]) -> Callable[[int], None]:
-    """Reads at the first request for each time, and ignores those that follow."""
-    last = -1
-
-    def first(time: int) -> None:
-        nonlocal last
-        if time != last:
-            read(time)
-        last = time
-
-    return first
+#: A machine that reads each output once at a communication point, and only then sets inputs, as other tools do.
+ReadOnce = partial(Machine, reads_once=True)
 
 
 def run(
-    plan: Plan, signals: Sequence[str] = SIGNALS, kind: type[Machine] = Machine, step: float | None = None
+    plan: Plan, signals: Sequence[str] = SIGNALS, kind: Callable[..., Machine] = Machine, step: float | None = None
 ) -> pd.DataFrame:
     """Run a plan by Jacobi's scheme with inputs held; the signals at each communication point."""
     with ExitStack() as stack:

@@ -120,11 +120,16 @@ def line(name: str, start: float, slope: float, taken: str, told: str) -> Linear
 
 
 def lines(
-    speed: str = "rad/s", torque: str = "N.m", gain: float = -1.0, flow_gain: float = 1.0, reaction: bool = False
+    speed: str = "rad/s",
+    torque: str = "N.m",
+    gain: float = -1.0,
+    flow_gain: float = 1.0,
+    reaction: bool = False,
+    driver: tuple[str, str] = ("N.m", "rad/s"),
 ) -> tuple[Machine, Bond]:
     """A driver with speed 1 + t, a driven part with torque 2 - t; each in its own units."""
     bond = Bond(Connection("a.told", "b.taken", gain=flow_gain), Connection("b.told", "a.taken", gain=gain), reaction)
-    parts = {"a": line("a", 1.0, 1.0, "N.m", "rad/s"), "b": line("b", 2.0, -1.0, speed, torque)}
+    parts = {"a": line("a", 1.0, 1.0, *driver), "b": line("b", 2.0, -1.0, speed, torque)}
     return Machine(parts, [bond.flow, bond.effort]), bond
 
 
@@ -176,6 +181,25 @@ def test_units_gears_and_signs_do_not_matter(how: dict[str, Any], ratio: float) 
     assert not pushes(bond)
     assert energy.given == pytest.approx(exact, rel=0.01)
     assert energy.taken == pytest.approx(exact, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        {"speed": "", "torque": "", "driver": ("", "")},
+        {"speed": "", "torque": ""},
+        {"driver": ("", "")},
+        {"speed": "rad/s", "torque": "", "driver": ("N.m", "")},
+    ],
+    ids=["none has", "the driver has", "the driven part has", "one each"],
+)
+def test_units_that_one_side_lacks_are_those_of_the_other_and_without_any_it_is_a_power(how: dict[str, Any]) -> None:
+    machine, bond = lines(**how)
+    bonds = Bonds(machine, {"shaft": bond})
+    run_machine(machine, Jacobi(), TimeGrid.of(1.0, 0.01), {}, [bonds])
+    energy = bonds.energies()["shaft"]
+    exact = 2.0 + 1.0 / 2 - 1.0 / 3
+    assert (energy.given, energy.taken) == pytest.approx((exact, exact), rel=0.01)
 
 
 def test_a_missing_gain_of_minus_one_shows() -> None:

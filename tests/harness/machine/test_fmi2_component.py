@@ -219,6 +219,34 @@ def test_a_discarded_step_that_has_come_nowhere_is_an_error(stops: Stops) -> Non
         pump.advance(0.2, 0.2)
 
 
+@pytest.mark.parametrize(("status", "taken"), [(0, True), (1, True), (2, False), (3, False)])
+def test_where_a_discarded_step_ended_counts_unless_the_answer_is_an_error(status: int, taken: bool) -> None:
+    """fmi2OK and fmi2Warning bring a value, fmi2Discard and fmi2Error bring none."""
+    stops = Stops()
+    functions = stops.functions()
+    answer = functions["fmi2GetRealStatus"]
+    functions["fmi2GetRealStatus"] = lambda *given: answer(*given) or status
+    pump = Fake2(**functions)
+    if taken:
+        assert pump.advance(0.2, 0.2) == 0.3
+    else:
+        with pytest.raises(FmuError, match="status discard"):
+            pump.advance(0.2, 0.2)
+
+
+@pytest.mark.parametrize(("status", "ends"), [(0, True), (1, True), (2, False), (3, False)])
+def test_an_end_that_an_fmu_wants_counts_unless_the_answer_is_an_error(status: int, ends: bool) -> None:
+    functions = Stops(ends=True).functions()
+    answer = functions["fmi2GetBooleanStatus"]
+    functions["fmi2GetBooleanStatus"] = lambda *given: answer(*given) or status
+    pump = Fake2(**functions)
+    if ends:
+        with pytest.raises(FmuError, match="status discard"):
+            pump.advance(0.2, 0.2)
+    else:
+        assert pump.advance(0.2, 0.2) == 0.3
+
+
 def test_an_fmu_that_discards_step_after_step_ends_the_run() -> None:
     """A stiff mechanism may spend seconds in each, and need thousands of them."""
 

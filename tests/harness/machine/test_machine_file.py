@@ -262,6 +262,41 @@ def test_notes(read):
     assert "loop" not in said
 
 
+#: As long as the motor is on, the table is braked and has a drag.
+SWITCHED = """
+[[connect]]
+from = "motor.on"
+to = "table.brake"
+[[connect]]
+from = "motor.on"
+to = "table.drag"
+gain = 2.5
+{convert}
+"""
+_ON = Variable("on", 7, "Boolean", "output", depends_on=frozenset())
+KINDS = {
+    "motor": replace(MOTOR, variables=MOTOR.variables | {"on": _ON}),
+    "table": replace(TABLE, variables=TABLE.variables | {"drag": real("drag", "input", "N.m")}),
+}
+
+
+def test_signals_that_are_held_are_noted_and_no_derivative_of_them_is_missed(read, tmp_path):
+    plan = read(RUN + PARTS + SWITCHED.format(convert="convert = true"), KINDS)
+    assert plan.connections[1] == Connection("motor.on", "table.drag", 2.5, convert=True)
+    said = " ".join(notes(plan, KINDS))
+    assert "Held, and never interpolated or extrapolated: motor.on -> table.brake, motor.on -> table.drag." in said
+    assert "derivative" not in said
+    assert "No unit is known" not in said
+    assert read(machine_toml(plan, KINDS, tmp_path), KINDS) == plan
+
+
+def test_a_conversion_must_be_asked_for(read):
+    with pytest.raises(
+        UsageError, match=r"connection motor.on -> table.drag: Boolean to Real \(false = 0, true = 1\); say"
+    ):
+        read(RUN + PARTS + SWITCHED.format(convert=""), KINDS)
+
+
 def test_a_loop_without_delay_is_noted(read):
     motor = replace(MOTOR, variables=MOTOR.variables | {"speed": real("speed", "output", "rad/s")})
     said = notes(read(RUN + PARTS + CONNECT + BACK), DESCRIPTIONS | {"motor": motor})

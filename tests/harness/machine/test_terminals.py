@@ -5,12 +5,15 @@ from pathlib import Path
 
 import pytest
 
+import models
 from harness.description import read_description
 from harness.errors import UsageError
 from harness.machine.connection import Connection
 from harness.machine.file.plan import Plan
 from harness.terminals import FILE, Member, read_terminals
 from mechanism_fmu.fmu.archive import read_entries, write_archive
+from mechanism_fmu.fmu.native.package import build_native_fmu
+from mechanism_fmu.model.baked import Baked, Seen
 from tests.harness.machine.machines import BACK, geared_cam, plan_of
 
 _MEMBERS = """<TerminalMemberVariable variableName="{angle}" memberName="angle" variableKind="signal"/>
@@ -85,6 +88,22 @@ def test_three_connections_whichever_way_round(fmus: tuple[Path, Path], tmp_path
     assert [bond.name for bond in plan.bonds] == ["shaft"]
     by_hand = plan_of(geared_cam(tmp_path, *fmus, BACK.replace('offset = "1 N.mm"\n', "")))
     assert set(by_hand.connections) == set(plan.connections)
+
+
+def test_the_models_bring_terminals_of_their_own(native_gear_train_fmu, native_cam_drive_fmu, tmp_path: Path) -> None:
+    """As the page about machines connects them."""
+    given = _PLUGGED.format(first="gears.wheel_shaft", second="cam.drive_shaft", more="")
+    plan = plan_with(tmp_path, (native_gear_train_fmu, native_cam_drive_fmu), given)
+    by_hand = geared_cam(tmp_path, native_gear_train_fmu, native_cam_drive_fmu, BACK.replace('offset = "1 N.mm"\n', ""))
+    assert set(plan.connections) == set(plan_of(by_hand).connections)
+
+
+def test_a_baked_copy_has_no_terminal_of_a_shaft_that_it_is_given_otherwise(tmp_path: Path) -> None:
+    """Its angle is shifted, so no plug fits; the cam's own shaft, which nothing is baked into, stays."""
+    path = build_native_fmu(models.load("cam_drive"), tmp_path, baked=Baked({}, {"drive_angle": Seen(1.0, 0.5)}))
+    plain = build_native_fmu(models.load("cam_drive"), tmp_path / "plain")
+    assert read_terminals(plain).keys() - read_terminals(path).keys() == {"drive_shaft"}
+    assert read_terminals(path)
 
 
 def test_an_offset_is_of_the_angle(fmus: tuple[Path, Path], tmp_path: Path) -> None:

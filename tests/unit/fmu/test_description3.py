@@ -10,7 +10,7 @@ from pendulum import MODEL
 
 import models
 from mechanism_fmu.fmu.model_description import to_bytes
-from mechanism_fmu.fmu.native.description3 import model_description3, outputs_again, variables3
+from mechanism_fmu.fmu.native.description3 import model_description3, outputs_again, tells_impacts, variables3
 from mechanism_fmu.fmu.variables import variables_of
 from mechanism_fmu.model import Mechanism, MechanismError, Model, Output, Parameter
 
@@ -220,7 +220,7 @@ def test_numbered_outputs_that_make_no_array_make_none(outputs: tuple[Output, ..
 def test_without_impacts_there_is_no_clock() -> None:
     model = with_outputs(Output("when", "impact.time", "Time of the last impact", "s"))
 
-    assert outputs_again(variables_of(model)) == ()
+    assert not tells_impacts(variables_of(model))
     with pytest.raises(MechanismError, match="no clock; build it without --clocks"):
         variables3(model, clocks=True)
 
