@@ -148,6 +148,26 @@ def test_all_types_are_connected(fmu: Fmu, process: bool) -> None:
         assert machine.get([f"other.{name}" for name in told()]) == list(GIVEN.values())
 
 
+def test_a_machine_records_integers_of_64_bits_as_doubles(path: Path, tmp_path: Path) -> None:
+    """Exact up to 2^53 only, as docs/machines-running.md says; the largest of them is no reason for a warning."""
+    file = tmp_path / "one.toml"
+    text = f"""[run]
+stop_time = 0.2
+step = 0.1
+[component.one]
+file = '{path}'
+[component.one.set]
+int64_in = 9007199254740991
+"""
+    file.write_text(text, encoding="utf-8")
+    done = CliRunner().invoke(main, ["machine", "run", str(file), "-o", str(tmp_path / "out")])
+    assert done.exit_code == 0, done.output
+    table = pd.read_parquet(tmp_path / "out" / "results.parquet")
+    assert table["one.int64_out"].tolist() == [2.0**53 - 1] * 3
+    assert table["one.uint64_out"].tolist() == [2.0**64] * 3
+    assert table["one.uint32_out"].dtype == np.int64
+
+
 def test_columns_have_the_types_of_the_variables(fmu: Fmu) -> None:
     from harness.experiment import Experiment, perform
 
