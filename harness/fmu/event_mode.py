@@ -10,6 +10,8 @@ from ..errors import FmuError
 
 #: So often an FMU may ask for one more update of its discrete states.
 MOST_UPDATES = 1000
+#: So near to an announced event is at it [s].
+_AT_IT = 1e-9
 
 
 def uses_event_mode(description: Description, early_return: bool) -> bool:
@@ -41,11 +43,13 @@ class EventMode:
         shared: whether a machine handles events.
         pending: whether there is one that nobody has handled.
         inside: whether the instance is in event mode.
+        announced: when the FMU wants event mode next [s]; None: it has not said so (nextEventTime).
     """
 
     def __init__(self, owner: Owner) -> None:
         self._owner = owner
         self.shared = self.pending = self.inside = False
+        self.announced: float | None = None
 
     def share(self) -> None:
         """Leave events to a machine."""
@@ -54,14 +58,26 @@ class EventMode:
     def forget(self) -> None:
         """The instance is as it was instantiated."""
         self.pending = self.inside = False
+        self.announced = None
 
-    def memory(self) -> tuple[bool, bool]:
+    def memory(self) -> tuple[bool, bool, float | None]:
         """What a snapshot of the instance needs."""
-        return self.pending, self.inside
+        return self.pending, self.inside, self.announced
 
-    def remember(self, memory: tuple[bool, bool]) -> None:
+    def remember(self, memory: tuple[bool, bool, float | None]) -> None:
         """The instance is as it was then."""
-        self.pending, self.inside = memory
+        self.pending, self.inside, self.announced = memory
+
+    def size_to(self, begin: float, size: float) -> float:
+        """The part of a step that goes to the announced event, or the whole of it where none is inside [s]."""
+        if self.announced is not None and begin + _AT_IT < self.announced < begin + size - _AT_IT:
+            return self.announced - begin
+        return size
+
+    def reached(self, time: float, by_itself: bool) -> None:
+        """A step has ended at `time` [s]: handle the event that the FMU has said is there, or had announced."""
+        if by_itself or (self.announced is not None and time >= self.announced - _AT_IT):
+            self.happened()
 
     def begun(self) -> None:
         """The instance has left the initialization mode, and is in event mode."""
@@ -100,7 +116,8 @@ class EventMode:
 
     def update(self) -> bool:
         """Update the discrete states; whether the FMU asks for one more update."""
-        again, ends, *_ = self._owner.call("UpdateDiscreteStates")
+        again, ends, _, _, announces, when = self._owner.call("UpdateDiscreteStates")
+        self.announced = when if announces else None
         if ends:
             raise self._owner.failure("fmi3UpdateDiscreteStates", "it asks to end the simulation")
         return bool(again)

@@ -124,8 +124,20 @@ class Fmi3Slave(FmuSlave):
             self.event_mode.begun()
 
     def _do_step(self, begin: float, size: float) -> float | None:
-        if self.event_mode is not None:
-            self.event_mode.settle()
+        mode = self.event_mode
+        if mode is None:
+            return self._stepped(begin, size)
+        mode.settle()
+        part = mode.size_to(begin, size) if self.description.varies_step else size
+        reached = self._stepped(begin, part)
+        if reached is None and part < size:
+            reached = begin + part
+        self._time = begin + size if reached is None else reached
+        mode.reached(self._time, self._event.value)
+        return reached
+
+    def _stepped(self, begin: float, size: float) -> float | None:
+        """Take a step; None when it was completed, else the time reached."""
         said = len(self.messages)
         status = self._step(begin, size, *self._rest)
         if status > 1:
@@ -135,9 +147,6 @@ class Fmi3Slave(FmuSlave):
         reached = self._reached.value if self._early_return else None
         if reached is not None and reached < begin + size and not self._event:
             self._count_short(begin + size, _MOST_SHORT)
-        if self._event and self.event_mode is not None:
-            self._time = begin + size if reached is None else reached
-            self.event_mode.happened()
         return reached
 
     def _log(self, _environment: Any, status: int, category: bytes | None, text: bytes | None) -> None:

@@ -55,13 +55,13 @@ class SavedState:
         handle: the FMU's own.
         early: of the slave at that time.
         initialized: likewise.
-        event_mode: whether an event was pending, and whether it was in event mode (FMI 3.0).
+        event_mode: of FMI 3.0, as of `EventMode.memory`.
     """
 
     handle: Any
     early: float | None
     initialized: bool
-    event_mode: tuple[bool, bool] = (False, False)
+    event_mode: tuple[bool, bool, float | None] = (False, False, None)
 
 
 class FmuSlave(ABC):

@@ -156,6 +156,41 @@ def test_an_instance_alone_goes_through_its_events(pulse: Path) -> None:
             alone.get(["number"])
 
 
+def test_an_instance_alone_stops_at_events_that_it_announces(pulse: Path) -> None:
+    """By nextEventTime of fmi3UpdateDiscreteStates; steps beyond them are refused by this FMU."""
+    with open_fmu(pulse) as fmu, fmu.instantiate("alone") as alone:
+        alone.set({"alarm": 0.15, "period": 0.0})
+        alone.initialize(0.0, 1.0)
+        alone.step(0.0, 0.1)
+        state = alone.save()
+        for _ in range(2):
+            alone.step(0.1, 0.4)
+            assert alone.get(["alarms"]) == [3]
+            alone.restore(state)
+        alone.free_state(state)
+        assert alone.advance(0.1, 0.4) == pytest.approx(0.15, abs=1e-12)
+        assert alone.get(["alarms"]) == [1]
+
+
+@pytest.mark.parametrize("opener", [here, apart])
+@pytest.mark.parametrize("algorithm", list(ALGORITHMS))
+def test_machines_stop_at_announced_events(
+    parts: Callable[..., Mapping[str, Component]], algorithm: str, opener: Opener
+) -> None:
+    """What follows hears of them at once where events count, else at the end of the step."""
+    links = (Connection("a.alarms", "b.seen"),)
+    machine = Machine(parts(opener), links)
+    recorder = Recorder([machine.description.variable(name) for name in ("a.alarms", "b.seen_now")])
+    start = {**START, "a.period": 0.0, "a.alarm": 0.15}
+    outcome = run_machine(machine, ALGORITHMS[algorithm](machine), TimeGrid.of(1.0, 0.1), start, [recorder])
+    assert outcome.error is None
+    table = recorder.table()
+    times = table["time"].to_numpy()
+    assert ({0.15, 0.45, 0.75} <= set(np.round(times, 9))) == (algorithm == "event_aware")
+    for name in ("a.alarms", "b.seen_now"):
+        assert table[name].to_numpy() == pytest.approx(np.floor(times / 0.15 + 1e-6)), name
+
+
 def test_an_iteration_without_end_is_told(
     parts: Callable[..., Mapping[str, Component]], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -44,6 +44,8 @@ PULSE = (
     ("Int32", "echoed", 9, {"causality": "output", "clocks": "8"}),
     ("Int32", "seen", 10, {"causality": "input", "start": "0"}),
     ("Int32", "seen_now", 11, {"causality": "output"}),
+    ("Float64", "alarm", 12, {"causality": "parameter", "variability": "fixed", "start": "0"}),
+    ("Int32", "alarms", 13, {"causality": "output"}),
 )
 
 

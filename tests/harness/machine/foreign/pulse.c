@@ -3,7 +3,9 @@
  * 1 period (Float64, parameter), 2 tick (output clock: at a strike), 3 number (Int32, which strike; there with tick only),
  * 4 strikes (Int32, output: so many have been counted), 5 poke (input clock: strikes at once), 6 weight (Int32, input,
  * there with poke only), 7 sum (Float64, output: weights so far), 8 echo (output clock: at each poke), 9 echoed (Int32: the
- * weight that has just come; there with echo only), 10 seen (Int32, discrete input), 11 seen_now (Int32, output: seen).
+ * weight that has just come; there with echo only), 10 seen (Int32, discrete input), 11 seen_now (Int32, output: seen),
+ * 12 alarm (Float64, parameter; 0: none), 13 alarms (Int32, output): each `alarm` it announces an event, and refuses a step
+ * that goes beyond it.
  *
  * It refuses to work without event mode, to tell what ticks when nothing does, and to take two pokes at one update. Each
  * strike takes two updates. Functions that it has no use for are added by build.py. */
@@ -17,8 +19,8 @@
 enum { OK = 0, ERROR = 3 };
 
 typedef struct {
-    double period, sum, time, next;
-    int32_t strikes, weight, seen, seen_now;
+    double period, sum, alarm, time, next, alarm_at;
+    int32_t strikes, weight, seen, seen_now, alarms;
     bool early, in_event_mode, initialized, struck, told, poked, echo_told, settling;
 } Pulse;
 
@@ -51,6 +53,7 @@ int fmi3EnterInitializationMode(Pulse *p, bool tolerance_defined, double toleran
 int fmi3ExitInitializationMode(Pulse *p) {
     if (p->initialized) return ERROR;
     p->next = p->time + p->period;
+    p->alarm_at = p->time + p->alarm;
     p->initialized = p->in_event_mode = true;
     return OK;
 }
@@ -67,6 +70,12 @@ int fmi3UpdateDiscreteStates(Pulse *p, bool *again, bool *ends, bool *nominals, 
     if (p->poked) p->sum += p->weight;
     p->poked = p->echo_told = false;
     p->seen_now = p->seen;
+    if (p->alarm > 0 && p->time >= p->alarm_at - 1e-9) {
+        p->alarms++;
+        p->alarm_at += p->alarm;
+    }
+    *next = p->alarm > 0;
+    *when = p->alarm_at;
     if (p->struck && !p->settling) {
         *again = p->settling = true;
     } else if (p->struck) {
@@ -88,6 +97,7 @@ int fmi3DoStep(Pulse *p, double now, double size, bool no_way_back, bool *event,
     *event = *ends = *early = false;
     if (p->in_event_mode || fabs(now - p->time) > 1e-9) return ERROR;
     double end = now + size;
+    if (p->alarm > 0 && end > p->alarm_at + 1e-9) return ERROR;
     if (p->period > 0 && p->next <= end + 1e-9) {
         *event = p->struck = true;
         *early = p->early && p->next < end - 1e-9;
@@ -126,16 +136,16 @@ int fmi3SetClock(Pulse *p, const uint32_t *vr, size_t n, const bool *values) {
 
 int fmi3GetFloat64(Pulse *p, const uint32_t *vr, size_t n, double *values, size_t count) {
     for (size_t k = 0; k < n; k++) {
-        if (vr[k] != 1 && vr[k] != 7) return ERROR;
-        values[k] = vr[k] == 1 ? p->period : p->sum;
+        if (vr[k] != 1 && vr[k] != 7 && vr[k] != 12) return ERROR;
+        values[k] = vr[k] == 1 ? p->period : vr[k] == 7 ? p->sum : p->alarm;
     }
     return OK;
 }
 
 int fmi3SetFloat64(Pulse *p, const uint32_t *vr, size_t n, const double *values, size_t count) {
     for (size_t k = 0; k < n; k++) {
-        if (vr[k] != 1 || p->initialized) return ERROR;
-        p->period = values[k];
+        if ((vr[k] != 1 && vr[k] != 12) || p->initialized) return ERROR;
+        *(vr[k] == 1 ? &p->period : &p->alarm) = values[k];
     }
     return OK;
 }
@@ -150,6 +160,7 @@ int fmi3GetInt32(Pulse *p, const uint32_t *vr, size_t n, int32_t *values, size_t
         case 9: values[k] = p->weight; break;
         case 10: values[k] = p->seen; break;
         case 11: values[k] = p->seen_now; break;
+        case 13: values[k] = p->alarms; break;
         default: return ERROR;
         }
     }
