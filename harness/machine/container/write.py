@@ -72,8 +72,8 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
     machine = structure_of(descriptions).description
     connected = structure_of(descriptions, plan.connections)
     links = connected.links
-    for name, description in descriptions.items():
-        if description.has_clocks:
+    for name in descriptions:
+        if descriptions[name].has_clocks:
             raise UsageError(
                 f"The FMU of {name} has clocks, so it needs event mode, which fmpy's container does not use; take one "
                 "without clocks (of this project: built without --clocks)."
