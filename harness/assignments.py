@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 from .description import Description, Value, Variable, hint_at
 from .errors import UsageError
-from .numbers import shown
+from .numbers import integer_range, shown
 from .units import UnitMismatchError
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 _BARE = re.compile(r"[-+.\deE]+")
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
-_INTEGER_LIMIT = 2**31
 
 
 def start_values(assignments: Iterable[str], description: Description) -> dict[str, Value]:
@@ -87,12 +86,23 @@ def _real(text: str, variable: Variable, description: Description) -> float:
 
 
 def _integer(text: str, variable: Variable, _description: Description) -> int:
-    if not re.fullmatch(r"[+-]?\d+", text):
+    if not re.fullmatch(r"[+-]?\d{1,30}", text):
         raise UsageError(f"{variable.name} = '{text}' is not a whole number; give one without point or unit.")
     value = int(text)
-    if abs(value) >= _INTEGER_LIMIT:
-        raise UsageError(f"{variable.name} = '{text}' does not fit in 32 bits; give a smaller number.")
+    least, most = integer_range(variable.fmi_type)
+    if not least <= value <= most:
+        kind = f"{variable.fmi_type or 'Integer'}, from {least} to {most}"
+        raise UsageError(f"{variable.name} = '{text}' does not fit its type ({kind}); give a number within.")
     return value
+
+
+def _binary(text: str, variable: Variable, _description: Description) -> str:
+    try:
+        return bytes.fromhex(text).hex()
+    except ValueError:
+        raise UsageError(
+            f"{variable.name} = '{text}' is not Binary; give its bytes in hexadecimal, two digits each, as in 0aff."
+        ) from None
 
 
 def _boolean(text: str, variable: Variable, _description: Description) -> bool:
@@ -101,7 +111,12 @@ def _boolean(text: str, variable: Variable, _description: Description) -> bool:
     return _BOOLEANS[text.lower()]
 
 
-_PARSERS = {"Real": _real, "Integer": _integer, "Boolean": _boolean}
+_PARSERS: Mapping[str, Callable[[str, Variable, Description], Value]] = {
+    "Real": _real,
+    "Integer": _integer,
+    "Boolean": _boolean,
+    "Binary": _binary,
+}
 
 
 def _check_limits(value: Value, text: str, variable: Variable, description: Description) -> None:

@@ -106,7 +106,10 @@ def run_fmu(
     card, folder = card_of(material), folder.absolute()
     with open_fmu(path) as fmu:
         values = start_values(settings, fmu.description)
-        experiment = Experiment(*default_times(fmu.description, stop_time, step), values, input_file, card)
+        times = default_times(fmu.description, stop_time, step)
+        if step is None and fmu.description.step is None:
+            show_note(f"{path.name} says no step size; {times[1]:g} s is taken. --step sets another one.")
+        experiment = Experiment(*times, values, input_file, card)
 
         def work(instances: Instances) -> int:
             try:

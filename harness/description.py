@@ -6,7 +6,7 @@ import difflib
 import math
 import re
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import product
 from os.path import isfile
@@ -20,7 +20,7 @@ from .si import BASE_UNITS, Measure
 from .terminals import Terminal, read_terminals
 from .units import Units
 
-#: Value of a variable: Real, Integer, Boolean or String.
+#: Value of a variable: Real, Integer, Boolean or String; Binary ones are their bytes in hexadecimal, as in FMI's XML.
 Value = float | int | bool | str
 
 #: Value references are unsigned numbers of 32 bits in both standards.
@@ -39,7 +39,8 @@ class Variable:
     Attributes:
         name, description: as in the FMU.
         reference: its value reference.
-        type: "Real", "Integer", "Boolean" or "String" (an Enumeration counts as Integer, FMI 3's Float64 as Real, ...).
+        type: "Real", "Integer", "Boolean", "String", "Binary" or "Clock" (an Enumeration counts as Integer, FMI 3's
+            Float64 as Real, ...).
         causality: "input", "output", "parameter", "calculatedParameter", "local" or "independent".
         continuous: whether it varies continuously.
         unit, display_unit: "" when it has none, or the unit "1".
@@ -49,6 +50,8 @@ class Variable:
         depends_on: of an output, the inputs that it follows at once; None: nobody says, so it may be all.
         fmi_type: what FMI calls its type, as in "Float64".
         elements, element: of an array of FMI 3, how many numbers it has, and which of them this variable is.
+        clocks: names of the clocks by which it ticks (FMI 3): it has a value only while one of them does.
+        interval: of a Clock, what decides when it ticks (intervalVariability), as in "triggered".
     """
 
     name: str
@@ -67,11 +70,18 @@ class Variable:
     fmi_type: str = ""
     elements: int = 1
     element: int = 0
+    clocks: tuple[str, ...] = ()
+    interval: str = ""
+
+    @property
+    def in_event_mode_only(self) -> bool:
+        """Whether nobody may read it between events: a clock, or what ticks by one (FMI 3.0, section 4.2.1.4)."""
+        return self.type == "Clock" or bool(self.clocks)
 
     @property
     def settable(self) -> bool:
         """Whether it may be set before the initialization."""
-        return self.causality in ("input", "parameter")
+        return self.causality in ("input", "parameter") and not self.in_event_mode_only
 
     @property
     def start_value(self) -> Value | None:
@@ -138,8 +148,20 @@ class Description:
         raise UsageError(f"{self.model} has no variable '{name}'.{hint_at(name, self.variables)}")
 
     def of(self, *causalities: str) -> list[Variable]:
-        """All variables of these causalities, in the FMU's order."""
-        return [variable for variable in self.variables.values() if variable.causality in causalities]
+        """All variables of these causalities, in the FMU's order, but for those that are there in event mode only."""
+        return [v for v in self.variables.values() if v.causality in causalities and not v.in_event_mode_only]
+
+    @property
+    def has_clocks(self) -> bool:
+        """Whether it must be instantiated with the event mode in use (FMI 3.0, fmi3InstantiateCoSimulation)."""
+        return any(variable.type == "Clock" for variable in self.variables.values())
+
+
+def not_in_step_mode(variable: Variable) -> str:
+    """Why a variable cannot be read between events, as the beginning of a sentence."""
+    if variable.type == "Clock":
+        return f"'{variable.name}' is a clock, which ticks at events and has no value between them"
+    return f"'{variable.name}' ticks by {' and '.join(variable.clocks)}: it has a value at events only, in event mode"
 
 
 def hint_at(name: str, known: Iterable[str]) -> str:
@@ -167,9 +189,12 @@ def read_description(path: Path) -> Description:
         raise damaged(path, error) from error
     version = raw.fmiVersion.partition(".")[0]
     if version not in ("2", "3") or raw.coSimulation is None:
+        kinds = {"Model Exchange": raw.modelExchange, "Scheduled Execution": raw.scheduledExecution}
+        has = " and ".join(kind for kind, there in kinds.items() if there is not None)
+        has = has or ("Co-Simulation" if raw.coSimulation is not None else "no interface that is known")
         raise UsageError(
-            f"'{path}' is not an FMU for co-simulation of FMI 2.0 or 3.0 (its FMI version is {raw.fmiVersion}); "
-            "the harness runs no other kind."
+            f"'{path}' is not an FMU for co-simulation of FMI 2.0 or 3.0: it has {has} only, of FMI {raw.fmiVersion}. "
+            "The harness runs no other kind; export it again, for Co-Simulation."
         )
     try:
         return replace(_described(raw, int(version)), terminals=terminals)
@@ -223,12 +248,12 @@ def _described(raw: Any, fmi: int) -> Description:
     )
 
 
-#: Types of FMI by what they are to the harness; Binary and Clock are left out.
+#: Types of FMI by what they are to the harness.
 _TYPES = {
     **dict.fromkeys(("Real", "Float64", "Float32"), "Real"),
     **dict.fromkeys(("Integer", "Enumeration"), "Integer"),
     **{f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)},
-    **{name: name for name in ("Boolean", "String")},
+    **{name: name for name in ("Boolean", "String", "Binary", "Clock")},
 }
 
 
@@ -269,7 +294,8 @@ def _dependencies(unknown: Any) -> frozenset[str] | None:
 def _variables(raw: Any, depends_on: frozenset[str] | None) -> Iterator[Variable]:
     """A variable, or the elements of one that is an array."""
     names = _element_names(raw)
-    start = None if raw.start is None else [raw.start] if not raw.shape else raw.start.split()
+    whole = not raw.shape or raw.type in ("String", "Binary")  # of an array of these, fmpy keeps the first start only
+    start = None if raw.start is None else [raw.start] if whole else raw.start.split()
     for element, name in enumerate(names):
         own = start[element] if start is not None and len(start) == len(names) else None
         yield _variable(raw, name, own, depends_on, element, len(names))
@@ -317,6 +343,8 @@ def _variable(
         fmi_type=raw.type,
         elements=elements,
         element=element,
+        clocks=tuple(clock.name for clock in raw.clocks or ()),
+        interval=raw.intervalVariability or "" if raw.type == "Clock" else "",
     )
 
 
@@ -324,8 +352,9 @@ def _is_value(text: str, kind: str) -> bool:
     """Whether a text means a value of a type."""
     if kind == "Boolean":
         return text in ("true", "false", "1", "0")
+    makes: Mapping[str, Callable[[str], object]] = {"Real": float, "Integer": int, "Binary": bytes.fromhex}
     try:
-        {"Real": float, "Integer": int}.get(kind, str)(text)
+        makes.get(kind, str)(text)
     except ValueError:
         return False
     return True

@@ -220,18 +220,23 @@ def performing(
         )
 
 
+#: So many steps a run has whose step nobody says.
+_USUAL_STEPS = 1000
+
+
 def default_times(description: Description, stop_time: float | None, step: float | None) -> tuple[float, float]:
     """Stop time and step [s], from the FMU's default experiment where they are None.
 
+    Where nobody says the step, it is a thousandth of the run, in whole nanoseconds.
+
     Raises:
-        UsageError: the FMU gives no default.
+        UsageError: nobody says the stop time.
     """
     stop_time = description.stop_time if stop_time is None else stop_time
     step = description.step if step is None else step
-    if stop_time is None or step is None:
-        missing = "--stop-time" if stop_time is None else "--step"
-        raise UsageError(f"{description.model} has no default experiment to take it from; give {missing}.")
-    return stop_time, step
+    if stop_time is None:
+        raise UsageError(f"{description.model} has no default experiment to take it from; give --stop-time.")
+    return stop_time, max(round(stop_time / _USUAL_STEPS, 9), 1e-9) if step is None else step
 
 
 def _units(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 
 from .description import Description, Value
 
+_INTEGER = re.compile(r"(U?)Int(\d+)")
 _PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
@@ -43,3 +45,10 @@ def in_display_unit(value: Value, name: str, description: Description, digits: i
     if displayed is not None:
         return f"{displayed:.{digits}g}", variable.display_unit
     return f"{value:.{digits}g}", variable.unit or "1"
+
+
+def integer_range(fmi_type: str) -> tuple[int, int]:
+    """The least and the greatest number of a type of FMI, as "UInt8"; Integer and Enumeration have 32 bits."""
+    named = _INTEGER.fullmatch(fmi_type)
+    unsigned, bits = (bool(named[1]), int(named[2])) if named else (False, 32)
+    return (0, 2**bits - 1) if unsigned else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)

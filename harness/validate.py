@@ -11,7 +11,7 @@ import fmpy.validation
 
 from .checks import Check
 from .clock import TimeGrid, begin_and_size, seconds
-from .description import Description, Value
+from .description import Description, Value, Variable
 from .errors import FmuError, HarnessError
 from .reference_results import ReferenceResults, farthest, limit_for, read_reference
 from .slave import Instance, Instances
@@ -69,7 +69,7 @@ class _Conformance:
         with self._fmu.instantiate("defaults") as slave:
             variables = [v for v in self._fmu.description.of("input", "parameter") if v.start is not None]
             for variable, value in zip(variables, slave.get([v.name for v in variables]), strict=True):
-                if not _same_value(variable.start or "", value):
+                if not _same_value(variable, value):
                     raise FmuError(f"{variable.name} is {value}, but its start value is {variable.start}.")
         return f"{len(variables)} inputs and parameters"
 
@@ -162,10 +162,15 @@ def conformance_grid(description: Description) -> TimeGrid:
     return TimeGrid.of(stop, smallest * max(math.ceil(stop / smallest / _STEPS - 1e-9), 1))
 
 
-def _same_value(start: str, value: Value) -> bool:
+#: How far the text of a start value may be rounded, by type.
+_ROUNDED = {"Float32": 1e-6}
+
+
+def _same_value(variable: Variable, value: Value) -> bool:
     """Whether the text of a start value means `value`; the text may be rounded in its last digit."""
-    if isinstance(value, bool):
-        return (start in ("true", "1")) == value
-    if isinstance(value, str):
-        return start == value
-    return math.isclose(float(start), value, rel_tol=1e-15)
+    start = variable.start_value
+    if isinstance(value, float) and start is not None:
+        return math.isclose(float(start), value, rel_tol=_ROUNDED.get(variable.fmi_type, 1e-15))
+    if variable.type == "Binary":
+        return str(start).lower() == value
+    return start == value

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..description import Description, Variable, hint_at
+from ..description import Description, Variable, hint_at, not_in_step_mode
 from ..impacts import ImpactCollector
 from ..toml_file import Section
 from ..tooth_damage import DAMAGE_UNITS
@@ -108,7 +108,9 @@ def _objection(when: When, name: str, description: Description, variables: Mappi
         return f"an impact has no '{name}'.{_way_out(name, variables)}"
     if name in description.variables:
         variable = description.variable(name)
-        why = "a text" if variable.type == "String" else f"a variable of causality {variable.causality}"
+        if variable.in_event_mode_only:
+            return f"{not_in_step_mode(variable)}.{hint_at(name, variables)}"
+        why = "a text" if variable.type in ("String", "Binary") else f"a variable of causality {variable.causality}"
         others = [w for w in When if name in _variables(w, description)]
         hint = f" Write it at {' or '.join(others)}." if others else ""
         return f"'{name}' is {why}, which cannot be had {when.meaning}.{hint}"

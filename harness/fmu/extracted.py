@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ import fmpy
 from ..description import Description, damaged, read_description
 from ..errors import UsageError
 from ..exhausted import NO_ROOM
+from .binaries import require_library
 from .fmi2 import Fmi2Slave
 from .fmi3 import Fmi3Slave
 from .slave import FmuSlave, MessageHandler, discard_message
@@ -45,8 +47,16 @@ class Fmu:
                 tells of its last step, such as a list of impacts, is about the part of it that was taken last.
 
         Raises:
+            UsageError: it has clocks that tick by time.
             FmuError: the library cannot be loaded, or the FMU refuses; with its messages.
         """
+        for clock in self.description.variables.values():
+            if clock.type == "Clock" and clock.causality == "input" and clock.interval != "triggered":
+                raise UsageError(
+                    f"'{self.path}' has the input clock {clock.name}, which ticks by time (intervalVariability = "
+                    f"{clock.interval or 'none'}); the harness lets triggered clocks tick, and no others. Ask for an "
+                    "FMU that keeps its own time, or run it in a tool for scheduled execution."
+                )
         slave: FmuSlave
         if self.description.fmi == 3:
             slave = Fmi3Slave(self.description, self.folder, name, on_message, early_return)
@@ -70,13 +80,11 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
     """
     description = read_description(path)
     try:
-        platforms = fmpy.supported_platforms(str(path))
-    except Exception as error:  # fmpy raises whatever zipfile raises
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+    except (OSError, zipfile.BadZipFile) as error:
         raise damaged(path, error) from error
-    if fmpy.platform not in platforms:
-        raise UsageError(
-            f"'{path}' has no library for {fmpy.platform}; it runs on {', '.join(platforms) or 'no platform'}."
-        )
+    require_library(path, description, names)
     with temporary_folder() as folder:
         try:
             fmpy.extract(str(path), unzipdir=str(folder))

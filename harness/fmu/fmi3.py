@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from ctypes import byref, c_bool, c_double, c_size_t, c_void_p
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,22 +14,29 @@ from fmpy.fmi3 import FMU3Slave
 from ..description import Description, Value
 from .batches import Batch
 from .element_reals import ElementReals
+from .event_mode import EventMode, uses_event_mode
 from .raw_reals import RawReals
-from .slave import FmuSlave, MessageHandler
+from .slave import FmuSlave, MessageHandler, SavedState
 
-#: So often an FMU may ask for one more update of its discrete states.
-_MOST_UPDATES = 1000
 #: So often in a row an FMU may return early for no event.
 _MOST_SHORT = 100
 #: Types that have no functions of their own.
 _NAMES = {"Enumeration": "Int64"}
 
 
+def _bytes(value: Any) -> bytes:
+    """Those of a Binary variable: as they came from the FMU, or in hexadecimal."""
+    return value or b"" if value is None or isinstance(value, bytes) else bytes.fromhex(str(value))
+
+
 class Fmi3Slave(FmuSlave):
     """One instance of an FMU of FMI 3.0.
 
-    With early return, events are handled by the rules of the event mode, if the FMU has one; else it handles them by
-    itself.
+    With early return, and always where there are clocks, events are handled by the rules of the event mode, if the FMU
+    has one; else it handles them by itself.
+
+    Attributes:
+        event_mode: None where it is not used.
     """
 
     _FMI, _STATE = "fmi3", "FMUState"
@@ -37,7 +45,7 @@ class Fmi3Slave(FmuSlave):
         self, description: Description, folder: Path, name: str, on_message: MessageHandler, early_return: bool
     ) -> None:
         """As of `FmuSlave`; with `early_return`, `advance` may end at an event of the FMU's own."""
-        self._handles_events = early_return and description.has_event_mode
+        self.event_mode = EventMode(self) if uses_event_mode(description, early_return) else None
         self._may_return = early_return and description.returns_early
         self._event, self._ends, self._early_return = c_bool(), c_bool(), c_bool()
         self._reached = c_double()
@@ -48,13 +56,11 @@ class Fmi3Slave(FmuSlave):
 
         Inputs that are not continuous change in event mode only, where there is one (FMI 3.0, section 4.2.1.3).
         """
-        by_event = self._initialized and self._handles_events
-        if by_event and not all(self.description.variable(name).continuous for name in values):
-            self._call("fmi3EnterEventMode", self._instance.enterEventMode)
+        mode = self.event_mode if self._initialized else None
+        if mode is None or mode.inside or all(self.description.variable(name).continuous for name in values):
             super().set(values)
-            self._settle()
         else:
-            super().set(values)
+            mode.change(lambda: super(Fmi3Slave, self).set(values))
 
     def reals(self, names: Sequence[str]) -> RawReals | ElementReals:
         """Bind Real variables."""
@@ -65,6 +71,31 @@ class Fmi3Slave(FmuSlave):
             names, ("fmi3GetFloat64", "fmi3SetFloat64", "fmi3GetOutputDerivatives", ""), c_size_t(len(names))
         )
 
+    def save(self, state: SavedState | None = None) -> SavedState:
+        """A snapshot, and whether it was taken in event mode."""
+        saved = super().save(state)
+        return saved if self.event_mode is None else replace(saved, event_mode=self.event_mode.memory())
+
+    def restore(self, state: SavedState) -> None:
+        """Continue from a snapshot."""
+        super().restore(state)
+        if self.event_mode is not None:
+            self.event_mode.remember(state.event_mode)
+
+    def reset(self) -> None:
+        """Back to the state just after the instantiation."""
+        super().reset()
+        if self.event_mode is not None:
+            self.event_mode.forget()
+
+    def call(self, name: str, *arguments: Any) -> Any:
+        """Call a function "fmi3<Name>" by way of fmpy.
+
+        Raises:
+            FmuError: the FMU refuses.
+        """
+        return self._call(f"fmi3{name}", getattr(self._instance, name[0].lower() + name[1:]), *arguments)
+
     def _load(self, **where: str) -> Any:
         return FMU3Slave(**where)
 
@@ -72,7 +103,7 @@ class Fmi3Slave(FmuSlave):
         self._instance.instantiate(
             visible=False,
             loggingOn=True,
-            eventModeUsed=self._handles_events,
+            eventModeUsed=self.event_mode is not None,
             earlyReturnAllowed=self._may_return,
             logMessage=self._log,
         )
@@ -86,13 +117,27 @@ class Fmi3Slave(FmuSlave):
         self._call("fmi3EnterInitializationMode", self._instance.enterInitializationMode, None, start_time, stop_time)
 
     def _exit(self) -> None:
-        """Leave it, and go through the event mode behind it."""
+        """Leave it; the event mode is behind it."""
         self._call("fmi3ExitInitializationMode", self._instance.exitInitializationMode)
         self._initialized = True
-        if self._handles_events:
-            self._settle()
+        if self.event_mode is not None:
+            self.event_mode.begun()
 
     def _do_step(self, begin: float, size: float) -> float | None:
+        mode = self.event_mode
+        if mode is None:
+            return self._stepped(begin, size)
+        mode.settle()
+        part = mode.size_to(begin, size) if self.description.varies_step else size
+        reached = self._stepped(begin, part)
+        if reached is None and part < size:
+            reached = begin + part
+        self._time = begin + size if reached is None else reached
+        mode.reached(self._time, self._event.value)
+        return reached
+
+    def _stepped(self, begin: float, size: float) -> float | None:
+        """Take a step; None when it was completed, else the time reached."""
         said = len(self.messages)
         status = self._step(begin, size, *self._rest)
         if status > 1:
@@ -102,22 +147,7 @@ class Fmi3Slave(FmuSlave):
         reached = self._reached.value if self._early_return else None
         if reached is not None and reached < begin + size and not self._event:
             self._count_short(begin + size, _MOST_SHORT)
-        if self._event and self._handles_events:
-            self._time = begin + size if reached is None else reached
-            self._call("fmi3EnterEventMode", self._instance.enterEventMode)
-            self._settle()
         return reached
-
-    def _settle(self) -> None:
-        """Update the discrete states until they stay as they are, and leave the event mode."""
-        for _ in range(_MOST_UPDATES):
-            again, ends, *_ = self._call("fmi3UpdateDiscreteStates", self._instance.updateDiscreteStates)
-            if ends:
-                raise self.failure("fmi3UpdateDiscreteStates", "it asks to end the simulation")
-            if not again:
-                self._call("fmi3EnterStepMode", self._instance.enterStepMode)
-                return
-        raise self.failure("fmi3UpdateDiscreteStates", f"its discrete states do not settle in {_MOST_UPDATES} updates")
 
     def _log(self, _environment: Any, status: int, category: bytes | None, text: bytes | None) -> None:
         self._told(status, category, text, "#")
@@ -125,9 +155,13 @@ class Fmi3Slave(FmuSlave):
     def _get(self, batch: Batch) -> list[Any]:
         name = _NAMES.get(batch.kind, batch.kind)
         get = getattr(self._instance, f"get{name}")
-        numbers: list[Any] = self._call(f"fmi3Get{name}", get, batch.references, batch.count)
+        try:
+            numbers: list[Any] = self._call(f"fmi3Get{name}", get, batch.references, batch.count)
+        except (AttributeError, UnicodeDecodeError) as error:  # of fmpy, for a String that is null or not UTF-8
+            raise self.failure(f"fmi3Get{name}", "a String that it gives is null, or not in UTF-8") from error
         return numbers
 
     def _set(self, batch: Batch, numbers: Sequence[Value]) -> None:
         name = _NAMES.get(batch.kind, batch.kind)
-        self._call(f"fmi3Set{name}", getattr(self._instance, f"set{name}"), batch.references, numbers)
+        values = [_bytes(number) for number in numbers] if name == "Binary" else numbers
+        self._call(f"fmi3Set{name}", getattr(self._instance, f"set{name}"), batch.references, values)

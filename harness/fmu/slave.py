@@ -19,8 +19,10 @@ from fmpy.fmi1 import FMICallException
 from ..description import Description, Value
 from ..errors import FmuError, UsageError
 from ..messages import LogMessage, Status
+from ..numbers import integer_range
 from ..slave import whole_step
 from .batches import Batch, batches
+from .binaries import libraries_in, listed
 from .element_reals import ElementReals
 from .raw_reals import Call, RawReals, doubles, nothing
 
@@ -53,11 +55,13 @@ class SavedState:
         handle: the FMU's own.
         early: of the slave at that time.
         initialized: likewise.
+        event_mode: of FMI 3.0, as of `EventMode.memory`.
     """
 
     handle: Any
     early: float | None
     initialized: bool
+    event_mode: tuple[bool, bool, float | None] = (False, False, None)
 
 
 class FmuSlave(ABC):
@@ -105,6 +109,8 @@ class FmuSlave(ABC):
             numbers: list[Value] = [0.0] * batch.count if batch.is_whole else self._get(batch)
             for place, offset in zip(batch.places, batch.offsets, strict=True):
                 numbers[offset] = given[place]
+            if batch.type == "Integer":
+                self._require_range(batch, numbers)
             self._set(batch, numbers)
 
     def get(self, names: Sequence[str]) -> list[Value]:
@@ -320,6 +326,17 @@ class FmuSlave(ABC):
     def _get(self, batch: Batch) -> list[Any]:
         """The numbers of variables of one type."""
 
+    def _require_range(self, batch: Batch, numbers: Sequence[Value]) -> None:
+        """Refuse what C would make another number of without a word.
+
+        Raises:
+            FmuError: a number does not fit the type of its variable.
+        """
+        least, most = integer_range(batch.kind)
+        for number in numbers:
+            if not least <= int(number) <= most:
+                raise self.failure(f"{self._FMI}Set{batch.kind}", f"{number} does not fit, from {least} to {most}")
+
     @abstractmethod
     def _set(self, batch: Batch, numbers: Sequence[Value]) -> None:
         """Set variables of one type."""
@@ -338,7 +355,8 @@ class FmuSlave(ABC):
                 instanceName=self.name,
             )
         except Exception as error:  # fmpy raises a bare Exception for whatever the loader says
-            raise self._error(f"its library cannot be loaded; {error}", Status.FATAL, []) from error
+            there = f"the FMU has {listed(libraries_in(folder))}"
+            raise self._error(f"its library cannot be loaded; {error}; {there}", Status.FATAL, []) from error
         finally:
             os.chdir(working_folder)  # fmpy does not return from the library's folder when loading fails
 
@@ -430,4 +448,5 @@ _FROM_C: dict[str, Callable[[Any], Value]] = {
     "Integer": int,
     "Boolean": bool,
     "String": lambda raw: raw if isinstance(raw, str) else (raw or b"").decode("utf-8"),
+    "Binary": lambda raw: (raw or b"").hex(),
 }

@@ -59,6 +59,7 @@ class Link:
         rate_factor: from its unit to that of the source, per second.
         type: of the target, as of `Variable.type`.
         held: the signal changes at communication points only, and never in between: one of both ends is not continuous.
+        ticks: it is there in event mode only: a clock, or one of both ends ticks by one.
     """
 
     source: str
@@ -69,6 +70,7 @@ class Link:
     rate_factor: float = 1.0
     type: str = "Real"
     held: bool = False
+    ticks: bool = False
 
     def of(self, value: Value) -> Value:
         """What the target gets for a value of the source."""
@@ -78,7 +80,7 @@ class Link:
 
 
 #: How a value becomes one of a type; a Boolean is 0 or 1, and any number but 0 is true.
-_MAKE: Mapping[str, Callable[[Value], Value]] = {"Boolean": bool, "Integer": int, "String": str}
+_MAKE: Mapping[str, Callable[[Value], Value]] = {"Boolean": bool, "Integer": int, "String": str, "Binary": str}
 
 #: What may become what if the connection says so: nothing that would lose a part of a number.
 _CONVERTS = {
@@ -110,6 +112,11 @@ def linked(connection: Connection, description: Description) -> Link:
     if target.causality != "input":
         raise UsageError(f"{where}: the target is no input, but {_what(target)}; connect an input.")
     _check_kinds(connection, source, target)
+    if target.type == "Clock" and target.interval != "triggered":
+        raise UsageError(
+            f"{where}: the target ticks by time ({target.interval or 'no intervalVariability'}); connect a clock that "
+            "is triggered."
+        )
     if not (math.isfinite(connection.gain) and math.isfinite(connection.offset)) or connection.gain == 0.0:
         numbers = f"gain = {connection.gain:g}, offset = {connection.offset:g}"
         raise UsageError(f"{where}: {numbers}; give finite numbers, and a gain that is not 0.")
@@ -122,11 +129,12 @@ def linked(connection: Connection, description: Description) -> Link:
     rate, scale = _rate(connection, source, where, description)
     if rate and held:
         raise UsageError(f"{where}: a signal that is held has no rate; leave rate out.")
-    return Link(source.name, target.name, factor, offset, rate, scale, target.type, held)
+    ticks = source.in_event_mode_only or target.in_event_mode_only
+    return Link(source.name, target.name, factor, offset, rate, scale, target.type, held or ticks, ticks)
 
 
 def kind_of(variable: Variable) -> str:
-    """Boolean, Integer, Enumeration, Real or String."""
+    """Boolean, Integer, Enumeration, Real, String, Binary or Clock."""
     return "Enumeration" if variable.fmi_type == "Enumeration" else variable.type
 
 

@@ -11,9 +11,11 @@ from ..inputs import InputSignals
 from .component import Component
 from .connection import Connection, Link
 from .driven import Driven
+from .events import Events
 from .extrapolation import Extrapolation
 from .held import Held
 from .initialization import initialize
+from .loops import in_order
 from .names import own_of, part_of
 from .part import Part
 from .structure import structure_of
@@ -68,7 +70,10 @@ class Machine:
         self.reads_once = reads_once
         self._holds = extrapolation is Extrapolation.CONSTANT
         self.parts = {name: _connected(name, components[name], links) for name in self.structure.order}
-        self._held = Held(self.parts, [link for link in self.structure.links if link.held])
+        self._held = Held(self.parts, [link for link in self.structure.links if link.held and not link.ticks])
+        self._events = Events(
+            self.parts, [link for link in in_order(self.structure.links, self.description) if link.ticks]
+        )
         self._links = len(links)
         # What a step looks at, without detours.
         self._outputs = {name: part.outputs for name, part in self.parts.items()}
@@ -114,7 +119,8 @@ class Machine:
 
     def initialize(self, start_time: float, stop_time: float) -> None:
         """Initialize the parts, each with the outputs of those that it follows, and exchange until nothing changes."""
-        initialize(self.parts, self.structure.links, self.structure.groups, start_time, stop_time)
+        links = [link for link in self.structure.links if not link.ticks]
+        initialize(self.parts, links, self.structure.groups, start_time, stop_time)
         self.exchange(round(start_time * SECOND))
 
     def terminate(self) -> None:
@@ -131,32 +137,47 @@ class Machine:
         """Read all outputs at `time` [ns], and let inputs be what they follow.
 
         Outputs that follow an input at once are read again when it has changed, as often as there are connected inputs
-        at most: longer chains than that are loops without any delay, which are solved only if that is enough.
+        at most: longer chains than that are loops without any delay, which are solved only if that is enough. Events
+        that are due then are handled (`Events`).
         """
         self._slopes.clear()
         if self._driven is not None:
             self._driven.exchange(time)
+        self._pass_on(time)
+        if self._events.due():
+            self._events.handle(lambda: self._changes(time))
+            for name in self._events.names:
+                self._outputs[name].jumped()
+
+    def _changes(self, time: int) -> bool:
+        """Pass on; whether inputs that are held have changed, or those of a part in event mode."""
+        before = [self._given.get(name) for name in self._events.names]
+        held = self._pass_on(time)
+        return held or before != [self._given.get(name) for name in self._events.names]
+
+    def _pass_on(self, time: int) -> bool:
+        """Let inputs be what they follow; whether one that is held has changed."""
         if self.reads_once:
-            self._exchange_once(time)
-            return
+            return self._pass_on_once(time)
         self._flow(time)
         if not self._held:
-            return
-        for _ in range(len(self._held) + 1):
+            return False
+        for number in range(len(self._held) + 1):
             self._held.read()
             if not self._held.write():
-                return
+                return number > 0
             self._flow(time)
         self.unsettled += 1
+        return True
 
-    def _exchange_once(self, time: int) -> None:
+    def _pass_on_once(self, time: int) -> bool:
         """Read all outputs, then set all inputs."""
         for outputs in self._outputs.values():
             outputs.read(time)
         self._held.read()
         for name in self._wires:
             self._write(name)
-        self._held.write()
+        return self._held.write()
 
     def _flow(self, time: int) -> None:
         """The exchange of what is continuous."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..clock import SECOND
+from .events import event_mode_of
 from .impact_times import ImpactTimes
 from .part import Part
 
@@ -47,7 +48,9 @@ class Port:
         self._slopes = part.slopes.values if part.takes_slopes else None
         self._output = part.component.reals([told])
         # Inputs that are set may change it at once, unless the component says that none does.
-        self._follows = part.component.description.variables[told].depends_on != frozenset()
+        # So may an event, which is handled at a communication point.
+        by_event = event_mode_of(part.component) is not None
+        self._follows = by_event or part.component.description.variables[told].depends_on != frozenset()
         self._impacts = ImpactTimes(part.component)
         self._jumps = self._impacts.reports and piece is not effort_taken  # a displacement does not jump
         self._piece, self._scale = piece, scale

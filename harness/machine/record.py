@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..description import Variable
+from ..description import Variable, not_in_step_mode
 from ..errors import UsageError
 from ..recorder import recorded_variables
 from ..slave import Observable
@@ -60,7 +60,7 @@ class Recorder:
         if every < 1:
             raise UsageError(f"Every {every}-th communication point cannot be recorded; give 1 or more.")
         variables = _variables(machine, signals)
-        columns = [Column("time", "Real", "s"), *(Column(v.name, v.type, v.unit) for v in variables)]
+        columns = [Column("time", "Real", "s"), *(Column(v.name, _kept_as(v), v.unit) for v in variables)]
         self.units = {column.name: column.unit or "1" for column in columns}
         self._groups = readings(machine, variables)
         read = ["time", *(name for group in self._groups for name in group.names)]
@@ -126,11 +126,18 @@ class Recorder:
         self._written = clock.monotonic()
 
 
+def _kept_as(variable: Variable) -> str:
+    """The type of a column; integers of 64 bits are Reals there, as rows are doubles."""
+    return "Real" if variable.fmi_type in ("Int64", "UInt64") else variable.type
+
+
 def _variables(machine: Machine, signals: Sequence[str] | None) -> list[Variable]:
     if signals is None:
         return recorded_variables(machine.description)
     variables = [machine.description.variable(name) for name in dict.fromkeys(signals)]
     for variable in variables:
+        if variable.in_event_mode_only:
+            raise UsageError(f"{not_in_step_mode(variable)}; leave it out.")
         if variable.type not in _NUMBERS:
             raise UsageError(f"'{variable.name}' is of type {variable.type}; only numbers can be recorded.")
     return variables

@@ -25,4 +25,5 @@ def chosen(patterns: Iterable[str], description: Description) -> list[Variable]:
             continue
         expression = re.compile(".*".join(re.escape(part) for part in pattern.split("*")))
         wanted |= {name for name in usual if expression.fullmatch(name)}
-    return [v for v in description.variables.values() if v.name in wanted and v.type in _NUMBERS]
+    known = description.variables.values()
+    return [v for v in known if v.name in wanted and v.type in _NUMBERS and not v.in_event_mode_only]

@@ -59,12 +59,12 @@ def structure_of(
     whole = Description(model, model, "", variables, units, terminals=terminals)
     links = [linked(connection, whole) for connection in connections]
     for link in links:
-        if not variables[link.target].settable:
+        if variables[link.target].causality != "input":
             raise UsageError(f"{link.target} has two connections; an input can have only one.")
         variables[link.target] = replace(variables[link.target], causality="output")
     edges = [(part_of(link.source), part_of(link.target)) for link in links]
     order, cycles = dependency_order(list(descriptions), edges)
-    return Structure(whole, links, order, cycles, loops(links, whole))
+    return Structure(whole, links, order, cycles, loops([link for link in links if not link.ticks], whole))
 
 
 def _terminals(part: str, description: Description) -> Iterator[Terminal]:
@@ -75,4 +75,5 @@ def _terminals(part: str, description: Description) -> Iterator[Terminal]:
 
 def _variables(part: str, description: Description) -> Iterator[Variable]:
     for variable in description.variables.values():
-        yield replace(variable, name=f"{part}.{variable.name}")
+        clocks = tuple(f"{part}.{clock}" for clock in variable.clocks)
+        yield replace(variable, name=f"{part}.{variable.name}", clocks=clocks)

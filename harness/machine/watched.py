@@ -13,6 +13,7 @@ from typing import Any, Protocol
 from ..description import Value
 from ..slave import whole_step
 from .component import Component, Reals
+from .events import EventMode, event_mode_of
 from .machine import Machine
 
 #: The number of impacts in the last step.
@@ -61,6 +62,11 @@ class Watched:
         self.watchers: list[Watcher] = []
         self.spent = 0
         self._impacts: list[Value] | None = None
+
+    @property
+    def event_mode(self) -> EventMode | None:
+        """The component's own."""
+        return event_mode_of(self.component)
 
     def advance(self, time: float, size: float) -> float:
         """Take a step before the eyes of the watchers."""

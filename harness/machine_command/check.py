@@ -29,6 +29,7 @@ def _show(machine: Prepared) -> None:
             "put back": fmu.description.saves_state,
             "takes slopes": fmu.description.takes_slopes,
             "gives slopes": fmu.description.gives_slopes,
+            "event mode": fmu.description.has_event_mode,
         }
         can = ", ".join(ability for ability, there in abilities.items() if there)
         rows.append([name, fmu.path.name, fmu.description.generation_tool, can])

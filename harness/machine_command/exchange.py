@@ -147,7 +147,7 @@ def _first_inputs(machine: Prepared) -> list[str]:
         whole = Machine(parts, machine.plan.connections)
         whole.set(machine.plan.start_values)
         whole.initialize(0.0, machine.plan.policy.stop_time)
-        sources = [link.source for link in whole.structure.links if link.type != "String"]
+        sources = [link.source for link in whole.structure.links if link.type not in ("String", "Binary")]
         moved = [name for name, value in zip(sources, whole.get(sources), strict=True) if value]
     if not moved:
         return []

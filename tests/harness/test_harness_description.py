@@ -71,7 +71,9 @@ def test_a_default_experiment_that_does_not_go_on_is_none(tmp_path: Path, value:
 
 def test_an_fmu_for_model_exchange_is_refused(tmp_path: Path) -> None:
     text = DESCRIPTION.replace("CoSimulation", "ModelExchange")
-    with pytest.raises(UsageError, match="is not an FMU for co-simulation"):
+    with pytest.raises(
+        UsageError, match=r"it has Model Exchange only, of FMI 2\.0\. The harness runs no other kind; exp"
+    ):
         read(tmp_path, text)
 
 

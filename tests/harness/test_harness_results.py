@@ -88,10 +88,16 @@ def test_times_come_from_the_default_experiment() -> None:
     assert default_times(description, 2.0, 0.5) == (2.0, 0.5)
 
 
-def test_times_without_a_default_must_be_given() -> None:
+def test_a_step_that_nobody_says_is_a_thousandth_of_the_run() -> None:
     description = replace(FakeSlave().description, step=None)
-    with pytest.raises(UsageError, match="no default experiment to take it from; give --step"):
-        default_times(description, 1.0, None)
+    assert default_times(description, 3.0, None) == (3.0, 3e-3)
+    assert default_times(description, 1e-7, None) == (1e-7, 1e-9)
+
+
+def test_a_stop_time_without_a_default_must_be_given() -> None:
+    description = replace(FakeSlave().description, stop_time=None)
+    with pytest.raises(UsageError, match="no default experiment to take it from; give --stop-time"):
+        default_times(description, None, 0.1)
 
 
 def with_tooth(slave: FakeSlave, length: float) -> FakeSlave:

@@ -72,6 +72,12 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
     machine = structure_of(descriptions).description
     connected = structure_of(descriptions, plan.connections)
     links = connected.links
+    for name in descriptions:
+        if descriptions[name].has_clocks:
+            raise UsageError(
+                f"The FMU of {name} has clocks, so it needs event mode, which fmpy's container does not use; take one "
+                "without clocks (of this project: built without --clocks)."
+            )
     for name in dict.fromkeys(end for link in links for end in (link.source, link.target)):
         if machine.variables[name].elements > 1:
             raise UsageError(f"{name} is an element of an array, which fmpy's container cannot connect.")

@@ -40,11 +40,17 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
     flowing = {link.target for link in machine.links if not link.held}
     connections = [connection for connection in plan.connections if connection.target in flowing]
     found += _extrapolation(plan.policy.extrapolation, connections, descriptions)
-    held = [f"{link.source} -> {link.target}" for link in machine.links if link.held]
+    held = [f"{link.source} -> {link.target}" for link in machine.links if link.held and not link.ticks]
     if held:
         found.append(
             f"Held, and never interpolated or extrapolated: {', '.join(held)}. A change takes effect at the first "
             "communication point at which it is seen, with every algorithm; until there its receiver has the old value."
+        )
+    ticking = [f"{link.source} -> {link.target}" for link in machine.links if link.ticks]
+    if ticking:
+        found.append(
+            f"By clocks: {', '.join(ticking)}. They are passed on in event mode, at the first communication point "
+            "behind an event; with event_aware that is the event itself, where an FMU can end its step there."
         )
     if plan.policy.reads_once:
         found.append(

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from mechanism_fmu.stress import material_card
 
 from ...clock import TimeGrid, nanoseconds
-from ...description import Description, Variable, hint_at
+from ...description import Description, Variable, hint_at, not_in_step_mode
 from ...errors import UsageError
 from ...inputs import read_inputs
 from ...recorder import recorded_variables
@@ -96,8 +96,11 @@ def recording(file: TomlFile, description: Description, complete: bool) -> Recor
 
 
 def _nothing(signal: str, description: Description) -> str:
-    if signal in description.variables:
-        return f"'{signal}' is a text, which is not recorded"
     known: list[Variable] = recorded_variables(description)
     names = [variable.name for variable in known]
+    named = description.variables.get(signal)
+    if named is not None and named.in_event_mode_only:
+        return f"{not_in_step_mode(named)}{hint_at(signal, names)}"
+    if named is not None:
+        return f"'{signal}' is a text, which is not recorded"
     return f"'{signal}' is no variable of the machine, and no pattern that fits one.{hint_at(signal, names)}"

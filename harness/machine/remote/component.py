@@ -10,6 +10,7 @@ from ...description import Description, Value
 from ...messages import LogMessage
 from ...slave import whole_step
 from ...wire import BrokenFrameError
+from .event_mode import RemoteEventMode
 from .link import Link
 from .plain import number
 from .reals import RemoteReals
@@ -27,10 +28,11 @@ class RemoteComponent:
         name: of the part.
         messages: everything the component has said so far.
         process: its process.
+        event_mode: None where it is not used.
     """
 
-    def __init__(self, link: Link, description: Description, time_limit: float) -> None:
-        """Wait for the component; `time_limit` of a call [s].
+    def __init__(self, link: Link, description: Description, time_limit: float, has_event_mode: bool = False) -> None:
+        """Wait for the component, which uses its event mode or not; `time_limit` of a call [s].
 
         Raises:
             FmuError: it cannot be made, or its process ends.
@@ -42,6 +44,7 @@ class RemoteComponent:
         self.description = description
         self._trips = RoundTrips(link, description, time_limit)
         self._start = 0.0
+        self.event_mode = RemoteEventMode(link, self._trips) if has_event_mode else None
 
     def reals(self, names: Sequence[str]) -> RemoteReals:
         """Bind Real variables."""
@@ -50,7 +53,12 @@ class RemoteComponent:
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name, before the next call."""
         self._trips.order("set", dict(values))
-        self._trips.changed(values)
+        by_event = self.event_mode is not None and self._link.time is not None
+        if by_event and not all(self.description.variable(name).continuous for name in values):
+            self._trips.changed(None)
+            self.event_mode.pending = True  # type: ignore[union-attr]
+        else:
+            self._trips.changed(values)
 
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables, in the order of `names`."""
@@ -70,6 +78,8 @@ class RemoteComponent:
         """The other half."""
         self._trips.call("exit_initialization")
         self._link.time = self._start
+        if self.event_mode is not None:
+            self.event_mode.pending = True
 
     def step(self, time: float, size: float) -> None:
         """Advance by `size` [s] from `time`, however often the component returns early."""
@@ -77,6 +87,8 @@ class RemoteComponent:
 
     def advance(self, time: float, size: float) -> float:
         """As `step`, but the component may return early; the time reached [s]."""
+        if self.event_mode is not None:
+            return self.event_mode.advance(time, size)
         reached = self._trips.step("advance", time, size)
         try:
             return number(reached)
@@ -97,6 +109,8 @@ class RemoteComponent:
         """Be again as when the snapshot was taken."""
         self._trips.order("restore", state)
         self._trips.changed(None)
+        if self.event_mode is not None:
+            self.event_mode.pending = False  # a machine takes snapshots where nothing is
 
     def free_state(self, state: Any) -> None:
         """Release a snapshot."""

@@ -164,6 +164,14 @@ class _Servant:
             del tail[before:]
             return False, packed_error(error, self.component.name)
 
+    def event(self, name: str, *arguments: Any) -> Any:
+        """Something of the component's event mode."""
+        return getattr(self._fmu.event_mode, name)(*arguments)
+
+    def advance_to_event(self, time: float, size: float) -> tuple[float, bool]:
+        """As `advance`, and whether there is an event."""
+        return self.component.advance(time, size), self._fmu.event_mode.pending
+
     def reset(self) -> None:
         """As `FmuSlave.reset`."""
         self._fmu.reset()

@@ -14,7 +14,7 @@ from ...messages import LogMessage, Status
 from ...wire import BrokenFrameError
 
 _KINDS: dict[str, type[HarnessError]] = {"usage": UsageError, "fmu": FmuError, "harness": HarnessError}
-_TYPES: dict[str, type[Value]] = {"Real": float, "Integer": int, "Boolean": bool, "String": str}
+_TYPES: dict[str, type[Value]] = {"Real": float, "Integer": int, "Boolean": bool, "String": str, "Binary": str}
 
 
 class Numbers:

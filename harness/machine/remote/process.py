@@ -11,6 +11,7 @@ from typing import Any
 
 from ...description import Description
 from ...fmu import Fmu
+from ...fmu.event_mode import uses_event_mode
 from ...fmu.slave import MessageHandler, discard_message
 from ...processes import starting_from
 from ...wire import Wire
@@ -44,7 +45,8 @@ def in_own_process(
         FmuError: the library cannot be loaded, the FMU refuses, or the process ends.
     """
     opener = _FmuOpener(fmu, name, early_return)
-    with remote(name, opener, on_message, time_limit, fmu.folder) as component:
+    by_event = uses_event_mode(fmu.description, early_return)
+    with remote(name, opener, on_message, time_limit, fmu.folder, by_event) as component:
         yield component
 
 
@@ -105,6 +107,7 @@ def remote(
     on_message: MessageHandler = discard_message,
     time_limit: float = TIME_LIMIT,
     folder: Path | None = None,
+    has_event_mode: bool = False,
 ) -> Iterator[RemoteComponent]:
     """A component in a new process, which ends afterwards.
 
@@ -114,6 +117,7 @@ def remote(
         on_message: receives its messages, with the reply to the call during which they came.
         time_limit: of a call [s]; ten times as much for the start and the initialization.
         folder: that the component lives in; the process removes it when this one is killed.
+        has_event_mode: whether the component uses its event mode.
 
     Raises:
         FmuError: the component cannot be made, or the process ends.
@@ -125,7 +129,7 @@ def remote(
         process.start()
         there.close()  # so that the end of the process is the end of the connection
         link = Link(name, process, Wire(here), on_message)
-        component = RemoteComponent(link, opener.description, time_limit)
+        component = RemoteComponent(link, opener.description, time_limit, has_event_mode)
         try:
             yield component
         finally:

@@ -114,6 +114,11 @@ def _connectors(plan: Plan, machine: Description) -> dict[str, list[str]]:
 
     Free inputs and parameters are none: fmpy takes every input connector for a connected one.
     """
+    for connection in plan.connections:
+        if linked(connection, machine).ticks:
+            raise UsageError(
+                f"connection {connection} is one of clocks, which SSP 1.0 does not know; the machine runs here only."
+            )
     wanted = [end for c in plan.connections for end in (c.source, c.target)]
     wanted += [v.name for v in chosen(plan.recording.signals, machine) if v.causality == "output" and v.type in TYPES]
     found: dict[str, list[str]] = {component.name: [] for component in plan.components}

@@ -136,6 +136,23 @@ def test_what_no_intermediate_update_can_give_is_refused(clocked_ratchet3):
             Instance3(clocked_ratchet3, event_mode=True, on_update=lambda _: None, intermediate=[name])
 
 
+def test_use_without_event_mode_is_refused_in_words(clocked_ratchet3):
+    """The standard wants eventModeUsed = true of FMUs with clocks (fmi3InstantiateCoSimulation)."""
+    told = []
+    slave = fmpy.fmi3.FMU3Slave(
+        guid=clocked_ratchet3.description.guid,
+        unzipDirectory=clocked_ratchet3.folder,
+        modelIdentifier=clocked_ratchet3.description.coSimulation.modelIdentifier,
+        instanceName="one",
+    )
+    with pytest.raises(Exception, match="Failed to instantiate"):
+        slave.instantiate(eventModeUsed=False, logMessage=lambda _, status, category, text: told.append(text))
+    assert told == [
+        b"one: fmi3InstantiateCoSimulation: this FMU has a clock; use event mode (eventModeUsed = true), or build it "
+        b"without --clocks."
+    ]
+
+
 def test_the_clock_is_read_only_and_has_no_interval(clocked3):
     one = clocked3(event_mode=True).begin()
     slave, component = one.slave, one.slave.component

@@ -1,6 +1,5 @@
 """FMUs that are not this project's: by pythonfmu, pythonfmu3, fmpy's container and a C compiler."""
 
-import re
 import subprocess
 import sys
 import zipfile
@@ -12,8 +11,9 @@ from attrs import evolve
 from fmpy.container_fmu import Configuration
 from fmpy.container_fmu.cli import create_container_fmu
 from fmpy.container_fmu.config import Component, Connection
-from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import CoSimulation, DefaultExperiment, ModelDescription, ModelVariable, Unknown
+
+from tests.harness.machine.foreign.in_c import compiled
 
 HERE = Path(__file__).parent
 
@@ -36,14 +36,7 @@ def _python(package: str, source: str, folder: Path) -> Path:
 
 def ball(folder: Path) -> Path:
     """FMI 3.0, from `ball.c`."""
-    source = (HERE / "ball.c").read_text(encoding="utf-8")
-    asked = {name for name in vars(FMU3Slave) | vars(FMU3Slave.__base__) if name.startswith("fmi3")}
-    there = set(re.findall(r"\b(fmi3\w+)\(", source))
-    stubs = "".join(f"int {name}(void) {{ return 3; }}\n" for name in sorted(asked - there))
-    (folder / "ball.c").write_text(source + stubs, encoding="utf-8")
-    library = folder / f"ball{fmpy.sharedLibraryExtension}"
-    compiler = [sys.executable, "-m", "ziglang", "cc", "-shared", "-fPIC", "-O1", "-w"]
-    subprocess.run([*compiler, str(folder / "ball.c"), "-o", str(library)], check=True, capture_output=True)
+    library = compiled(HERE / "ball.c", folder)
     path = folder / "Ball.fmu"
     with zipfile.ZipFile(path, "w") as fmu:
         fmu.writestr("modelDescription.xml", tostring(_ball_description()))
