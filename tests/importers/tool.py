@@ -1,0 +1,85 @@
+"""A tool: what to install for it, which forms it takes, and how it is run, in a process of its own."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import importlib.util
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tests.importers.asked import Asked
+
+Values = dict[str, float]
+_LONGEST = 600
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A tool.
+
+    Attributes:
+        name: in the table.
+        forms: keys of those that it takes.
+        run: gives the outputs at the end of a run; is called in a process of its own.
+        missing: why it cannot be run here and what to do about it; "" if it can.
+        version: of the tool; "" while it is missing.
+        otherwise: why it does not take the other forms.
+        tolerance: of its numbers; more where it prints fewer digits than a double has.
+        environment: variables of the process by key of the form.
+    """
+
+    name: str
+    forms: tuple[str, ...]
+    run: Callable[[Asked], Values]
+    missing: Callable[[], str]
+    version: Callable[[], str]
+    otherwise: str = ""
+    tolerance: float = 1e-12
+    environment: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+
+
+class ToolError(Exception):
+    """A tool that crashed, refused or went wrong, with what it said."""
+
+
+def package_missing(package: str, module: str) -> str:
+    """What is said where a package is not installed."""
+    return "" if importlib.util.find_spec(module) else f"not installed: python -m pip install {package}"
+
+
+def package_version(package: str) -> str:
+    """Version of an installed package."""
+    return importlib.metadata.version(package)
+
+
+def hosted(key: str, environment: Mapping[str, str], wanted: Asked) -> Values:
+    """The outputs by the tool of that key in a process of its own, which must come to its end.
+
+    Raises:
+        ToolError: it did not; a crash after the last step, at unloading, is one as well.
+    """
+    import json
+
+    out = Path(wanted.folder, "values.json")
+    command = [sys.executable, "-m", "tests.importers.tools", key, str(out)]
+    done = subprocess.run(
+        command,
+        input=wanted.to_json(),
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=_LONGEST,
+    )
+    said = f"{done.stdout[-2000:]}{done.stderr[-2000:]}".strip()
+    when = "after its last step" if out.is_file() else "on the way"
+    if done.returncode:
+        raise ToolError(f"{key} ended {when} with exit code {done.returncode}: {said}")
+    if not out.is_file():
+        raise ToolError(f"{key} gave no values: {said}")
+    values: Values = json.loads(out.read_text(encoding="utf-8"))
+    return values
