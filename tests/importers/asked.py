@@ -41,6 +41,7 @@ class Asked:
         steps: how many.
         outputs: that are wanted at the end.
         event_mode: use event mode and early return.
+        needs_python: the FMU runs in the host's Python.
         folder: for files, empty.
     """
 
@@ -51,6 +52,7 @@ class Asked:
     steps: int
     outputs: tuple[Output, ...]
     event_mode: bool
+    needs_python: bool
     folder: str
 
     @property
@@ -91,6 +93,7 @@ def asked(fmu: Path, folder: Path, event_mode: bool = False, most_steps: int = 2
         steps,
         tuple(Output(v.name, _KINDS[v.type], v.valueReference) for v in description.modelVariables if _lasts(v)),
         event_mode,
+        bool(description.coSimulation.needsExecutionTool),
         str(folder),
     )
 

@@ -13,8 +13,6 @@ from tests.fmu.c_host import COMPILER, Host, Script, compile_host
 from tests.importers.asked import Asked
 from tests.importers.tool import Tool, Values
 
-_LIBPYTHON = Path(sysconfig.get_config_var("LIBDIR") or "", sysconfig.get_config_var("INSTSONAME") or "none")
-
 
 def missing() -> str:
     there = sys.platform == "linux" and platform.machine() == "x86_64" and COMPILER
@@ -30,19 +28,21 @@ def run(asked: Asked) -> Values:
     script = Script(fmu).begin()
     script.say(f"step {asked.step!r} {asked.steps}")
     script.get(asked.names())
-    needs_python = fmu.description.coSimulation.needsExecutionTool
-    environment = {}
-    if needs_python:
-        if ".so" not in _LIBPYTHON.name or not _LIBPYTHON.is_file():
-            raise FileNotFoundError("This Python has no shared library, which a program in C could load.")
-        path = os.pathsep.join(filter(None, sys.path))
-        environment = {**os.environ, "LD_PRELOAD": str(_LIBPYTHON), "PYTHONPATH": path}
+    environment = {**os.environ, **libpython()} if asked.needs_python else {}
     place = "linux64" if asked.fmi == 2 else "x86_64-linux"
     host = Host(compile_host(folder, asked.fmi), environment=environment)
     printed = host.run(fmu, f"binaries/{place}/{asked.model}.so", script.say("free"), folder)
     if printed.code:
         raise RuntimeError("\n".join(printed.log))
     return dict(zip(asked.names(), printed.numbers, strict=True))
+
+
+def libpython() -> dict[str, str]:
+    """Environment in which a program in C finds the Python library that pythonfmu's wrapper uses, and its packages."""
+    library = Path(sysconfig.get_config_var("LIBDIR") or "", sysconfig.get_config_var("INSTSONAME") or "none")
+    if ".so" not in library.name or not library.is_file():
+        raise FileNotFoundError("This Python has no shared library, which a program in C could load.")
+    return {"LD_PRELOAD": str(library), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
 
 
 def version() -> str:

@@ -6,7 +6,7 @@ import json
 import sys
 from pathlib import Path
 
-from tests.importers import in_c, in_container, in_ecos, in_fmpy, in_libcosim
+from tests.importers import in_c, in_container, in_ecos, in_fmi_library, in_fmpy, in_fmusim, in_libcosim
 from tests.importers.asked import Asked
 
 TOOLS = {
@@ -14,6 +14,8 @@ TOOLS = {
     "libcosim": in_libcosim.TOOL,
     "ecos": in_ecos.TOOL,
     "container": in_container.TOOL,
+    "fmi_library": in_fmi_library.TOOL,
+    "fmusim": in_fmusim.TOOL,
     "c": in_c.TOOL,
 }
 
