@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import importlib.metadata
 import importlib.util
-import os
+import json
 import subprocess
 import sys
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from tests.importers.asked import Asked
@@ -29,7 +29,6 @@ class Tool:
         version: of the tool; "" while it is missing.
         otherwise: why it does not take the other forms.
         tolerance: of its numbers; more where it prints fewer digits than a double has.
-        environment: variables of the process by key of the form.
     """
 
     name: str
@@ -39,7 +38,6 @@ class Tool:
     version: Callable[[], str]
     otherwise: str = ""
     tolerance: float = 1e-12
-    environment: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
 
 class ToolError(Exception):
@@ -56,20 +54,17 @@ def package_version(package: str) -> str:
     return importlib.metadata.version(package)
 
 
-def hosted(key: str, environment: Mapping[str, str], wanted: Asked) -> Values:
+def hosted(key: str, wanted: Asked) -> Values:
     """The outputs by the tool of that key in a process of its own, which must come to its end.
 
     Raises:
         ToolError: it did not; a crash after the last step, at unloading, is one as well.
     """
-    import json
-
     out = Path(wanted.folder, "values.json")
     command = [sys.executable, "-m", "tests.importers.tools", key, str(out)]
     done = subprocess.run(
         command,
         input=wanted.to_json(),
-        env={**os.environ, **environment},
         capture_output=True,
         text=True,
         check=False,
