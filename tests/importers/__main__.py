@@ -19,9 +19,7 @@ from tests.importers.tools import TOOLS
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        prog="python -m tests.importers", description="FMUs of this project in other tools."
-    )
+    parser = argparse.ArgumentParser(prog="python -m tests.importers", description="FMUs in other tools.")
     parser.add_argument("--models", nargs="+", default=list(models.available()), choices=models.available())
     parser.add_argument("--keep", type=Path, help="Folder of FMUs that stay, for another run of the same version.")
     parser.add_argument("--no-page", action="store_true", help="Do not write the table into the page.")

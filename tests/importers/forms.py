@@ -42,7 +42,9 @@ FORMS = {
         Form("fmi2", "FMI 2.0", 2, build_native_fmu),
         Form("fmi3", "FMI 3.0", 3, build_native_fmu, {"fmi": 3}),
         Form("fmi3_events", "FMI 3.0, event mode", 3, build_native_fmu, {"fmi": 3}, event_mode=True),
-        Form("clocks", "FMI 3.0 `--clocks`, event mode", 3, build_native_fmu, {"fmi": 3, "clocks": 1}, event_mode=True),
+        Form(
+            "clocks", "FMI 3.0 `--clocks`, event mode", 3, build_native_fmu, {"fmi": 3, "clocks": True}, event_mode=True
+        ),
         Form("pythonfmu", "pythonfmu", 2, build_fmu),
     )
 }

@@ -1,4 +1,4 @@
-"""The container of fmu-manipulation-toolbox: an FMU around one FMU, in the same version of the standard, run by FMPy."""
+"""The container of fmu-manipulation-toolbox: an FMU of the same version around one FMU, run by FMPy."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ _INSTALL = (
 _OF_TERMINALS = re.compile(
     r"Mismatch of attribute 'fmiVersion' .* and terminalsAndIcons\.xml|Parse error at line 2:|parsing aborted|"
     r"Unknown attribute '(matchingRule|terminalKind|memberName|variableName|variableKind)=|"
-    r"'description' not processed by element 'Terminal'|element 'GraphicalRepresentation'|element '(CoordinateSystem|Icon)'"
+    r"'description' not processed by element 'Terminal'|element '(GraphicalRepresentation|CoordinateSystem|Icon)'"
 )
 
 

@@ -1,14 +1,16 @@
 """Every tool that is installed on every form: the paper's numbers, and those of FMPy to the last digits."""
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import models
+from tests.importers.asked import asked
 from tests.importers.forms import FORMS
 from tests.importers.matrix import deviation, end_values, wrong_about_the_ratchet
-from tests.importers.tool import Values
+from tests.importers.tool import ToolError, Values, values_of
 from tests.importers.tools import TOOLS
 
 PAIRS = [
@@ -21,8 +23,9 @@ PAIRS = [
     for key, tool in TOOLS.items()
     for form in tool.forms
 ]
-#: FMUs of other models in pythonfmu's form, in event mode or with clocks say nothing more of a tool than the ratchet's.
-OTHERS = [pair for pair in PAIRS if pair.values[1] in ("fmi2", "fmi3")]
+#: In pythonfmu's form, in event mode or with clocks, other models say nothing more of a tool; FMPy's own FMI 3.0 of every
+#: model is tests/fmu/native/test_every_model.py.
+OTHERS = [pair for pair in PAIRS if pair.values[0] != "fmpy" and pair.values[1] in ("fmi2", "fmi3")]
 
 
 @pytest.fixture(scope="session")
@@ -59,3 +62,17 @@ def test_every_other_model(
     how = FORMS[form]
     found = end_values(key, how, built(name, how.build, **how.options), tmp_path)
     assert deviation(found, by_fmpy(name)) < TOOLS[key].tolerance
+
+
+@pytest.mark.parametrize(
+    ("program", "message"),
+    [
+        ("import os; os.abort()", "ended on the way with exit code -6"),
+        ("import os, sys; open(sys.argv[1], 'w').close(); os.abort()", "ended after its last step with exit code -6"),
+        ("print('nothing')", "gave no values: nothing"),
+    ],
+)
+def test_what_a_tool_does_wrong_is_said(program: str, message: str, ratchet_fmu: Path, tmp_path: Path) -> None:
+    """Also a crash at its very end, where it has given all values."""
+    with pytest.raises(ToolError, match=message):
+        values_of([sys.executable, "-c", program], asked(ratchet_fmu, tmp_path))

@@ -14,7 +14,8 @@ from pathlib import Path
 from tests.importers.asked import Asked
 
 Values = dict[str, float]
-_LONGEST = 600
+#: [s]; none takes ten on a machine that is not busy.
+_LONGEST = 200
 
 
 @dataclass(frozen=True)
@@ -55,26 +56,37 @@ def package_version(package: str) -> str:
 
 
 def hosted(key: str, wanted: Asked) -> Values:
-    """The outputs by the tool of that key in a process of its own, which must come to its end.
+    """The outputs by the tool of that key in a process of its own.
 
     Raises:
-        ToolError: it did not; a crash after the last step, at unloading, is one as well.
+        ToolError: as of `values_of`.
+    """
+    return values_of([sys.executable, "-m", "tests.importers.tools", key], wanted)
+
+
+def values_of(command: list[str], wanted: Asked) -> Values:
+    """What a program writes into the file that is its last argument.
+
+    Raises:
+        ToolError: it did not come to its end; a crash behind the last step, at unloading, is one as well.
     """
     out = Path(wanted.folder, "values.json")
-    command = [sys.executable, "-m", "tests.importers.tools", key, str(out)]
-    done = subprocess.run(
-        command,
-        input=wanted.to_json(),
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=_LONGEST,
-    )
+    try:
+        done = subprocess.run(
+            [*command, str(out)],
+            input=wanted.to_json(),
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=_LONGEST,
+        )
+    except subprocess.TimeoutExpired as error:
+        raise ToolError(f"did not end within {_LONGEST} s") from error
     said = f"{done.stdout[-2000:]}{done.stderr[-2000:]}".strip()
-    when = "after its last step" if out.is_file() else "on the way"
     if done.returncode:
-        raise ToolError(f"{key} ended {when} with exit code {done.returncode}: {said}")
+        when = "after its last step" if out.is_file() else "on the way"
+        raise ToolError(f"ended {when} with exit code {done.returncode}: {said}")
     if not out.is_file():
-        raise ToolError(f"{key} gave no values: {said}")
+        raise ToolError(f"gave no values: {said}")
     values: Values = json.loads(out.read_text(encoding="utf-8"))
     return values

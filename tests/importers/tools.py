@@ -1,4 +1,7 @@
-"""All tools by their keys; as a program, it runs one of them: `python -m tests.importers.tools KEY VALUES.json < ASKED`."""
+"""All tools by their keys.
+
+As a program, it runs one of them: `python -m tests.importers.tools KEY VALUES.json < ASKED.json`.
+"""
 
 from __future__ import annotations
 
