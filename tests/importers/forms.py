@@ -6,8 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import models
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
+from mechanism_fmu.fmu.variables import variables_of
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,11 @@ class Form:
     build: Callable[..., Path]
     options: Mapping[str, int] = field(default_factory=dict)
     event_mode: bool = False
+
+    def fits(self, name: str) -> bool:
+        """Whether there is a ready-made model in this form: what has no impacts has no clock."""
+        model = models.load(name).MODEL
+        return not self.options.get("clocks") or any(v.source == "impact.any" for v in variables_of(model))
 
     @property
     def file(self) -> tuple[str, tuple[tuple[str, int], ...]]:

@@ -23,8 +23,8 @@ PAIRS = [
     for key, tool in TOOLS.items()
     for form in tool.forms
 ]
-#: In pythonfmu's form, in event mode or with clocks, other models say nothing more of a tool; FMPy's own FMI 3.0 of every
-#: model is tests/fmu/native/test_every_model.py.
+#: In pythonfmu's form, in event mode or with clocks, other models say nothing more of a tool; FMPy's own FMI 3.0 of
+#: every model is tests/fmu/native/test_every_model.py.
 OTHERS = [pair for pair in PAIRS if pair.values[0] != "fmpy" and pair.values[1] in ("fmi2", "fmi3")]
 
 
