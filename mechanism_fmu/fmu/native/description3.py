@@ -124,7 +124,7 @@ def variables3(model: Model, clocks: bool = False) -> tuple[Variable3, ...]:
                 f"numbered outputs; give the port another name."
             )
     if clocks and not any(variable.type == "Clock" for variable in found):
-        raise MechanismError(f"{model.name} has no impacts to report and so no clock; build it without --clocks.")
+        raise MechanismError(f"{model.name} tells of no impacts and so has no clock; build it without --clocks.")
     return found
 
 
