@@ -50,4 +50,11 @@ def version() -> str:
     return f"gcc {done.stdout.strip()}"
 
 
-TOOL = Tool("program in C", ("fmi2", "fmi3_events", "clocks", "pythonfmu"), run, missing, version, "same as event mode")
+TOOL = Tool(
+    "program in C",
+    ("fmi2", "fmi3_events", "clocks", "pythonfmu"),
+    run,
+    missing,
+    version,
+    "it always uses event mode in FMI 3.0",
+)

@@ -42,5 +42,5 @@ TOOL = Tool(
     run,
     missing,
     lambda: package_version("ecospy"),
-    "it has no event mode",
+    "it has no event mode, and an FMU with a clock crashes it",
 )

@@ -36,5 +36,5 @@ TOOL = Tool(
     run,
     lambda: package_missing("libcosimpy", "libcosimpy"),
     lambda: package_version("libcosimpy"),
-    "it knows FMI 1.0 and 2.0",
+    "it takes FMI 1.0 and 2.0",
 )

@@ -28,7 +28,7 @@ def table(cells: Sequence[Cell], models: int, today: date) -> str:
         lines.append(f"| {' | '.join([name, *row])} |")
     notes = [f"{tool.name}: {tool.otherwise}" for tool in TOOLS.values() if tool.otherwise]
     when = f"{today.day} {today:%B %Y}, {platform.system()} {platform.machine()}"
-    return "\n".join([f"{when}, {models} models.", "", *lines, "", f"Not taken (\u2013): {'; '.join(notes)}."])
+    return "\n".join([f"{when}, {models} models.", "", *lines, "", f"What \u2013 means: {'; '.join(notes)}."])
 
 
 def head_and_rows(text: str) -> tuple[list[str], list[str]]:
