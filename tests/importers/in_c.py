@@ -13,6 +13,10 @@ from tests.fmu.c_host import COMPILER, Host, Script, compile_host
 from tests.importers.asked import Asked
 from tests.importers.tool import Tool, Values
 
+_LIBPYTHON = Path(sysconfig.get_config_var("LIBDIR") or "", sysconfig.get_config_var("INSTSONAME") or "none")
+#: Only where this Python has a shared library, which a program in C can load.
+BY_PYTHONFMU = ("pythonfmu",) if ".so" in _LIBPYTHON.name and _LIBPYTHON.is_file() else ()
+
 
 def missing() -> str:
     there = sys.platform == "linux" and platform.machine() == "x86_64" and COMPILER
@@ -39,10 +43,7 @@ def run(asked: Asked) -> Values:
 
 def libpython() -> dict[str, str]:
     """Environment in which a program in C finds the Python library that pythonfmu's wrapper uses, and its packages."""
-    library = Path(sysconfig.get_config_var("LIBDIR") or "", sysconfig.get_config_var("INSTSONAME") or "none")
-    if ".so" not in library.name or not library.is_file():
-        raise FileNotFoundError("This Python has no shared library, which a program in C could load.")
-    return {"LD_PRELOAD": str(library), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    return {"LD_PRELOAD": str(_LIBPYTHON), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
 
 
 def version() -> str:
@@ -52,7 +53,7 @@ def version() -> str:
 
 TOOL = Tool(
     "program in C",
-    ("fmi2", "fmi3_events", "clocks", "pythonfmu"),
+    ("fmi2", "fmi3_events", "clocks", *BY_PYTHONFMU),
     run,
     missing,
     version,

@@ -14,7 +14,7 @@ import subprocess
 from pathlib import Path
 
 from tests.importers.asked import Asked
-from tests.importers.in_c import libpython
+from tests.importers.in_c import BY_PYTHONFMU, libpython
 from tests.importers.in_c import missing as compiler_missing
 from tests.importers.tool import Tool, Values
 
@@ -59,4 +59,4 @@ def _folder() -> Path:
     return Path(os.environ.get("FMILIB", "/usr/local"))
 
 
-TOOL = Tool("FMI Library", ("fmi2", "fmi3", "fmi3_events", "clocks", "pythonfmu"), run, missing, version)
+TOOL = Tool("FMI Library", ("fmi2", "fmi3", "fmi3_events", "clocks", *BY_PYTHONFMU), run, missing, version)

@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 from tests.importers.asked import Asked
-from tests.importers.in_c import libpython
+from tests.importers.in_c import BY_PYTHONFMU, libpython
 from tests.importers.tool import Tool, Values
 
 _INSTALL = "not installed: a release of github.com/modelica/Reference-FMUs up to v0.0.39, in PATH or as FMUSIM=<file>"
@@ -45,4 +45,4 @@ def _program() -> str:
     return os.environ.get("FMUSIM") or shutil.which("fmusim") or ""
 
 
-TOOL = Tool("fmusim", ("fmi2", "fmi3", "fmi3_events", "pythonfmu"), run, missing, version, _CLOCKS)
+TOOL = Tool("fmusim", ("fmi2", "fmi3", "fmi3_events", *BY_PYTHONFMU), run, missing, version, _CLOCKS)

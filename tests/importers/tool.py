@@ -16,6 +16,7 @@ from tests.importers.asked import Asked
 Values = dict[str, float]
 #: [s]; none takes ten on a machine that is not busy.
 _LONGEST = 200
+_ROOT = Path(__file__).parents[2]
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,7 @@ def values_of(command: list[str], wanted: Asked) -> Values:
             text=True,
             check=False,
             timeout=_LONGEST,
+            cwd=_ROOT,
         )
     except subprocess.TimeoutExpired as error:
         raise ToolError(f"did not end within {_LONGEST} s") from error
