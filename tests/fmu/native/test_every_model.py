@@ -13,9 +13,9 @@ from tests.fmu.conformance.conftest import SUBJECTS
     "name",
     [pytest.param(name, marks=() if name == "ratchet" else pytest.mark.slow) for name in sorted(models.available())],
 )
-def test_fmi3_goes_the_way_of_fmi2(name, request, tmp_path):
+def test_fmi3_goes_the_way_of_fmi2(name, request, built):
     second = request.getfixturevalue(f"native_{name}_fmu")
-    third = build_native_fmu(models.load(name), tmp_path, fmi=3)
+    third = built(name, build_native_fmu, fmi=3)
     assert validate_fmu(str(second)) == validate_fmu(str(third)) == []
 
     subject = SUBJECTS[name]

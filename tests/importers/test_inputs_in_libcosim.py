@@ -1,8 +1,8 @@
-"""The native FMU in libcosim, the Open Simulation Platform's co-simulation engine, by its Python package."""
+"""libcosim writes an input before each step, and reads outputs of each step; the end values are in `test_matrix.py`."""
 
 import pytest
 
-from tests.fmu.conformance.host import Instance
+from tests.fmu.conformance.host import Fmu, Instance
 
 pytest.importorskip("libcosimpy", reason="libcosimpy is not installed")
 
@@ -16,7 +16,8 @@ STEP = 10_000_000  # ns
 OUTPUTS = ("wheel_angle", "crank_angle", "impact_time")
 
 
-def test_libcosim_steps_it_through_the_impact(native_ratchet_fmu, native_ratchet):
+def test_libcosim_steps_it_through_the_impact(native_ratchet_fmu, tmp_path):
+    native_ratchet = Fmu.unzip(native_ratchet_fmu, tmp_path)
     references = [native_ratchet.variables[name].valueReference for name in OUTPUTS]
     torque = native_ratchet.variables["drive_torque"].valueReference
 
