@@ -89,13 +89,14 @@ def no_sources(model: Model) -> dict[str, bytes]:
     return {"sources/buildDescription.xml": to_bytes(root), f"sources/{NO_SOURCES}": f'#error "{text}"\n'.encode()}
 
 
-def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str]) -> dict[str, bytes]:
+def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str], fmi: int = 2) -> dict[str, bytes]:
     """Documentation, drawing, logic, terminals and icon of a model, by their paths within the FMU.
 
     Args:
         origin: the model, and its folder with README.md and model.png, if there are any.
         facts: what the documentation says of running this flavour, as HTML.
         licences: distributions whose code travels in the FMU.
+        fmi: major version of the standard.
     """
     model, folder = origin.model, None if origin.own else origin.folder
     icons = [*([folder / "model.png"] if folder else []), Path(__file__).with_name("model.png")]
@@ -104,7 +105,7 @@ def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str]
         **documentation(model, folder, facts, licences, origin.notes),
         **drawing(model),
         **logic(model),
-        **terminals(model),
+        **terminals(model, fmi),
         **no_sources(model),
         "model.png": icon.read_bytes(),
     }

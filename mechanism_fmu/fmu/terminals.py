@@ -48,12 +48,17 @@ def shafts(mechanism: Mechanism) -> tuple[Shaft, ...]:
     return (*_driven_ends(mechanism), *_bodies(mechanism))
 
 
-def terminals(model: Model) -> dict[str, bytes]:
-    """The file by its path within the FMU, the same bytes for the same ports; none when the model has no shaft."""
+def terminals(model: Model, fmi: int = 2) -> dict[str, bytes]:
+    """The file by its path within the FMU, the same bytes for the same ports; none when the model has no shaft.
+
+    Args:
+        model: it.
+        fmi: major version of the FMU, which FMI Library 3 wants in the file, too; all else is by the schema of FMI 3.0.
+    """
     found = shafts(model.mechanism(model.values()))
     if not found:
         return {}
-    root = Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    root = Element("fmiTerminalsAndIcons", fmiVersion=f"{fmi}.0")
     graphics = SubElement(root, "GraphicalRepresentation")
     square = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
     SubElement(graphics, "CoordinateSystem", {**square, "suggestedScalingFactorTo_mm": "0.1"})

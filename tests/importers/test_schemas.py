@@ -63,7 +63,9 @@ def test_no_remark(form: Form, name: str, built: Callable[..., Path]) -> None:
         elif path == f"{_REFERENCE}/fmi-ls-manifest.xml":
             found = remarks_about_the_manifest(contents, files)
         else:
-            found = remarks(schema(schemas.pop(path)), contents)
+            # In FMI 2.0 the version is its own; the schema, to which FMI 2.0.4 refers, is that of FMI 3.0.
+            text = contents.replace(b'Icons fmiVersion="2.0"', b'Icons fmiVersion="3.0"')
+            found = remarks(schema(schemas.pop(path)), text)
         assert found == [], path
     assert set(schemas) <= {"terminalsAndIcons/terminalsAndIcons.xml", "sources/buildDescription.xml"}
     description = etree.fromstring(files["modelDescription.xml"])

@@ -119,7 +119,10 @@ def variables3(model: Model, clocks: bool = False) -> tuple[Variable3, ...]:
     """
     variables = variables_of(model)
     if clocks and not tells_impacts(variables):
-        raise MechanismError(f"{model.name} has no output that says whether there was an impact, and so no clock; build it without --clocks.")
+        raise MechanismError(
+            f"{model.name} has no output that says whether there was an impact, and so no clock; build it without "
+            "--clocks."
+        )
     found = tuple(_variables3(variables, clocks))
     names = sorted(variable.name for variable in found)
     for name, same in groupby(names):

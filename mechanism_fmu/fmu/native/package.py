@@ -90,7 +90,7 @@ def build_native_fmu(
     model = origin.model
     path = file_in(destination, f"{model.name}.fmu")
     traced = formulas(trace(model), pack(compile_mechanism(model.build(model.values()))))
-    entries = common_entries(origin, _FACTS, ("mechanism_fmu",))
+    entries = common_entries(origin, _FACTS, ("mechanism_fmu",), fmi)
     if fmi == 3:
         entries = {_PLACES3.get(name, name): contents for name, contents in entries.items()}
     engine = compiled_engine(report)

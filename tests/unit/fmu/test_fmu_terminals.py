@@ -35,7 +35,8 @@ def test_the_ratchet_has_three():
 @pytest.mark.parametrize("name", NAMES)
 def test_the_file_is_by_the_schema_and_names_variables(name):
     model = models.load(name).MODEL
-    (contents,) = terminals(model).values()
+    (contents,) = terminals(model, fmi=3).values()
+    assert terminals(model, fmi=2) == {TERMINALS: contents.replace(b'fmiVersion="3.0"', b'fmiVersion="2.0"')}
     etree.XMLSchema(etree.parse(str(SCHEMA))).assertValid(etree.fromstring(contents))
     root = ElementTree.fromstring(contents)
     known = {variable.name: variable for variable in variables_of(model)}
