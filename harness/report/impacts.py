@@ -13,6 +13,7 @@ from .page import section, table
 
 #: A longer table is in impacts.csv.
 _MOST = 100
+_BEFORE = "_speed_before"
 #: What impacts.csv has besides: place and delay are those of the section on stress, and the remark stands for a stress.
 _LEFT_OUT = ("stress_position", "stress_delay", "remark")
 
@@ -30,7 +31,8 @@ def impacts_section(
     """
     if impacts.empty:
         return ""
-    names = [str(name) for name in impacts if name not in _LEFT_OUT]
+    left_out = {*_LEFT_OUT, *_speeds_of_others(impacts)}
+    names = [str(name) for name in impacts if name not in left_out]
     headings = [_heading(name, units[name]) for name in names]
     shown = impacts.head(_MOST)
     rows = [[_cell(name, value) for name, value in zip(names, row, strict=True)] for row in _rows(shown[names])]
@@ -43,10 +45,18 @@ def impacts_section(
     notes = [UNITS_OF_STOPS] if "contact" in names else []
     if "stress_max" in names:
         notes.append(f"Stress of each impact {BY_TWO_MODES}")
+    if left_out - {*_LEFT_OUT}:
+        notes.append("Speeds of more bodies are in impacts.csv.")
     note = f"The first {_MOST} of {len(impacts)}; all are in impacts.csv." if len(impacts) > _MOST else ""
     note = " ".join([note, *notes]).strip()
     numbered = [[str(i), *row] for i, row in enumerate(rows, 1)]
     return section(heading, table(["#", *headings], numbered, numeric=range(len(headings) + 1)), note=note)
+
+
+def _speeds_of_others(impacts: pd.DataFrame) -> list[str]:
+    """Speeds before and after, of all bodies but the first: they would make the table wider than a page."""
+    bodies = [str(name).removesuffix(_BEFORE) for name in impacts if str(name).endswith(_BEFORE)]
+    return [f"{body}{suffix}" for body in bodies[1:] for suffix in (_BEFORE, "_speed")]
 
 
 def _rows(impacts: pd.DataFrame) -> Iterator[tuple[Value, ...]]:

@@ -126,7 +126,7 @@ def test_the_study_reproduces_the_paper(fmu: Fmu) -> None:
 
 def test_validate_finds_nothing(fmu: Fmu) -> None:
     verdicts = list(validate(fmu))
-    assert len(verdicts) == 6
+    assert len(verdicts) == 7
     assert [v for v in verdicts if not v.passed] == []
 
 

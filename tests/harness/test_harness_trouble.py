@@ -91,7 +91,8 @@ def test_a_failure_at_the_start_writes_nothing(run: Run, tmp_path: Path) -> None
     code, out, err = run(tmp_path, 5)
     assert code == 1
     assert "failed before the first step (fmi2ExitInitializationMode, status fatal): the crank is too short" in err
-    assert out.strip() == ""
+    assert out.startswith("Note: Troublesome")  # it has no default step
+    assert "Written" not in out
     assert [path.name for path in tmp_path.iterdir()] == [".lock"]
 
 
