@@ -70,7 +70,7 @@ class EventMode:
 
     def size_to(self, begin: float, size: float) -> float:
         """The part of a step that goes to the announced event, or the whole of it where none is inside [s]."""
-        if self.announced is not None and begin + _AT_IT < self.announced < begin + size - _AT_IT:
+        if self.announced is not None and begin < self.announced < begin + size - _AT_IT:
             return self.announced - begin
         return size
 

@@ -74,11 +74,13 @@ class Events:
         self._ticks = [link for link in links if link.type == "Clock"]
         self._values = [link for link in links if link.type != "Clock"]
         self._parts = parts
-        watched = {link.source for link in self._ticks}
+        watched = dict.fromkeys(link.source for link in self._ticks)  # in this order, not in that of hashes
         for link in self._values:
             name, source = part_of(link.source), parts[part_of(link.source)].component.description
             clocks = source.variable(own_of(link.source)).clocks
-            watched |= {f"{name}.{clock}" for clock in clocks if source.variable(clock).causality == "output"}
+            watched |= dict.fromkeys(
+                f"{name}.{clock}" for clock in clocks if source.variable(clock).causality == "output"
+            )
         self._watched = {name: [own_of(clock) for clock in watched if part_of(clock) == name] for name in self._modes}
 
     def due(self) -> bool:

@@ -43,7 +43,7 @@ class Held:
         changed: dict[str, dict[str, Value]] = {}
         for link in self._links:
             value = link.of(self._values[link.source])
-            if link.target not in self._given or self._given[link.target] != value:
+            if link.target not in self._given or not _same(self._given[link.target], value):
                 changed.setdefault(part_of(link.target), {})[own_of(link.target)] = value
                 self._given[link.target] = value
         for name, values in changed.items():
@@ -53,3 +53,8 @@ class Held:
     def restored(self, name: str) -> None:
         """A part was put back: what its inputs are is not known any more."""
         self._given = {target: value for target, value in self._given.items() if part_of(target) != name}
+
+
+def _same(one: Value, other: Value) -> bool:
+    """Whether nothing has changed; NaN is NaN, so that an event iteration comes to its end."""
+    return one == other or (one != one and other != other)

@@ -12,11 +12,11 @@ _ELEMENT = re.compile(r"(?P<array>.+)\[(?P<index>\d+)\](?P<field>\.\w+)")
 
 
 def numbered(variables: Iterable[Variable]) -> Iterator[list[Variable]]:
-    """Outputs `name[1].field`, `name[2].field`, ... that differ in nothing else and lie equally far apart."""
+    """Discrete outputs `name[1].field`, `name[2].field`, ... that differ in nothing else and lie equally far apart."""
     groups: dict[tuple[str, str], list[Variable]] = {}
     for variable in variables:
         match = _ELEMENT.fullmatch(variable.name)
-        if match and variable.causality == "output":
+        if match and variable.causality == "output" and variable.variability == "discrete":
             groups.setdefault((match["array"], match["field"]), []).append(variable)
     for (array, field), elements in groups.items():
         first, apart = elements[0], stride(elements)

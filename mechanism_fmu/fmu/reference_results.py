@@ -49,10 +49,15 @@ def reference_results(model: Model, library: CDLL | None = None) -> dict[str, by
 
 def result_points(model: Model) -> list[float]:
     """Times of the results [s]: about `_ROWS` communication points of the default experiment, from 0 to its end."""
-    steps = max(1, math.ceil(model.stop_time / model.step_size - 1e-9))
-    every = math.ceil(steps / _ROWS)
-    points = [k * model.step_size for k in range(0, steps, every)]
-    return [*points, model.stop_time]
+    return [0.0, *(ends[-1] for ends in _steps(model)[1:])]
+
+
+def _steps(model: Model) -> list[list[float]]:
+    """Ends of the default experiment's steps [s], from row to row: some outputs are about the last step."""
+    count = max(1, math.ceil(model.stop_time / model.step_size - 1e-9))
+    every = math.ceil(count / _ROWS)
+    ends = [*(k * model.step_size for k in range(1, count)), model.stop_time]
+    return [[], *(ends[first : first + every] for first in range(0, count, every))]
 
 
 def _rows(model: Model, library: CDLL | None) -> list[list[str]] | None:
@@ -63,9 +68,9 @@ def _rows(model: Model, library: CDLL | None) -> list[list[str]] | None:
     rows = [["time", *(variable.name for variable in outputs)]]
     try:
         simulation.begin(0.0)
-        for time in result_points(model):
-            if time > 0:
-                simulation.advance(time)
+        for time, ends in zip(result_points(model), _steps(model), strict=True):
+            for end in ends:
+                simulation.advance(end)
             values = simulation.read()
             rows.append([_text(time), *(_value(variable, values[variable.name]) for variable in outputs)])
     except SimulationError:

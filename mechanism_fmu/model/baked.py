@@ -13,7 +13,7 @@ from types import SimpleNamespace
 
 from .errors import MechanismError
 from .mechanism import Mechanism
-from .model import Model
+from .model import Model, check_value
 from .ports import Input
 
 
@@ -59,10 +59,12 @@ def baked_model(model: Model, baked: Baked) -> Model:
     parameters = {parameter.name: parameter for parameter in model.parameters}
     own = {name: start for name, start in baked.starts.items() if name in parameters}
     model.values(**own)
-    inputs = {port.name for port in model.mechanism(model.values()).inputs}
-    unknown = (baked.starts.keys() - own.keys() | baked.inputs.keys()) - inputs
+    inputs = {port.name: port for port in model.mechanism(model.values()).inputs}
+    unknown = (baked.starts.keys() - own.keys() | baked.inputs.keys()) - inputs.keys()
     if unknown:
         raise MechanismError(f"{model.name} has no parameter or input {', '.join(sorted(unknown))}.")
+    for name in baked.starts.keys() & inputs.keys():
+        check_value(inputs[name], baked.starts[name])
     for name, seen in baked.inputs.items():
         if seen.factor == 0.0:
             raise MechanismError(f"{model.name}: the factor of input {name} is 0; then leave it unconnected.")

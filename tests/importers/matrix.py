@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,7 +38,8 @@ class Cell:
 def deviation(found: Values, expected: Values) -> float:
     """The largest difference of two runs, relative to values above 1."""
     assert found.keys() == expected.keys()
-    return max(abs(found[name] - value) / max(1.0, abs(value)) for name, value in expected.items())
+    off = [abs(found[name] - value) / max(1.0, abs(value)) for name, value in expected.items()]
+    return math.inf if any(math.isnan(one) for one in off) else max(off)
 
 
 def end_values(key: str, form: Form, fmu: Path, folder: Path) -> Values:

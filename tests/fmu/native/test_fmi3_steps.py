@@ -194,3 +194,20 @@ def test_at_an_impact_there_are_no_derivatives_of_outputs(instance3):
     one.slave.enterEventMode()
     one.slave.updateDiscreteStates()
     assert one.slave.getOutputDerivatives([one.reference("wheel_angle")], [1]) == [one["wheel_speed"]]
+
+
+def test_an_impact_at_the_end_of_a_step_has_both_sides_without_early_return(instance3):
+    when = impact_at(instance3)
+    one = instance3(event_mode=True).begin()
+    assert one.step(when) == (True, False, False, when)
+    before = one.outputs()
+    assert before["impact_count"] == 0
+    one.slave.enterEventMode()
+    one.slave.updateDiscreteStates()
+    assert one["wheel_speed"] == one["impact_wheel_speed"] != before["wheel_speed"]
+
+
+def test_left_limits_do_not_outlive_the_run(instance3):
+    one = stopped_at_impact(instance3)
+    one.slave.terminate()
+    assert one["impact_count"] == 1

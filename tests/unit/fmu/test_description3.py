@@ -225,7 +225,9 @@ def test_without_impacts_there_is_no_clock() -> None:
         variables3(model, clocks=True)
 
 
-@pytest.mark.parametrize("outputs", [[angle("time")], [angle("a[1].b"), angle("a.b")]], ids=("time", "array"))
+@pytest.mark.parametrize(
+    "outputs", [[angle("time")], [Output("a[1].b", "impacts[1].time", "", "s"), angle("a.b")]], ids=("time", "array")
+)
 def test_a_name_that_fmi_3_needs_is_refused(outputs: list[Output]) -> None:
     with pytest.raises(MechanismError, match="give the port another name"):
         variables3(with_outputs(*outputs, FLAG), clocks=True)

@@ -164,9 +164,12 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance c) {
     return fmi3OK;
 }
 
+static void forget_left(Instance *x);
+
 fmi3Status fmi3Terminate(fmi3Instance c) {
     SELF(c);
     if (require(x, "fmi3Terminate", IN(STEPPING) | IN(EVENT)) != OK) return fmi3Error;
+    forget_left(x);
     x->head.phase = TERMINATED;
     return fmi3OK;
 }
@@ -391,7 +394,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     const int64_t *impacts = COUNTERS(x) + CODE_COUNT_IMPACTS, before = *impacts;
     int64_t events_before = COUNTERS(x)[CODE_COUNT_EVENTS];
     int stops = x->event_mode && x->early_return;
-    int64_t rule = (x->intermediate_update ? CODE_STOP_AT_STEP : 0) | (stops ? CODE_STOP_BEFORE_EVENT : 0);
+    int64_t rule = (x->intermediate_update ? CODE_STOP_AT_STEP : 0) | (x->event_mode ? CODE_STOP_BEFORE_EVENT : 0);
     double begun = time_of(x);
     double end = target; /* sooner when the host asks for it at an intermediate update */
     forget_left(x);
@@ -399,10 +402,12 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     while (status == OK && time_of(x) < end && !(stops && *impacts != before)) {
         status = go_on(x, end, rule);
         if (status == OK && x->intermediate_update) end = intermediate_update(x, end);
-        if (status == OK && stops && is_before_event(x)) {
+        if (status == OK && x->event_mode && is_before_event(x)) {
+            int64_t seen = *impacts;
             keep_left(x);
             status = go_on(x, end, CODE_STOP_AT_STEP);
-            if (*impacts == before) forget_left(x);
+            /* What lies within the step is over when the host reads. */
+            if (*impacts == seen || (!stops && time_of(x) < target)) forget_left(x);
         }
     }
     tell_news(x);

@@ -35,9 +35,12 @@ Status restore(Instance *x, const Saved *state) {
     if (state->head.phase == EVENT && !x->event_mode)
         return refuse(x, "The state was saved in event mode, and this instance was made without it.");
     x->head = state->head;
-    x->head.left &= x->event_mode; /* nobody else would ever ask for what comes after the impact */
     memcpy(x->parameters, state->words, model.parameters * sizeof(double));
     memcpy(x->block + first_of_state(), state->words + model.parameters, state_words() * sizeof(double));
+    if (x->head.left && !x->event_mode) { /* nobody would ever ask for what comes after the impact */
+        memset(FIELD(x, left_outputs), 0, model.outputs * sizeof(double));
+        x->head.left = 0;
+    }
     if (x->head.prepared) write_tables(x);
     x->outputs_read = 0;
     forget_news(x);
