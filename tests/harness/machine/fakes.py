@@ -44,7 +44,6 @@ def description(restores: bool) -> Description:
         Variable("tooth_apex_angle", 9, "Real", "calculatedParameter", unit="rad"),
         Variable("impacts_in_step", 10, "Integer", "output", depends_on=frozenset()),
         Variable("impacts_lost", 11, "Integer", "output", depends_on=frozenset()),
-        Variable("brake", 12, "Real", "output", continuous=True, unit="N.m", depends_on=frozenset()),
         *(
             Variable(f"impacts[{slot}].{field}", 20 + 2 * slot + k, "Real", "output", unit=unit)
             for slot in range(1, SLOTS + 1)
@@ -86,7 +85,6 @@ class Wheel:
 
     def get(self, names: Sequence[str]) -> list[Value]:
         self.values["drag"] = -float(self.values["torque"])
-        self.values["brake"] = -0.1 * float(self.values["speed"])
         self.values["forward"] = float(self.values["speed"]) > 0
         return [self.values[name] for name in names]
 
