@@ -15,6 +15,7 @@ from typing import Any
 
 from mechanism_fmu.fmu.archive_names import unsafe_name
 
+from .declared import NOTHING, Declared, read_declared
 from .errors import UsageError
 from .si import BASE_UNITS, Measure
 from .terminals import Terminal, read_terminals
@@ -114,6 +115,7 @@ class Description:
         varies_step: whether its steps may have different sizes (canHandleVariableCommunicationStepSize).
         once_per_process: whether a process can have one instance only (canBeInstantiatedOnlyOncePerProcess).
         terminals: by name.
+        analysis: what it declares to be analysed of a run.
     """
 
     model: str
@@ -136,6 +138,7 @@ class Description:
     varies_step: bool = True
     once_per_process: bool = False
     terminals: Mapping[str, Terminal] = field(default_factory=dict)
+    analysis: Declared = NOTHING
 
     def variable(self, name: str) -> Variable:
         """The variable with this name.
@@ -197,7 +200,8 @@ def read_description(path: Path) -> Description:
             "The harness runs no other kind; export it again, for Co-Simulation."
         )
     try:
-        return replace(_described(raw, int(version)), terminals=terminals)
+        described = replace(_described(raw, int(version)), terminals=terminals)
+        return replace(described, analysis=read_declared(path, described.variables))
     except (ValueError, TypeError, AttributeError, OverflowError) as error:  # a text where a number should be, ...
         raise damaged(path, error) from error
 

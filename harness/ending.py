@@ -10,6 +10,7 @@ import pandas as pd
 from rich.markup import escape
 
 from .checks import Check, all_passed
+from .declared import NO_BEAM
 from .experiment import Run
 from .impacts import UNITS_OF_STOPS, contact_name
 from .master import Ending
@@ -76,8 +77,10 @@ def _show_impacts(run: Run) -> None:
     show_table(title, headings, rows, numeric=numbers)
     if "contact" in columns:
         console.print(f"[dim]{escape(UNITS_OF_STOPS)}[/]", soft_wrap=True)
-    if run.tooth is None:
-        console.print("[dim]No stress: the FMU does not describe a tooth (tooth_length, tooth_apex_angle).[/]")
+    if run.description.analysis.struck is None:
+        console.print(f"[dim]No stress: {escape(NO_BEAM)}[/]", soft_wrap=True)
+    elif run.beam is None:
+        console.print("[dim]No stress: see the verdicts.[/]")
     else:
         console.print(f"[dim]sigma_max of an impact: {escape(BY_TWO_MODES)}[/]", soft_wrap=True)
 
@@ -104,8 +107,9 @@ def _cell(name: str, row: Mapping[str, Any], contacts: Sequence[str]) -> str:
 
 
 def _show_damage(run: Run) -> None:
-    if run.damage is None or run.tooth is None:
+    struck = run.description.analysis.struck
+    if run.damage is None or run.beam is None or struck is None:
         return
     row = damage_row(run.damage, run.experiment.material)
-    show_table("Fatigue of the tooth", HEADINGS, [row], numeric=range(1, len(HEADINGS)))
-    console.print(f"[dim]{escape(damage_note(run.damage, run.tooth))}[/]", soft_wrap=True)
+    show_table(f"Fatigue of the {struck.name}", HEADINGS, [row], numeric=range(1, len(HEADINGS)))
+    console.print(f"[dim]{escape(damage_note(run.damage, struck, run.beam))}[/]", soft_wrap=True)

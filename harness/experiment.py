@@ -10,14 +10,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from mechanism_fmu.stress import STEEL_CARD, MaterialCard, SequenceDamage, WedgeTooth
+from mechanism_fmu.stress import STEEL_CARD, Beam, MaterialCard, SequenceDamage
 
+from .analyses import Analysis, Seen, analysed, analyses_of
 from .checks import Check, run_checks
 from .clock import TimeGrid, seconds
-from .compliance import COMPLIANCE_UNITS, Compliance, compliance_of
+from .compliance import Compliance
 from .description import Description, Value
 from .drawing import Drawing, read_drawing
-from .errors import FmuError, UsageError
+from .errors import UsageError
 from .events import UNITS as EVENT_UNITS
 from .events import EventCollector
 from .fmu.slave import MessageHandler, discard_message
@@ -29,8 +30,7 @@ from .messages import LogMessage
 from .observers import Observer
 from .recorder import Recorder, recorded_variables
 from .slave import Instances, Observable
-from .tooth_damage import DAMAGE_UNITS, damage_of_impacts
-from .tooth_stress import STRESS_COLUMNS, tooth_of, with_stress
+from .tooth_damage import DAMAGE_UNITS
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Experiment:
         step: communication step [s].
         start_values: of inputs and parameters by name, in the units of the variables.
         input_file: table of input signals (`inputs.read_inputs`); None leaves inputs at their start values.
-        material: of the tooth that impacts strike.
+        material: of the beam that impacts strike.
     """
 
     stop_time: float
@@ -62,11 +62,11 @@ class Run:
         experiment: what was asked.
         outcome: how far it came.
         results: recorded variables, a row for each communication point (`recorder.Recorder`).
-        impacts: a row for each impact, with the stress it leaves when the FMU describes a tooth.
+        impacts: a row for each impact, with the stress it leaves when the FMU declares a beam that is struck.
         impacts_lost: impacts that the FMU could not report.
         parameters: parameters and calculated parameters after the initialization.
         messages: everything the FMU said.
-        tooth: what the impacts strike; None when the FMU does not describe one.
+        beam: what the impacts strike; None when the FMU declares none, or one that cannot be.
         units: by name ("1": dimensionless), for each of "results", "impacts", "events", "fatigue", "compliance" and
             "parameters".
         checks: verdicts.
@@ -76,9 +76,9 @@ class Run:
         events_lost: events that the FMU could not report.
         tells_events: whether the FMU reports events at all.
         logic: the modes and transitions that the FMU tells.
-        damage: what all impacts together do to the tooth; None without a tooth or an impact.
+        damage: what all impacts together do to the beam; None without a beam or an impact.
         inputs: the signals that drove inputs; None when there were none.
-        compliance: how far pawl and crank give way; () when the FMU does not describe them.
+        compliance: how far links give way; () when the FMU declares none, or nothing loads them.
     """
 
     fmu: Path
@@ -90,7 +90,7 @@ class Run:
     impacts_lost: int
     parameters: Mapping[str, Value]
     messages: Sequence[LogMessage]
-    tooth: WedgeTooth | None
+    beam: Beam | None
     units: Mapping[str, Mapping[str, str]]
     checks: Sequence[Check]
     wall_time: float
@@ -102,6 +102,11 @@ class Run:
     damage: SequenceDamage | None = None
     inputs: InputSignals | None = None
     compliance: tuple[Compliance, ...] = ()
+
+    @property
+    def tooth(self) -> Beam | None:
+        """The beam, by the name that it had before version 0.2."""
+        return self.beam
 
 
 class _ParameterReader:
@@ -183,40 +188,34 @@ def performing(
         wall_time = time.perf_counter() - began
         messages = tuple(slave.messages)
         outputs = [variable.name for variable in fmu.description.of("output")]
-        impacts, tooth, damage = collector.table(), None, None
-        objections: list[Check] = []
-        if "velocity" in collector.fields:
-            try:
-                tooth = tooth_of(reader.values)
-                if tooth is not None:
-                    damage = damage_of_impacts(impacts, tooth, experiment.material)
-                    impacts = with_stress(impacts, tooth, experiment.material.material)
-            except FmuError as error:
-                tooth, damage = None, None
-                objections = [Check("The struck tooth has a stress model", False, str(error))]
         results = recorder.table()
+        analyses = analyses_of(fmu.description.analysis, collector.fields)
+        found = analysed(analyses, Seen(reader.values, results, collector.table(), experiment.material))
         yield Run(
             fmu=fmu.path,
             description=fmu.description,
             experiment=experiment,
             outcome=outcome,
             results=results,
-            impacts=impacts,
+            impacts=found.impacts,
             impacts_lost=collector.lost,
             parameters=reader.values,
             messages=messages,
-            tooth=tooth,
-            units=_units(fmu.description, collector, list(impacts.columns)),
-            checks=[*run_checks(outcome, seconds(grid.stop), results, impacts, collector.lost, outputs), *objections],
+            beam=found.beam,
+            units=_units(fmu.description, collector, analyses, list(found.impacts.columns)),
+            checks=[
+                *run_checks(outcome, seconds(grid.stop), results, found.impacts, collector.lost, outputs),
+                *_objections(fmu.description, found.objection),
+            ],
             wall_time=wall_time,
             drawing=read_drawing(fmu.folder, fmu.description),
             events=event_collector.table(logic),
             events_lost=event_collector.lost,
             tells_events=event_collector.tells,
             logic=logic,
-            damage=damage,
+            damage=found.damage,
             inputs=inputs,
-            compliance=compliance_of(reader.values, results, impacts),
+            compliance=found.compliance,
         )
 
 
@@ -239,15 +238,27 @@ def default_times(description: Description, stop_time: float | None, step: float
     return stop_time, max(round(stop_time / _USUAL_STEPS, 9), 1e-9) if step is None else step
 
 
+def _objections(description: Description, objection: str) -> list[Check]:
+    """What cannot be analysed, though the FMU declares it."""
+    declared = description.analysis
+    said = [Check("What is to be analysed is known", False, declared.objection)] if declared.objection else []
+    if objection and declared.struck is not None:
+        said.append(Check(f"The struck {declared.struck.name} has a stress model", False, objection))
+    return said
+
+
 def _units(
-    description: Description, collector: ImpactCollector, impact_columns: list[str]
+    description: Description, collector: ImpactCollector, analyses: Sequence[Analysis], impact_columns: list[str]
 ) -> dict[str, dict[str, str]]:
-    impact_units = {name: variable.unit or "1" for name, variable in collector.fields.items()} | STRESS_COLUMNS
+    impact_units = {name: variable.unit or "1" for name, variable in collector.fields.items()}
+    found: dict[str, dict[str, str]] = {"fatigue": dict(DAMAGE_UNITS), "compliance": {}}
+    for analysis in analyses:
+        impact_units |= analysis.columns
+        found |= {table: dict(units) for table, units in analysis.tables.items()}
     return {
         "results": {"time": "s"} | {v.name: v.unit or "1" for v in recorded_variables(description)},
         "impacts": {name: impact_units[name] for name in impact_columns},
         "events": dict(EVENT_UNITS),
-        "fatigue": dict(DAMAGE_UNITS),
-        "compliance": dict(COMPLIANCE_UNITS),
+        **found,
         "parameters": {v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter")},
     }

@@ -14,12 +14,9 @@ from .slave import Observable
 
 _LOST = "impacts_lost"
 
-#: A wheel whose teeth move by less than this share of the closing speed is held. Rounding leaves some 1e-16 of it, and
-#: the paper's wheel, of 5.6 kg, moves by 7.5e-3 of it where it is free.
+#: A body whose beam's tip moves by less than this share of the closing speed is held. Rounding leaves some 1e-16 of it,
+#: and a heavy one, the paper's wheel of 5.6 kg, moves by 7.5e-3 of it where it is free.
 _HELD = 1e-9
-
-#: What is said of such an impact, instead of a stress.
-WHEEL_HELD = "wheel held"
 
 #: The buffer has one unit for all contacts, that of points on lines.
 UNITS_OF_STOPS = (
@@ -65,7 +62,7 @@ def contact_name(number: int, names: Sequence[str]) -> str:
 
 
 def one_of_each_instant(impacts: pd.DataFrame) -> pd.DataFrame:
-    """The first row of each instant: impacts of one instant share the jump of the wheel's speed and the energy lost.
+    """The first row of each instant: impacts of one instant share the jump of the body's speed and the energy lost.
 
     Args:
         impacts: as of `ImpactCollector.table`. Without a column `instant` every row is an instant of its own.
@@ -73,17 +70,18 @@ def one_of_each_instant(impacts: pd.DataFrame) -> pd.DataFrame:
     return impacts.drop_duplicates("instant") if "instant" in impacts else impacts
 
 
-def wheel_held(impacts: pd.DataFrame) -> npt.NDArray[np.bool_]:
-    """Whether the wheel kept its speed though something struck with an impulse, for each row.
+def body_held(impacts: pd.DataFrame, jump: str) -> npt.NDArray[np.bool_]:
+    """Whether the struck body kept its speed though something struck with an impulse, for each row.
 
-    A holding pawl or lock that is closed takes the impulse; then no jump makes the teeth vibrate.
+    Another contact that is closed, as a stop or lock, takes the impulse; then no jump makes the body's beam vibrate.
 
     Args:
-        impacts: as of `ImpactCollector.table`, with `velocity`; without `closing_speed` and `impulse` none is known.
+        impacts: as of `ImpactCollector.table`; without `closing_speed` and `impulse` none is known.
+        jump: the column with v_I [m/s].
     """
     if not {"closing_speed", "impulse"} <= set(impacts):
         return np.zeros(len(impacts), dtype=bool)
     velocity, speed, impulse = (
-        impacts[name].abs().to_numpy(dtype=np.float64) for name in ("velocity", "closing_speed", "impulse")
+        impacts[name].abs().to_numpy(dtype=np.float64) for name in (jump, "closing_speed", "impulse")
     )
     return np.asarray((velocity <= _HELD * speed) & (impulse > 0.0))

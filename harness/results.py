@@ -15,12 +15,12 @@ import pandas as pd
 
 from mechanism_fmu import __version__
 
-from .compliance import compliance_summary
+from .compliance import compliance_values
 from .description import Value
 from .errors import UsageError
 from .experiment import Run
 from .tooth_damage import damage_summary
-from .tooth_stress import tooth_summary
+from .tooth_stress import beam_summary
 
 #: How names of files end that are being written; they begin with a point.
 UNFINISHED = ".unfinished"
@@ -139,13 +139,18 @@ def summary(run: Run) -> dict[str, Any]:
         "parameters": dict(run.parameters),
         "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost},
         "events": {"collected": len(run.events), "lost": run.events_lost},
-        "tooth": tooth_summary(run.tooth),
+        "tooth": beam_summary(run.description.analysis.struck, run.beam),
         "fatigue": None if run.damage is None else damage_summary(run.damage, experiment.material),
-        "compliance": compliance_summary(run.compliance),
+        "compliance": _compliance(run),
         "units": run.units,
         "checks": [asdict(check) for check in run.checks],
         "messages": [asdict(m) | {"status": m.status.name.lower()} for m in run.messages],
     }
+
+
+def _compliance(run: Run) -> list[dict[str, Any]]:
+    chain = run.description.analysis.chain
+    return [] if chain is None else [compliance_values(chain, one) for one in run.compliance]
 
 
 def final_values(run: Run) -> dict[str, Value]:

@@ -1,4 +1,4 @@
-"""From the impacts of a run to the damage that all of them together do to the tooth."""
+"""From the impacts of a run to the damage that all of them together do to the beam that they strike."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from mechanism_fmu.stress import (
+    Beam,
     MaterialCard,
     Ringing,
     SequenceDamage,
@@ -20,6 +21,7 @@ from mechanism_fmu.stress import (
     sequence_damage,
 )
 
+from .declared import Struck
 from .errors import UsageError
 from .impacts import one_of_each_instant
 from .tooth_stress import as_fmu_error
@@ -63,10 +65,10 @@ def card_of(name: str) -> MaterialCard:
         raise UsageError(f"--material: {error}") from None
 
 
-def damage_of_impacts(impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard) -> SequenceDamage | None:
-    """What all impacts of a run do to one tooth; None without an impact.
+def damage_of_impacts(impacts: pd.DataFrame, struck: Struck, beam: Beam, card: MaterialCard) -> SequenceDamage | None:
+    """What all impacts of a run do to one beam; None without an impact.
 
-    All of them count for one tooth: the jump of the wheel's speed shakes all its teeth alike. See docs/decisions/014.
+    All of them count for one beam: the jump of the body's speed shakes all its beams alike. See docs/decisions/014.
 
     Raises:
         FmuError: the FMU reports impacts that the stress model does not reach.
@@ -74,21 +76,21 @@ def damage_of_impacts(impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCa
     if impacts.empty:
         return None
     with as_fmu_error():
-        return sequence_damage(tooth, card.material, card.strength, *_jolts(impacts))
+        return sequence_damage(beam, card.material, card.strength, *_jolts(impacts, struck))
 
 
 def stress_history(
-    impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard, position: float
+    impacts: pd.DataFrame, struck: Struck, beam: Beam, card: MaterialCard, position: float
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
     """Bending stress [Pa] at x / length = `position`, as its extremes, and their times [s]; at least one impact."""
-    swings = list(Ringing(tooth, card.material, *_jolts(impacts)).swings(position * tooth.length))
+    swings = list(Ringing(beam, card.material, *_jolts(impacts, struck)).swings(position * beam.length))
     return np.array([swing.time for swing in swings]), np.array([swing.stress for swing in swings])
 
 
-def _jolts(impacts: pd.DataFrame) -> tuple[pd.Series[float], pd.Series[float]]:
+def _jolts(impacts: pd.DataFrame, struck: Struck) -> tuple[pd.Series[float], pd.Series[float]]:
     """Times, ascending, and v_I with sign, once for each instant."""
     jolts = one_of_each_instant(impacts).sort_values("time", kind="stable")
-    return jolts["time"], jolts["velocity"]
+    return jolts["time"], jolts[struck.jump]
 
 
 def damage_summary(damage: SequenceDamage, card: MaterialCard) -> dict[str, Any]:
@@ -111,15 +113,17 @@ def damage_row(damage: SequenceDamage, card: MaterialCard) -> list[str]:
     ]
 
 
-def damage_note(damage: SequenceDamage, tooth: WedgeTooth) -> str:
+def damage_note(damage: SequenceDamage, struck: Struck, beam: Beam) -> str:
     """What the numbers stand for, and whether they may be believed."""
+    less = " (the paper's two give 22 % less)" if isinstance(beam, WedgeTooth) else ""
     note = (
-        "All jumps of the wheel's speed on one tooth that still rings from those before, at x/l = "
-        f"{damage.position:.4f}, by converged modes (the paper's two give 22 % less); rainflow cycles, Goodman, "
-        f"Miner; smooth specimens, no notch at the root (docs/stress.md). {beam_theory_note(tooth)}"
+        f"All jumps of the {struck.body}'s speed on one {struck.name} that still rings from those before, at x/l = "
+        f"{damage.position:.4f}, by converged modes{less}; rainflow cycles, Goodman, "
+        f"Miner; smooth specimens, no notch at the root (docs/stress.md). {beam_theory_note(beam)}"
     )
     if damage.yield_safety < 1:
-        note += " The stress is beyond the yield strength: a tooth yields there, and these numbers no longer hold."
+        beyond = f"a {struck.name} yields there, and these numbers no longer hold."
+        note += f" The stress is beyond the yield strength: {beyond}"
     return note
 
 

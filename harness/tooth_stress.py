@@ -1,8 +1,8 @@
-"""From the impacts of a run to the stress they leave in the tooth."""
+"""From the impacts of a run to the stress they leave in the beam that they strike."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -13,8 +13,11 @@ import pandas as pd
 
 from mechanism_fmu.stress import (
     STEEL,
+    Beam,
     Material,
     MaximumStress,
+    RectangularTooth,
+    TrapezoidTooth,
     WedgeTooth,
     beam_theory_note,
     bending_stress,
@@ -22,15 +25,13 @@ from mechanism_fmu.stress import (
     slenderness,
 )
 
+from .declared import SIZES, Struck, value_of
 from .description import Value
 from .errors import FmuError
-from .impacts import WHEEL_HELD, wheel_held
+from .impacts import body_held
 
-#: The calculated parameters by which an FMU describes a tooth.
-TOOTH = ("tooth_length", "tooth_apex_angle")
-
-#: The one that says how far beam theory covers it.
-SLENDERNESS = "tooth_slenderness"
+#: The beams that an FMU can declare, by their kinds.
+_BEAMS: dict[str, Callable[..., Beam]] = {one.__name__: one for one in (WedgeTooth, TrapezoidTooth, RectangularTooth)}
 
 #: Units of the numbers that `with_stress` adds to the table of impacts.
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
@@ -46,51 +47,49 @@ _PLACES = 101
 _SPAN = 12.0
 
 
-def tooth_of(parameters: Mapping[str, Value]) -> WedgeTooth | None:
-    """The tooth that the FMU's calculated parameters describe; None when the FMU has no such parameters.
-
-    Its thickness is the default: the stress does not depend on it.
+def beam_of(struck: Struck, values: Mapping[str, Value]) -> Beam:
+    """The beam that the FMU declares, for values of its parameters.
 
     Raises:
-        FmuError: the FMU reports a tooth that cannot be.
+        FmuError: the FMU reports a beam that cannot be.
     """
-    length, apex_angle = (parameters.get(name) for name in TOOTH)
-    if length is None or apex_angle is None:
-        return None
     try:
-        return WedgeTooth(length=float(length), apex_angle=float(apex_angle))
+        return _BEAMS[struck.kind](**{name: value_of(size, values) for name, size in struck.sizes.items()})
     except ValueError as error:
-        raise FmuError(f"The FMU's tooth_length and tooth_apex_angle describe no tooth: {error}") from error
+        raise FmuError(f"The FMU's {_listed(struck.variables)} describe no {struck.name}: {error}") from error
 
 
-def tooth_summary(tooth: WedgeTooth | None) -> dict[str, Any] | None:
-    """The tooth as a beam, and how far beam theory covers it, ready for JSON; None without a tooth."""
-    if tooth is None:
+def _listed(names: tuple[str, ...]) -> str:
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names) or "numbers"
+
+
+def beam_summary(struck: Struck | None, beam: Beam | None) -> dict[str, Any] | None:
+    """The beam, and how far beam theory covers it, ready for JSON; None without a beam."""
+    if beam is None or struck is None:
         return None
     return {
-        "length": tooth.length,
-        "apex_angle": tooth.apex_angle,
-        "length_over_root_height": slenderness(tooth),
-        "beam_theory": beam_theory_note(tooth),
+        **{size: getattr(beam, size) for size in SIZES[struck.kind]},
+        "length_over_root_height": slenderness(beam),
+        "beam_theory": beam_theory_note(beam),
     }
 
 
-def with_stress(impacts: pd.DataFrame, tooth: WedgeTooth, material: Material = STEEL) -> pd.DataFrame:
+def with_stress(impacts: pd.DataFrame, struck: Struck, beam: Beam, material: Material = STEEL) -> pd.DataFrame:
     """The table of impacts with the largest bending stress that each leaves, by |v_I| and the paper's two modes.
 
     Adds `stress_max` [Pa], `stress_position` (x / length, from the root), `stress_delay` [s] after the impact, and
-    `remark`. Where the wheel is held, its teeth are not shaken: the remark says so, and there is no stress.
+    `remark`. Where the body is held, its beam is not shaken: the remark says so, and there is no stress.
 
     Raises:
         FmuError: the FMU reports an impact that the stress model does not reach.
     """
     with as_fmu_error():
-        found = [maximum_stress(tooth, material, abs(velocity)) for velocity in impacts["velocity"]]
-    held = wheel_held(impacts)
+        found = [maximum_stress(beam, material, abs(velocity)) for velocity in impacts[struck.jump]]
+    held = body_held(impacts, struck.jump)
     numbers = np.array([(maximum.stress, maximum.position, maximum.time) for maximum in found]).reshape(-1, 3)
     numbers[held] = np.nan
     added = pd.DataFrame(numbers, columns=list(STRESS_UNITS), index=impacts.index)
-    return impacts.assign(**added, remark=[WHEEL_HELD if one else "" for one in held])
+    return impacts.assign(**added, remark=[struck.held if one else "" for one in held])
 
 
 def worst_impact(impacts: pd.DataFrame) -> int | None:
@@ -120,7 +119,7 @@ class StressField:
         position: x / length from the root, shape (places,).
         delay: time since the impact [s], shape (times,).
         stress: [Pa], shape (places, times).
-        along: stress along the tooth when it is largest [Pa], shape (places,).
+        along: stress along the beam when it is largest [Pa], shape (places,).
         in_time: stress in time where it is largest [Pa], shape (times,).
         maximum: value, position and delay of the largest.
     """
@@ -133,41 +132,41 @@ class StressField:
     maximum: MaximumStress
 
 
-def stress_field(tooth: WedgeTooth, velocity: float, material: Material = STEEL) -> StressField:
-    """Bending stress of a tooth along its length and in time, after an impact with `velocity` [m/s]."""
+def stress_field(beam: Beam, velocity: float, material: Material = STEEL) -> StressField:
+    """Bending stress of a beam along its length and in time, after an impact with `velocity` [m/s]."""
     speed = abs(velocity)
-    maximum = maximum_stress(tooth, material, speed)
-    position, along = stress_along(tooth, velocity, material)
+    maximum = maximum_stress(beam, material, speed)
+    position, along = stress_along(beam, velocity, material)
     delay = np.linspace(0.0, _SPAN * maximum.time, _TIMES)
-    place = maximum.position * tooth.length
-    sign = float(np.sign(bending_stress(tooth, material, speed, [place], [maximum.time])[0, 0]))
+    place = maximum.position * beam.length
+    sign = float(np.sign(bending_stress(beam, material, speed, [place], [maximum.time])[0, 0]))
     return StressField(
         position=position,
         delay=delay,
-        stress=sign * bending_stress(tooth, material, speed, position * tooth.length, delay),
+        stress=sign * bending_stress(beam, material, speed, position * beam.length, delay),
         along=along,
-        in_time=sign * bending_stress(tooth, material, speed, [place], delay)[0],
+        in_time=sign * bending_stress(beam, material, speed, [place], delay)[0],
         maximum=maximum,
     )
 
 
 def stress_along(
-    tooth: WedgeTooth, velocity: float, material: Material = STEEL
+    beam: Beam, velocity: float, material: Material = STEEL
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Bending stress of a tooth along its length, at the instant of the largest one after an impact.
+    """Bending stress of a beam along its length, at the instant of the largest one after an impact.
 
     Args:
-        tooth: what is struck.
+        beam: what is struck.
         velocity: of the impact [m/s].
-        material: of the tooth.
+        material: of the beam.
 
     Returns:
         x / length from the root, and the stress there [Pa], signed so that the largest one is positive;
         shape (places,) each.
     """
     speed = abs(velocity)
-    maximum = maximum_stress(tooth, material, speed)
+    maximum = maximum_stress(beam, material, speed)
     position = np.linspace(0.0, 1.0, _PLACES)
-    place = maximum.position * tooth.length
-    stress = bending_stress(tooth, material, speed, [place, *(position * tooth.length)], [maximum.time])[:, 0]
+    place = maximum.position * beam.length
+    stress = bending_stress(beam, material, speed, [place, *(position * beam.length)], [maximum.time])[:, 0]
     return position, np.sign(stress[0]) * stress[1:]

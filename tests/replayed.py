@@ -103,6 +103,8 @@ def record() -> None:
         with zipfile.ZipFile(FOLDER / "Ratchet.zip", "w", zipfile.ZIP_DEFLATED) as archive:
             text = (fmu.folder / "modelDescription.xml").read_text(encoding="utf-8")
             archive.writestr(zipfile.ZipInfo("modelDescription.xml"), text, zipfile.ZIP_DEFLATED)
+            declared = (fmu.folder / "resources" / "analysis.json").read_bytes()
+            archive.writestr(zipfile.ZipInfo("resources/analysis.json"), declared, zipfile.ZIP_DEFLATED)
         kept = _All()
         with fmu.instantiate("Ratchet", lambda message: print(message.text)) as slave:
             grid = TimeGrid.of(EXPERIMENT.stop_time, EXPERIMENT.step)

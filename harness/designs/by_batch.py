@@ -17,9 +17,8 @@ from ..description import Description, Value, Variable
 from ..errors import FmuError, UsageError
 from ..fmu import Fmu
 from ..impacts import ImpactCollector
-from ..tooth_stress import TOOTH
 from . import by_fmu
-from .of_impacts import of_impacts, wants_stress
+from .of_impacts import of_impacts, struck_in
 from .task import Design, Quantity, Result, Task, When
 
 NAME = "batch"
@@ -60,7 +59,10 @@ def _found(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | None)
     return _batch(fmu.path).run(
         {name: [float({**task.fixed, **design.values}[name]) for design in designs] for name in _set(task, designs)},
         [seconds(task.grid.start), *(seconds(end) for _, end in task.grid)],
-        [*_outputs(task, fmu.description), *(TOOTH if wants_stress(task) else ())],
+        [
+            *_outputs(task, fmu.description),
+            *_calculated_sizes(task, fmu.description),
+        ],
         signals={variable.name: [float(values[variable.name]) for values in at_steps] for variable in driven},
         impacts=_MOST_IMPACTS if any(quantity.when.of_impacts for quantity in task.quantities) else 0,
         extremes=any(quantity.when in (When.MAX, When.MIN) for quantity in task.quantities),
@@ -91,7 +93,15 @@ def _result(fmu: Fmu, task: Task, design: Design, found: BatchResult, place: int
     if struck > _MOST_IMPACTS and any(quantity.when.of_impacts for quantity in task.quantities):
         return by_fmu.run_designs(fmu, task, [design])[0]
     try:
-        asked = of_impacts(task, _impacts(fmu.description, found, place, struck), _tooth(task, found, place))
+        asked = of_impacts(
+            task,
+            _impacts(fmu.description, found, place, struck),
+            struck_in(task, fmu.description),
+            {
+                name: _value(fmu.description, task, design, _parameter(name), found, place)
+                for name in _sizes(task, fmu.description)
+            },
+        )
     except FmuError as error:
         return Result.failed(design, NAME, task, str(error))
     except Exception as error:  # as by_fmu: the others are to run
@@ -138,8 +148,19 @@ def _impacts(description: Description, found: BatchResult, place: int, struck: i
     )
 
 
-def _tooth(task: Task, found: BatchResult, place: int) -> dict[str, Value]:
-    return {name: float(found.values[name][place]) for name in TOOTH} if wants_stress(task) else {}
+def _sizes(task: Task, description: Description) -> tuple[str, ...]:
+    """The variables that hold the sizes of what is struck."""
+    struck = struck_in(task, description)
+    return () if struck is None else struck.variables
+
+
+def _calculated_sizes(task: Task, description: Description) -> list[str]:
+    """Those of them that are known by a run only."""
+    return [name for name in _sizes(task, description) if not description.variable(name).settable]
+
+
+def _parameter(name: str) -> Quantity:
+    return Quantity(When.PARAMETER, name, "Real", "")
 
 
 def _column(numbers: npt.NDArray[np.float64], variable: Variable) -> list[Value]:

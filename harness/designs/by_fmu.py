@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..description import Value
+from ..description import Description, Value
 from ..errors import FmuError
 from ..fmu import Fmu
 from ..fmu.slave import discard_message
 from ..impacts import ImpactCollector
 from ..master import run_fixed_step
 from ..slave import Observable
-from ..tooth_stress import TOOTH
-from .of_impacts import of_impacts, wants_stress
+from .of_impacts import of_impacts, struck_in
 from .task import Design, Result, Task, When
 
 NAME = "fmu"
@@ -28,7 +27,7 @@ def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design]) -> list[Result]
 
 
 def _run(fmu: Fmu, task: Task, design: Design) -> Result:
-    reader = _Reader(task)
+    reader = _Reader(task, fmu.description)
     impacts = ImpactCollector(fmu.description)
     try:
         with fmu.instantiate(fmu.description.model, discard_message) as slave:
@@ -49,22 +48,23 @@ def _run(fmu: Fmu, task: Task, design: Design) -> Result:
 class _Reader:
     """An observer that keeps what the task asks for, besides impacts."""
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, description: Description) -> None:
         names: dict[When, list[str]] = {when: [] for when in When}
         for quantity in task.quantities:
             names[quantity.when].append(quantity.name)
         self._names = names
-        self._tooth = TOOTH if wants_stress(task) else ()
+        self.struck = struck_in(task, description)
         self._extremes = list(dict.fromkeys(names[When.MAX] + names[When.MIN]))
         self._largest: list[Value] = []
         self._smallest: list[Value] = []
         self._end: list[Value] = []
         self._parameters: list[Value] = []
-        self.tooth: dict[str, Value] = {}
+        self.sizes: dict[str, Value] = {}
 
     def started(self, unit: Observable, time: float) -> None:
         self._parameters = unit.get(self._names[When.PARAMETER])
-        self.tooth = dict(zip(self._tooth, unit.get(self._tooth), strict=True))
+        names = self.struck.variables if self.struck is not None else ()
+        self.sizes = dict(zip(names, unit.get(names), strict=True))
         self._end = unit.get(self._names[When.END])
         self._largest = self._smallest = unit.get(self._extremes)
 
@@ -92,7 +92,7 @@ def _of_impacts(task: Task, impacts: ImpactCollector, reader: _Reader) -> dict[s
     """What is asked of the impacts, by column.
 
     Raises:
-        FmuError: impacts were lost, or the FMU reports a tooth that cannot be.
+        FmuError: impacts were lost, or the FMU reports a beam that cannot be.
     """
     if not any(quantity.when.of_impacts for quantity in task.quantities):
         return {}
@@ -101,4 +101,4 @@ def _of_impacts(task: Task, impacts: ImpactCollector, reader: _Reader) -> dict[s
             f"{impacts.lost} impacts did not fit into the FMU's buffer of one communication step; choose a smaller "
             "run.step."
         )
-    return of_impacts(task, impacts.table(), reader.tooth)
+    return of_impacts(task, impacts.table(), reader.struck, reader.sizes)

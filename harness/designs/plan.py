@@ -57,7 +57,7 @@ class Course:
     Attributes:
         grid: communication points; None if the file is wrong there.
         inputs: signals that drive inputs; None without a table.
-        material: of the tooth that impacts strike.
+        material: of the beam that impacts strike.
     """
 
     grid: TimeGrid | None

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ..declared import NO_BEAM
 from ..description import Description, Variable, hint_at, not_in_step_mode
 from ..impacts import ImpactCollector
 from ..toml_file import Section
 from ..tooth_damage import DAMAGE_UNITS
-from ..tooth_stress import SLENDERNESS, STRESS_UNITS, TOOTH
+from ..tooth_stress import STRESS_UNITS
 from .task import Quantity, When
 
 _NUMBERS = ("Real", "Integer", "Boolean")
@@ -32,19 +33,20 @@ def recorded(section: Section, description: Description) -> list[Quantity]:
 
 
 def with_slenderness(quantities: Sequence[Quantity], description: Description) -> tuple[Quantity, ...]:
-    """The quantities, and where stresses are among them the slenderness of the tooth, if the FMU has it.
+    """The quantities, and where stresses are among them the slenderness of the beam, if the FMU has it.
 
     It says of each design how far beam theory, and so its stress, may be trusted.
     """
-    known = description.variables.get(SLENDERNESS)
+    struck = description.analysis.struck
+    known = None if struck is None else description.variables.get(struck.slenderness)
     if known is None or not any(asks_for_stress(one) for one in quantities):
         return tuple(quantities)
-    slenderness = Quantity(When.PARAMETER, SLENDERNESS, known.type, known.unit, known.display_unit)
+    slenderness = Quantity(When.PARAMETER, known.name, known.type, known.unit, known.display_unit)
     return tuple(dict.fromkeys([*quantities, slenderness]))
 
 
 def asks_for_stress(quantity: Quantity) -> bool:
-    """Whether a quantity is about what impacts do to a tooth."""
+    """Whether a quantity is about what impacts do to a beam."""
     return quantity.when is When.ALL_IMPACTS or (quantity.when.of_impacts and quantity.name in STRESS_UNITS)
 
 
@@ -90,8 +92,9 @@ def _variables(when: When, description: Description) -> Mapping[str, Variable]:
 def _stresses(
     description: Description, fields: Mapping[str, Variable], units: Mapping[str, str]
 ) -> dict[str, Variable]:
-    """What impacts do to a tooth, if the FMU describes a tooth and tells the velocity that strikes it."""
-    if "velocity" not in fields or not set(TOOTH) <= set(description.variables):
+    """What impacts do to a beam, if the FMU declares one and reports the jump that makes it ring."""
+    struck = description.analysis.struck
+    if struck is None or struck.jump not in fields:
         return {}
     return {
         name: Variable(name, reference=-1, type="Real", causality="local", unit="" if unit == "1" else unit)
@@ -104,7 +107,7 @@ def _objection(when: When, name: str, description: Description, variables: Mappi
         if not ImpactCollector(description).fields:
             return f"{description.model} reports no impacts, so there is no '{name}' of one."
         if name in (DAMAGE_UNITS if when is When.ALL_IMPACTS else STRESS_UNITS) or not variables:
-            return f"{description.model} gives no '{name}': it describes no tooth ({', '.join(TOOTH)})."
+            return f"{description.model} gives no '{name}': {description.analysis.objection or NO_BEAM}"
         return f"an impact has no '{name}'.{_way_out(name, variables)}"
     if name in description.variables:
         variable = description.variable(name)
@@ -113,7 +116,7 @@ def _objection(when: When, name: str, description: Description, variables: Mappi
         why = "a text" if variable.type in ("String", "Binary") else f"a variable of causality {variable.causality}"
         others = [w for w in When if name in _variables(w, description)]
         hint = f" Write it at {' or '.join(others)}." if others else ""
-        return f"'{name}' is {why}, which cannot be had {when.meaning}.{hint}"
+        return f"'{name}' is {why}, which cannot be had {when.meaning()}.{hint}"
     known = "parameter" if when is When.PARAMETER else "input or output"
     return f"{description.model} has no {known} '{name}'.{_way_out(name, variables)}"
 

@@ -32,10 +32,9 @@ class When(StrEnum):
         """Whether it is about impacts."""
         return self in (When.FIRST_IMPACT, When.LARGEST_IMPACT, When.ALL_IMPACTS)
 
-    @property
-    def meaning(self) -> str:
-        """In words."""
-        return _MEANINGS[self]
+    def meaning(self, struck: str = "beam") -> str:
+        """In words; `struck` is what impacts strike."""
+        return _MEANINGS[self].format(struck=struck)
 
 
 _MEANINGS = {
@@ -43,8 +42,8 @@ _MEANINGS = {
     When.MAX: "the largest at all communication points",
     When.MIN: "the smallest at all communication points",
     When.FIRST_IMPACT: "of the first impact",
-    When.LARGEST_IMPACT: "of the impact that leaves the largest stress (without a tooth: the fastest)",
-    When.ALL_IMPACTS: "of all impacts together, on a tooth that still rings from those before",
+    When.LARGEST_IMPACT: "of the impact that leaves the largest stress (without a {struck}: the fastest)",
+    When.ALL_IMPACTS: "of all impacts together, on a {struck} that still rings from those before",
     When.PARAMETER: "after the initialization",
 }
 
@@ -82,7 +81,7 @@ class Task:
         fixed: start values that all designs share, in the units of the variables.
         inputs: signals that drive inputs; None leaves them at their start values.
         quantities: what is kept.
-        material: of the tooth that impacts strike.
+        material: of the beam that impacts strike.
     """
 
     grid: TimeGrid

@@ -182,9 +182,11 @@ def show_input_note(task: Task) -> None:
 
 
 def show_beam_theory(task: Task, seen: InMotion | None) -> None:
-    """Where stresses are asked for: whether beam theory covers the tooth of the design that is shown."""
-    if wants_stress(task) and seen is not None and seen.run is not None and seen.run.tooth is not None:
-        console.print(f"[dim]The tooth of the design in motion: {beam_theory_note(seen.run.tooth)}[/]", soft_wrap=True)
+    """Where stresses are asked for: whether beam theory covers the beam of the design that is shown."""
+    if wants_stress(task) and seen is not None and seen.run is not None and seen.run.beam is not None:
+        struck = seen.run.description.analysis.struck
+        name = struck.name if struck else "beam"
+        console.print(f"[dim]The {name} of the design in motion: {beam_theory_note(seen.run.beam)}[/]", soft_wrap=True)
 
 
 def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-#: An output that counts strokes, as the ratchet's does.
+#: An output that counts strokes, as that of a holding pawl does.
 COUNTER = "clicks"
 
 #: So many cycles the damage is told for.
@@ -33,10 +33,10 @@ class Cycles:
 
 
 def cycles_of(component: str, seen: pd.DataFrame) -> Cycles:
-    """The cycles of a component's teeth.
+    """The cycles of a component.
 
     Args:
-        component: whose teeth are struck.
+        component: that is struck.
         seen: as of `frames.Seen`.
     """
     name = f"{component}.{COUNTER}"

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import pandas as pd
 
-from mechanism_fmu.stress import STEEL_CARD, MaterialCard, SequenceDamage, WedgeTooth
+from mechanism_fmu.stress import STEEL_CARD, Beam, MaterialCard, SequenceDamage
 
+from ..analyses import Analysis, Seen, analysed, analyses_of
 from ..buffers import Buffer
+from ..declared import Struck
 from ..description import Value
-from ..errors import FmuError, UsageError
+from ..errors import UsageError
 from ..slave import Observable
-from ..tooth_damage import damage_of_impacts
-from ..tooth_stress import STRESS_COLUMNS, TOOTH, tooth_of, with_stress
 from .component import Component
 from .machine import Machine
 from .watched import watched
@@ -30,16 +30,18 @@ class ComponentImpacts:
     """What struck one component.
 
     Attributes:
-        impacts: a row for each impact in the order of time, with its stress when there is a tooth.
+        impacts: a row for each impact in the order of time, with its stress when there is a beam.
         lost: impacts that the component could not report.
-        tooth: what they struck; None when the component describes none.
-        objection: why there is no stress, though the component describes a tooth; "" when there is.
-        damage: what they have done to the tooth; None without a tooth or an impact.
+        struck: what they struck, in words; None when the component declares nothing of the kind.
+        beam: the same as a beam; None also when there is none that can be.
+        objection: why there is no stress, though the component declares a beam; "" when there is.
+        damage: what they have done to the beam; None without a beam or an impact.
     """
 
     impacts: pd.DataFrame
     lost: int
-    tooth: WedgeTooth | None
+    struck: Struck | None
+    beam: Beam | None
     objection: str
     damage: SequenceDamage | None
 
@@ -71,9 +73,9 @@ class Impacts:
         self._seen = 0
 
     def started(self, unit: Observable, time: float) -> None:
-        """Read which teeth will be struck."""
+        """Read what will be struck."""
         for own in self._watches.values():
-            own.read_tooth()
+            own.read_sizes()
 
     def stepped(self, unit: Observable, time: float) -> None:
         """Say whether there were impacts; they have been kept already."""
@@ -81,7 +83,7 @@ class Impacts:
         self.struck, self._seen = count > self._seen, count
 
     def by_component(self, card: MaterialCard = STEEL_CARD) -> dict[str, ComponentImpacts]:
-        """What struck each component that reports impacts; teeth are of the material of `card`."""
+        """What struck each component that reports impacts; beams are of the material of `card`."""
         return {name: own.result(card) for name, own in self._watches.items()}
 
     def table(self, by_component: Mapping[str, ComponentImpacts]) -> pd.DataFrame:
@@ -117,22 +119,22 @@ class _Watch:
         description = component.description
         self._buffer = Buffer(description, "impacts")
         self._counts_lost = _LOST in description.variables
-        self._tells_tooth = description.variables.keys() >= set(TOOTH) and "velocity" in self._buffer.fields
-        told = {field: variable.unit or "1" for field, variable in self._buffer.fields.items()}
-        self.units = told | (STRESS_COLUMNS if self._tells_tooth else {})
+        # A chain of links is looked at over the whole motion, which a machine does not keep.
+        struck = replace(description.analysis, chain=None)
+        self._struck = struck.struck
+        self._analyses: tuple[Analysis, ...] = analyses_of(struck, self._buffer.fields) if self._buffer.fields else ()
+        self.units = {field: variable.unit or "1" for field, variable in self._buffer.fields.items()}
+        for analysis in self._analyses:
+            self.units |= analysis.columns
         self.rows: list[list[Value]] = []
         self._lost = 0
-        self._tooth: WedgeTooth | None = None
-        self._objection = ""
+        self._sizes: dict[str, Value] = {}
 
-    def read_tooth(self) -> None:
+    def read_sizes(self) -> None:
         """Once, after the initialization."""
-        if not self._tells_tooth:
-            return
-        try:
-            self._tooth = tooth_of(dict(zip(TOOTH, self.component.get(TOOTH), strict=True)))
-        except FmuError as error:
-            self._objection = str(error)
+        if self._analyses and self._struck is not None:
+            names = self._struck.variables
+            self._sizes = dict(zip(names, self.component.get(names), strict=True))
 
     def begins(self, time: float) -> None:
         """Nothing has happened yet."""
@@ -156,11 +158,6 @@ class _Watch:
 
     def result(self, card: MaterialCard) -> ComponentImpacts:
         """What they amount to."""
-        impacts, damage = pd.DataFrame(self.rows, columns=list(self._buffer.fields)), None
-        if self._tooth is not None:
-            try:
-                damage = damage_of_impacts(impacts, self._tooth, card)
-                impacts = with_stress(impacts, self._tooth, card.material)
-            except FmuError as error:
-                return ComponentImpacts(impacts, self._lost, None, str(error), None)
-        return ComponentImpacts(impacts, self._lost, self._tooth, self._objection, damage)
+        impacts = pd.DataFrame(self.rows, columns=list(self._buffer.fields))
+        found = analysed(self._analyses, Seen(self._sizes, pd.DataFrame(), impacts, card))
+        return ComponentImpacts(found.impacts, self._lost, self._struck, found.beam, found.objection, found.damage)

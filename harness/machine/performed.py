@@ -30,7 +30,7 @@ class MachineRun:
         units: of results and of impacts, by name ("1": dimensionless).
         impacts: of all components, in the order of time.
         by_component: what struck each component that reports impacts.
-        card: material of the teeth.
+        card: material of the beams that impacts strike.
         bonds: energies over power bonds, by name.
         statistics: of each component, ready for JSON.
         rows: of their table, below `machine.statistics.HEADINGS`.

@@ -19,7 +19,7 @@ from ..machine.statistics import STATISTICS_UNITS
 from ..report.machine_report import write_machine_report
 from ..results import write_json, write_text
 from ..tooth_damage import damage_summary
-from ..tooth_stress import tooth_summary
+from ..tooth_stress import beam_summary
 
 #: What a run may leave in its folder.
 _NAMES = (*(f"results{suffix}" for suffix in FORMATS), "impacts.csv", "summary.json", "report.html")
@@ -86,7 +86,7 @@ def summary(run: MachineRun) -> dict[str, Any]:
 
 
 def _of_cycles(cycles: Cycles, damage: SequenceDamage) -> dict[str, Any]:
-    """What is repeated in the run, and what a thousand of it do to the tooth."""
+    """What is repeated in the run, and what a thousand of it do to the beam."""
     return {
         "cycles_in_run": cycles.count,
         "a_cycle": cycles.counted,
@@ -109,6 +109,6 @@ def _component(run: MachineRun, name: str) -> dict[str, Any]:
         "start_values": dict(plan.values),
         "statistics": dict(run.statistics[name]),
         "impacts": None if struck is None else {"collected": len(struck.impacts), "lost": struck.lost},
-        "tooth": None if struck is None else tooth_summary(struck.tooth),
+        "tooth": None if struck is None else beam_summary(struck.struck, struck.beam),
         "fatigue": damage,
     }

@@ -120,12 +120,13 @@ def _show_parts(run: MachineRun) -> None:
 
 
 def _show_damage(run: MachineRun) -> None:
-    """What impacts have done to the teeth of components that have any."""
+    """What impacts have done to the beams of components that have any."""
     for name, struck in run.by_component.items():
         if struck.damage is not None:
             row = damage_row(struck.damage, run.card)
-            show_table(f"Fatigue of the tooth of {name}", DAMAGE_HEADINGS, [row], range(1, len(DAMAGE_HEADINGS)))
-            if struck.tooth is not None:
-                console.print(f"[dim]{escape(beam_theory_note(struck.tooth))}[/]", soft_wrap=True)
+            what = struck.struck.name if struck.struck is not None else "beam"
+            show_table(f"Fatigue of the {what} of {name}", DAMAGE_HEADINGS, [row], range(1, len(DAMAGE_HEADINGS)))
+            if struck.beam is not None:
+                console.print(f"[dim]{escape(beam_theory_note(struck.beam))}[/]", soft_wrap=True)
         if struck.objection:
             console.print(f"[yellow]Warning[/] ({escape(name)}): {escape(struck.objection)}", soft_wrap=True)

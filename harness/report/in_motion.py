@@ -14,7 +14,8 @@ def animation_of_design(seen: InMotion | None) -> str:
     if seen is None:
         return ""
     told = seen.told
-    if seen.run is not None and seen.run.tooth is not None:
-        told += f" Its tooth: {beam_theory_note(seen.run.tooth)}"
+    if seen.run is not None and seen.run.beam is not None:
+        struck = seen.run.description.analysis.struck
+        told += f" Its {struck.name if struck else 'beam'}: {beam_theory_note(seen.run.beam)}"
     drawn = "" if seen.run is None else animation(seen.run, about=told)
     return drawn or section(HEADING, note=told)

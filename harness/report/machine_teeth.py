@@ -25,16 +25,17 @@ _MOST_POINTS = 2000
 
 _DEFINITION = (
     "Damage of the run by Miner's rule, times 1,000, by the number of cycles in the run. A cycle is a stroke where the "
-    "component counts its strokes (an output 'clicks'), else the whole run. All impacts count for one tooth; 1 is "
+    "component counts its strokes (an output 'clicks'), else the whole run. All impacts count for one {what}; 1 is "
     "failure."
 )
 
 
 @dataclass(frozen=True)
 class _Worn:
-    """A component whose tooth is damaged."""
+    """A component whose beam is damaged."""
 
     name: str
+    what: str
     impacts: int
     damage: SequenceDamage
     cycles: Cycles
@@ -45,7 +46,7 @@ class _Worn:
 
 
 def damage_cards(run: MachineRun) -> list[tuple[str, str]]:
-    """Key figures: the damage by a thousand cycles of each component that has teeth."""
+    """Key figures: the damage by a thousand cycles of each component that has a beam."""
     return [(f"damage per {THOUSAND:,} {one.cycles.of}, {one.name}", one.by_thousand) for one in _worn(run)]
 
 
@@ -56,13 +57,15 @@ def teeth_sections(run: MachineRun) -> list[str]:
         struck = run.by_component.get(name)
         if struck is None or struck.impacts.empty:
             continue
-        if struck.tooth is not None:
-            sections.append(_stresses(name, struck, run.outcome.final_time))
-            sections.append(stress_section(struck.impacts, struck.tooth, run.card, f"Stress in the tooth of {name}"))
+        if struck.struck is not None and struck.beam is not None:
+            what, beam = struck.struck, struck.beam
+            sections.append(_stresses(name, struck, what.name, run.outcome.final_time))
+            heading = f"Stress in the {what.name} of {name}"
+            sections.append(stress_section(struck.impacts, what, beam, run.card, heading))
             if struck.damage is not None:
-                heading = f"Fatigue of the tooth of {name}"
-                sections.append(fatigue_section(struck.impacts, struck.tooth, run.card, struck.damage, heading))
-            sections.append(severity_section(struck.impacts, run.units["impacts"]))
+                heading = f"Fatigue of the {what.name} of {name}"
+                sections.append(fatigue_section(struck.impacts, what, beam, run.card, struck.damage, heading))
+            sections.append(severity_section(struck.impacts, run.units["impacts"], what))
         sections.append(impacts_section(struck.impacts, run.units["impacts"], f"Impacts of {name}"))
     return sections
 
@@ -77,24 +80,29 @@ def _damage_section(run: MachineRun) -> str:
     ]
     if not rows:
         return ""
+    what = " or ".join(dict.fromkeys(one.what for one in _worn(run)))
     headings = [
         *("component", "impacts [1]", "largest stress", "damage of the run [1]", "cycles in the run [1]"),
         *(f"damage per {THOUSAND:,} cycles [1]", "a cycle"),
     ]
     return section(
-        f"Fatigue damage per {THOUSAND:,} cycles", table(headings, rows, numeric=range(1, 6)), note=_DEFINITION
+        f"Fatigue damage per {THOUSAND:,} cycles",
+        table(headings, rows, numeric=range(1, 6)),
+        note=_DEFINITION.format(what=what),
     )
 
 
 def _worn(run: MachineRun) -> list[_Worn]:
     return [
-        _Worn(name, len(struck.impacts), struck.damage, cycles_of(name, run.seen.table))
+        _Worn(name, struck.struck.name, len(struck.impacts), struck.damage, cycles_of(name, run.seen.table))
         for name in in_power_flow(run)
-        if (struck := run.by_component.get(name)) is not None and struck.damage is not None
+        if (struck := run.by_component.get(name)) is not None
+        and struck.damage is not None
+        and struck.struck is not None
     ]
 
 
-def _stresses(name: str, struck: ComponentImpacts, end: float) -> str:
+def _stresses(name: str, struck: ComponentImpacts, what: str, end: float) -> str:
     """The largest stress after each impact, over the run until `end` [s]."""
     strong = struck.impacts.nlargest(_MOST_POINTS, "stress_max").sort_values("time", kind="stable")
     points = Curve("impacts", strong["time"], strong["stress_max"], IMPACT_COLOUR, line=False, dots=True)
@@ -104,4 +112,4 @@ def _stresses(name: str, struck: ComponentImpacts, end: float) -> str:
     figure = interactive(plot, height=300)
     figure["layout"]["xaxis"]["range"] = [0.0, end]
     note = f"Without the {left_out} weakest." if left_out else ""
-    return section(f"Impacts on the tooth of {name}", chart(figure), note=note)
+    return section(f"Impacts on the {what} of {name}", chart(figure), note=note)

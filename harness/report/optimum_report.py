@@ -88,7 +88,7 @@ def optimum_report(optimum: Optimum, found: Found, fmu: Fmu) -> str:
         section("Designs", *results_charts(optimum.axes, optimum.task, description, results)),
         section("All designs", designs_table(optimum.axes, optimum.task, description, results)),
         warnings_section(results),
-        section("What was run", facts("value", _set_up(optimum, near_it))),
+        section("What was run", facts("value", _set_up(optimum, description, near_it))),
         inputs_section(optimum.task.inputs, description),
         _parameters(optimum, best, description),
         versions_section(versions(fmu.path, description)),
@@ -147,8 +147,8 @@ def _cell(value: Value | None) -> str:
     return "none" if value is None else f"{float(value):.6g}"
 
 
-def _set_up(optimum: Optimum, near_it: Sensitivity | None) -> list[list[str]]:
-    rows = run_rows(optimum.task)
+def _set_up(optimum: Optimum, description: Description, near_it: Sensitivity | None) -> list[list[str]]:
+    rows = run_rows(optimum.task, description)
     if near_it is not None:
         units = {axis.name: axis.unit for axis in optimum.axes}
         for name, (low, high) in zip(near_it.names, near_it.limits, strict=True):

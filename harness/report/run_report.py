@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..checks import Check
+from ..declared import NO_BEAM
 from ..description import Variable
 from ..experiment import Run
 from ..master import Ending
@@ -49,7 +50,7 @@ def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
         _fatigue(run),
     ]
     body += [
-        compliance_section(run.compliance),
+        compliance_section(run.description.analysis.chain, run.compliance),
         impacts_section(run.impacts, run.units["impacts"], contacts=run.logic.contacts),
     ]
     body += [modes_section(run), events_section(run)]
@@ -87,17 +88,23 @@ def _motion(run: Run) -> str:
 
 
 def _stress(run: Run) -> str:
-    return "" if run.tooth is None else stress_section(run.impacts, run.tooth, run.experiment.material)
+    struck = run.description.analysis.struck
+    if struck is None and len(run.impacts.columns):
+        return section("Stress", note=f"Nothing is to be analysed: {NO_BEAM}")
+    if struck is None or run.beam is None:
+        return ""
+    return stress_section(run.impacts, struck, run.beam, run.experiment.material)
 
 
 def _severity(run: Run) -> str:
-    return severity_section(run.impacts, run.units["impacts"], run.logic.contacts)
+    return severity_section(run.impacts, run.units["impacts"], run.description.analysis.struck, run.logic.contacts)
 
 
 def _fatigue(run: Run) -> str:
-    if run.tooth is None or run.damage is None:
+    struck = run.description.analysis.struck
+    if struck is None or run.beam is None or run.damage is None:
         return ""
-    return fatigue_section(run.impacts, run.tooth, run.experiment.material, run.damage)
+    return fatigue_section(run.impacts, struck, run.beam, run.experiment.material, run.damage)
 
 
 def _parameters(run: Run) -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pandas as pd
 
-from mechanism_fmu.stress import MaterialCard, WedgeTooth, beam_theory_note
+from mechanism_fmu.stress import Beam, MaterialCard, beam_in_words, beam_theory_note
 
+from ..declared import Struck
 from ..numbers import engineering
 from ..tooth_stress import StressField, stress_field, worst_impact
 from .interactive import interactive
@@ -14,35 +15,42 @@ from .plot import Curve, Plot
 from .style import COLOURS, IMPACT_COLOUR
 
 _HELD = (
-    "The wheel was held in every impact: its speed did not jump, so that its teeth do not ring. The push of the pawl "
-    "on the struck tooth's root is not in this stress."
+    "The {body} was held in every impact: its speed did not jump, so that its {plural} do not ring. The push of the "
+    "{striker} on the struck {name}'s root is not in this stress."
 )
 
 
-def stress_section(
-    impacts: pd.DataFrame, tooth: WedgeTooth, card: MaterialCard, heading: str = "Bending stress in the tooth"
-) -> str:
-    """The stress that the impact leaves which leaves the largest; "" without an impact."""
+def stress_section(impacts: pd.DataFrame, struck: Struck, beam: Beam, card: MaterialCard, heading: str = "") -> str:
+    """The stress that the impact leaves which leaves the largest; "" without an impact.
+
+    Args:
+        impacts: as of `tooth_stress.with_stress`.
+        struck: what they strike, in words.
+        beam: the same as a beam.
+        card: its material.
+        heading: of the section; "": by what is struck.
+    """
+    heading = heading or f"Bending stress in the {struck.name}"
     if impacts.empty:
         return ""
     place = worst_impact(impacts)
     if place is None:
-        return section(heading, note=_HELD)
+        words = {"body": struck.body, "striker": struck.striker, "name": struck.name, "plural": struck.plural}
+        return section(heading, note=_HELD.format(**words))
     worst = impacts.iloc[place]
     note = (
         f"The impact with the largest stress: t = {worst['time']:.9g} s, "
-        f"v_I = {engineering(float(worst['velocity']), 'm/s')};"
-        f" wedge of length {tooth.length * 1e3:.4g} mm and apex angle {tooth.apex_angle:.4g} rad,"
-        f" {card.name}, the paper's two Ritz modes."
+        f"v_I = {engineering(float(worst[struck.jump]), 'm/s')};"
+        f" {beam_in_words(beam)}, {card.name}, the paper's two Ritz modes."
     )
-    note += f" {beam_theory_note(tooth)}"
-    note += " v_I is the length of the tooth times the jump of the wheel's speed at that instant."
-    plots = stress_plots(stress_field(tooth, worst["velocity"], card.material))
+    note += f" {beam_theory_note(beam)}"
+    note += f" v_I is the length of the {struck.name} times the jump of the {struck.body}'s speed at that instant."
+    plots = stress_plots(stress_field(beam, worst[struck.jump], card.material), struck.name)
     return section(heading, charts(*(chart(interactive(plot, height=400)) for plot in plots)), note=note)
 
 
-def stress_plots(field: StressField) -> tuple[Plot, Plot]:
-    """Stress along the tooth (when it is largest, and its envelope) and in time (where it is largest)."""
+def stress_plots(field: StressField, name: str) -> tuple[Plot, Plot]:
+    """Stress along what has this name (when it is largest, and its envelope) and in time (where it is largest)."""
     envelope = abs(field.stress).max(axis=1)
     maximum = field.maximum
     peak = f"{engineering(maximum.stress, 'Pa')} at x/l = {maximum.position:.4f}"
@@ -61,6 +69,6 @@ def stress_plots(field: StressField) -> tuple[Plot, Plot]:
         mark(1e6 * maximum.time),
     ]
     return (
-        Plot("Along the tooth", "x / length, from the root [1]", "bending stress [Pa]", along),
+        Plot(f"Along the {name}", "x / length, from the root [1]", "bending stress [Pa]", along),
         Plot("In time", "time since the impact [µs]", "bending stress [Pa]", in_time),
     )

@@ -101,7 +101,7 @@ def sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | Non
     varied = {axis.name: (*limits(axis), Origin.VARIED) for axis in sweep.axes}
     note = "What was set for all designs, or varied between limits, is marked; the rest are the FMU's defaults."
     body += [
-        section("What was run", facts("value", run_rows(sweep.task))),
+        section("What was run", facts("value", run_rows(sweep.task, description))),
         inputs_section(sweep.task.inputs, description),
         parameters_of_designs(sweep.task, description, varied, note),
         versions_section(versions(fmu.path, description)),
@@ -254,13 +254,14 @@ def _rows_note(results: pa.Table) -> str:
     return f"{which}results.parquet has all, in SI units and radians, with all digits.{said}"
 
 
-def run_rows(task: Task) -> list[list[str]]:
+def run_rows(task: Task, description: Description) -> list[list[str]]:
     """How each design was run, and what was kept of it."""
-    grid = task.grid
+    grid, struck = task.grid, description.analysis.struck
+    name = "beam" if struck is None else struck.name
     return [
         ["material", f"{task.material.name}: {task.material.text}"],
         ["run", f"{seconds(grid.stop):g} s in communication steps of {seconds(grid.step):g} s"],
-        *([quantity.column, quantity.when.meaning] for quantity in task.quantities),
+        *([quantity.column, quantity.when.meaning(name)] for quantity in task.quantities),
     ]
 
 

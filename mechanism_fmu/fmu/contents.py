@@ -13,6 +13,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..model import MechanismError, Model
 from ..model.baked import NOTHING_BAKED, Baked, baked_model
+from .analysis import analysis
 from .documentation import documentation
 from .drawing import drawing
 from .logic import logic
@@ -90,7 +91,7 @@ def no_sources(model: Model) -> dict[str, bytes]:
 
 
 def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str], fmi: int = 2) -> dict[str, bytes]:
-    """Documentation, drawing, logic, terminals and icon of a model, by their paths within the FMU.
+    """Documentation, drawing, logic, analyses, terminals and icon of a model, by their paths within the FMU.
 
     Args:
         origin: the model, and its folder with README.md and model.png, if there are any.
@@ -105,6 +106,7 @@ def common_entries(origin: Origin, facts: Sequence[str], licences: Sequence[str]
         **documentation(model, folder, facts, licences, origin.notes),
         **drawing(model),
         **logic(model),
+        **analysis(model),
         **terminals(model, fmi),
         **no_sources(model),
         "model.png": icon.read_bytes(),

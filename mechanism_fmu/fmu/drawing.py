@@ -30,5 +30,5 @@ def drawing(model: Model) -> dict[str, bytes]:
     known = {v.name for v in variables_of(model) if v.causality != "input" and "[" not in v.name}
     check_drawing(model.drawing, known)
     shapes = [{"kind": type(shape).__name__.lower(), **asdict(shape)} for shape in model.drawing]
-    text = json.dumps({"format": FORMAT, "shapes": shapes}, indent=1, allow_nan=False)
+    text = json.dumps({"format": FORMAT, "shapes": shapes}, separators=(",", ":"), allow_nan=False)
     return {DRAWING: f"{text}\n".encode()}

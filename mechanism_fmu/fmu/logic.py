@@ -56,7 +56,8 @@ def logic(model: Model) -> dict[str, bytes]:
         "choices": choices,
         "variants": [encode(variant) for variant in variants],
     }
-    return {LOGIC: f"{json.dumps(data, indent=1, allow_nan=False)}\n".encode()}
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
+    return {LOGIC: f"{text}\n".encode()}
 
 
 def default_logic(model: Model) -> Logic:

@@ -6,6 +6,16 @@ model's formulas, objections and state charts: `functions`, `findings`, `transit
 """
 
 from ..codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH
+from .analysis import (
+    Arm,
+    ImpactStress,
+    RectangularTooth,
+    SawtoothWheel,
+    SeriesCompliance,
+    Strut,
+    TrapezoidTooth,
+    WedgeTooth,
+)
 from .body import GROUND, Body
 from .compile import MechanismTables, compile_mechanism
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
@@ -88,6 +98,7 @@ __all__ = [
     "AngleDriver",
     "AngleLock",
     "AngleStop",
+    "Arm",
     "Bar",
     "Body",
     "Calculated",
@@ -107,6 +118,7 @@ __all__ = [
     "Force",
     "Gears",
     "Hinge",
+    "ImpactStress",
     "Input",
     "InternalGears",
     "Law",
@@ -124,18 +136,24 @@ __all__ = [
     "PointFollower",
     "PointLineContact",
     "RackAndPinion",
+    "RectangularTooth",
     "Revolute",
     "RevoluteTranslational",
+    "SawtoothWheel",
     "Section",
+    "SeriesCompliance",
     "Settings",
     "Shape",
     "SlipClutch",
     "Striker",
+    "Strut",
     "Term",
     "Torque",
     "TorsionSpring",
     "Translational",
     "TranslationalDriver",
+    "TrapezoidTooth",
+    "WedgeTooth",
     "Wheel",
     "XDriver",
     "YDriver",

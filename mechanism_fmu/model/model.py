@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Protocol
 
+from .analysis import Analysis
 from .drawing import Shape
 from .errors import MechanismError
 from .findings import Finding, messages
@@ -34,6 +35,7 @@ class Model:
         warnings: likewise, for what is legal but deserves a line in the log.
         stop_time, step_size: default experiment [s].
         drawing: how its FMU can be drawn, in terms of the FMU's variables; () when it cannot.
+        analysis: what can be analysed of a run, in terms of the FMU's variables; () when nothing can.
         author: who made it; "" leaves it open.
         license: under which others may use it, one line; "" leaves it open.
 
@@ -50,6 +52,7 @@ class Model:
     stop_time: float = 1.0
     step_size: float = 1e-3
     drawing: tuple[Shape, ...] = ()
+    analysis: tuple[Analysis, ...] = ()
     author: str = ""
     license: str = ""
 

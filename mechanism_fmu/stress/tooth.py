@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .beam import Beam
 from .checks import FloatArray, require_within
 from .rectangular_section import LARGEST, RectangularSection, require_size
 
@@ -129,3 +130,16 @@ class RectangularTooth(RectangularSection):
 
     def _height(self, x: FloatArray) -> FloatArray:
         return np.full_like(x, self.height)
+
+
+def beam_in_words(beam: Beam) -> str:
+    """What a beam is, with its sizes, for the reader of a report."""
+    length = f"length {beam.length * 1e3:.4g} mm"
+    if isinstance(beam, WedgeTooth):
+        return f"wedge of {length} and apex angle {beam.apex_angle:.4g} rad"
+    if isinstance(beam, TrapezoidTooth):
+        heights = f"{beam.root_height * 1e3:.4g} and {beam.tip_height * 1e3:.4g} mm"
+        return f"trapezoid of {length} and heights {heights}"
+    if isinstance(beam, RectangularTooth):
+        return f"uniform bar of {length} and height {beam.height * 1e3:.4g} mm"
+    return f"beam of {length}"

@@ -31,6 +31,7 @@ from mechanism_fmu.model.body import Point
 from mechanism_fmu.model.functions import cos, sin
 from mechanism_fmu.model.part_bodies import rotor_body
 
+from .analysis import ANALYSIS
 from .checks import objections, warnings
 from .inputs import INPUTS
 from .outputs import OUTPUTS
@@ -190,6 +191,7 @@ MODEL = Model(
     stop_time=6.0,
     step_size=1e-2,
     drawing=SHAPES,
+    analysis=ANALYSIS,
     author="The mechanism_fmu team",
     license="MIT",
 )

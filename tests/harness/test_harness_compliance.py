@@ -6,12 +6,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from harness.compliance import COMPLIANCE_UNITS, OUTPUTS, PARAMETERS, compliance_of
-from harness.links import DEFLECTION, ENERGY, HINGE, LARGEST_MOMENT
+from harness.compliance import compliance_of, compliance_units, compliance_values
 from harness.report.compliance import compliance_section
 from mechanism_fmu.elastodynamics import configurations, linkage
 from mechanism_fmu.kinematics import KinematicMotion
 from mechanism_fmu.model import GROUND, Body, Mechanism, Member, Revolute, Section
+from mechanism_fmu.stress.links import DEFLECTION, ENERGY, HINGE, LARGEST_MOMENT
+from tests.declared import RATCHET
+
+CHAIN = RATCHET.chain
+assert CHAIN is not None
+UNITS = compliance_units(CHAIN)
 
 VALUES = {
     "crank_length": 0.11,
@@ -54,7 +59,12 @@ def normals(tooth):
 def results(tooth, force):
     """One communication point at which the tip, at the root of a tooth, is pushed by a force along the pawl."""
     slope, face = np.linalg.solve(np.column_stack(normals(tooth)), force * np.array([math.cos(GAMMA), math.sin(GAMMA)]))
-    row = dict.fromkeys(OUTPUTS, 0.0) | {"time": 2.5, "crank_angle": PHI, "pawl_angle": GAMMA, "tooth_index": tooth}
+    row = dict.fromkeys(CHAIN.outputs, 0.0) | {
+        "time": 2.5,
+        "crank_angle": PHI,
+        "pawl_angle": GAMMA,
+        "tooth_index": tooth,
+    }
     row |= {"wheel_angle": PSI + tooth * VALUES["tooth_pitch"], "contact_force": face, "slope_force": slope}
     return pd.DataFrame([row | {"pawl_tip_deflection": -3e-9, "pawl_bending_stress": 40.0}])
 
@@ -94,18 +104,18 @@ def test_a_load_on_the_wheel_turns_it_back_by_what_the_structure_gives_way(tooth
     pin = structure.displacement("crank_beam.end")[0] @ structure.system_flexibility[0] @ load
 
     lever = 0.1 * (-math.sin(PSI) * math.cos(GAMMA) + math.cos(PSI) * math.sin(GAMMA))
-    (found,) = compliance_of(VALUES, results(tooth, torque / lever), NO_IMPACTS)
+    (found,) = compliance_of(CHAIN, VALUES, results(tooth, torque / lever), NO_IMPACTS)
     assert found.case == "contact force"
     assert found.lost_motion == pytest.approx(abs(turned), rel=1e-10)
     assert found.lost_part == pytest.approx(abs(turned) / (2 * math.pi / 10), rel=1e-10)
     assert found.resolution == pytest.approx(2 * math.pi / 10 + abs(turned), rel=1e-12)
     across = -math.sin(PHI) * pin[0] + math.cos(PHI) * pin[1]
-    assert found.crank_deflection == pytest.approx(abs(across), rel=1e-10)
+    assert found.arm_deflection == pytest.approx(abs(across), rel=1e-10)
     # M = F_n a at the crank's hinge
     transverse = torque / lever * abs(math.sin(GAMMA - PHI))
-    assert found.crank_stress == pytest.approx(abs(transverse) * 0.11 * 6 / (5e-3 * 20e-3**2), rel=1e-10)
-    assert found.pawl_shortening == pytest.approx(abs(torque / lever) * PAWL / (2.06e11 * 6e-3 * 15e-3), rel=1e-12)
-    assert (found.time, found.pawl_deflection, found.pawl_stress) == (2.5, 3e-9, 40.0)
+    assert found.arm_stress == pytest.approx(abs(transverse) * 0.11 * 6 / (5e-3 * 20e-3**2), rel=1e-10)
+    assert found.strut_shortening == pytest.approx(abs(torque / lever) * PAWL / (2.06e11 * 6e-3 * 15e-3), rel=1e-12)
+    assert (found.time, found.strut_deflection, found.strut_stress) == (2.5, 3e-9, 40.0)
 
 
 def test_a_hinged_bar_under_a_force_that_its_inertia_balances():
@@ -127,7 +137,7 @@ def blow(speed, impulse, contact=1):
 def test_an_impact_is_a_spring_that_takes_up_the_closing_energy():
     impacts = pd.DataFrame([blow(0.01, 1e-3), blow(0.06, 8e-3), blow(0.5, 1.0, contact=2)])
     slack = results(0, 1.0).assign(contact_force=0.0)
-    (found,) = compliance_of(VALUES, slack, impacts)
+    (found,) = compliance_of(CHAIN, VALUES, slack, impacts)
     face = normals(0)[1]
     along = face @ [math.cos(GAMMA), math.sin(GAMMA)]
     across = face @ [-math.sin(GAMMA), math.cos(GAMMA)]
@@ -137,49 +147,58 @@ def test_an_impact_is_a_spring_that_takes_up_the_closing_energy():
     assert found.case == "impact"
     # energy in the spring at the largest force
     assert 0.5 * flexibility * found.force**2 == pytest.approx(0.5 * mass * 0.06**2, rel=1e-12)
-    assert found.pawl_stress == pytest.approx(
+    assert found.strut_stress == pytest.approx(
         abs(across) * found.force * PAWL / math.sqrt(27) * 6 / (6e-3 * 15e-3**2), rel=1e-12
     )
-    assert found.pawl_deflection == pytest.approx(7 / 120 * abs(across) * found.force * PAWL**3 / stiffness, rel=1e-12)
-    assert found.pawl_shortening == pytest.approx(abs(along) * found.force * PAWL / (2.06e11 * area), rel=1e-12)
+    assert found.strut_deflection == pytest.approx(7 / 120 * abs(across) * found.force * PAWL**3 / stiffness, rel=1e-12)
+    assert found.strut_shortening == pytest.approx(abs(along) * found.force * PAWL / (2.06e11 * area), rel=1e-12)
 
 
 def test_an_impact_puts_no_more_energy_into_pawl_and_crank_than_it_has():
     """The crank's part, from its pin's deflection, and the pawl's under the same force are the closing energy."""
-    (found,) = compliance_of(VALUES, results(0, 1.0).assign(contact_force=0.0), pd.DataFrame([blow(0.06, 8e-3)]))
+    (found,) = compliance_of(CHAIN, VALUES, results(0, 1.0).assign(contact_force=0.0), pd.DataFrame([blow(0.06, 8e-3)]))
     face = normals(0)[1]
     pawl, left = np.array([math.cos(GAMMA), math.sin(GAMMA)]), np.array([-math.sin(GAMMA), math.cos(GAMMA)])
     hinge = (face @ pawl) * pawl - 0.5 * (face @ left) * left
     across = abs(hinge @ [-math.sin(PHI), math.cos(PHI)])
     along = abs(hinge @ [math.cos(PHI), math.sin(PHI)])
     crank, area = 2.06e11 * 5e-3 * 20e-3**3 / 12, 5e-3 * 20e-3
-    force = found.crank_deflection / (across * 0.11**3 / (3 * crank))
+    force = found.arm_deflection / (across * 0.11**3 / (3 * crank))
     section, bending = 6e-3 * 15e-3, 2.06e11 * 6e-3 * 15e-3**3 / 12
     energy = (face @ pawl) ** 2 * PAWL / (2.06e11 * section) + (face @ left) ** 2 * 2 / 105 * PAWL**3 / bending
     energy += across**2 * 0.11**3 / (3 * crank) + along**2 * 0.11 / (2.06e11 * area)
     assert 0.5 * energy * force**2 == pytest.approx(0.5 * 8e-3 / 1.2 * 0.06, rel=1e-12)
     assert force < found.force
-    assert found.crank_stress == pytest.approx(across * force * 0.11 * 6 / (5e-3 * 20e-3**2), rel=1e-12)
+    assert found.arm_stress == pytest.approx(across * force * 0.11 * 6 / (5e-3 * 20e-3**2), rel=1e-12)
 
 
 def test_nothing_is_said_of_what_is_not_described_or_not_loaded():
     loaded = results(0, -1.0)
-    assert compliance_of({k: v for k, v in VALUES.items() if k != "pawl_width"}, loaded, NO_IMPACTS) == ()
-    assert compliance_of(VALUES, loaded.drop(columns="pawl_bending_stress"), NO_IMPACTS) == ()
-    assert compliance_of(VALUES, loaded.assign(contact_force=0.0), NO_IMPACTS) == ()
-    assert compliance_of(VALUES, loaded.assign(contact_force=np.nan), NO_IMPACTS) == ()
-    assert compliance_section(()) == ""
-    assert set(PARAMETERS) == set(VALUES)
+    assert compliance_of(CHAIN, {k: v for k, v in VALUES.items() if k != "pawl_width"}, loaded, NO_IMPACTS) == ()
+    assert compliance_of(CHAIN, VALUES, loaded.drop(columns="pawl_bending_stress"), NO_IMPACTS) == ()
+    assert compliance_of(CHAIN, VALUES, loaded.assign(contact_force=0.0), NO_IMPACTS) == ()
+    assert compliance_of(CHAIN, VALUES, loaded.assign(contact_force=np.nan), NO_IMPACTS) == ()
+    assert compliance_section(CHAIN, ()) == ""
+    assert compliance_section(None, ()) == ""
+    assert set(CHAIN.variables) == set(VALUES)
 
 
 def test_the_section_has_a_column_for_each_load():
     impacts = pd.DataFrame([blow(0.06, 8e-3)])
-    found = compliance_of(VALUES, results(0, -100.0), impacts)
-    text = compliance_section(found)
+    found = compliance_of(CHAIN, VALUES, results(0, -100.0), impacts)
+    text = compliance_section(CHAIN, found)
     assert "<h2>Compliance</h2>" in text
-    for name in COMPLIANCE_UNITS:
+    for name in UNITS:
         assert f">{name.replace('_', ' ')}<" in text
-    assert text.count("<tr>") == 1 + len(COMPLIANCE_UNITS)
+    assert text.count("<tr>") == 1 + len(UNITS)
     assert ">contact force<" in text
     assert ">impact<" in text
     assert f">{found[0].lost_part:.4g}<" in text
+
+
+def test_its_numbers_have_the_names_of_the_links():
+    found = compliance_of(CHAIN, VALUES, results(0, -100.0), NO_IMPACTS)
+    values = compliance_values(CHAIN, found[0])
+    assert list(values)[1:] == list(UNITS)
+    assert {"pawl_shortening", "crank_stress", "lost_motion"} <= set(UNITS)
+    assert (values["pawl_stress"], values["crank_deflection"]) == (found[0].strut_stress, found[0].arm_deflection)

@@ -35,6 +35,7 @@ from mechanism_fmu.stress import (
     ritz_modes,
     sequence_damage,
 )
+from tests.declared import STRUCK, TEETH
 
 TOOTH = WedgeTooth(length=0.033, apex_angle=0.61)
 PERIOD = 2 * math.pi / ritz_modes(TOOTH, STEEL)[0].natural_frequency
@@ -50,7 +51,7 @@ class ToothSlave(FakeSlave):
             name: Variable(name, 30 + k, "Real", "calculatedParameter", unit=("m", "rad")[k])
             for k, name in enumerate(tooth)
         }
-        self.description = replace(self.description, variables=self.description.variables | variables)
+        self.description = replace(self.description, variables=self.description.variables | variables, analysis=TEETH)
         self.values |= tooth
 
 
@@ -99,9 +100,9 @@ def test_material_changes_stress_and_strength() -> None:
 
 def test_impacts_of_one_instant_count_once_and_instants_of_one_time_each() -> None:
     table = pd.DataFrame({"time": [0.2, 0.5, 0.5, 0.5], "velocity": [1.0, -0.7, -0.7, 0.3], "instant": [1, 2, 2, 3]})
-    found = damage_of_impacts(table, TOOTH, STEEL_CARD)
+    found = damage_of_impacts(table, STRUCK, TOOTH, STEEL_CARD)
     assert found == sequence_damage(TOOTH, STEEL, STEEL_CARD.strength, [0.2, 0.5, 0.5], [1.0, -0.7, 0.3])
-    without = damage_of_impacts(table.drop(columns="instant"), TOOTH, STEEL_CARD)
+    without = damage_of_impacts(table.drop(columns="instant"), STRUCK, TOOTH, STEEL_CARD)
     assert without is not None
     assert without.impacts == 4
 
@@ -114,7 +115,7 @@ def test_however_many_records_an_instant_has_it_counts_once(instants: list[tuple
         for _ in range(records)
     ]
     times = [1e-5 * number for number in range(1, len(instants) + 1)]
-    found = damage_of_impacts(pd.DataFrame(rows), TOOTH, STEEL_CARD)
+    found = damage_of_impacts(pd.DataFrame(rows), STRUCK, TOOTH, STEEL_CARD)
     velocities = [velocity for velocity, _ in instants]
     assert found == sequence_damage(TOOTH, STEEL, STEEL_CARD.strength, times, velocities)
 
@@ -122,7 +123,7 @@ def test_however_many_records_an_instant_has_it_counts_once(instants: list[tuple
 def test_history_begins_with_the_first_impact_and_holds_the_largest_stress() -> None:
     run = run_of([0.3, 0.7])
     assert run.damage is not None
-    time, stress = stress_history(run.impacts, TOOTH, STEEL_CARD, run.damage.position)
+    time, stress = stress_history(run.impacts, STRUCK, TOOTH, STEEL_CARD, run.damage.position)
     assert (time[0], stress[0], stress[-1]) == (0.3, 0.0, 0.0)
     assert np.all(np.diff(time) >= 0)
     assert np.abs(stress).max() == run.damage.stress
@@ -154,7 +155,7 @@ def test_summary_tells_damage_material_and_sources(tmp_path: Path) -> None:
 
 def test_what_is_infinite_is_null(tmp_path: Path) -> None:
     run = run_of([0.5])
-    still = damage_of_impacts(pd.DataFrame({"time": [0.5], "velocity": [0.0]}), TOOTH, STEEL_CARD)
+    still = damage_of_impacts(pd.DataFrame({"time": [0.5], "velocity": [0.0]}), STRUCK, TOOTH, STEEL_CARD)
     write_run(replace(run, damage=still), tmp_path)
     told = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["fatigue"]
     assert told["repeats_to_failure"] is None
@@ -186,12 +187,14 @@ def test_terminal_and_report_show_one_line(tmp_path: Path, capsys: pytest.Captur
 def test_stress_beyond_yield_is_told() -> None:
     table = pd.DataFrame({"time": [0.5], "velocity": [20.0]})
     run = run_of([0.5])
-    assert "beyond the yield strength" in run_report(replace(run, damage=damage_of_impacts(table, TOOTH, STEEL_CARD)))
+    assert "beyond the yield strength" in run_report(
+        replace(run, damage=damage_of_impacts(table, STRUCK, TOOTH, STEEL_CARD))
+    )
 
 
 def test_numbers_of_runs_beyond_counting_are_not_printed() -> None:
     table = pd.DataFrame({"time": [0.5], "velocity": [1e-3]})
-    found = damage_of_impacts(table, TOOTH, STEEL_CARD)
+    found = damage_of_impacts(table, STRUCK, TOOTH, STEEL_CARD)
     assert found is not None
     assert found.repeats_to_failure > 1e30
     assert damage_row(found, STEEL_CARD)[4] == "> 1e+12"
@@ -218,4 +221,4 @@ def test_impacts_without_a_stress_model_are_a_verdict_and_cost_no_result() -> No
     (verdict,) = [check for check in run.checks if check.claim == "The struck tooth has a stress model"]
     assert not verdict.passed
     assert "impacts without a stress model: impact velocity = -3e+06 m/s" in verdict.evidence
-    assert (run.tooth, run.damage, len(run.impacts)) == (None, None, 1)
+    assert (run.beam, run.damage, len(run.impacts)) == (None, None, 1)

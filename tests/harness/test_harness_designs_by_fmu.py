@@ -49,7 +49,10 @@ def test_the_largest_impact_is_one_of_them_with_all_that_is_known_of_it() -> Non
     """Not each field's own maximum: the time is that of the impact with the largest |velocity|."""
     fields = [Quantity(When.LARGEST_IMPACT, name, "Real", "") for name in ("time", "velocity")]
     table = pd.DataFrame({"time": [0.1, 0.2, 0.3], "velocity": [-0.5, -2.0, 1.0]})
-    assert of_impacts(task_of(*fields), table, {}) == {"largest_impact.time": 0.2, "largest_impact.velocity": -2.0}
+    assert of_impacts(task_of(*fields), table, None, {}) == {
+        "largest_impact.time": 0.2,
+        "largest_impact.velocity": -2.0,
+    }
 
 
 def test_without_an_impact_there_is_nothing_of_it() -> None:

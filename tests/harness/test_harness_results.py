@@ -13,6 +13,7 @@ from harness.errors import UsageError
 from harness.experiment import Experiment, Run, default_times, perform
 from harness.messages import Status
 from harness.results import prepare_folder, write_run, write_text
+from tests.declared import TEETH
 
 
 def run_of(slave: FakeSlave, stop_time: float = 1.0) -> Run:
@@ -106,7 +107,7 @@ def with_tooth(slave: FakeSlave, length: float) -> FakeSlave:
         for k, name in enumerate(("tooth_length", "tooth_apex_angle"))
     ]
     known = {**slave.description.variables, **{variable.name: variable for variable in variables}}
-    slave.description = replace(slave.description, variables=known)
+    slave.description = replace(slave.description, variables=known, analysis=TEETH)
     slave.values |= {"tooth_length": length, "tooth_apex_angle": 1.0}
     return slave
 
@@ -122,7 +123,7 @@ def test_impacts_of_a_tooth_come_with_their_stress() -> None:
 
 def test_an_fmu_without_a_tooth_leaves_no_stress() -> None:
     run = run_of(FakeSlave(impacts=[0.1]))
-    assert run.tooth is None
+    assert run.beam is None
     assert "stress_max" not in run.impacts
 
 

@@ -7,15 +7,18 @@ import pandas as pd
 import pytest
 
 from harness.clock import TimeGrid
-from harness.designs.of_impacts import of_impacts
+from harness.description import Description
+from harness.designs.of_impacts import of_impacts, struck_in
 from harness.designs.task import Quantity, Task, When
-from harness.impacts import WHEEL_HELD, one_of_each_instant, wheel_held
+from harness.impacts import body_held, one_of_each_instant
 from harness.numbers import engineering
 from harness.report.severity import severity_section
 from harness.report.stress import stress_section
 from harness.tooth_stress import STRESS_COLUMNS, with_stress, worst_impact
 from mechanism_fmu.stress import STEEL, STEEL_CARD, WedgeTooth, maximum_stress
+from tests.declared import STRUCK, TEETH
 
+STRUCK_FMU = Description("Fake", "Fake", "", {}, analysis=TEETH)
 TOOTH = WedgeTooth(length=0.02, apex_angle=1.0)
 UNITS = {"time": "s", "closing_speed": "m/s", "impulse": "N.s", "energy_lost": "J", "velocity": "m/s"} | STRESS_COLUMNS
 
@@ -34,23 +37,23 @@ TABLE = pd.DataFrame(
 
 
 def test_a_held_wheel_is_known_by_an_impulse_without_a_jump():
-    assert wheel_held(TABLE).tolist() == [False, False, False, True]
+    assert body_held(TABLE, "velocity").tolist() == [False, False, False, True]
     no_impulse = TABLE.assign(impulse=0.0)
-    assert not wheel_held(no_impulse).any()
-    assert not wheel_held(TABLE[["velocity"]]).any()
+    assert not body_held(no_impulse, "velocity").any()
+    assert not body_held(TABLE[["velocity"]], "velocity").any()
 
 
 def test_a_held_wheel_has_a_remark_and_no_stress():
-    found = with_stress(TABLE, TOOTH)
-    assert found["remark"].tolist() == ["", "", "", WHEEL_HELD]
+    found = with_stress(TABLE, STRUCK, TOOTH)
+    assert found["remark"].tolist() == ["", "", "", "wheel held"]
     assert math.isnan(found["stress_max"][3])
     assert found["stress_max"][1] == maximum_stress(TOOTH, STEEL, 8e-4).stress
     assert list(found.columns[-4:]) == list(STRESS_COLUMNS)
-    assert list(with_stress(TABLE.head(0), TOOTH).columns) == list(found.columns)
+    assert list(with_stress(TABLE.head(0), STRUCK, TOOTH).columns) == list(found.columns)
 
 
 def test_the_worst_impact_is_that_with_the_largest_stress_though_another_closes_faster():
-    found = with_stress(TABLE, TOOTH)
+    found = with_stress(TABLE, STRUCK, TOOTH)
     assert worst_impact(found) == 1
     assert worst_impact(found.tail(1)) is None
 
@@ -66,7 +69,9 @@ def test_the_largest_impact_of_a_design_is_one_impact(rows, stress):
     quantities = tuple(Quantity(When.LARGEST_IMPACT, name, "Real", "") for name in names)
     task = Task(TimeGrid.of(1.0, 0.1), {}, None, quantities, STEEL_CARD)
     part = TABLE[rows].reset_index(drop=True)
-    found = of_impacts(task, part, {"tooth_length": TOOTH.length, "tooth_apex_angle": TOOTH.apex_angle})
+    found = of_impacts(
+        task, part, struck_in(task, STRUCK_FMU), {"tooth_length": TOOTH.length, "tooth_apex_angle": TOOTH.apex_angle}
+    )
     if stress is None:
         assert found["largest_impact.stress_max"] is None
         return
@@ -77,7 +82,7 @@ def test_the_largest_impact_of_a_design_is_one_impact(rows, stress):
 
 
 def test_the_report_sets_the_measures_side_by_side():
-    page = severity_section(with_stress(TABLE, TOOTH), UNITS, ("slope", "face"))
+    page = severity_section(with_stress(TABLE, STRUCK, TOOTH), UNITS, STRUCK, ("slope", "face"))
     most = maximum_stress(TOOTH, STEEL, 8e-4).stress
     assert "Which impact stresses the tooth most" in page
     for said in (
@@ -85,23 +90,23 @@ def test_the_report_sets_the_measures_side_by_side():
         "closing speed, face",
         "impulse, contact 2",
         "energy lost",
-        WHEEL_HELD,
+        "wheel held",
         "100.0%",
     ):
         assert said in page
     assert engineering(most, "Pa") in page
     # The fastest contact, the largest impulse and the most energy belong to the impact that leaves no stress.
     energy = page[page.index("<td>energy lost</td>") :]
-    assert energy.index(WHEEL_HELD) < energy.index("</tr>")
+    assert energy.index("wheel held") < energy.index("</tr>")
 
 
 def test_without_contacts_and_with_one_impact_only():
-    table = with_stress(TABLE.drop(columns=["contact", "impulse"]), TOOTH)
-    assert "closing speed, contact" not in severity_section(table, UNITS)
-    assert severity_section(table.head(1), UNITS) == ""
-    assert severity_section(pd.DataFrame({"time": np.zeros(3)}), {"time": "s"}) == ""
+    table = with_stress(TABLE.drop(columns=["contact", "impulse"]), STRUCK, TOOTH)
+    assert "closing speed, contact" not in severity_section(table, UNITS, STRUCK)
+    assert severity_section(table.head(1), UNITS, STRUCK) == ""
+    assert severity_section(pd.DataFrame({"time": np.zeros(3)}), {"time": "s"}, STRUCK) == ""
 
 
 def test_a_wheel_that_is_always_held_is_said_so():
-    table = with_stress(TABLE.tail(1), TOOTH)
-    assert "held in every impact" in stress_section(table, TOOTH, STEEL_CARD)
+    table = with_stress(TABLE.tail(1), STRUCK, TOOTH)
+    assert "held in every impact" in stress_section(table, STRUCK, TOOTH, STEEL_CARD)

@@ -5,6 +5,7 @@ import math
 from harness.description import Description, Variable
 from harness.designs.quantities import with_slenderness
 from harness.designs.task import Quantity, When
+from tests.declared import TEETH
 
 STRESS = Quantity(When.FIRST_IMPACT, "stress_max", "Real", "Pa")
 DAMAGE = Quantity(When.ALL_IMPACTS, "damage", "Real", "")
@@ -14,7 +15,7 @@ SLENDERNESS = Quantity(When.PARAMETER, "tooth_slenderness", "Real", "")
 
 def description(*names: str) -> Description:
     variables = {name: Variable(name, k, "Real", "calculatedParameter") for k, name in enumerate(names)}
-    return Description(model="Fake", identifier="Fake", guid="{}", variables=variables)
+    return Description(model="Fake", identifier="Fake", guid="{}", variables=variables, analysis=TEETH)
 
 
 def test_it_is_recorded_with_stresses_and_damage_once():
@@ -36,5 +37,5 @@ def test_the_ratchet_s_is_that_of_the_beam(native_ratchet_fmu):
 
     with open_fmu(native_ratchet_fmu) as fmu:
         run = perform(fmu, Experiment(0.1, 0.1, {"tooth_count": 20, "tooth_slope_angle": math.radians(95)}))
-    assert run.tooth is not None
-    assert abs(run.parameters["tooth_slenderness"] / slenderness(run.tooth) - 1.0) < 1e-12
+    assert run.beam is not None
+    assert abs(run.parameters["tooth_slenderness"] / slenderness(run.beam) - 1.0) < 1e-12

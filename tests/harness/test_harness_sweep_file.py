@@ -11,6 +11,7 @@ from harness.description import Description, Variable
 from harness.designs.plan import Source, source
 from harness.designs.task import Quantity, When
 from harness.toml_file import TomlFile
+from tests.declared import TEETH
 
 
 def description_of_a_tooth() -> Description:
@@ -19,7 +20,9 @@ def description_of_a_tooth() -> Description:
         name: Variable(name, 40 + k, "Real", "calculatedParameter", unit=("m", "rad")[k])
         for k, name in enumerate(["tooth_length", "tooth_apex_angle"])
     }
-    return Description("Fake", "Fake", "{guid}", {**description.variables, **described}, units=description.units)
+    return Description(
+        "Fake", "Fake", "{guid}", {**description.variables, **described}, units=description.units, analysis=TEETH
+    )
 
 
 def test_a_good_file(tmp_path: Path) -> None:

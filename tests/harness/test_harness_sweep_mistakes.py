@@ -39,7 +39,8 @@ MISTAKES = {
     "stress without a tooth": (
         'first_impact = ["time"]',
         'first_impact = ["stress_max"]',
-        "34: record.first_impact: Fake gives no 'stress_max': it describes no tooth (tooth_length, tooth_apex_angle).",
+        "34: record.first_impact: Fake gives no 'stress_max': the FMU declares no beam that impacts strike. In its "
+        "model, add Model(analysis=(ImpactStress(...),)) and build it again: docs/your-own-mechanism.md.",
     ),
     "quantity at another time": (
         'end = ["wheel_angle"]',
@@ -244,7 +245,8 @@ MISTAKES = {
     "damage without a tooth": (
         'first_impact = ["time"]',
         'all_impacts = ["damage"]',
-        "34: record.all_impacts: Fake gives no 'damage': it describes no tooth (tooth_length, tooth_apex_angle)",
+        "34: record.all_impacts: Fake gives no 'damage': the FMU declares no beam that impacts strike. In its "
+        "model, add Model(analysis=(ImpactStress(...),)) and build it again: docs/your-own-mechanism.md.",
     ),
     "no table of inputs": (
         "step = 0.1",

@@ -135,7 +135,7 @@ class Plan:
         policy: how it steps.
         recording: what is kept.
         inputs: table of signals for free inputs (`harness/inputs.py`); None: there is none.
-        material: of the teeth that impacts strike.
+        material: of the beams that impacts strike.
     """
 
     title: str

@@ -16,6 +16,7 @@ from harness.description import Description, Value, Variable
 from harness.errors import FmuError
 from harness.fmu.slave import MessageHandler
 from harness.messages import LogMessage, Status
+from tests.declared import TEETH
 from tests.harness.fake_slave import UNITS
 
 SLOTS = 2
@@ -51,7 +52,14 @@ def description(restores: bool) -> Description:
         ),
     ]
     return Description(
-        "Wheel", "wheel", "", {v.name: v for v in variables}, UNITS, saves_state=restores, takes_slopes=True
+        "Wheel",
+        "wheel",
+        "",
+        {v.name: v for v in variables},
+        UNITS,
+        saves_state=restores,
+        takes_slopes=True,
+        analysis=TEETH,
     )
 
 

@@ -18,6 +18,7 @@ from harness.master import Ending
 from harness.slave import Observable
 from harness.tooth_damage import damage_of_impacts
 from mechanism_fmu.stress import STEEL, STEEL_CARD, maximum_stress
+from tests.declared import STRUCK
 from tests.harness.machine.fakes import Trouble, Wheel
 
 ALGORITHMS: dict[str, Any] = {
@@ -66,12 +67,12 @@ def test_stress_and_damage_are_those_of_each_component_alone() -> None:
     found = impacts.by_component()
     assert list(found) == ["one", "two", "three"]
     one, two, three = found.values()
-    assert one.tooth is not None
-    assert two.tooth is not None
-    assert (one.tooth.length, two.tooth.length) == (0.01, 0.02)
-    largest = maximum_stress(two.tooth, STEEL, 2.0).stress
+    assert one.beam is not None
+    assert two.beam is not None
+    assert (one.beam.length, two.beam.length) == (0.01, 0.02)
+    largest = maximum_stress(two.beam, STEEL, 2.0).stress
     assert two.impacts["stress_max"].max() == pytest.approx(largest, rel=1e-12)
-    assert one.damage == damage_of_impacts(one.impacts, one.tooth, STEEL_CARD)
+    assert one.damage == damage_of_impacts(one.impacts, STRUCK, one.beam, STEEL_CARD)
     assert (len(three.impacts), three.damage) == (0, None)
     table = impacts.table(found)
     assert list(table) == list(impacts.units)
@@ -111,7 +112,7 @@ def test_a_tooth_that_cannot_be_is_told_and_leaves_the_impacts() -> None:
     run_machine(machine, Jacobi(), TimeGrid.of(0.5, 0.1), {}, [impacts])
     one = impacts.by_component()["one"]
     assert "describe no tooth" in one.objection
-    assert (one.tooth, one.damage, len(one.impacts)) == (None, None, 3)
+    assert (one.beam, one.damage, len(one.impacts)) == (None, None, 3)
 
 
 def test_impacts_without_a_stress_model_are_told_and_kept() -> None:
@@ -119,7 +120,7 @@ def test_impacts_without_a_stress_model_are_told_and_kept() -> None:
     run_machine(machine, Jacobi(), TimeGrid.of(0.5, 0.1), {}, [impacts])
     one = impacts.by_component()["one"]
     assert "impacts without a stress model: impact velocity = -3e+06 m/s" in one.objection
-    assert (one.tooth, one.damage, len(one.impacts)) == (None, None, 1)
+    assert (one.beam, one.damage, len(one.impacts)) == (None, None, 1)
 
 
 def test_components_without_impacts_have_no_table() -> None:

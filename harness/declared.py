@@ -1,0 +1,262 @@
+"""What an FMU declares to be analysed: `resources/analysis.json`, when it has one."""
+
+from __future__ import annotations
+
+import json
+import math
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+#: A number in SI units, or the name of a parameter or calculated parameter.
+Quantity = float | str
+
+#: Path within the FMU, and the format of it that is understood.
+FILE = "resources/analysis.json"
+_FORMAT = 1
+
+#: What is said where nothing leaves a stress, and how it is to be had.
+NO_BEAM = (
+    "the FMU declares no beam that impacts strike. In its model, add Model(analysis=(ImpactStress(...),)) and build it "
+    "again: docs/your-own-mechanism.md."
+)
+
+#: Sizes of each kind of beam, as of `mechanism_fmu.stress`; a thickness may come besides.
+SIZES = {
+    "WedgeTooth": ("length", "apex_angle"),
+    "TrapezoidTooth": ("length", "root_height", "tip_height"),
+    "RectangularTooth": ("length", "height"),
+}
+_THICKNESS = "thickness"
+
+
+@dataclass(frozen=True)
+class Struck:
+    """The beam that impacts strike.
+
+    Attributes:
+        kind: of beam, one of `SIZES`.
+        sizes: of the beam, by what they are.
+        name, plural: what the beam is called.
+        body, striker: that carries the beam, and that strikes it.
+        jump: field of the records of impacts with v_I [m/s].
+        slenderness: calculated parameter with length over root height; "" when there is none.
+    """
+
+    kind: str
+    sizes: Mapping[str, Quantity]
+    name: str
+    plural: str
+    body: str
+    striker: str
+    jump: str
+    slenderness: str = ""
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The variables that hold its sizes."""
+        return tuple(dict.fromkeys(size for size in self.sizes.values() if isinstance(size, str)))
+
+    @property
+    def held(self) -> str:
+        """What is said of an impact without a jump, instead of a stress."""
+        return f"{self.body} held"
+
+
+@dataclass(frozen=True)
+class Link:
+    """An elastic bar of the compliance: its name, its numbers and its outputs, by what they are."""
+
+    name: str
+    numbers: Mapping[str, Quantity]
+    outputs: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Chain:
+    """An arm and a strut in series that push a wheel.
+
+    Attributes:
+        contact: number of the contact of the strut's tip with a face.
+        arm, strut: from the drive on.
+        wheel: that is pushed.
+        tooth: what a part of its rim is called.
+        struck: field of the records of impacts with the number of the root that is struck.
+        restitution: of the contact [1].
+        source: where the reader finds the formulas; "" when nowhere.
+    """
+
+    contact: int
+    arm: Link
+    strut: Link
+    wheel: Link
+    tooth: str
+    struck: str
+    restitution: Quantity
+    source: str = ""
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The variables that hold its numbers."""
+        numbers = [*(n for link in self.links for n in link.numbers.values()), self.restitution]
+        return tuple(number for number in numbers if isinstance(number, str))
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """The outputs that it needs."""
+        return tuple(name for link in self.links for name in link.outputs.values())
+
+    @property
+    def links(self) -> tuple[Link, Link, Link]:
+        """Arm, strut and wheel."""
+        return self.arm, self.strut, self.wheel
+
+
+@dataclass(frozen=True)
+class Declared:
+    """What an FMU declares.
+
+    Attributes:
+        struck: what impacts strike; None when it declares nothing of the kind.
+        chain: what gives way; None likewise.
+        objection: why what it declares cannot be used, for the user; "" when nothing is wrong.
+    """
+
+    struck: Struck | None = None
+    chain: Chain | None = None
+    objection: str = ""
+
+
+NOTHING = Declared()
+
+
+def value_of(quantity: Quantity, values: Mapping[str, Any]) -> float:
+    """The number, or that of the variable."""
+    return float(values[quantity]) if isinstance(quantity, str) else quantity
+
+
+def read_declared(path: Path, variables: Mapping[str, object]) -> Declared:
+    """What the FMU file `path`, with these variables, declares; what cannot be used is an objection and no error."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            text = archive.read(FILE).decode("utf-8")
+    except KeyError:
+        return NOTHING
+    except (OSError, RuntimeError, zipfile.BadZipFile, UnicodeDecodeError) as error:
+        return _objection(f"it cannot be read ({error})")
+    try:
+        return _declared(json.loads(text), variables)
+    except _DeclarationError as error:
+        return _objection(str(error))
+    except (ValueError, RecursionError) as error:
+        return _objection(f"it is no JSON ({error})")
+
+
+class _DeclarationError(Exception):
+    """What is wrong with a declaration."""
+
+
+def _objection(problem: str) -> Declared:
+    return Declared(
+        objection=f"What the FMU declares to be analysed ({FILE}) cannot be used: {problem}. Build it again."
+    )
+
+
+def _declared(data: Any, variables: Mapping[str, object]) -> Declared:
+    entries = data.get("analyses") if isinstance(data, dict) else None
+    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
+        raise _DeclarationError("it holds no list of analyses")
+    if data.get("format") != _FORMAT:
+        raise _DeclarationError(f"its format is {data.get('format')!r}, and this harness knows format {_FORMAT}")
+    found: dict[str, Any] = {}
+    for entry in entries:
+        kind = entry.get("kind")
+        reader = _Reader(str(kind), variables)
+        if kind == "ImpactStress":
+            found["struck"] = _struck(reader, entry)
+        elif kind == "SeriesCompliance":
+            found["chain"] = _chain(reader, entry)
+        else:
+            raise _DeclarationError(f"an analysis is of the unknown kind {kind!r}")
+    return Declared(**found)
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """Reads entries of one analysis.
+
+    Attributes:
+        label: of the analysis.
+        variables: of the FMU.
+    """
+
+    label: str
+    variables: Mapping[str, object] = field(repr=False)
+
+    def text(self, entry: Any, key: str, default: str | None = None) -> str:
+        value = entry.get(key, default) if isinstance(entry, dict) else None
+        if not isinstance(value, str) or (not value and default is None):
+            raise _DeclarationError(f"{key} of {self.label} is {value!r}, and no text")
+        return value
+
+    def quantity(self, entry: Any, key: str) -> Quantity:
+        value = entry.get(key) if isinstance(entry, dict) else None
+        if isinstance(value, str):
+            return self.variable(entry, key)
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+            raise _DeclarationError(f"{key} of {self.label} is {value!r}, neither a number nor the name of a variable")
+        return float(value)
+
+    def variable(self, entry: Any, key: str) -> str:
+        name = self.text(entry, key)
+        if name not in self.variables:
+            raise _DeclarationError(f"{key} of {self.label} is the variable '{name}', which the FMU has not")
+        return name
+
+    def link(self, entry: Any, numbers: tuple[str, ...], outputs: tuple[str, ...]) -> Link:
+        return Link(
+            self.text(entry, "name"),
+            {key: self.quantity(entry, key) for key in numbers},
+            {key: self.variable(entry, key) for key in outputs},
+        )
+
+
+def _struck(read: _Reader, entry: Mapping[str, Any]) -> Struck:
+    beam = entry.get("beam")
+    kind = read.text(beam, "kind")
+    if kind not in SIZES or not isinstance(beam, dict):
+        raise _DeclarationError(f"its beam is of the unknown kind {kind!r}")
+    sizes = SIZES[kind] + ((_THICKNESS,) if _THICKNESS in beam else ())
+    return Struck(
+        kind,
+        {size: read.quantity(beam, size) for size in sizes},
+        name=read.text(entry, "name"),
+        plural=read.text(entry, "plural"),
+        body=read.text(entry, "body"),
+        striker=read.text(entry, "striker"),
+        jump=read.text(entry, "jump"),
+        slenderness=read.variable(entry, "slenderness") if "slenderness" in entry else "",
+    )
+
+
+def _chain(read: _Reader, entry: Mapping[str, Any]) -> Chain:
+    contact = entry.get("contact")
+    if not isinstance(contact, int) or isinstance(contact, bool):
+        raise _DeclarationError(f"contact of {read.label} is {contact!r}, and no number of a contact")
+    bar, wheel = ("length", "width", "depth", "stiffness"), entry.get("wheel")
+    return Chain(
+        contact,
+        read.link(entry.get("arm"), bar, ("angle",)),
+        read.link(entry.get("strut"), bar, ("angle", "deflection", "stress")),
+        read.link(
+            wheel,
+            ("radius", "pitch", "slope_angle", "apex_angle"),
+            ("angle", "index", "slope_force", "face_force"),
+        ),
+        read.text(wheel, "tooth"),
+        read.text(wheel, "struck"),
+        read.quantity(entry, "restitution"),
+        read.text(entry, "source", ""),
+    )
