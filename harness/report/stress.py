@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pandas as pd
 
-from mechanism_fmu.stress import Beam, MaterialCard, beam_in_words, beam_theory_note
+from mechanism_fmu.stress import Beam, MaterialCard, beam_theory_note
+from mechanism_fmu.stress.tooth import beam_in_words
 
 from ..declared import Struck
 from ..numbers import engineering

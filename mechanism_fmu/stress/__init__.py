@@ -27,7 +27,7 @@ from .sequence import SequenceDamage, sequence_damage
 from .shear import shear_force, shear_stress
 from .slenderness import LEAST_SLENDERNESS, beam_theory_note, slenderness
 from .tip import LineContact, axial_stress, hertz_line_contact, peak_force, shortest_contact
-from .tooth import RectangularTooth, TrapezoidTooth, WedgeTooth, beam_in_words, wedge_of_sawtooth
+from .tooth import RectangularTooth, TrapezoidTooth, WedgeTooth, wedge_of_sawtooth
 
 __all__ = [
     "CARDS",
@@ -56,7 +56,6 @@ __all__ = [
     "TrapezoidTooth",
     "WedgeTooth",
     "axial_stress",
-    "beam_in_words",
     "beam_theory_note",
     "bending_moment",
     "bending_stress",

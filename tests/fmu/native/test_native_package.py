@@ -77,7 +77,7 @@ def test_nothing_else_is_inside_that_does_not_belong_there(fmu, fmi):
         2: {"model.png", "documentation/licenses/mechanism_fmu.txt"},
         3: {"terminalsAndIcons/icon.png", "documentation/licenses/license.txt"},
     }
-    resources = {"resources/drawing.json", "resources/logic.json"}
+    resources = {"resources/analysis.json", "resources/drawing.json", "resources/logic.json"}
     assert others == {"modelDescription.xml", "documentation/index.html", *resources, *places[fmi], *OF_EVERY_FLAVOUR}
 
 
