@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -144,7 +145,7 @@ def read_declared(path: Path, variables: Mapping[str, object]) -> Declared:
             text = archive.read(FILE).decode("utf-8")
     except KeyError:
         return NOTHING
-    except (OSError, RuntimeError, zipfile.BadZipFile, UnicodeDecodeError) as error:
+    except (OSError, RuntimeError, EOFError, zipfile.BadZipFile, zlib.error, UnicodeDecodeError) as error:
         return _objection(f"it cannot be read ({error})")
     try:
         return _declared(json.loads(text), variables)
@@ -160,7 +161,7 @@ class _DeclarationError(Exception):
 
 def _objection(problem: str) -> Declared:
     return Declared(
-        objection=f"What the FMU declares to be analysed ({FILE}) cannot be used: {problem}. Build it again."
+        objection=f"What the FMU declares to be analysed ({FILE}) cannot be used: {problem}. Build the FMU again."
     )
 
 

@@ -186,7 +186,9 @@ def show_beam_theory(task: Task, seen: InMotion | None) -> None:
     if wants_stress(task) and seen is not None and seen.run is not None and seen.run.beam is not None:
         struck = seen.run.description.analysis.struck
         name = struck.name if struck else "beam"
-        console.print(f"[dim]The {name} of the design in motion: {beam_theory_note(seen.run.beam)}[/]", soft_wrap=True)
+        console.print(
+            f"[dim]The {escape(name)} of the design in motion: {beam_theory_note(seen.run.beam)}[/]", soft_wrap=True
+        )
 
 
 def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:
