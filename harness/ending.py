@@ -77,7 +77,8 @@ def _show_impacts(run: Run) -> None:
     show_table(title, headings, rows, numeric=numbers)
     if "contact" in columns:
         console.print(f"[dim]{escape(UNITS_OF_STOPS)}[/]", soft_wrap=True)
-    if run.description.analysis.struck is None:
+    declared = run.description.analysis
+    if declared.struck is None and not declared.objection:
         console.print(f"[dim]No stress: {escape(NO_BEAM)}[/]", soft_wrap=True)
     elif run.beam is None:
         console.print("[dim]No stress: see the verdicts.[/]")

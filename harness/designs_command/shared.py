@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
+from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from mechanism_fmu.fmu.built import was_built_here
@@ -186,9 +187,8 @@ def show_beam_theory(task: Task, seen: InMotion | None) -> None:
     if wants_stress(task) and seen is not None and seen.run is not None and seen.run.beam is not None:
         struck = seen.run.description.analysis.struck
         name = struck.name if struck else "beam"
-        console.print(
-            f"[dim]The {escape(name)} of the design in motion: {beam_theory_note(seen.run.beam)}[/]", soft_wrap=True
-        )
+        note = f"The {name} of the design in motion: {beam_theory_note(seen.run.beam)}"
+        console.print(f"[dim]{escape(note)}[/]", soft_wrap=True)
 
 
 def seen_again(fmu: Fmu, task: Task, design: Design | None, which: str) -> InMotion | None:

@@ -88,8 +88,9 @@ def _motion(run: Run) -> str:
 
 
 def _stress(run: Run) -> str:
-    struck = run.description.analysis.struck
-    if struck is None and len(run.impacts.columns):
+    declared = run.description.analysis
+    struck = declared.struck
+    if struck is None and not declared.objection and len(run.impacts.columns):
         return section("Stress", note=f"Nothing is to be analysed: {NO_BEAM}")
     if struck is None or run.beam is None:
         return ""

@@ -79,8 +79,8 @@ REFUSED = {
     "no such variable": (ImpactStress("stop", RectangularTooth("width", 0.01)), "no parameter or calculated parameter"),
     "no such field": (ImpactStress("stop", BEAM, jump="speed"), r"records of impacts 'speed'; name one .*velocity"),
     "no such slenderness": (ImpactStress("stop", BEAM, slenderness="slim"), "calculated parameter 'slim'"),
-    "no number": (ImpactStress("stop", RectangularTooth("length", float("nan"))), "height = nan is not a finite number"),
-    "another length": (ImpactStress("stop", TrapezoidTooth(0.3, 0.1, 0.0)), "0.3 m long, but 'arm' has tooth_length = 0.2"),
+    "no number": (ImpactStress("stop", RectangularTooth("length", float("nan"))), "height = nan is not a finite"),
+    "another length": (ImpactStress("stop", TrapezoidTooth(0.3, 0.1, 0.0)), "0.3 m long, but 'arm' has tooth_length"),
 }  # fmt: skip
 
 
