@@ -12,8 +12,8 @@ Where to find what:
   `fmu` (by way of fmpy: extracted, instances of FMI 2 and 3)
 - simulation: `slave` (what can be simulated), `clock`, `inputs`, `master` (moves time), `observers` (look on):
   `recorder`, `impacts`, `events` (`buffers`); `experiment` puts them together
-- meaning: `tooth_stress`, `checks` (verdicts), `paper` (its claims), `study` and `wheels`, `cycle` (indexing),
-  `validate`
+- meaning: `declared` (what the FMU asks to be analysed), `analyses` (the list: `tooth_stress`, `tooth_damage`,
+  `compliance`), `checks` (verdicts), `validate`; of one paper: `paper` (its claims), `study` and `wheels`, `cycle`
 - files that people write: `toml_file` (tables, keys, lines, mistakes), `toml_values` (with units)
 - several FMUs as one machine: `machine` (file, parts, algorithms, observers, SSP, container), `machine_cli`,
   `machine_command`, `processes`
