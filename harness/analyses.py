@@ -58,9 +58,14 @@ class Analysis(Protocol):
     """One way to look at a run; it reads one part of what the FMU declares.
 
     Attributes:
+        variables: parameters and calculated parameters without which it can say nothing.
         columns: units of the columns that it adds to the table of impacts.
         tables: units of the numbers that it finds besides, by the name of their table.
     """
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Their names."""
 
     @property
     def columns(self) -> Mapping[str, str]:
@@ -83,6 +88,11 @@ class Stress:
     """The beam that is struck, and the stress that each impact leaves in it."""
 
     struck: Struck
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Sizes of the beam."""
+        return self.struck.variables
 
     @property
     def columns(self) -> Mapping[str, str]:
@@ -113,6 +123,11 @@ class Damage:
     struck: Struck
 
     @property
+    def variables(self) -> tuple[str, ...]:
+        """Sizes of the beam."""
+        return self.struck.variables
+
+    @property
     def columns(self) -> Mapping[str, str]:
         """None."""
         return {}
@@ -139,6 +154,11 @@ class Yielding:
     chain: Chain
 
     @property
+    def variables(self) -> tuple[str, ...]:
+        """Sizes of the links."""
+        return self.chain.variables
+
+    @property
     def columns(self) -> Mapping[str, str]:
         """None."""
         return {}
@@ -161,9 +181,14 @@ def analyses_of(declared: Declared, fields: Iterable[str]) -> tuple[Analysis, ..
 
 
 def analysed(analyses: Iterable[Analysis], seen: Seen) -> Analysed:
-    """What all of them find; where the FMU reports what cannot be, there is an objection, and no stress."""
+    """What all of them find; where the FMU reports what cannot be, there is an objection, and no stress.
+
+    A run that never began has no parameters, and nothing is found.
+    """
     found = Analysed(seen.impacts)
     for analysis in analyses:
+        if not set(analysis.variables) <= set(seen.parameters):
+            continue
         try:
             found = analysis.analyse(seen, found)
         except FmuError as error:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 from fake_slave import FakeFmu, FakeSlave
 
@@ -93,6 +94,12 @@ def test_the_list_of_analyses_is_what_is_declared() -> None:
     assert analyses_of(RATCHET, ["velocity"]) == (Damage(STRUCK), Stress(STRUCK), Yielding(chain))
     # an FMU that does not report the jump
     assert analyses_of(RATCHET, ["time"]) == (Yielding(chain),)
+
+
+def test_a_run_that_never_began_has_nothing_to_analyse() -> None:
+    nothing = pd.DataFrame({"time": []})
+    found = analysed(analyses_of(RATCHET, ["velocity"]), Seen({}, nothing, nothing, STEEL_CARD))
+    assert (found.beam, found.damage, found.compliance, found.objection) == (None, None, (), "")
 
 
 def test_nothing_declared_leaves_all_as_it_was() -> None:
