@@ -119,7 +119,7 @@ def run(
     material: Annotated[
         str,
         typer.Option(
-            metavar="NAME", help="Steel of the tooth: steel, S355, C45E, 42CrMo4, SAE1015, SAE4142 or AISI4340."
+            metavar="NAME", help="Steel of what is struck: steel, S355, C45E, 42CrMo4, SAE1015, SAE4142 or AISI4340."
         ),
     ] = "steel",
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.")] = Path(

@@ -44,6 +44,7 @@ class Struck:
         body, striker: that carries the beam, and that strikes it.
         jump: field of the records of impacts with v_I [m/s].
         slenderness: calculated parameter with length over root height; "" when there is none.
+        strokes: output that counts strokes; "" when none does.
     """
 
     kind: str
@@ -54,6 +55,7 @@ class Struck:
     striker: str
     jump: str
     slenderness: str = ""
+    strokes: str = ""
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -239,6 +241,7 @@ def _struck(read: _Reader, entry: Mapping[str, Any]) -> Struck:
         striker=read.text(entry, "striker"),
         jump=read.text(entry, "jump"),
         slenderness=read.variable(entry, "slenderness") if "slenderness" in entry else "",
+        strokes=read.variable(entry, "strokes") if "strokes" in entry else "",
     )
 
 

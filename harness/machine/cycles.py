@@ -6,9 +6,6 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-#: An output that counts strokes, as that of a holding pawl does.
-COUNTER = "clicks"
-
 #: So many cycles the damage is told for.
 THOUSAND = 1000
 
@@ -32,15 +29,16 @@ class Cycles:
         return THOUSAND * damage / self.count
 
 
-def cycles_of(component: str, seen: pd.DataFrame) -> Cycles:
+def cycles_of(component: str, counter: str, seen: pd.DataFrame) -> Cycles:
     """The cycles of a component.
 
     Args:
         component: that is struck.
+        counter: its output that counts strokes; "" when none does.
         seen: as of `frames.Seen`.
     """
-    name = f"{component}.{COUNTER}"
-    if name in seen and len(seen):
+    name = f"{component}.{counter}"
+    if counter and name in seen and len(seen):
         strokes = round(abs(float(seen[name].iloc[-1]) - float(seen[name].iloc[0])))
         if strokes:
             return Cycles(strokes, "strokes", f"{name} counts {strokes} in this run")

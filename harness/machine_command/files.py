@@ -101,7 +101,10 @@ def _component(run: MachineRun, name: str) -> dict[str, Any]:
     struck = run.by_component.get(name)
     damage = None
     if struck is not None and struck.damage is not None:
-        damage = damage_summary(struck.damage, run.card) | _of_cycles(cycles_of(name, run.seen.table), struck.damage)
+        counter = "" if struck.struck is None else struck.struck.strokes
+        damage = damage_summary(struck.damage, run.card) | _of_cycles(
+            cycles_of(name, counter, run.seen.table), struck.damage
+        )
     return {
         "fmu": str(plan.source.path or plan.source.model),
         "model": description.model,

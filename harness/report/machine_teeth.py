@@ -25,7 +25,7 @@ _MOST_POINTS = 2000
 
 _DEFINITION = (
     "Damage of the run by Miner's rule, times 1,000, by the number of cycles in the run. A cycle is a stroke where the "
-    "component counts its strokes (an output 'clicks'), else the whole run. All impacts count for one {what}; 1 is "
+    "component counts its strokes{counters}, else the whole run. All impacts count for one {what}; 1 is "
     "failure."
 )
 
@@ -36,6 +36,7 @@ class _Worn:
 
     name: str
     what: str
+    counter: str
     impacts: int
     damage: SequenceDamage
     cycles: Cycles
@@ -81,6 +82,8 @@ def _damage_section(run: MachineRun) -> str:
     if not rows:
         return ""
     what = " or ".join(dict.fromkeys(one.what for one in _worn(run)))
+    counters = ", ".join(dict.fromkeys(f"an output '{one.counter}'" for one in _worn(run) if one.counter))
+    counters = f" ({counters})" if counters else ""
     headings = [
         *("component", "impacts [1]", "largest stress", "damage of the run [1]", "cycles in the run [1]"),
         *(f"damage per {THOUSAND:,} cycles [1]", "a cycle"),
@@ -88,13 +91,20 @@ def _damage_section(run: MachineRun) -> str:
     return section(
         f"Fatigue damage per {THOUSAND:,} cycles",
         table(headings, rows, numeric=range(1, 6)),
-        note=_DEFINITION.format(what=what),
+        note=_DEFINITION.format(what=what, counters=counters),
     )
 
 
 def _worn(run: MachineRun) -> list[_Worn]:
     return [
-        _Worn(name, struck.struck.name, len(struck.impacts), struck.damage, cycles_of(name, run.seen.table))
+        _Worn(
+            name,
+            struck.struck.name,
+            struck.struck.strokes,
+            len(struck.impacts),
+            struck.damage,
+            cycles_of(name, struck.struck.strokes, run.seen.table),
+        )
         for name in in_power_flow(run)
         if (struck := run.by_component.get(name)) is not None
         and struck.damage is not None

@@ -84,6 +84,7 @@ class ImpactStress:
         jump: the field of the records that holds v_I [m/s]: the output `impacts[1].<jump>`, and so on.
         slenderness: name of the calculated parameter that holds the beam's length over the height of its root, to be
             shown beside each stress; "" when there is none.
+        strokes: output that counts the strokes for which a machine's damage is given; "": a run as a whole.
     """
 
     contact: str
@@ -92,6 +93,7 @@ class ImpactStress:
     plural: str = "beams"
     jump: RecordField = "velocity"
     slenderness: HeldName = ""
+    strokes: OutputName = ""
 
 
 @dataclass(frozen=True)
@@ -212,14 +214,14 @@ def check_analysis(
     for kind in kinds:
         if kinds.count(kind) > 1:
             raise MechanismError(f"Analysis: {kind} is asked for {kinds.count(kind)} times; an FMU has one of a kind.")
-    known = {"HeldName": ("", *held), "OutputName": outputs, "RecordField": records}
+    known = {"HeldName": held, "OutputName": outputs, "RecordField": records}
     for analysis in analyses:
         for label, what, value in _named(type(analysis).__name__, analysis):
             if not isinstance(value, str):
                 if value is not None and not math.isfinite(value):
                     raise MechanismError(f"{label} = {value} is not a finite number; give one, or a variable's name.")
             elif value not in known[what]:
-                there = ", ".join(sorted(filter(None, known[what]))) or "none"
+                there = ", ".join(sorted(known[what])) or "none"
                 raise MechanismError(
                     f"{label}: the model has no {_NAMED[what]} {value!r}; name one of those it has ({there}), or add "
                     "it."
@@ -230,6 +232,8 @@ def _named(label: str, record: object) -> Iterator[tuple[str, str, float | str |
     """What an analysis names or gives as a number, but for words: where it stands, what it names, and the value."""
     for field in fields(record):  # type: ignore[arg-type]
         value, place = getattr(record, field.name), f"{label}, {field.name}"
+        if value == "" == field.default:
+            continue
         if is_dataclass(value):
             yield from _named(f"{label}, {type(value).__name__}", value)
         elif str(field.type).startswith("Quantity"):

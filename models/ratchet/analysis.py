@@ -6,7 +6,12 @@ from mechanism_fmu.model import Arm, ImpactStress, SawtoothWheel, SeriesComplian
 
 ANALYSIS = (
     ImpactStress(
-        "face", WedgeTooth("tooth_length", "tooth_apex_angle"), "tooth", "teeth", slenderness="tooth_slenderness"
+        "face",
+        WedgeTooth("tooth_length", "tooth_apex_angle"),
+        "tooth",
+        "teeth",
+        slenderness="tooth_slenderness",
+        strokes="clicks",
     ),
     SeriesCompliance(
         "face",

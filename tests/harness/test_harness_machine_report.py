@@ -238,10 +238,11 @@ def test_frames_are_few_whatever_the_number_of_steps_and_impacts(run: Any, monke
     ("clicks", "count", "of"), [([3, 4, 7], 4, "strokes"), ([0, -2], 2, "strokes"), ([5, 5], 1, "runs like this one")]
 )
 def test_cycles_are_strokes_where_they_are_counted(clicks: list[int], count: int, of: str) -> None:
-    cycles = cycles_of("ratchet", pd.DataFrame({"time": range(len(clicks)), "ratchet.clicks": clicks}))
+    cycles = cycles_of("ratchet", "clicks", pd.DataFrame({"time": range(len(clicks)), "ratchet.clicks": clicks}))
     assert (cycles.count, cycles.of) == (count, of)
     assert cycles.damage_of_thousand(2e-6) == pytest.approx(2e-3 / count)
 
 
 def test_a_component_that_counts_nothing_has_the_run_as_its_cycle() -> None:
-    assert cycles_of("wheel", pd.DataFrame({"time": [0.0], "ratchet.clicks": [2]})).count == 1
+    assert cycles_of("wheel", "clicks", pd.DataFrame({"time": [0.0], "ratchet.clicks": [2]})).count == 1
+    assert cycles_of("wheel", "", pd.DataFrame({"time": [0.0, 1.0], "wheel.": [2, 5]})).of == "runs like this one"
