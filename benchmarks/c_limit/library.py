@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.block.layout import field_of, sizes_of
+from mechanism_fmu.tables.layout import field_of
+from mechanism_fmu.tables.sizes import sizes_of
 
 Array = np.ndarray[Any, np.dtype[Any]]
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from .. import codes
-from .block.layout import Array
-from .block.motion import course, pose, stages
-from .block.parts import bodies, contacts, ports, sizes
+from ..tables.declare import Array
+from ..tables.motion import Course, Pose, Stages
+from ..tables.parts import Bodies, Contacts, Ports
+from ..tables.sizes import Sizes
 from .compiler.subset import entry, jit
 from .constraints.kinematics import place_bodies
 from .contacts.guards import gap
@@ -25,10 +26,10 @@ def read_output_rates(block: Array) -> None:
     Jumps in impacts do not count. Not a number: what jumps only, and what follows accelerations (forces of contacts,
     torques of shafts, voltages), whose derivatives depend on those of inputs.
     """
-    table = ports(block)
-    s = stages(block)
+    table = Ports(block)
+    s = Stages(block)
     state_at_time(block, s.y_at)
-    pose(block).instant[0] = course(block).clock[codes.TIME]
+    Pose(block).instant[0] = Course(block).clock[codes.TIME]
     feed(block, table.inputs)  # one that was set after the last step acts already
     derivative(block, s.y_at, s.dy_at)
     place_bodies(block, s.y_at)
@@ -40,8 +41,8 @@ def read_output_rates(block: Array) -> None:
 @jit
 def _rate(block: Array, kind: int, index: int, factor: float) -> float:
     """The derivative of one output; `index` as in `ports.output_index`, `factor` as in `ports.output_value`."""
-    n = sizes(block).coordinates
-    s = stages(block)
+    n = Sizes(block).coordinates
+    s = Stages(block)
     rate = math.nan
     if kind == codes.CONSTANT or kind == codes.STOP_REFERENCE:
         rate = 0.0  # the latter between clicks
@@ -51,10 +52,10 @@ def _rate(block: Array, kind: int, index: int, factor: float) -> float:
         rate = s.dy_at[n + index]
     elif kind == codes.CONTACT_GAP:
         rate = 0.0  # closed
-        if contacts(block).mode[index] == codes.OPEN:
+        if Contacts(block).mode[index] == codes.OPEN:
             _, rate = gap(block, index)
     elif kind == codes.KINETIC_ENERGY:
-        rate = kinetic_power(bodies(block).inverse_mass, s.y_at[n:], s.dy_at[n:], n)
+        rate = kinetic_power(Bodies(block).inverse_mass, s.y_at[n:], s.dy_at[n:], n)
     elif kind == codes.SPRING_ENERGY:
         rate = spring_power(block, s.y_at, s.dy_at)
     elif kind == codes.WORK_DONE:

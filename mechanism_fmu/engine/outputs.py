@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from .. import codes
-from .block.elastic import structure
-from .block.layout import Array
-from .block.motion import course, linear_system, pose, stages
-from .block.parts import bodies, contacts, patterns, ports, sizes
+from ..tables.declare import Array
+from ..tables.members import Structure
+from ..tables.motion import Course, LinearSystem, Pose, Stages
+from ..tables.parts import Bodies, Contacts, Patterns, Ports
+from ..tables.sizes import Sizes
 from .compiler.subset import entry, jit
 from .constraints.kinematics import place_bodies
 from .contacts.guards import gap
@@ -23,15 +24,15 @@ from .stepping.stepper import state_at_time
 @entry
 def read_outputs(block: Array) -> None:
     """Write all output values, shape (outputs,), to the work field `outputs`; the motion is not touched."""
-    n = sizes(block).coordinates
-    table = ports(block)
-    now = course(block)
-    s = stages(block)
-    contact = contacts(block)
+    n = Sizes(block).coordinates
+    table = Ports(block)
+    now = Course(block)
+    s = Stages(block)
+    contact = Contacts(block)
     state_at_time(block, s.y_at)
-    pose(block).instant[0] = now.clock[codes.TIME]
+    Pose(block).instant[0] = now.clock[codes.TIME]
     feed(block, table.inputs)  # one that was set after the last step acts already
-    bends = sizes(block).nodes > 0
+    bends = Sizes(block).nodes > 0
     if bends or _needs_multipliers(block):
         derivative(block, s.y_at, s.dy_at)
     if bends:
@@ -46,13 +47,13 @@ def read_outputs(block: Array) -> None:
             value = s.y_at[n + index]
         elif kind == codes.CONTACT_FORCE:
             if contact.mode[index] == codes.CLOSED:
-                value = linear_system(block).multiplier[contact.row[index]]
+                value = LinearSystem(block).multiplier[contact.row[index]]
         elif kind == codes.CONTACT_GAP:
             if contact.mode[index] == codes.OPEN:
                 place_bodies(block, s.y_at)
                 value, _ = gap(block, index)
         elif kind == codes.KINETIC_ENERGY:
-            value = kinetic_energy(bodies(block).inverse_mass, s.y_at[n:], n)
+            value = kinetic_energy(Bodies(block).inverse_mass, s.y_at[n:], n)
         elif kind == codes.SPRING_ENERGY:
             value = spring_energy(block, s.y_at)
         elif kind == codes.WORK_DONE:
@@ -74,7 +75,7 @@ def read_outputs(block: Array) -> None:
         elif kind == codes.CONTACT_CLOSED:
             value = float(contact.mode[index])
         elif kind == codes.PATTERN_INDEX:
-            value = float(patterns(block).copy[index])
+            value = float(Patterns(block).copy[index])
         elif kind == codes.STOP_CLICKS:
             value = float(contact.clicks[index])
         elif kind == codes.STOP_REFERENCE:
@@ -86,7 +87,7 @@ def read_outputs(block: Array) -> None:
         elif kind == codes.EVENTS_IN_STEP_OUT:
             value = float(now.counters[codes.EVENTS_IN_STEP])
         elif kind == codes.JOINT_FORCE:
-            value *= linear_system(block).multiplier[index]
+            value *= LinearSystem(block).multiplier[index]
         elif kind == codes.CONTACT_POINT:
             value = s.y_at[2 * n + 2 + index]
         elif kind == codes.OWN_STATE:
@@ -100,7 +101,7 @@ def read_outputs(block: Array) -> None:
         elif kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
             value = beam_reading(block, kind, index)
         elif kind == codes.MEMBER_FORCE:
-            value *= structure(block).element_force[index]
+            value *= Structure(block).element_force[index]
         elif kind != codes.CONSTANT:
             value = elastic_reading(block, kind, index)
         table.outputs[o] = value
@@ -110,7 +111,7 @@ def read_outputs(block: Array) -> None:
 @jit
 def _buffered_event(block: Array, slot: int, column: int) -> float:
     """A field of an event of the last communication step; in an empty slot time, guard and subject are -1."""
-    now = course(block)
+    now = Course(block)
     if slot < now.counters[codes.EVENTS_IN_STEP]:
         value: float = now.events[slot, column]
         return value
@@ -121,8 +122,8 @@ def _buffered_event(block: Array, slot: int, column: int) -> float:
 
 @jit
 def _needs_multipliers(block: Array) -> bool:
-    table = ports(block)
-    contact = contacts(block)
+    table = Ports(block)
+    contact = Contacts(block)
     for o in range(table.outputs.shape[0]):
         kind = table.output_kind[o]
         if kind == codes.JOINT_FORCE or kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:

@@ -7,13 +7,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..engine import status
-from ..engine.block.layout import field_of
-from ..engine.block.pack import pack
 from ..engine.constraints.textbook import textbook_rows
 from ..engine.starting.assembly import CLOSED_WITHIN
 from ..engine.starting.begin import assemble_at
 from ..model import Contact, Mechanism, compile_mechanism
 from ..model.joints import Joint
+from ..tables.layout import field_of
+from ..tables.pack import pack
 from .errors import KinematicsError
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]

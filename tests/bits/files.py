@@ -10,7 +10,9 @@ from typing import Any
 import pandas as pd
 
 #: Entries of result files that differ from run to run.
-_PASSING = re.compile(r"^file$|time_spent|guid|token|date|created|started|ended|duration|elapsed|seconds|version|digest|sha|process|host|path")
+_PASSING = re.compile(
+    r"^file$|time_spent|guid|token|date|created|started|ended|duration|elapsed|seconds|version|digest|sha|process|host|path"
+)
 _GUID = re.compile(r"\{?[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}\}?")
 
 

@@ -27,7 +27,9 @@ def record(fmu: Path) -> dict[str, Any]:
     named = {variable.name: variable for variable in description.modelVariables}
     outputs = [name for name, v in named.items() if v.causality in ("output", "local", "calculatedParameter")]
     outputs = [name for name in outputs if named[name].type not in ("Clock", "String") and not named[name].dimensions]
-    inputs = [v for v in named.values() if v.causality == "input" and v.type in ("Real", "Float64") and not v.dimensions]
+    inputs = [
+        v for v in named.values() if v.causality == "input" and v.type in ("Real", "Float64") and not v.dimensions
+    ]
     events = {"early_return_allowed": True, "use_event_mode": True} if description.fmiVersion != "2.0" else {}
     found: dict[str, Any] = {}
     for run, signal in (("start values", None), ("inputs", swinging(inputs, stop))):

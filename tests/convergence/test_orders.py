@@ -10,14 +10,12 @@ import math
 import numpy as np
 import pytest
 
-from mechanism_fmu.engine.block.motion import stages
-from mechanism_fmu.engine.block.pack import pack
-from mechanism_fmu.engine.block.vectors import copy
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.engine.dynamics.inputs import set_time
 from mechanism_fmu.engine.stepping.dormand_prince import DENSE_ORDER, ORDER, try_step
 from mechanism_fmu.engine.stepping.interpolation import interpolate
+from mechanism_fmu.engine.vectors import copy
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -31,6 +29,8 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.motion import Stages
+from mechanism_fmu.tables.pack import pack
 
 MASS, INERTIA, RADIUS = 2.0, 0.3, 0.5
 FREQUENCY, AMPLITUDE = 1.5, 1.2
@@ -68,7 +68,7 @@ def exact(time):
 @entry
 def fixed_steps(block, y, start, step, count, fractions, inside):
     """Take `count` steps from y, in place; `inside`, shape (fractions, unknowns), is the last one's dense output."""
-    s = stages(block)
+    s = Stages(block)
     for k in range(count):
         copy(y, s.y_start)
         set_time(block, start + k * step)

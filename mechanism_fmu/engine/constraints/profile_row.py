@@ -8,9 +8,9 @@ rates enter gamma. The textbook's rows of the same pairs are in `joints`; both g
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import pose, rows
-from ..block.parts import contacts
+from ...tables.declare import Array
+from ...tables.motion import Pose, Rows
+from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from ..profiles.touch import change, look
 
@@ -28,9 +28,9 @@ def profile_row(block: Array, contact: int, row: int) -> float:
 
     """
     keep_small()
-    table = contacts(block)
-    at = pose(block)
-    out = rows(block)
+    table = Contacts(block)
+    at = Pose(block)
+    out = Rows(block)
     i = table.body_i[contact]
     j = table.body_j[contact]
     kind = table.kind[contact]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import linear_system, pose, rows
-from ..block.parts import contacts, joints, options, sizes
-from ..block.vectors import clear
+from ...tables.declare import Array
+from ...tables.motion import LinearSystem, Pose, Rows
+from ...tables.parts import Contacts, Joints, Options
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
+from ..vectors import clear
 from .angle_row import angle_row
 from .joints.angle_driver import angle_driver
 from .joints.distance import distance
@@ -29,10 +30,10 @@ from .profile_row import profile_row
 @jit
 def joint_rows(block: Array) -> None:
     """Write the rows of all joints from the bodies' poses and rates (see `place_bodies`), and `pose.instant`."""
-    at = pose(block)
-    table = joints(block)
-    out = rows(block)
-    for r in range(sizes(block).joint_rows):
+    at = Pose(block)
+    table = Joints(block)
+    out = Rows(block)
+    for r in range(Sizes(block).joint_rows):
         clear(out.jacobian[r])
     for k in range(table.kind.shape[0]):
         row = table.row[k]
@@ -52,31 +53,31 @@ def joint_rows(block: Array) -> None:
 def _other_joint(block: Array, joint: int) -> None:
     """Write the rows of a joint that is neither of the two frequent ones nor a driver."""
     keep_small()
-    table = joints(block)
+    table = Joints(block)
     kind = table.kind[joint]
     row = table.row[joint]
     i = table.body_i[joint]
     j = table.body_j[joint]
     data = table.data[joint]
     if kind == codes.DISTANCE:
-        distance(pose(block), rows(block), row, i, j, data)
+        distance(Pose(block), Rows(block), row, i, j, data)
     elif kind == codes.REVOLUTE_TRANSLATIONAL:
-        revolute_translational(pose(block), rows(block), row, i, j, data)
+        revolute_translational(Pose(block), Rows(block), row, i, j, data)
     elif kind == codes.GEARS:
-        gears(pose(block), rows(block), row, i, j, data)
+        gears(Pose(block), Rows(block), row, i, j, data)
     elif kind == codes.INTERNAL_GEARS:
-        internal_gears(pose(block), rows(block), row, i, j, data)
+        internal_gears(Pose(block), Rows(block), row, i, j, data)
     else:
-        rack_and_pinion(pose(block), rows(block), row, i, j, data)
+        rack_and_pinion(Pose(block), Rows(block), row, i, j, data)
 
 
 @jit
 def _driver(block: Array, joint: int) -> None:
     """Write the row of a driver, whose motion is a curve over time."""
     keep_small()
-    at = pose(block)
-    out = rows(block)
-    table = joints(block)
+    at = Pose(block)
+    out = Rows(block)
+    table = Joints(block)
     kind = table.kind[joint]
     row = table.row[joint]
     i = table.body_i[joint]
@@ -99,23 +100,23 @@ def _driver(block: Array, joint: int) -> None:
 def contact_row(block: Array, contact: int, row: int) -> None:
     """Write the row of one contact: its gap, gap rate, gamma and Jacobian."""
     keep_small()
-    table = contacts(block)
-    out = rows(block)
+    table = Contacts(block)
+    out = Rows(block)
     clear(out.jacobian[row])
     i = table.body_i[contact]
     j = table.body_j[contact]
     if table.kind[contact] == codes.POINT_LINE:
-        point_line(pose(block), out, row, i, j, table.data[contact], table.line[contact])
+        point_line(Pose(block), out, row, i, j, table.data[contact], table.line[contact])
     elif table.alpha[contact] != codes.NONE:
         profile_row(block, contact, row)
     else:
-        angle_row(pose(block), out, row, i, j, table.line[contact])
+        angle_row(Pose(block), out, row, i, j, table.line[contact])
 
 
 @jit
 def spare_row(block: Array) -> int:
     """The number of a row that no joint or contact uses."""
-    return sizes(block).rows - 1
+    return Sizes(block).rows - 1
 
 
 @jit
@@ -125,16 +126,16 @@ def tangent_row(block: Array, contact: int, line: Array) -> None:
     `line`, shape (4,), is scratch: the line with its normal turned by -90 deg, so that it points along.
     """
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     own = table.line[contact]
     line[0] = own[0]
     line[1] = own[1]
     line[2] = own[3]
     line[3] = -own[2]
-    out = rows(block)
+    out = Rows(block)
     row = spare_row(block)
     clear(out.jacobian[row])
-    point_line(pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
+    point_line(Pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
 
 
 @jit
@@ -145,8 +146,8 @@ def active_rows(block: Array) -> int:
     """
     keep_small()
     joint_rows(block)
-    table = contacts(block)
-    count = sizes(block).joint_rows
+    table = Contacts(block)
+    count = Sizes(block).joint_rows
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
             contact_row(block, c, count)
@@ -164,16 +165,16 @@ def follow_open_contacts(block: Array) -> None:
     Those that are sought afresh each time, or do not count, rest.
     """
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.mode.shape[0]):
         if table.alpha[c] == codes.NONE or table.mode[c] == codes.CLOSED:
             continue
         if table.value[c, codes.ENABLED] > 0.5 and not is_searched(block, c):
             contact_row(block, c, spare_row(block))
         else:
-            pose(block).alpha_rate[table.alpha[c]] = 0.0
+            Pose(block).alpha_rate[table.alpha[c]] = 0.0
             if table.kind[c] == codes.CAM_FOLLOWER:
-                pose(block).alpha_rate[table.alpha[c] + 1] = 0.0
+                Pose(block).alpha_rate[table.alpha[c] + 1] = 0.0
 
 
 @jit
@@ -182,19 +183,19 @@ def driver_power(block: Array) -> float:
 
     After an impact the multipliers are impulses, and it is their work [J].
     """
-    table = joints(block)
+    table = Joints(block)
     power = 0.0
     for k in range(table.kind.shape[0]):
         if table.curve[k] != codes.NONE:
-            power += linear_system(block).multiplier[table.row[k]] * rows(block).nu[table.row[k]]
+            power += LinearSystem(block).multiplier[table.row[k]] * Rows(block).nu[table.row[k]]
     return power
 
 
 @jit
 def row_count(block: Array) -> int:
     """The number of active rows."""
-    mode = contacts(block).mode
-    count: int = sizes(block).joint_rows
+    mode = Contacts(block).mode
+    count: int = Sizes(block).joint_rows
     for c in range(mode.shape[0]):
         count += mode[c]
     return count
@@ -203,9 +204,9 @@ def row_count(block: Array) -> int:
 @jit
 def stabilise(block: Array, count: int) -> None:
     """Baumgarte: gamma becomes gamma - 2 alpha Phi' - beta^2 Phi (Pennestrì et al., section 5)."""
-    settings = options(block).settings
+    settings = Options(block).settings
     alpha = settings[codes.BAUMGARTE_ALPHA]
     beta = settings[codes.BAUMGARTE_BETA]
-    out = rows(block)
+    out = Rows(block)
     for r in range(count):
         out.gamma[r] -= 2.0 * alpha * out.residual_rate[r] + beta * beta * out.residual[r]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import loads
-from ..block.parts import forces, sizes
-from ..block.vectors import clear
+from ...tables.declare import Array
+from ...tables.motion import Loads
+from ...tables.parts import Forces
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
+from ..vectors import clear
 from .own_states import clutch_at, motor_at, own_energy, own_power
 
 
@@ -19,10 +20,10 @@ def apply_forces(block: Array, y: Array, dy: Array) -> tuple[float, float]:
     (the linear part of a spring stores energy instead). Lost: in dampers, clutches and the windings of motors.
     Derivatives of own states go to their place in `dy`, shape (unknowns,).
     """
-    n = sizes(block).coordinates
-    force = loads(block).force
+    n = Sizes(block).coordinates
+    force = Loads(block).force
     clear(force)
-    table = forces(block)
+    table = Forces(block)
     rates = y[n:]
     given = 0.0
     lost = 0.0
@@ -58,7 +59,7 @@ def apply_forces(block: Array, y: Array, dy: Array) -> tuple[float, float]:
             if kind == codes.SHAFT:
                 torque = shaft_torque(block, y, k)
             given += torque * rate
-        loads(block).torque[k] = torque
+        Loads(block).torque[k] = torque
         force[on] += torque
         force[against] -= torque
     return given, lost
@@ -68,7 +69,7 @@ def apply_forces(block: Array, y: Array, dy: Array) -> tuple[float, float]:
 def weight(block: Array, body: int) -> tuple[float, float]:
     """Sum of the forces on a body's centre of mass [N]."""
     keep_small()
-    table = forces(block)
+    table = Forces(block)
     x = 0.0
     y = 0.0
     for k in range(table.kind.shape[0]):
@@ -81,8 +82,8 @@ def weight(block: Array, body: int) -> tuple[float, float]:
 @jit
 def shaft_torque(block: Array, y: Array, shaft: int) -> float:
     """Torque of a compliant shaft on its body [N m]."""
-    n = sizes(block).coordinates
-    table = forces(block)
+    n = Sizes(block).coordinates
+    table = Forces(block)
     data = table.data[shaft]
     on = 3 * table.body[shaft] + 2
     against = 3 * table.reaction[shaft] + 2
@@ -95,8 +96,8 @@ def shaft_torque(block: Array, y: Array, shaft: int) -> float:
 @jit
 def body_speed(block: Array, y: Array, element: int) -> float:
     """Rate of a force element's body relative to its reaction [rad/s]."""
-    n = sizes(block).coordinates
-    table = forces(block)
+    n = Sizes(block).coordinates
+    table = Forces(block)
     return _relative(y[n:], 3 * table.body[element] + 2, 3 * table.reaction[element] + 2, n)
 
 
@@ -104,7 +105,7 @@ def body_speed(block: Array, y: Array, element: int) -> float:
 def spring_energy(block: Array, y: Array) -> float:
     """Energy stored in the linear part of all springs, and in what has states of its own [J]."""
     keep_small()
-    table = forces(block)
+    table = Forces(block)
     energy = own_energy(block, y)
     for k in range(table.kind.shape[0]):
         if table.kind[k] == codes.TORSION_SPRING:
@@ -117,8 +118,8 @@ def spring_energy(block: Array, y: Array) -> float:
 def spring_power(block: Array, y: Array, dy: Array) -> float:
     """Derivative of `spring_energy` [W]."""
     keep_small()
-    n = sizes(block).coordinates
-    table = forces(block)
+    n = Sizes(block).coordinates
+    table = Forces(block)
     power = own_power(block, y, dy)
     for k in range(table.kind.shape[0]):
         if table.kind[k] == codes.TORSION_SPRING:
@@ -131,11 +132,11 @@ def spring_power(block: Array, y: Array, dy: Array) -> float:
 @jit
 def _stretch(block: Array, spring: int, y: Array) -> float:
     """By how much a torsion spring is wound up beyond its free angle [rad]."""
-    table = forces(block)
+    table = Forces(block)
     on = 3 * table.body[spring] + 2
     against = 3 * table.reaction[spring] + 2
     free: float = table.data[spring, codes.SPRING_FREE_ANGLE]
-    return _relative(y, on, against, sizes(block).coordinates) - free
+    return _relative(y, on, against, Sizes(block).coordinates) - free
 
 
 @jit

@@ -8,15 +8,16 @@ follows by itself.
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.parts import forces, sizes
+from ...tables.declare import Array
+from ...tables.parts import Forces
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 
 
 @jit
 def first_own(block: Array) -> int:
     """Where own states begin among the unknowns."""
-    first: int = 2 * sizes(block).coordinates + 2 + sizes(block).alphas
+    first: int = 2 * Sizes(block).coordinates + 2 + Sizes(block).alphas
     return first
 
 
@@ -34,8 +35,8 @@ def clutch_at(block: Array, clutch: int, y: Array, rate: float, dy: Array) -> tu
         rate: of the body, relative to the reaction [rad/s].
         dy: shape (unknowns,).
     """
-    data = forces(block).data[clutch]
-    place = first_own(block) + forces(block).own[clutch]
+    data = Forces(block).data[clutch]
+    place = first_own(block) + Forces(block).own[clutch]
     twist = y[place]
     torque = clutch_torque(block, clutch, y, rate)
     elastic = data[codes.CLUTCH_STIFFNESS] * twist
@@ -48,8 +49,8 @@ def clutch_at(block: Array, clutch: int, y: Array, rate: float, dy: Array) -> tu
 @jit
 def clutch_torque(block: Array, clutch: int, y: Array, rate: float) -> float:
     """Torque of a clutch on its body [N m]; arguments as of `clutch_at`."""
-    data = forces(block).data[clutch]
-    twist = y[first_own(block) + forces(block).own[clutch]]
+    data = Forces(block).data[clutch]
+    twist = y[first_own(block) + Forces(block).own[clutch]]
     torque = data[codes.CLUTCH_STIFFNESS] * twist
     torque += data[codes.CLUTCH_DAMPING] * (data[codes.CLUTCH_SPEED] - rate)
     return _limited(torque, data[codes.CLUTCH_LIMIT])
@@ -62,8 +63,8 @@ def motor_at(block: Array, motor: int, y: Array, rate: float, dy: Array) -> tupl
     L i' = u - R i - K rate and z' = e + g (u - v), with the error e, and v and u as of `motor_voltage`: the integral
     stops where the voltage is at its limit. Arguments as of `clutch_at`.
     """
-    data = forces(block).data[motor]
-    place = first_own(block) + forces(block).own[motor]
+    data = Forces(block).data[motor]
+    place = first_own(block) + Forces(block).own[motor]
     current = y[place + codes.MOTOR_CURRENT]
     wanted = _wanted_voltage(block, motor, y, rate)
     voltage = _limited(wanted, data[codes.MOTOR_VOLTAGE_LIMIT])
@@ -78,13 +79,13 @@ def motor_at(block: Array, motor: int, y: Array, rate: float, dy: Array) -> tupl
 @jit
 def motor_voltage(block: Array, motor: int, y: Array, rate: float) -> float:
     """Voltage that the controller gives to a motor [V]: u = v = kp e + ki z within the limit; as of `motor_at`."""
-    return _limited(_wanted_voltage(block, motor, y, rate), forces(block).data[motor, codes.MOTOR_VOLTAGE_LIMIT])
+    return _limited(_wanted_voltage(block, motor, y, rate), Forces(block).data[motor, codes.MOTOR_VOLTAGE_LIMIT])
 
 
 @jit
 def _wanted_voltage(block: Array, motor: int, y: Array, rate: float) -> float:
-    data = forces(block).data[motor]
-    integral = y[first_own(block) + forces(block).own[motor] + codes.MOTOR_INTEGRAL]
+    data = Forces(block).data[motor]
+    integral = y[first_own(block) + Forces(block).own[motor] + codes.MOTOR_INTEGRAL]
     error = data[codes.MOTOR_SPEED] - rate
     voltage: float = data[codes.MOTOR_GAIN] * error + data[codes.MOTOR_INTEGRAL_GAIN] * integral
     return voltage
@@ -94,7 +95,7 @@ def _wanted_voltage(block: Array, motor: int, y: Array, rate: float) -> float:
 def own_energy(block: Array, y: Array) -> float:
     """Energy in the twist of clutches and the windings of motors [J]."""
     keep_small()
-    table = forces(block)
+    table = Forces(block)
     energy = 0.0
     for k in range(table.kind.shape[0]):
         if table.own[k] != codes.NONE:
@@ -107,7 +108,7 @@ def own_energy(block: Array, y: Array) -> float:
 def own_power(block: Array, y: Array, dy: Array) -> float:
     """Power that goes into the twist of clutches and the windings of motors [W]."""
     keep_small()
-    table = forces(block)
+    table = Forces(block)
     power = 0.0
     for k in range(table.kind.shape[0]):
         if table.own[k] != codes.NONE:
@@ -119,7 +120,7 @@ def own_power(block: Array, y: Array, dy: Array) -> float:
 @jit
 def _storage(block: Array, element: int) -> float:
     """The stiffness of a clutch [N m/rad], the inductance of a motor [H]: energy is half of it times state squared."""
-    table = forces(block)
+    table = Forces(block)
     column = codes.CLUTCH_STIFFNESS
     if table.kind[element] == codes.DC_MOTOR:
         column = codes.MOTOR_INDUCTANCE

@@ -14,10 +14,11 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.elastic import beams
-from ..block.layout import Array
-from ..block.motion import linear_system, pose, stages
-from ..block.parts import bodies, sizes
+from ...tables.declare import Array
+from ...tables.members import Beams
+from ...tables.motion import LinearSystem, Pose, Stages
+from ...tables.parts import Bodies
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..dynamics.forces import weight
 
@@ -30,7 +31,7 @@ def beam_reading(block: Array, kind: int, beam: int) -> float:
     from the hinge to the tip.
     """
     keep_small()
-    data = beams(block).data[beam]
+    data = Beams(block).data[beam]
     length = data[codes.BEAM_SPAN]
     zeroth, first, second, third = _moment(block, beam)
     if kind == codes.BEAM_DEFLECTION:
@@ -58,20 +59,20 @@ def beam_reading(block: Array, kind: int, beam: int) -> float:
 def _moment(block: Array, beam: int) -> tuple[float, float, float, float]:
     """The bending moment M(x) as a polynomial: its coefficients of x^0 to x^3."""
     keep_small()
-    table = beams(block)
+    table = Beams(block)
     data = table.data[beam]
     i = table.body[beam]
     row = table.row[beam]
-    at = pose(block)
+    at = Pose(block)
     tx = at.cosine[i] * data[codes.BEAM_ALONG_X] - at.sine[i] * data[codes.BEAM_ALONG_Y]
     ty = at.sine[i] * data[codes.BEAM_ALONG_X] + at.cosine[i] * data[codes.BEAM_ALONG_Y]
-    multiplier = linear_system(block).multiplier
+    multiplier = LinearSystem(block).multiplier
     hinge = data[codes.BEAM_SIDE] * (tx * multiplier[row + 1] - ty * multiplier[row])
     length = data[codes.BEAM_SPAN]
     centre = data[codes.BEAM_CENTRE]
-    mass = 1.0 / bodies(block).inverse_mass[3 * i]
-    inertia = 1.0 / bodies(block).inverse_mass[3 * i + 2]
-    acceleration = stages(block).dy_at[sizes(block).coordinates :]
+    mass = 1.0 / Bodies(block).inverse_mass[3 * i]
+    inertia = 1.0 / Bodies(block).inverse_mass[3 * i + 2]
+    acceleration = Stages(block).dy_at[Sizes(block).coordinates :]
     weight_x, weight_y = weight(block, i)
     at_centre = tx * (acceleration[3 * i + 1] - weight_y / mass) - ty * (acceleration[3 * i] - weight_x / mass)
     turning = acceleration[3 * i + 2]

@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import pose
-from ..block.parts import contacts, curves, sizes
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.parts import Contacts, Curves
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from .curves import curve, sample
 from .touch import change, look
@@ -33,10 +34,10 @@ _PAIRED_SAMPLES = 72
 def settle_contact_points(block: Array, y: Array) -> None:
     """Bring all contact coordinates to the nearest points at the bodies' pose, and write them to the end of `y`."""
     keep_small()
-    count = sizes(block).alphas
+    count = Sizes(block).alphas
     if count == 0:
         return
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.kind.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
             if is_searched(block, c):
@@ -50,7 +51,7 @@ def settle_contact_points(block: Array, y: Array) -> None:
 def find_contact_points(block: Array, y: Array) -> None:
     """As `settle_contact_points`, but with a search on the whole of both curves of every pair."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.kind.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
             find_nearest(block, c)
@@ -59,15 +60,15 @@ def find_contact_points(block: Array, y: Array) -> None:
 
 @jit
 def _keep(block: Array, y: Array) -> None:
-    first = 2 * sizes(block).coordinates + 2
-    for k in range(sizes(block).alphas):
-        y[first + k] = pose(block).alpha[k]
+    first = 2 * Sizes(block).coordinates + 2
+    for k in range(Sizes(block).alphas):
+        y[first + k] = Pose(block).alpha[k]
 
 
 @jit
 def is_searched(block: Array, contact: int) -> bool:
     """Whether a pair's nearest points are sought afresh at each pose: it is open, and one of its profiles is hollow."""
-    table = contacts(block)
+    table = Contacts(block)
     searched: bool = table.mode[contact] == codes.OPEN and table.hollow[contact] != codes.CONVEX
     return searched
 
@@ -76,10 +77,10 @@ def is_searched(block: Array, contact: int) -> bool:
 def find_nearest(block: Array, contact: int) -> None:
     """Bring a pair's contact coordinates to the nearest points of all."""
     keep_small()
-    at = pose(block)
-    alpha = contacts(block).alpha[contact]
+    at = Pose(block)
+    alpha = Contacts(block).alpha[contact]
     last = alpha
-    if contacts(block).kind[contact] == codes.CAM_FOLLOWER:
+    if Contacts(block).kind[contact] == codes.CAM_FOLLOWER:
         last = alpha + 1
     _find(block, contact)
     found_i = at.alpha[alpha]
@@ -94,7 +95,7 @@ def find_nearest(block: Array, contact: int) -> None:
 def least_fit(block: Array) -> float:
     """How well the closed pair fits that fits least: the sum of the turnings of both curves; positive if well."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     least = math.inf
     for c in range(table.kind.shape[0]):
         if table.alpha[c] != codes.NONE and table.mode[c] == codes.CLOSED:
@@ -114,9 +115,9 @@ def _fit(block: Array, contact: int) -> float:
 @jit
 def _settle(block: Array, contact: int) -> None:
     keep_small()
-    at = pose(block)
-    alpha = contacts(block).alpha[contact]
-    kind = contacts(block).kind[contact]
+    at = Pose(block)
+    alpha = Contacts(block).alpha[contact]
+    kind = Contacts(block).kind[contact]
     least = _MOST_DRIFT
     for _ in range(_NEWTON_STEPS):
         move_i, move_j, _, _, _, _ = _newton_step(block, contact)
@@ -137,8 +138,8 @@ def _settle(block: Array, contact: int) -> None:
 def _newton_step(block: Array, contact: int) -> tuple[float, float, float, float, float, float]:
     """Changes of alpha_i and alpha_j towards the nearest points, gap, distance squared, t.g_i/|g_i|, and the fit."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
+    table = Contacts(block)
+    at = Pose(block)
     touch = look(block, contact)
     i = table.body_i[contact]
     j = table.body_j[contact]
@@ -162,8 +163,8 @@ def _newton_step(block: Array, contact: int) -> tuple[float, float, float, float
 def _find(block: Array, contact: int) -> None:
     """Bring a pair's contact coordinates near to the best place of all, by sampling and then by ever smaller steps."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
+    table = Contacts(block)
+    at = Pose(block)
     alpha = table.alpha[contact]
     first = table.curve_i[contact]
     second = table.curve_j[contact]
@@ -191,17 +192,17 @@ def _find(block: Array, contact: int) -> None:
     at.alpha[alpha] = best_i
     if others > 0:
         at.alpha[alpha + 1] = best_j
-    _descend(block, contact, least, curves(block).range[first, 1] / samples)
+    _descend(block, contact, least, Curves(block).range[first, 1] / samples)
 
 
 @jit
 def _descend(block: Array, contact: int, least: float, step: float) -> None:
     """From where the distance is `least`, go on to less in steps of `step` [rad] at first, until Newton's are safe."""
     keep_small()
-    at = pose(block)
-    first = contacts(block).alpha[contact]
+    at = Pose(block)
+    first = Contacts(block).alpha[contact]
     last = first
-    if contacts(block).kind[contact] == codes.CAM_FOLLOWER:
+    if Contacts(block).kind[contact] == codes.CAM_FOLLOWER:
         last = first + 1
     while step > _NEAR:
         moved = False
@@ -226,11 +227,11 @@ def _distance(block: Array, contact: int) -> float:
     Of two profiles, normals that are not opposite make it larger.
     """
     keep_small()
-    kind = contacts(block).kind[contact]
+    kind = Contacts(block).kind[contact]
     _, _, gap, square, cosine, _ = _newton_step(block, contact)
     if kind == codes.CAM_FLAT_FOLLOWER:
         return gap
     if kind == codes.CAM_FOLLOWER:
-        rho, _, _, _ = curve(block, contacts(block).curve_i[contact], pose(block).alpha[contacts(block).alpha[contact]])
+        rho, _, _, _ = curve(block, Contacts(block).curve_i[contact], Pose(block).alpha[Contacts(block).alpha[contact]])
         square += (1.0 + cosine) * rho * rho
     return square

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import pose
-from ..block.parts import contacts
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from .curves import curve, sample
 from .touch import look
@@ -22,7 +22,7 @@ _OVERLAP = 1e-9
 def bridged(block: Array) -> bool:
     """Whether a closed pair has run into itself at a second point, because one profile bridges the other's hollow."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     deepest = 0.0
     for c in range(table.kind.shape[0]):
         if table.hollow[c] == codes.BRIDGES and table.mode[c] == codes.CLOSED:
@@ -34,8 +34,8 @@ def bridged(block: Array) -> bool:
 def overlap(block: Array, contact: int) -> float:
     """How far profile i reaches into the other one anywhere, beyond what is allowed for rounding [m]; 0 if nowhere."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
+    table = Contacts(block)
+    at = Pose(block)
     if table.kind[contact] == codes.POINT_FOLLOWER:
         return 0.0
     alpha = table.alpha[contact]
@@ -54,8 +54,8 @@ def overlap(block: Array, contact: int) -> float:
 def _depth(block: Array, contact: int) -> float:
     """How deep the present point of curve i is inside the other body [m]; in a profile, towards its centre."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
+    table = Contacts(block)
+    at = Pose(block)
     touch = look(block, contact)
     i = table.body_i[contact]
     j = table.body_j[contact]

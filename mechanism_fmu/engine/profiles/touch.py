@@ -12,9 +12,9 @@ import math
 from typing import NamedTuple
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import Pose, pose
-from ..block.parts import contacts
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from .curves import curve
 from .profile import profile_point
@@ -45,8 +45,8 @@ class Touch(NamedTuple):
 def look(block: Array, contact: int) -> Touch:
     """The curve points of a contact at the present pose and contact coordinates."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
+    table = Contacts(block)
+    at = Pose(block)
     data = table.data[contact]
     kind = table.kind[contact]
     i = table.body_i[contact]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ...tables.declare import Array
 from .. import status
-from ..block.layout import Array
 from ..compiler.subset import entry, jit
 from ..dynamics.inputs import set_time
 from ..profiles.shape import examine_profiles

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import course, stages
-from ..block.parts import contacts, options, sizes
+from ...tables.declare import Array
+from ...tables.motion import Course, Stages
+from ...tables.parts import Contacts, Options
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.rows import row_count
 from ..contacts.complementarity import push_ratio
@@ -41,15 +42,15 @@ def try_step(block: Array, start: float, size_: float) -> float:
 
     Writes y_new, all seven derivatives (the last one belongs to y_new), the dense output, and `contacts.least_push`.
     """
-    n = sizes(block).unknowns
-    s = stages(block)
+    n = Sizes(block).unknowns
+    s = Stages(block)
     k = s.derivatives
     y = s.y_start
     h = size_
     s.tried[0] = start
     s.tried[1] = h
     s.stage[0] = 0
-    least = contacts(block).least_push
+    least = Contacts(block).least_push
     for c in range(least.shape[0]):
         least[c] = 0.0
     for i in range(n):
@@ -83,7 +84,7 @@ def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
     set_time(block, time)
     derivative(block, y, dy)
     _note_pushes(block)
-    s = stages(block)
+    s = Stages(block)
     s.stage[0] += 1
     s.independence[s.stage[0]] = independence(block)
 
@@ -91,7 +92,7 @@ def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
 @jit
 def _note_pushes(block: Array) -> None:
     """After an acceleration: keep the least force of every closed contact."""
-    table = contacts(block)
+    table = Contacts(block)
     count = row_count(block)
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
@@ -101,7 +102,7 @@ def _note_pushes(block: Array) -> None:
 @jit
 def _error_norm(block: Array, h: float) -> float:
     """Root mean square of the local error over its tolerance."""
-    n = sizes(block).unknowns
+    n = Sizes(block).unknowns
     total = 0.0
     for i in range(n):
         error = scaled_error(block, i, h)
@@ -112,9 +113,9 @@ def _error_norm(block: Array, h: float) -> float:
 @jit
 def scaled_error(block: Array, i: int, h: float) -> float:
     """Local error of unknown `i` over its tolerance, in the step of size `h` [s] last tried."""
-    s = stages(block)
+    s = Stages(block)
     k = s.derivatives
-    relative = options(block).settings[codes.RELATIVE_TOLERANCE]
+    relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
     error: float = h * (_E1 * k[0, i] + _E3 * k[2, i] + _E4 * k[3, i] + _E5 * k[4, i] + _E6 * k[5, i] + _E7 * k[6, i])
     scale: float = relative * (ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i])))
     return error / scale
@@ -123,8 +124,8 @@ def scaled_error(block: Array, i: int, h: float) -> float:
 @jit
 def _write_dense(block: Array, h: float) -> None:
     """Coefficients of the continuous extension of order 4, rows 0..4."""
-    n = sizes(block).unknowns
-    s = stages(block)
+    n = Sizes(block).unknowns
+    s = Stages(block)
     k = s.derivatives
     dense = s.new_dense
     for i in range(n):
@@ -143,10 +144,10 @@ def _write_dense(block: Array, h: float) -> None:
 def initial_step_size(block: Array) -> float:
     """A first step size from y_end and dy_end [s] (Hairer, Nørsett, Wanner, II.4, algorithm of the starting step)."""
     keep_small()
-    n = sizes(block).unknowns
-    now = course(block)
-    s = stages(block)
-    relative = options(block).settings[codes.RELATIVE_TOLERANCE]
+    n = Sizes(block).unknowns
+    now = Course(block)
+    s = Stages(block)
+    relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
     size_y = 0.0
     size_dy = 0.0
     for i in range(n):

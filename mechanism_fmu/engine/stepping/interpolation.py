@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..block.layout import Array
+from ...tables.declare import Array
 from ..compiler.subset import jit
 
 

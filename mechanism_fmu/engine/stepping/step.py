@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, Stages
+from ...tables.sizes import Sizes
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, stages
-from ..block.parts import sizes
-from ..block.vectors import copy
 from ..compiler.subset import jit, keep_small
 from ..contacts.release import release
 from ..dynamics.acceleration import derivative
@@ -17,6 +16,7 @@ from ..dynamics.drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from ..dynamics.inputs import set_time
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
+from ..vectors import copy
 from .dormand_prince import try_step
 from .events import first_event, refine
 from .pulling import watch_step
@@ -28,8 +28,8 @@ from .step_size import accurate_step, smallest_step, why_no_step
 def take_step(block: Array) -> int:
     """Take one step from STEP_END on, cut at the first event, which then waits as PENDING_GUARD; return a status."""
     keep_small()
-    now = course(block)
-    s = stages(block)
+    now = Course(block)
+    s = Stages(block)
     start = now.clock[codes.STEP_END]
     copy(now.y_end, s.y_start)
     copy(now.dy_end, s.derivatives[0])
@@ -46,7 +46,7 @@ def take_step(block: Array) -> int:
         step *= fraction
         if step > smallest_step(start):
             step = _end_at_event(block, guard, subject, start, step)
-            if math.isnan(s.y_new[2 * sizes(block).coordinates + 1]):
+            if math.isnan(s.y_new[2 * Sizes(block).coordinates + 1]):
                 return why_no_step(block)
         else:
             step = 0.0  # it happens here and now
@@ -77,8 +77,8 @@ def _end_at_event(block: Array, guard: int, subject: int, start: float, step: fl
 def _keep(block: Array, start: float, step: float) -> None:
     """The step last tried, from `start` on and of size `step` [s], is where the motion has come to."""
     keep_small()
-    now = course(block)
-    s = stages(block)
+    now = Course(block)
+    s = Stages(block)
     now.counters[codes.COUNT_STEPS] += 1
     now.clock[codes.STEP_START] = start
     now.clock[codes.STEP_SIZE] = step
@@ -95,12 +95,12 @@ def _keep(block: Array, start: float, step: float) -> None:
 def _mend_and_check(block: Array) -> int:
     """After a step: bring back what has drifted, and look whether profiles still fit; return a status."""
     keep_small()
-    now = course(block)
+    now = Course(block)
     set_time(block, now.clock[codes.STEP_END])
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
-    if sizes(block).alphas > 0 and not least_fit(block) > 0.0:
+    if Sizes(block).alphas > 0 and not least_fit(block) > 0.0:
         return status.NO_CONTACT_POINT
-    if sizes(block).alphas > 0 and bridged(block):
+    if Sizes(block).alphas > 0 and bridged(block):
         return status.BRIDGED
     return status.OK

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Stages
+from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, linear_system, stages
-from ..block.parts import contacts, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..profiles.nearest import least_fit
@@ -36,7 +37,7 @@ def accurate_step(block: Array, start: float) -> float:
     NEXT_STEP, the size that is tried first, becomes that of the step to come.
     """
     keep_small()
-    now = course(block)
+    now = Course(block)
     wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
     step = representable(start, within_ramp(block, start, wanted))
     step = representable(start, within_motions(block, start, step))
@@ -63,14 +64,14 @@ def smallest_step(start: float) -> float:
 @jit
 def why_no_step(block: Array) -> int:
     """What has made the step shrink to nothing: the power lost is not a number where friction found no agreement."""
-    s = stages(block)
-    lost = 2 * sizes(block).coordinates + 1
+    s = Stages(block)
+    lost = 2 * Sizes(block).coordinates + 1
     for k in range(1, s.derivatives.shape[0]):
         if math.isnan(s.derivatives[k, lost]) and not math.isnan(s.derivatives[k, 0]):
             return status.JAMMED
-    if linear_system(block).rank[0] > course(block).counters[codes.RANK]:
+    if LinearSystem(block).rank[0] > Course(block).counters[codes.RANK]:
         return status.SINGULAR
-    if sizes(block).alphas > 0:
+    if Sizes(block).alphas > 0:
         place_bodies(block, s.y_start)
         if not least_fit(block) > _FITS_BARELY:
             return status.NO_CONTACT_POINT
@@ -81,15 +82,15 @@ def why_no_step(block: Array) -> int:
 def _try(block: Array, start: float, step: float) -> float:
     """Try a step from `start`; return its error, or how much too far a body turns if that shortens the step more."""
     keep_small()
-    s = stages(block)
+    s = Stages(block)
     error = try_step(block, start, step)
-    if sizes(block).guards == 0:
+    if Sizes(block).guards == 0:
         return error
     turn = 0.0
-    for k in range(2, sizes(block).coordinates, 3):
+    for k in range(2, Sizes(block).coordinates, 3):
         turn = max(turn, abs(s.y_new[k] - s.y_start[k]) / MOST_TURN)
-    haste = contacts(block).alpha_haste
-    first = 2 * sizes(block).coordinates + 2
+    haste = Contacts(block).alpha_haste
+    first = 2 * Sizes(block).coordinates + 2
     for k in range(haste.shape[0]):
         turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) * haste[k])
     too_far = math.pow(turn, float(ORDER))  # `_scale` takes the root
@@ -121,10 +122,10 @@ def note_stiffest(block: Array) -> None:
     It is the one whose error is largest, measured by its tolerance.
     """
     keep_small()
-    s = stages(block)
-    work = 2 * sizes(block).coordinates
+    s = Stages(block)
+    work = 2 * Sizes(block).coordinates
     worst = -1.0
-    for i in range(sizes(block).unknowns):
+    for i in range(Sizes(block).unknowns):
         if i == work or i == work + 1:
             continue  # work and loss follow from the motion
         error = abs(scaled_error(block, i, s.tried[1]))

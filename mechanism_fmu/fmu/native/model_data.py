@@ -6,11 +6,12 @@ import math
 from collections.abc import Iterable, Sequence
 
 from ...admissible import Rule, rules
-from ...engine.block.layout import FIELDS, sizes_of, slot
-from ...engine.block.pack import pack
 from ...model import Mechanism, Model, compile_mechanism
 from ...model.contacts import too_deep
 from ...model.unknowns import unknown_names
+from ...tables.layout import FIELDS, slot
+from ...tables.pack import pack
+from ...tables.sizes import sizes_of
 from ..variables import FIRST_REFERENCE, Variable, variables_of
 from .description3 import Again, outputs_again
 from .formulas import Formulas, c_number

@@ -4,9 +4,10 @@ import numpy as np
 from rotor import Stop, rotor
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.block.layout import FIELDS, SIZES, allocate, field_of, sizes_of, state_of
-from mechanism_fmu.engine.block.pack import pack, write_tables
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.tables.layout import FIELDS, allocate, field_of, state_of
+from mechanism_fmu.tables.pack import pack, write_tables
+from mechanism_fmu.tables.sizes import SIZES, sizes_of
 
 GIVEN = {
     "bodies": 2,

@@ -1,0 +1,10 @@
+"""An instance's memory, declared once: what stands where in its block, for the model that writes it and the engine.
+
+A table is a class, a column is a line of it (`declare`); the engine reads `Joints(block).data`, compiled or not. From
+the declarations follow the sizes, the offsets and shapes in the block (`layout`), what a mechanism is written into
+(`pack`), and the header of the C surface (`mechanism_fmu.fmu.native.headers`).
+
+    parts      the mechanism: bodies, joints, forces, contacts, curves, ports, settings
+    motion     how far the motion has come, and the scratch of its calculation
+    members    elastic members and the structure that they make
+"""
