@@ -8,3 +8,20 @@ the declarations follow the sizes, the offsets and shapes in the block (`layout`
     motion     how far the motion has come, and the scratch of its calculation
     members    elastic members and the structure that they make
 """
+
+from .members import Beams as Beams
+from .members import Couples as Couples
+from .members import Lumps as Lumps
+from .members import Members as Members
+from .members import Nodes as Nodes
+from .members import Structure as Structure
+from .members import Ties as Ties
+from .parts import Bodies as Bodies
+from .parts import Contacts as Contacts
+from .parts import Curves as Curves
+from .parts import Forces as Forces
+from .parts import Functions as Functions
+from .parts import Joints as Joints
+from .parts import Options as Options
+from .parts import Patterns as Patterns
+from .parts import Ports as Ports
