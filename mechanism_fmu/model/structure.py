@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from .. import codes
 from .body import GROUND, Point
 from .conditions import length
 from .errors import MechanismError
@@ -198,7 +197,7 @@ def _shared(nodes: Structure, lumps: list[tuple[int, Number, Number]]) -> Iterat
 def _couples(mechanism: Mechanism, nodes: Structure) -> Iterator[tuple[int, int, int]]:
     for k, force in enumerate(mechanism.forces):
         for body, against, sign in ((force.body, force.reaction, 1), (force.reaction, force.body, -1)):
-            if force.kind != codes.FORCE and body != GROUND:
+            if force.turns and body != GROUND:
                 yield k, _turned(mechanism, nodes, body, against, force), sign
 
 

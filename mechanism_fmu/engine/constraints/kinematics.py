@@ -11,8 +11,8 @@ from ..compiler.subset import jit, keep_small
 
 
 @jit
-def place_bodies(block: Array, y: Array) -> None:
-    """Write poses and rates from y = (q, qd, work, loss, alpha, ...).
+def place_bodies(block: Array, y: Array) -> Pose:
+    """Poses and rates of y = (q, qd, work, loss, alpha, ...).
 
     q and qd are (x, y, phi) of each body in turn, shape (3 bodies,); alpha are the contact coordinates.
     """
@@ -40,3 +40,4 @@ def place_bodies(block: Array, y: Array) -> None:
     at.phi_rate[bodies] = 0.0
     for k in range(Sizes(block).alphas):
         at.alpha[k] = y[6 * bodies + 2 + k]
+    return at
