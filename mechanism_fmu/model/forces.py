@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 from ..tables.kinds import FORCES
-from .body import GROUND
+from .body import GROUND, Point
 from .conditions import finite_positive, not_negative
 from .findings import Finding, literal, refuse_unless
 from .functions import Number
+
+__all__ = ["CompliantShaft", "DCMotor", "Damper", "Force", "SlipClutch", "SpringDamper", "Torque", "TorsionSpring"]
 
 
 class Quantity(NamedTuple):
@@ -38,7 +40,7 @@ class _Element:
         writable: entries that an `Input` may write, with the target "<element>.<entry>".
         quantities: what an `Output` may read, by name, in the order of the engine's `Element.read`.
         own: how many first-order states of its own it has.
-        turns: whether all that it does is a torque on its body, and its reaction.
+        acts: as a torque, at the centre of mass, or at points of the bodies; the last loads no elastic member.
         positive, not_negative: units of the numbers that must be so.
     """
 
@@ -46,7 +48,7 @@ class _Element:
     writable: ClassVar[tuple[str, ...]] = ()
     quantities: ClassVar[Mapping[str, Quantity]] = {}
     own: ClassVar = 0
-    turns: ClassVar[bool] = True
+    acts: ClassVar[Literal["torque", "at centre", "at points"]] = "torque"
     positive: ClassVar[Mapping[str, str]] = {}
     not_negative: ClassVar[Mapping[str, str]] = {}
 
@@ -64,7 +66,11 @@ class _Element:
 
     def data(self) -> tuple[Number, ...]:
         """The element's row of the table `force_data`."""
-        return tuple(getattr(self, column) for column in FORCES.columns(self.row))
+        return tuple(self._number(*column.split(".")) for column in FORCES.columns(self.row))
+
+    def _number(self, field: str, axis: str = "") -> Number:
+        value: Any = getattr(self, field)
+        return value["xy".index(axis)] if axis else value
 
     def findings(self) -> Iterator[Finding]:
         """Every problem that its numbers can have, but for those that are not finite."""
@@ -184,7 +190,7 @@ class Force(_Element):
 
     row: ClassVar = "force"
     writable: ClassVar = ("x", "y")
-    turns: ClassVar = False
+    acts: ClassVar = "at centre"
     reaction: ClassVar[str] = GROUND
 
     name: str
@@ -287,5 +293,48 @@ class DCMotor(_Element):
     speed: Number = 0.0
 
 
+@dataclass(frozen=True)
+class SpringDamper(_Element):
+    """A spring, a damper and a constant force side by side between two points (ME451's TSDA).
+
+    With the distance l of the points, the force that pulls them together is
+
+        f = stiffness (l - free_length) + damping l' + preload.
+
+    The energy of the linear part counts as spring energy, the work of the preload as work done on the mechanism, and
+    what the damper takes as lost. Where the points meet, the force has no direction and vanishes.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies (or `GROUND`).
+        point, reaction_point: the points, in the frame of each body [m].
+        stiffness: [N/m], >= 0.
+        free_length: [m], >= 0: at which the linear part vanishes.
+        damping: [N s/m], >= 0.
+        preload: constant part of the force [N], pulling positive; an actuator where an `Input` writes
+            "<name>.preload".
+    """
+
+    row: ClassVar = "spring_damper"
+    writable: ClassVar = ("preload",)
+    quantities: ClassVar = {
+        "length": Quantity("m", "Distance of the points"),
+        "speed": Quantity("m/s", "Rate of the distance of the points"),
+        "force": Quantity("N", "Force that pulls the points together", ("preload",)),
+    }
+    acts: ClassVar = "at points"
+    not_negative: ClassVar = {"stiffness": "N/m", "free_length": "m", "damping": "N.s/m"}
+
+    name: str
+    body: str
+    point: Point
+    reaction: str
+    reaction_point: Point
+    stiffness: Number = 0.0
+    free_length: Number = 0.0
+    damping: Number = 0.0
+    preload: Number = 0.0
+
+
 #: Any force element.
-ForceElement = Torque | TorsionSpring | Damper | CompliantShaft | Force | SlipClutch | DCMotor
+ForceElement = Torque | TorsionSpring | Damper | CompliantShaft | Force | SlipClutch | DCMotor | SpringDamper

@@ -1,6 +1,7 @@
 """The kinds of force elements, and what stands in a row of each: read by the model, which writes it, and the engine.
 
-A line a kind: its name, and the columns of its row of the table, in order. The kind's number is its place here.
+A line a kind: its name, and the columns of its row of the table, in order; `point.x` is the first entry of the part's
+`point`. The kind's number is its place here, so that a new one comes last.
 """
 
 from __future__ import annotations
@@ -46,4 +47,5 @@ FORCES = Kinds(
     force="x y",
     slip_clutch="stiffness damping limit speed",
     dc_motor="constant resistance inductance voltage gain integral_gain anti_windup speed",
+    spring_damper="point.x point.y reaction_point.x reaction_point.y stiffness damping free_length preload",
 )
