@@ -19,14 +19,14 @@ _RATES = {"x_rate": 0, "y_rate": 1, "speed": 2}
 _ENERGIES = {
     "kinetic": codes.KINETIC_ENERGY,
     "spring": codes.SPRING_ENERGY,
-    "work": codes.WORK_DONE,
+    "work": codes.UNKNOWN,
     "lost": codes.ENERGY_LOST,
 }
 _COUNTERS = {
-    "count": codes.IMPACT_COUNT,
-    "in_step": codes.IMPACTS_IN_STEP,
-    "lost": codes.IMPACTS_LOST,
-    "any": codes.IMPACT_FLAG,
+    "count": (codes.COUNTER, codes.COUNT_IMPACTS),
+    "in_step": (codes.COUNTER, codes.COUNT_IN_STEP),
+    "lost": (codes.COUNTER, codes.COUNT_LOST),
+    "any": (codes.IMPACT_FLAG, 0),
 }
 #: Of any contact, and of a stop with memory besides, for messages.
 _OF_CONTACT = AngleStop.readings
@@ -88,7 +88,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         or _of_member(part, quantity, mechanism)
     )
     if part == "energy" and quantity in _ENERGIES:
-        found = (_ENERGIES[quantity], 0, 0)
+        found = (_ENERGIES[quantity], 6 * len(mechanism.bodies) if quantity == "work" else 0, 0)
     if found is None:
         near = get_close_matches(source, list(_common_sources(mechanism)), 1)
         meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
@@ -134,9 +134,9 @@ def _of_body(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, 
         return None
     first = 3 * names.index(part)
     if quantity in _COORDINATES:
-        return codes.COORDINATE, first + _COORDINATES[quantity], 0
+        return codes.UNKNOWN, first + _COORDINATES[quantity], 0
     if quantity in _RATES:
-        return codes.RATE, first + _RATES[quantity], 0
+        return codes.UNKNOWN, 3 * len(names) + first + _RATES[quantity], 0
     return None
 
 
@@ -155,7 +155,7 @@ def _of_profiles(contact: int, which: int, mechanism: Mechanism) -> tuple[int, i
     if profiles[which] is None:
         return None
     before = sum(other.alphas for other in mechanism.contacts[:contact])
-    return codes.CONTACT_POINT, before + which * (profiles[0] is not None), 0
+    return codes.UNKNOWN, 6 * len(mechanism.bodies) + 2 + before + which * (profiles[0] is not None), 0
 
 
 def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
@@ -223,7 +223,7 @@ def reads_members(mechanism: Mechanism) -> bool:
 def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     if part == "impact":
         if quantity in _COUNTERS:
-            return _COUNTERS[quantity], 0, 0
+            return *_COUNTERS[quantity], 0
         column = _record_column(quantity, mechanism)
         return None if column is None else (codes.LAST_IMPACT, column, 0)
     match = re.fullmatch(r"impacts\[(\d+)\]", part)
@@ -235,8 +235,8 @@ def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int
 
 def _of_event(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     if part == "event":
-        kinds = {"count": codes.EVENT_COUNT, "in_step": codes.EVENTS_IN_STEP_OUT}
-        return (kinds[quantity], 0, 0) if quantity in kinds else None
+        columns = {"count": codes.COUNT_EVENTS, "in_step": codes.EVENTS_IN_STEP}
+        return (codes.COUNTER, columns[quantity], 0) if quantity in columns else None
     match = re.fullmatch(r"events\[(\d+)\]", part)
     if match is None or quantity not in _EVENT_FIELDS or not 1 <= int(match[1]) <= codes.EVENT_BUFFER_LENGTH:
         return None

@@ -10,7 +10,7 @@ declares the fields `joint_kind`, int64 of shape (joints,), and `joint_data`, fl
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, NamedTuple, Self, cast
 
 import numpy as np
@@ -87,6 +87,8 @@ class Table:
 
     #: The fields of a table, by column.
     fields: ClassVar[dict[str, Field]]
+    #: Finds a field in a block: `layout.field_of`, which is made of all tables.
+    _look: ClassVar[Callable[[Array, str], Array]]
     _last: ClassVar[Any] = (None, None)
 
     def __init_subclass__(cls, rows: str = "", prefix: str = "") -> None:
@@ -108,10 +110,8 @@ class Table:
         """The table in a block."""
         seen = cls._last  # plain Python looks at the same block again and again
         if seen[0] is not block:
-            from .layout import field_of
-
             view = super().__new__(cls)
             for column, field in cls.fields.items():
-                setattr(view, column, field_of(block, field.name))
+                setattr(view, column, cls._look(block, field.name))
             cls._last = seen = block, view
         return cast(Self, seen[1])

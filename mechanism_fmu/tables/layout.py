@@ -72,6 +72,9 @@ def field_of(block: Array, name: str) -> Array:
     return (flat.view(np.int64) if field.integer else flat).reshape(shape)
 
 
+Table._look = staticmethod(field_of)
+
+
 def state_of(block: Array) -> Array:
     """A view of the whole state, shape (words,): copy it to save, write it to restore."""
     header = block[:_HEADER].view(np.int64)

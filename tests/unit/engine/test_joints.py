@@ -39,7 +39,7 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.tables.layout import field_of
-from mechanism_fmu.tables.motion import Strikes
+from mechanism_fmu.tables.motion import Pose, Strikes
 from mechanism_fmu.tables.pack import pack
 
 NAMES = ("a", "b", GROUND)
@@ -49,7 +49,7 @@ ALONG_X = (1.0, 0.0)
 
 @entry
 def evaluate_tangent(block):
-    tangent_row(block, 0, Strikes(block).tangent_line)
+    tangent_row(block, Pose(block), 0, Strikes(block).tangent_line)
     return spare_row(block)
 
 

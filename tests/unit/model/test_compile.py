@@ -247,8 +247,8 @@ def test_outputs_and_calculated_values():
     contacts, bodies = 6, 2
     impulses = codes.RECORD_CONTACT_IMPULSES
     expected = [
-        (codes.COORDINATE, 5, 0),
-        (codes.RATE, 1, 0),
+        (codes.UNKNOWN, 5, 0),
+        (codes.UNKNOWN, 3 * bodies + 1, 0),
         (codes.CONTACT_FORCE, 1, 0),
         (codes.CONTACT_GAP, 0, 0),
         (codes.CONTACT_CLOSED, 1, 0),
@@ -256,9 +256,9 @@ def test_outputs_and_calculated_values():
         (codes.STOP_REFERENCE, 4, 0),
         (codes.PATTERN_INDEX, 1, 0),
         (codes.FORCE_READING, 3, 0),
-        (codes.EVENT_COUNT, 0, 0),
-        (codes.WORK_DONE, 0, 0),
-        (codes.IMPACT_COUNT, 0, 0),
+        (codes.COUNTER, codes.COUNT_EVENTS, 0),
+        (codes.UNKNOWN, 6 * bodies, 0),
+        (codes.COUNTER, codes.COUNT_IMPACTS, 0),
         (codes.LAST_IMPACT, codes.RECORD_TIME, 0),
         (codes.LAST_IMPACT, impulses + 1, 0),
         (codes.LAST_IMPACT, impulses + contacts + 5, 0),
