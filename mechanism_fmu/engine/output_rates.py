@@ -59,11 +59,11 @@ def _rate(block: Array, kind: int, index: int, factor: float) -> float:
     elif kind == codes.SPRING_ENERGY:
         rate = spring_power(block, s.y_at, s.dy_at)
     elif kind == codes.WORK_DONE:
-        rate = s.dy_at[2 * n]
+        rate = s.dy_at[Sizes(block).y_work]
     elif kind == codes.ENERGY_LOST:
-        rate = s.dy_at[2 * n + 1]
+        rate = s.dy_at[Sizes(block).y_loss]
     elif kind == codes.CONTACT_POINT:
-        rate = s.dy_at[2 * n + 2 + index]
+        rate = s.dy_at[Sizes(block).y_alpha + index]
     elif kind == codes.OWN_STATE:
         rate = factor * s.dy_at[first_own(block) + index]
     return rate

@@ -57,9 +57,9 @@ def read_outputs(block: Array) -> None:
         elif kind == codes.SPRING_ENERGY:
             value = spring_energy(block, s.y_at)
         elif kind == codes.WORK_DONE:
-            value = s.y_at[2 * n]
+            value = s.y_at[Sizes(block).y_work]
         elif kind == codes.ENERGY_LOST:
-            value = now.ledger[codes.LEDGER_LOST] + s.y_at[2 * n + 1]
+            value = now.ledger[codes.LEDGER_LOST] + s.y_at[Sizes(block).y_loss]
         elif kind == codes.IMPACT_COUNT:
             value = float(now.counters[codes.COUNT_IMPACTS])
         elif kind == codes.IMPACTS_IN_STEP:
@@ -89,7 +89,7 @@ def read_outputs(block: Array) -> None:
         elif kind == codes.JOINT_FORCE:
             value *= LinearSystem(block).multiplier[index]
         elif kind == codes.CONTACT_POINT:
-            value = s.y_at[2 * n + 2 + index]
+            value = s.y_at[Sizes(block).y_alpha + index]
         elif kind == codes.OWN_STATE:
             value *= s.y_at[first_own(block) + index]
         elif kind == codes.CLUTCH_TORQUE:

@@ -17,7 +17,7 @@ from ..compiler.subset import jit, keep_small
 @jit
 def first_own(block: Array) -> int:
     """Where own states begin among the unknowns."""
-    first: int = 2 * Sizes(block).coordinates + 2 + Sizes(block).alphas
+    first: int = Sizes(block).y_own
     return first
 
 
