@@ -50,9 +50,9 @@ def try_step(block: Array, start: float, size_: float) -> float:
     _euler(y, k[0], h * _A[1, 0], s.y_stage)
     _stage(block, start + h * _C[1], s.y_stage, k[1])
     for r in range(2, _LAST):
-        _weighted(k, _A[r], r, y, h, s.y_stage)
+        _weighted(k, _A[r], y, h, s.y_stage)
         _stage(block, start + h * _C[r], s.y_stage, k[r])
-    _weighted(k, _A[_LAST], _LAST, y, h, s.y_new)
+    _weighted(k, _A[_LAST], y, h, s.y_new)
     _stage(block, start + h, s.y_new, k[_LAST])
     write_dense(block, h)
     return _error_norm(block, h)
@@ -66,15 +66,15 @@ def _euler(y: Array, dy: Array, h: float, target: Array) -> None:
 
 
 @jit
-def _weighted(k: Array, weights: Array, count: int, y: Array, h: float, target: Array) -> None:
-    """Y + h (the sum of the first `count` derivatives by their weights), from left to right.
+def _weighted(k: Array, weights: Array, y: Array, h: float, target: Array) -> None:
+    """Y + h (the sum of the derivatives by their weights, from left to right).
 
     Stage by stage, so that the compiler works on several unknowns at once; a derivative without weight is not touched.
     """
     n = y.shape[0]
     for i in range(n):
         target[i] = weights[0] * k[0, i]
-    for j in range(1, count):
+    for j in range(1, _STAGES):
         weight = weights[j]
         if weight != 0.0:
             for i in range(n):
