@@ -100,7 +100,10 @@ def method(
     if count < 3 or lengths != list(range(count)):
         raise ValueError(f"{name}: {count} stages need rows of {list(range(count))} weights, 3 or more; got {lengths}.")
     if c[0] != 0.0 or c[-1] != 1.0:
-        raise ValueError(f"{name}: stages from {c[0]} to {c[-1]}; the first must be at 0, the last at 1: append it.")
+        raise ValueError(
+            f"{name}: stages from {c[0]} to {c[-1]}; the first must be at 0, the last at 1."
+            " Append one at 1 whose row holds the weights of the result, with error weight 0."
+        )
     for row in (error, *dense):
         if len(row) != count:
             raise ValueError(f"{name}: {len(row)} weights in {list(row)}; {count} stages need as many.")

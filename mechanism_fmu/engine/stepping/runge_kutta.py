@@ -49,11 +49,12 @@ def try_step(block: Array, start: float, size_: float) -> float:
         least[c] = 0.0
     _euler(y, k[0], h * _A[1, 0], s.y_stage)
     _stage(block, start + h * _C[1], s.y_stage, k[1])
-    for r in range(2, _LAST):
-        _weighted(k, _A[r], y, h, s.y_stage)
-        _stage(block, start + h * _C[r], s.y_stage, k[r])
-    _weighted(k, _A[_LAST], y, h, s.y_new)
-    _stage(block, start + h, s.y_new, k[_LAST])
+    for r in range(2, _STAGES):
+        target = s.y_stage
+        if r == _LAST:
+            target = s.y_new
+        _weighted(k, _A[r], y, h, target)
+        _stage(block, start + h * _C[r], target, k[r])
     write_dense(block, h)
     return _error_norm(block, h)
 
@@ -69,18 +70,14 @@ def _euler(y: Array, dy: Array, h: float, target: Array) -> None:
 def _weighted(k: Array, weights: Array, y: Array, h: float, target: Array) -> None:
     """Y + h (the sum of the derivatives by their weights, from left to right).
 
-    Stage by stage, so that the compiler works on several unknowns at once; a derivative without weight is not touched.
+    A derivative without weight is not touched: it may be no number, and adding nothing can change the sign of zero.
     """
-    n = y.shape[0]
-    for i in range(n):
-        target[i] = weights[0] * k[0, i]
-    for j in range(1, _STAGES):
-        weight = weights[j]
-        if weight != 0.0:
-            for i in range(n):
-                target[i] += weight * k[j, i]
-    for i in range(n):
-        target[i] = y[i] + h * target[i]
+    for i in range(y.shape[0]):
+        total = weights[0] * k[0, i]
+        for j in range(1, _STAGES):
+            if weights[j] != 0.0:
+                total += weights[j] * k[j, i]
+        target[i] = y[i] + h * total
 
 
 @jit
