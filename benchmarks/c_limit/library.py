@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechanism_fmu import codes
+from mechanism_fmu.tables.kinds import FORCES
 from mechanism_fmu.tables.layout import field_of
 from mechanism_fmu.tables.sizes import sizes_of
 
@@ -35,7 +36,7 @@ _TABLES = (
     *("contact_kind", "contact_body_i", "contact_body_j", "contact_data", "contact_value", "contact_line"),
     *("contact_function", "pattern_enabled"),
 )
-_KINDS = {codes.TORQUE: 0, codes.TORSION_SPRING: 1, codes.DAMPER: 2, codes.SHAFT: 3}
+_KINDS = {FORCES.number(kind): k for k, kind in enumerate(("torque", "torsion_spring", "damper", "shaft"))}
 
 
 class NoCompilerError(RuntimeError):

@@ -10,12 +10,10 @@ from ..tables.motion import Course, Pose, Stages
 from ..tables.parts import Bodies, Contacts, Ports
 from ..tables.sizes import Sizes
 from .compiler.subset import entry, jit
-from .constraints.kinematics import place_bodies
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
-from .dynamics.forces import kinetic_power, spring_power
+from .dynamics.forces import force_reading_rate, kinetic_power, stored_power
 from .dynamics.inputs import feed
-from .dynamics.own_states import first_own
 from .stepping.stepper import state_at_time
 
 
@@ -31,16 +29,15 @@ def read_output_rates(block: Array) -> None:
     state_at_time(block, s.y_at)
     Pose(block).instant[0] = Course(block).clock[codes.TIME]
     feed(block, table.inputs)  # one that was set after the last step acts already
-    derivative(block, s.y_at, s.dy_at)
-    place_bodies(block, s.y_at)
+    at = derivative(block, s.y_at, s.dy_at)
     for o in range(table.outputs.shape[0]):
-        table.output_rates[o] = _rate(block, table.output_kind[o], table.output_index[o], table.output_value[o])
+        table.output_rates[o] = _rate(block, at, table.output_kind[o], table.output_index[o], table.output_slot[o])
     feed(block, table.held_inputs)
 
 
 @jit
-def _rate(block: Array, kind: int, index: int, factor: float) -> float:
-    """The derivative of one output; `index` as in `ports.output_index`, `factor` as in `ports.output_value`."""
+def _rate(block: Array, at: Pose, kind: int, index: int, slot: int) -> float:
+    """The derivative of one output; `index` and `slot` as in `ports`."""
     n = Sizes(block).coordinates
     s = Stages(block)
     rate = math.nan
@@ -53,17 +50,17 @@ def _rate(block: Array, kind: int, index: int, factor: float) -> float:
     elif kind == codes.CONTACT_GAP:
         rate = 0.0  # closed
         if Contacts(block).mode[index] == codes.OPEN:
-            _, rate = gap(block, index)
+            _, rate = gap(block, at, index)
     elif kind == codes.KINETIC_ENERGY:
         rate = kinetic_power(Bodies(block).inverse_mass, s.y_at[n:], s.dy_at[n:], n)
     elif kind == codes.SPRING_ENERGY:
-        rate = spring_power(block, s.y_at, s.dy_at)
+        rate = stored_power(block, at, s.y_at, s.dy_at)
     elif kind == codes.WORK_DONE:
         rate = s.dy_at[Sizes(block).y_work]
     elif kind == codes.ENERGY_LOST:
         rate = s.dy_at[Sizes(block).y_loss]
     elif kind == codes.CONTACT_POINT:
         rate = s.dy_at[Sizes(block).y_alpha + index]
-    elif kind == codes.OWN_STATE:
-        rate = factor * s.dy_at[first_own(block) + index]
+    elif kind == codes.FORCE_READING:
+        rate = force_reading_rate(block, at, index, s.dy_at, slot)
     return rate

@@ -12,9 +12,8 @@ from .compiler.subset import entry, jit
 from .constraints.kinematics import place_bodies
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
-from .dynamics.forces import body_speed, kinetic_energy, shaft_torque, spring_energy
+from .dynamics.forces import force_reading, kinetic_energy, stored_energy
 from .dynamics.inputs import feed
-from .dynamics.own_states import clutch_torque, first_own, motor_voltage
 from .elastic.beam import beam_reading
 from .elastic.readings import elastic_reading
 from .elastic.structure import bend
@@ -32,11 +31,12 @@ def read_outputs(block: Array) -> None:
     state_at_time(block, s.y_at)
     Pose(block).instant[0] = now.clock[codes.TIME]
     feed(block, table.inputs)  # one that was set after the last step acts already
+    at = place_bodies(block, s.y_at)
     bends = Sizes(block).nodes > 0
     if bends or _needs_multipliers(block):
         derivative(block, s.y_at, s.dy_at)
     if bends:
-        bend(block)
+        bend(block, at)
     for o in range(table.outputs.shape[0]):
         kind = table.output_kind[o]
         index = table.output_index[o]
@@ -50,12 +50,11 @@ def read_outputs(block: Array) -> None:
                 value = LinearSystem(block).multiplier[contact.row[index]]
         elif kind == codes.CONTACT_GAP:
             if contact.mode[index] == codes.OPEN:
-                place_bodies(block, s.y_at)
-                value, _ = gap(block, index)
+                value, _ = gap(block, at, index)
         elif kind == codes.KINETIC_ENERGY:
             value = kinetic_energy(Bodies(block).inverse_mass, s.y_at[n:], n)
         elif kind == codes.SPRING_ENERGY:
-            value = spring_energy(block, s.y_at)
+            value = stored_energy(block, at, s.y_at)
         elif kind == codes.WORK_DONE:
             value = s.y_at[Sizes(block).y_work]
         elif kind == codes.ENERGY_LOST:
@@ -80,8 +79,8 @@ def read_outputs(block: Array) -> None:
             value = float(contact.clicks[index])
         elif kind == codes.STOP_REFERENCE:
             value = contact.line[index, 0]
-        elif kind == codes.SHAFT_TORQUE:
-            value = shaft_torque(block, s.y_at, index)
+        elif kind == codes.FORCE_READING:
+            value = force_reading(block, at, index, s.y_at, table.output_slot[o])
         elif kind == codes.EVENT_COUNT:
             value = float(now.counters[codes.COUNT_EVENTS])
         elif kind == codes.EVENTS_IN_STEP_OUT:
@@ -90,20 +89,14 @@ def read_outputs(block: Array) -> None:
             value *= LinearSystem(block).multiplier[index]
         elif kind == codes.CONTACT_POINT:
             value = s.y_at[Sizes(block).y_alpha + index]
-        elif kind == codes.OWN_STATE:
-            value *= s.y_at[first_own(block) + index]
-        elif kind == codes.CLUTCH_TORQUE:
-            value = clutch_torque(block, index, s.y_at, body_speed(block, s.y_at, index))
-        elif kind == codes.MOTOR_VOLTAGE:
-            value = motor_voltage(block, index, s.y_at, body_speed(block, s.y_at, index))
         elif kind == codes.BUFFERED_EVENT:
             value = _buffered_event(block, table.output_slot[o], index)
         elif kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
-            value = beam_reading(block, kind, index)
+            value = beam_reading(block, at, kind, index)
         elif kind == codes.MEMBER_FORCE:
             value *= Structure(block).element_force[index]
         elif kind != codes.CONSTANT:
-            value = elastic_reading(block, kind, index)
+            value = elastic_reading(block, at, kind, index)
         table.outputs[o] = value
     feed(block, table.held_inputs)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import fields
 
 from .body import Body
@@ -14,14 +14,12 @@ from .conditions import (
     finite,
     finite_not_negative,
     finite_positive,
-    not_negative,
     within,
 )
 from .contacts import Contact
 from .curves import Curve
 from .findings import Finding, first, literal, refuse_unless
-from .forces import CompliantShaft, Damper, DCMotor, ForceElement, SlipClutch, TorsionSpring
-from .functions import Number
+from .forces import ForceElement
 from .joints import Joint, Revolute
 from .mechanism import Mechanism, Settings, curve_owners
 from .patterns import CircularPattern
@@ -43,7 +41,7 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         text = f"{label}: its limit {{:g}} is not finite; give a finite one as below."
         yield refuse_unless(finite(function.below), text, function.below)
     for force in mechanism.forces:
-        yield from _force(force)
+        yield from force.findings()
     for joint in mechanism.joints:
         what = "friction_radius" if isinstance(joint, Revolute) else "friction"
         text = f"Joint {literal(repr(joint.name))}: {what} = {{:g}} must be finite and not negative."
@@ -94,37 +92,6 @@ def _body(body: Body) -> Iterator[Finding]:
     start = (*body.start, *body.start_rate)
     text = f"{label}: start ({{:g}}, {{:g}}, {{:g}}) or start_rate ({{:g}}, {{:g}}, {{:g}}) is not finite."
     yield refuse_unless(finite(*start), text, *start)
-
-
-def _force(force: ForceElement) -> Iterator[Finding]:
-    values: list[tuple[str, Number, str]] = []
-    if isinstance(force, (TorsionSpring, CompliantShaft)):
-        values.append(("stiffness", force.stiffness, "N.m/rad"))
-    if isinstance(force, (Damper, CompliantShaft)):
-        values.append(("damping", force.damping, "N.m.s/rad"))
-    label = f"{type(force).__name__} {literal(repr(force.name))}"
-    if isinstance(force, SlipClutch):
-        values.append(("limit", force.limit, "N.m"))
-        above = (("stiffness", force.stiffness, "N.m/rad"), ("damping", force.damping, "N.m.s/rad"))
-        yield from _above_zero(label, above)
-    if isinstance(force, DCMotor):
-        yield from _above_zero(label, (("inductance", force.inductance, "H"),))
-        values += [
-            ("resistance", force.resistance, "ohm"),
-            ("voltage", force.voltage, "V"),
-            ("gain", force.gain, "V.s/rad"),
-            ("integral_gain", force.integral_gain, "V/rad"),
-            ("anti_windup", force.anti_windup, "rad/(V.s)"),
-        ]
-    for what, value, unit in values:
-        text = f"{label}: {what} = {{:g}} {unit}, but it must not be negative."
-        yield refuse_unless(not_negative(value), text, value)
-
-
-def _above_zero(label: str, values: Iterable[tuple[str, Number, str]]) -> Iterator[Finding]:
-    for what, value, unit in values:
-        text = f"{label}: {what} = {{:g}} {unit}, but it must be positive and finite."
-        yield refuse_unless(finite_positive(value), text, value)
 
 
 def _settings(settings: Settings) -> Iterator[Finding]:

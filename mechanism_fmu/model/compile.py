@@ -15,7 +15,6 @@ from .beams import beam_data, beam_members, hinge
 from .body import GROUND
 from .check import check
 from .curves import Curve
-from .forces import own_states
 from .functions import is_plain, sqrt
 from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
@@ -79,7 +78,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     first_rows = np.cumsum([0, *(joint.rows for joint in mechanism.joints)])
     first_contact_rows = np.cumsum([0, *(contact.rows for contact in contacts)])
     first_alphas = np.cumsum([0, *(contact.alphas for contact in contacts)])
-    first_own = np.cumsum([0, *(own_states(force) for force in mechanism.forces)])
+    first_own = np.cumsum([0, *(force.own for force in mechanism.forces)])
     curves = [curve for _, curve in curve_owners(mechanism)]
     first_pieces = np.cumsum([0, *(len(curve.pieces) for curve in curves)])
     pieces = [piece for curve in curves for piece in curve.pieces]
@@ -117,7 +116,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                 columns(
                     tables.Forces,
                     mechanism.forces,
-                    own=[n if own_states(f) else codes.NONE for f, n in _pairs(mechanism.forces, first_own)],
+                    own=[n if f.own else codes.NONE for f, n in _pairs(mechanism.forces, first_own)],
                 ),
                 columns(
                     tables.Contacts,

@@ -10,7 +10,6 @@ from .. import codes
 from .beams import OF_BEAM, beam_members, hinge
 from .efforts import EFFORTS, effort
 from .errors import MechanismError
-from .forces import DCMotor, own_states
 from .functions import Number
 from .mechanism import Mechanism
 from .structure import nodes_of
@@ -36,12 +35,6 @@ _OF_CONTACT = {
     "clicks": codes.STOP_CLICKS,
     "latched": codes.STOP_REFERENCE,
 }
-_OF_FORCE = {
-    codes.SHAFT: {"torque": codes.SHAFT_TORQUE},
-    codes.SLIP_CLUTCH: {"torque": codes.CLUTCH_TORQUE},
-    codes.DC_MOTOR: {"torque": codes.OWN_STATE, "current": codes.OWN_STATE, "voltage": codes.MOTOR_VOLTAGE},
-}
-_OWN_STATES = {"torque": codes.MOTOR_CURRENT, "current": codes.MOTOR_CURRENT}
 _FIELDS = {
     "time": codes.RECORD_TIME,
     "contact": codes.RECORD_CONTACT,
@@ -128,7 +121,7 @@ def _common_sources(mechanism: Mechanism) -> Iterator[str]:
         yield f"impact.impulse:{contact.name}"
     yield from (f"{pattern.name}.index" for pattern in mechanism.patterns)
     for force in mechanism.forces:
-        yield from (f"{force.name}.{quantity}" for quantity in _OF_FORCE.get(force.kind, ()))
+        yield from (f"{force.name}.{quantity}" for quantity in force.quantities)
     for joint in mechanism.joints:
         yield from (f"{joint.name}.{quantity}" for quantity in EFFORTS.get(joint.kind, ()))
     for member in mechanism.members:
@@ -184,16 +177,13 @@ def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
 
 
 def output_factor(source: str, mechanism: Mechanism) -> Number:
-    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a motor's current, a member.
+    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a member.
 
     The moment on a member's start bends it against the sense in which it turns it.
     """
     part, _, quantity = source.partition(".")
     if quantity in _OF_MEMBER and any(member.name == part for member in mechanism.members):
         return -1.0 if quantity == "start_moment" else 1.0
-    for force in mechanism.forces:
-        if force.name == part and isinstance(force, DCMotor):
-            return force.constant if quantity == "torque" else 1.0
     for joint in mechanism.joints:
         if joint.name == part:
             found = effort(joint, quantity)
@@ -207,14 +197,9 @@ def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, in
 
 
 def _of_force(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
-    own = 0
     for place, force in enumerate(mechanism.forces):
-        if force.name == part:
-            kind = _OF_FORCE.get(force.kind, {}).get(quantity)
-            if kind is None:
-                return None
-            return kind, own + _OWN_STATES[quantity] if kind == codes.OWN_STATE else place, 0
-        own += own_states(force)
+        if force.name == part and quantity in force.quantities:
+            return codes.FORCE_READING, place, list(force.quantities).index(quantity)
     return None
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from .. import codes
 from .contents import ANY, COUNT, FINITE, FLAG, NOT_NAN, WHOLE, whole
 from .declare import Table, integer, real
+from .kinds import FORCES
 
 
 class Bodies(Table, prefix="body_"):
@@ -49,7 +50,7 @@ class Forces(Table, rows="forces", prefix="force_"):
     body = integer()
     reaction = integer()
     own = integer()
-    data = real(8)
+    data = real(FORCES.width)
 
 
 class Contacts(Table, rows="contacts", prefix="contact_"):

@@ -11,8 +11,8 @@ from ..compiler.subset import jit, keep_small
 
 
 @jit
-def place_bodies(block: Array, y: Array) -> None:
-    """Write poses and rates from y = (q, qd, work, loss, alpha, ...).
+def place_bodies(block: Array, y: Array) -> Pose:
+    """Poses and rates of y = (q, qd, work, loss, alpha, ...).
 
     q and qd are (x, y, phi) of each body in turn, shape (3 bodies,); alpha are the contact coordinates.
     """
@@ -41,3 +41,4 @@ def place_bodies(block: Array, y: Array) -> None:
     first = Sizes(block).y_alpha
     for k in range(Sizes(block).alphas):
         at.alpha[k] = y[first + k]
+    return at

@@ -28,9 +28,8 @@ from .profile_row import profile_row
 
 
 @jit
-def joint_rows(block: Array) -> None:
+def joint_rows(block: Array, at: Pose) -> None:
     """Write the rows of all joints from the bodies' poses and rates (see `place_bodies`), and `pose.instant`."""
-    at = Pose(block)
     table = Joints(block)
     out = Rows(block)
     for r in range(Sizes(block).joint_rows):
@@ -44,13 +43,13 @@ def joint_rows(block: Array) -> None:
         elif table.kind[k] == codes.TRANSLATIONAL:
             translational(at, out, row, i, j, table.data[k])
         elif table.kind[k] < codes.X_DRIVER:
-            _other_joint(block, k)
+            _other_joint(block, at, k)
         else:
-            _driver(block, k)
+            _driver(block, at, k)
 
 
 @jit
-def _other_joint(block: Array, joint: int) -> None:
+def _other_joint(block: Array, at: Pose, joint: int) -> None:
     """Write the rows of a joint that is neither of the two frequent ones nor a driver."""
     keep_small()
     table = Joints(block)
@@ -60,22 +59,21 @@ def _other_joint(block: Array, joint: int) -> None:
     j = table.body_j[joint]
     data = table.data[joint]
     if kind == codes.DISTANCE:
-        distance(Pose(block), Rows(block), row, i, j, data)
+        distance(at, Rows(block), row, i, j, data)
     elif kind == codes.REVOLUTE_TRANSLATIONAL:
-        revolute_translational(Pose(block), Rows(block), row, i, j, data)
+        revolute_translational(at, Rows(block), row, i, j, data)
     elif kind == codes.GEARS:
-        gears(Pose(block), Rows(block), row, i, j, data)
+        gears(at, Rows(block), row, i, j, data)
     elif kind == codes.INTERNAL_GEARS:
-        internal_gears(Pose(block), Rows(block), row, i, j, data)
+        internal_gears(at, Rows(block), row, i, j, data)
     else:
-        rack_and_pinion(Pose(block), Rows(block), row, i, j, data)
+        rack_and_pinion(at, Rows(block), row, i, j, data)
 
 
 @jit
-def _driver(block: Array, joint: int) -> None:
+def _driver(block: Array, at: Pose, joint: int) -> None:
     """Write the row of a driver, whose motion is a curve over time."""
     keep_small()
-    at = Pose(block)
     out = Rows(block)
     table = Joints(block)
     kind = table.kind[joint]
@@ -97,7 +95,7 @@ def _driver(block: Array, joint: int) -> None:
 
 
 @jit
-def contact_row(block: Array, contact: int, row: int) -> None:
+def contact_row(block: Array, at: Pose, contact: int, row: int) -> None:
     """Write the row of one contact: its gap, gap rate, gamma and Jacobian."""
     keep_small()
     table = Contacts(block)
@@ -106,11 +104,11 @@ def contact_row(block: Array, contact: int, row: int) -> None:
     i = table.body_i[contact]
     j = table.body_j[contact]
     if table.kind[contact] == codes.POINT_LINE:
-        point_line(Pose(block), out, row, i, j, table.data[contact], table.line[contact])
+        point_line(at, out, row, i, j, table.data[contact], table.line[contact])
     elif table.alpha[contact] != codes.NONE:
-        profile_row(block, contact, row)
+        profile_row(block, at, contact, row)
     else:
-        angle_row(Pose(block), out, row, i, j, table.line[contact])
+        angle_row(at, out, row, i, j, table.line[contact])
 
 
 @jit
@@ -120,7 +118,7 @@ def spare_row(block: Array) -> int:
 
 
 @jit
-def tangent_row(block: Array, contact: int, line: Array) -> None:
+def tangent_row(block: Array, at: Pose, contact: int, line: Array) -> None:
     """Write to the spare row how a point slides along its line: distance from the line's point, slip speed, Jacobian.
 
     `line`, shape (4,), is scratch: the line with its normal turned by -90 deg, so that it points along.
@@ -135,22 +133,22 @@ def tangent_row(block: Array, contact: int, line: Array) -> None:
     out = Rows(block)
     row = spare_row(block)
     clear(out.jacobian[row])
-    point_line(Pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
+    point_line(at, out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
 
 
 @jit
-def active_rows(block: Array) -> int:
+def active_rows(block: Array, at: Pose) -> int:
     """Write the rows of all joints and closed contacts; return their number.
 
     `contacts.row` afterwards holds each closed contact's row, and -1 for an open one.
     """
     keep_small()
-    joint_rows(block)
+    joint_rows(block, at)
     table = Contacts(block)
     count = Sizes(block).joint_rows
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
-            contact_row(block, c, count)
+            contact_row(block, at, c, count)
             table.row[c] = count
             count += 1
         else:
@@ -159,7 +157,7 @@ def active_rows(block: Array) -> int:
 
 
 @jit
-def follow_open_contacts(block: Array) -> None:
+def follow_open_contacts(block: Array, at: Pose) -> None:
     """Write the rates of the contact coordinates of open contacts; those of closed ones come with their rows.
 
     Those that are sought afresh each time, or do not count, rest.
@@ -170,11 +168,11 @@ def follow_open_contacts(block: Array) -> None:
         if table.alpha[c] == codes.NONE or table.mode[c] == codes.CLOSED:
             continue
         if table.value[c, codes.ENABLED] > 0.5 and not is_searched(block, c):
-            contact_row(block, c, spare_row(block))
+            contact_row(block, at, c, spare_row(block))
         else:
-            Pose(block).alpha_rate[table.alpha[c]] = 0.0
+            at.alpha_rate[table.alpha[c]] = 0.0
             if table.kind[c] == codes.CAM_FOLLOWER:
-                Pose(block).alpha_rate[table.alpha[c] + 1] = 0.0
+                at.alpha_rate[table.alpha[c] + 1] = 0.0
 
 
 @jit

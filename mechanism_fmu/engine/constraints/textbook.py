@@ -29,23 +29,22 @@ def textbook_rows(block: Array, time: float) -> None:
     coordinate k has the column `columns + k`. gamma is without Baumgarte's terms.
     """
     Pose(block).instant[0] = time
-    place_bodies(block, Course(block).y_end)
-    joint_rows(block)
+    at = place_bodies(block, Course(block).y_end)
+    joint_rows(block, at)
     table = Contacts(block)
     for c in range(table.kind.shape[0]):
         if table.value[c, codes.ENABLED] > 0.5:
             row = Sizes(block).joint_rows + table.row_first[c]
             if table.kind[c] >= codes.CAM_FOLLOWER:
-                _profile_rows(block, c, row)
+                _profile_rows(block, at, c, row)
             else:
-                contact_row(block, c, row)
+                contact_row(block, at, c, row)
 
 
 @jit
-def _profile_rows(block: Array, contact: int, row: int) -> None:
+def _profile_rows(block: Array, at: Pose, contact: int, row: int) -> None:
     """Write the rows of a contact of profiles."""
     keep_small()
-    at = Pose(block)
     out = Rows(block)
     table = Contacts(block)
     i = table.body_i[contact]

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Rows, Strikes
+from ...tables.motion import Course, LinearSystem, Pose, Rows, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
@@ -42,23 +42,23 @@ IMPULSES = 1
 
 
 @jit
-def push_impulses(block: Array) -> int:
+def push_impulses(block: Array, at: Pose) -> int:
     """Decide about `strikes.candidates` in an impact at y_end; return a status.
 
     Afterwards their modes say which push; the linear system holds impulses and the change of rates of that choice.
     """
     Strikes(block).problem[KIND] = IMPULSES
-    return _choose(block)
+    return _choose(block, at)
 
 
 @jit
-def push_forces(block: Array) -> int:
+def push_forces(block: Array, at: Pose) -> int:
     """Decide about `strikes.candidates`, all at rest at y_end; return a status.
 
     Afterwards their modes say which push; dy_end is the derivative of that choice.
     """
     Strikes(block).problem[KIND] = FORCES
-    return _choose(block)
+    return _choose(block, at)
 
 
 @jit
@@ -73,12 +73,12 @@ def push_ratio(block: Array, contact: int, count: int) -> float:
 
 
 @jit
-def _choose(block: Array) -> int:
+def _choose(block: Array, at: Pose) -> int:
     count = Strikes(block).problem[COUNT]
     mode = Contacts(block).mode
     candidates = Strikes(block).candidates
     for _ in range(_MOST_PIVOTS * (1 + count)):
-        wrong = _first_wrong(block)
+        wrong = _first_wrong(block, at)
         if wrong == codes.NONE:
             return status.OK
         mode[candidates[wrong]] = codes.CLOSED - mode[candidates[wrong]]
@@ -86,13 +86,13 @@ def _choose(block: Array) -> int:
         for combination in range(1 << count):
             for k in range(count):
                 mode[candidates[k]] = (combination >> k) & 1
-            if _first_wrong(block) == codes.NONE:
+            if _first_wrong(block, at) == codes.NONE:
                 return status.OK
     return status.NO_CHOICE
 
 
 @jit
-def _first_wrong(block: Array) -> int:
+def _first_wrong(block: Array, at: Pose) -> int:
     """The first candidate that pulls or comes off although closed, or goes in although open; `codes.NONE`: none.
 
     A closed one comes off when rows that depend on each other contradict each other: the solution is then a compromise.
@@ -102,7 +102,7 @@ def _first_wrong(block: Array) -> int:
     candidates = Strikes(block).candidates
     impulses = Strikes(block).problem[KIND] == IMPULSES
     if impulses:
-        active = _try_impulses(block)
+        active = _try_impulses(block, at)
     else:
         derivative(block, Course(block).y_end, Course(block).dy_end)
         active = row_count(block)
@@ -116,19 +116,19 @@ def _first_wrong(block: Array) -> int:
                 pulls = push_ratio(block, c, active) < -1.0
             if pulls or _comes_off(block, c):
                 return k
-        elif _goes_in(block, c):
+        elif _goes_in(block, at, c):
             return k
     return codes.NONE
 
 
 @jit
-def _try_impulses(block: Array) -> int:
+def _try_impulses(block: Array, at: Pose) -> int:
     """Impulses and change of rates for the present modes, eq (7) with the targets of all closed contacts."""
     keep_small()
     table = Contacts(block)
     strike = Strikes(block)
     system = LinearSystem(block)
-    count = active_rows(block)
+    count = active_rows(block, at)
     scale_rows(block, count)
     for r in range(count):
         system.right_side[r] = 0.0
@@ -148,9 +148,9 @@ def _comes_off(block: Array, contact: int) -> bool:
 
 
 @jit
-def _goes_in(block: Array, contact: int) -> bool:
+def _goes_in(block: Array, at: Pose, contact: int) -> bool:
     """Whether an open candidate misses its change of gap rate, or accelerates into the other body."""
-    contact_row(block, contact, spare_row(block))
+    contact_row(block, at, contact, spare_row(block))
     left, tolerance = _excess(block, contact, spare_row(block))
     goes_in: bool = left < -tolerance
     return goes_in

@@ -12,7 +12,7 @@ from ..compiler.subset import jit, keep_small
 
 
 @jit
-def place_contact(block: Array, contact: int) -> None:
+def place_contact(block: Array, at: Pose, contact: int) -> None:
     """Write `contacts.line` of one contact for the present index of its pattern, or its present clicks.
 
     A lock goes to the locked angle that is nearest to the bodies' pose (see `place_bodies`).
@@ -31,14 +31,14 @@ def place_contact(block: Array, contact: int) -> None:
         turns = float(table.clicks[contact])
         pitch = data[codes.STOP_PITCH]
         if table.kind[contact] == codes.ANGLE_LOCK:
-            at = Pose(block)
+            at = at
             relative = at.phi[table.body_i[contact]] - at.phi[table.body_j[contact]]
             turns = math.floor((relative - data[codes.STOP_ANGLE]) / pitch + 0.5)
         line[0] = data[codes.STOP_ANGLE] + turns * pitch
 
 
 @jit
-def place_pattern(block: Array, pattern: int) -> None:
+def place_pattern(block: Array, at: Pose, pattern: int) -> None:
     """Write the boundaries of a pattern's present copy, to the next and to the previous one, and its contacts."""
     keep_small()
     table = Patterns(block)
@@ -50,7 +50,7 @@ def place_pattern(block: Array, pattern: int) -> None:
     of = Contacts(block).pattern
     for c in range(of.shape[0]):
         if of[c] == pattern:
-            place_contact(block, c)
+            place_contact(block, at, c)
 
 
 @jit

@@ -30,9 +30,9 @@ def rub(block: Array) -> None:
         most = table.value[c, codes.FRICTION] * abs(Strikes(block).impulse[c])
         if not most > 0.0 or table.kind[c] != codes.POINT_LINE:
             continue
-        place_bodies(block, y)
-        count = active_rows(block)
-        tangent_row(block, c, Strikes(block).tangent_line)
+        at = place_bodies(block, y)
+        count = active_rows(block, at)
+        tangent_row(block, at, c, Strikes(block).tangent_line)
         row = Rows(block)
         spare = spare_row(block)
         for k in range(n):

@@ -20,12 +20,12 @@ from ..profiles.nearest import find_nearest, is_searched
 
 
 @jit
-def gap(block: Array, contact: int) -> tuple[float, float]:
+def gap(block: Array, at: Pose, contact: int) -> tuple[float, float]:
     """Gap s [m or rad] and gap rate s' of a contact at the bodies' pose (see `place_bodies`)."""
     keep_small()
     if Contacts(block).alpha[contact] != codes.NONE and is_searched(block, contact):
-        find_nearest(block, contact)
-    contact_row(block, contact, spare_row(block))
+        find_nearest(block, at, contact)
+    contact_row(block, at, contact, spare_row(block))
     return _spare(block)
 
 
@@ -84,48 +84,47 @@ def can_open(block: Array, contact: int) -> bool:
 
 
 @jit
-def guard_value(block: Array, number: int) -> tuple[float, float]:
+def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
     """Value and rate of a guard at the bodies' pose."""
     keep_small()
     guard, subject = guard_of(block, number)
     if guard == codes.GUARD_GAP:
-        return gap(block, subject)
+        return gap(block, at, subject)
     if guard == codes.GUARD_CLICK:
-        value, rate = gap(block, subject)
+        value, rate = gap(block, at, subject)
         return Contacts(block).data[subject, codes.STOP_PITCH] + MARGIN - value, -rate
     if guard == codes.GUARD_FUNCTION:
-        value, rate = function_value(block, subject)
+        value, rate = function_value(block, at, subject)
         if Functions(block).true[subject] == 1:
             return MARGIN - value, -rate
         return value + MARGIN, rate
     if guard == codes.GUARD_NEXT:
-        value, rate = _beyond(block, subject, Patterns(block).line[subject, :4])
+        value, rate = _beyond(block, at, subject, Patterns(block).line[subject, :4])
         return MARGIN - value, -rate
-    value, rate = _beyond(block, subject, Patterns(block).line[subject, 4:])
+    value, rate = _beyond(block, at, subject, Patterns(block).line[subject, 4:])
     return value + MARGIN, rate
 
 
 @jit
-def _beyond(block: Array, pattern: int, boundary: Array) -> tuple[float, float]:
+def _beyond(block: Array, at: Pose, pattern: int, boundary: Array) -> tuple[float, float]:
     """How far a pattern's point is beyond a boundary, and its rate."""
     keep_small()
     table = Patterns(block)
     i = table.body_i[pattern]
     j = table.body_j[pattern]
-    point_line(Pose(block), Rows(block), spare_row(block), i, j, table.data[pattern], boundary)
+    point_line(at, Rows(block), spare_row(block), i, j, table.data[pattern], boundary)
     return _spare(block)
 
 
 @jit
-def function_value(block: Array, function: int) -> tuple[float, float]:
+def function_value(block: Array, at: Pose, function: int) -> tuple[float, float]:
     """What a logical function looks at minus its limit (below zero: 1), and its rate."""
     keep_small()
     table = Functions(block)
-    at = Pose(block)
     index = table.subject[function]
     limit = table.limit[function]
     if table.kind[function] == codes.ANGLE:
         return at.phi[index] - limit, at.phi_rate[index]
-    tangent_row(block, index, Strikes(block).tangent_line)
+    tangent_row(block, at, index, Strikes(block).tangent_line)
     value, rate = _spare(block)
     return value - limit, rate

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Rows, Strikes
+from ...tables.motion import Course, LinearSystem, Pose, Rows, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
@@ -46,8 +46,8 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     table = Contacts(block)
     taking_part = Strikes(block)
     rate = Course(block).y_end[n:]
-    place_bodies(block, Course(block).y_end)
-    if not _cast(block, struck, round_ >= _PLASTIC_FROM):
+    at = place_bodies(block, Course(block).y_end)
+    if not _cast(block, at, struck, round_ >= _PLASTIC_FROM):
         return False, status.OK
     count = 0
     for c in range(table.mode.shape[0]):
@@ -57,7 +57,7 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
         if taking_part.role[c] != ABSENT:
             table.mode[c] = codes.CLOSED
     taking_part.problem[COUNT] = count
-    outcome = push_impulses(block)
+    outcome = push_impulses(block, at)
     if outcome != status.OK:
         return False, outcome
     for k in range(n):
@@ -78,7 +78,7 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
 
 
 @jit
-def _cast(block: Array, struck: int, plastic: bool) -> bool:
+def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
     """Give every contact its role, closing speed and target; whether any of them approaches."""
     keep_small()
     table = Contacts(block)
@@ -96,7 +96,7 @@ def _cast(block: Array, struck: int, plastic: bool) -> bool:
         if closed and guided:
             taking_part.role[c] = KEPT
             continue
-        distance, rate = gap(block, c)
+        distance, rate = gap(block, at, c)
         if switched:
             if closed:
                 taking_part.role[c] = KEPT
@@ -132,13 +132,13 @@ def _open_what_leaves(block: Array) -> None:
     keep_small()
     table = Contacts(block)
     taking_part = Strikes(block)
-    place_bodies(block, Course(block).y_end)
+    at = place_bodies(block, Course(block).y_end)
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] == ABSENT or table.function[c] != codes.NONE:
             continue
         if taking_part.role[c] == KEPT and taking_part.closing[c] == 0.0:
             continue
-        contact_row(block, c, spare_row(block))
+        contact_row(block, at, c, spare_row(block))
         if Rows(block).residual_rate[spare_row(block)] < STICK_SPEED:
             table.mode[c] = codes.CLOSED
         else:

@@ -20,9 +20,9 @@ def release(block: Array, struck: int) -> None:
     """
     keep_small()
     table = Contacts(block)
-    place_bodies(block, Course(block).y_end)
+    at = place_bodies(block, Course(block).y_end)
     for c in range(table.mode.shape[0]):
         if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
-            distance, rate = gap(block, c)
+            distance, rate = gap(block, at, c)
             if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
                 table.touching[c] = 0

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Strikes
+from ...tables.motion import Course, Pose, Strikes
 from ...tables.parts import Bodies, Contacts, Functions, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
@@ -99,31 +99,35 @@ def _take_effect(block: Array, guard: int, subject: int) -> int:
     """What the guard itself changes; return a status."""
     keep_small()
     table = Contacts(block)
-    place_bodies(block, Course(block).y_end)
+    at = place_bodies(block, Course(block).y_end)
     if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
         move = 1
         if guard == codes.GUARD_PREVIOUS:
             move = -1
         Patterns(block).copy[subject] += move
-        place_pattern(block, subject)
+        place_pattern(block, at, subject)
         for c in range(table.mode.shape[0]):
             if table.pattern[c] == subject and table.function[c] == codes.NONE:
                 table.mode[c] = codes.OPEN
                 table.touching[c] = 0
     elif guard == codes.GUARD_CLICK:
         table.clicks[subject] += 1
-        place_contact(block, subject)
+        place_contact(block, at, subject)
     elif guard == codes.GUARD_FUNCTION:
         Functions(block).true[subject] = 1 - Functions(block).true[subject]
-        switch_contacts(block)
+        switch_contacts(block, at)
         for c in range(table.mode.shape[0]):
-            if table.function[c] == subject and table.mode[c] == codes.CLOSED and abs(gap(block, c)[0]) > CLOSES_WITHIN:
+            if (
+                table.function[c] == subject
+                and table.mode[c] == codes.CLOSED
+                and abs(gap(block, at, c)[0]) > CLOSES_WITHIN
+            ):
                 return status.ROW_AWAY
     return status.OK
 
 
 @jit
-def switch_contacts(block: Array) -> None:
+def switch_contacts(block: Array, at: Pose) -> None:
     """Close and open the contacts that logical functions switch; a lock closes where it is nearest."""
     keep_small()
     table = Contacts(block)
@@ -133,7 +137,7 @@ def switch_contacts(block: Array) -> None:
             continue
         closed = Functions(block).true[function] == table.closes_when[c] and table.value[c, codes.ENABLED] > 0.5
         if closed and table.mode[c] == codes.OPEN:
-            place_contact(block, c)
+            place_contact(block, at, c)
             table.mode[c] = codes.CLOSED
         elif not closed:
             table.mode[c] = codes.OPEN
@@ -149,13 +153,13 @@ def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
     if hit:
         near = TOUCHES_WITHIN
         slow = STICK_SPEED
-    place_bodies(block, Course(block).y_end)
+    at = place_bodies(block, Course(block).y_end)
     count = 0
     for c in range(table.mode.shape[0]):
         if table.value[c, codes.ENABLED] < 0.5 or not can_open(block, c):
             continue
         if table.mode[c] == codes.OPEN:
-            distance, rate = gap(block, c)
+            distance, rate = gap(block, at, c)
             if (distance > near and c != fired) or not abs(rate) < slow:
                 continue
             table.mode[c] = codes.CLOSED
@@ -166,7 +170,7 @@ def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
     if count == 0:
         return status.OK
     Strikes(block).problem[COUNT] = count
-    outcome = push_forces(block)
+    outcome = push_forces(block, at)
     for k in range(count):
         c = Strikes(block).candidates[k]
         table.touching[c] = 1 - table.mode[c]

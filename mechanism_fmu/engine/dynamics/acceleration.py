@@ -23,20 +23,20 @@ _ROUNDS = 200
 
 
 @jit
-def derivative(block: Array, y: Array, dy: Array) -> None:
+def derivative(block: Array, y: Array, dy: Array) -> Pose:
     """Derivative of y = (q, qd, work, loss, alpha, own): dy = (qd, qdd, powers, alpha', own'); shape (unknowns,).
 
     qdd = qdd_f + M^-1/2 D^+ (gamma - Phi_q qdd_f), eq (3). `linear_system.multiplier` afterwards holds the force along
     each active row (M qdd = F + Phi_q^T multiplier; for a contact, positive when it pushes).
     """
     n = Sizes(block).coordinates
-    place_bodies(block, y)
-    count = active_rows(block)
+    at = place_bodies(block, y)
+    count = active_rows(block, at)
     stabilise(block, count)
-    given, lost = apply_forces(block, y, dy)
+    given, lost = apply_forces(block, at, y, dy)
     accelerate(block, count)
     if has_friction(block):
-        lost += _with_friction(block, count)
+        lost += _with_friction(block, at, count)
     free = Loads(block).free_acceleration
     root = Bodies(block).inverse_root_mass
     correction = LinearSystem(block).solution
@@ -47,10 +47,11 @@ def derivative(block: Array, y: Array, dy: Array) -> None:
     dy[Sizes(block).y_loss] = lost
     alphas = Sizes(block).alphas
     if alphas > 0:
-        follow_open_contacts(block)
+        follow_open_contacts(block, at)
     first = Sizes(block).y_alpha
     for k in range(alphas):
-        dy[first + k] = Pose(block).alpha_rate[k]
+        dy[first + k] = at.alpha_rate[k]
+    return at
 
 
 @jit
@@ -85,7 +86,7 @@ def scale_rows(block: Array, count: int) -> None:
 
 
 @jit
-def _with_friction(block: Array, count: int) -> float:
+def _with_friction(block: Array, at: Pose, count: int) -> float:
     """Normal forces and friction that agree, by iteration; the power lost, or not a number when they never do."""
     keep_small()
     load = Loads(block)
@@ -96,7 +97,7 @@ def _with_friction(block: Array, count: int) -> float:
     for _ in range(_ROUNDS):
         for r in range(count):
             load.last_multiplier[r] = multiplier[r]
-        lost = resist(block)
+        lost = resist(block, at)
         accelerate(block, count)
         change = 0.0
         largest = 0.0

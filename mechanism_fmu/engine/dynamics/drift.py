@@ -31,14 +31,14 @@ def mend(block: Array, most: float, most_rate: float) -> bool:
     n = Sizes(block).coordinates
     y = Course(block).y_end
     moved = False
-    place_bodies(block, y)
-    settle_contact_points(block, y)
-    count = active_rows(block)
+    at = place_bodies(block, y)
+    settle_contact_points(block, at, y)
+    count = active_rows(block, at)
     if largest(Rows(block).residual, count) > most:
         _correct(block, count, Rows(block).residual, y)
-        place_bodies(block, y)
-        settle_contact_points(block, y)
-        active_rows(block)
+        at = place_bodies(block, y)
+        settle_contact_points(block, at, y)
+        active_rows(block, at)
         moved = True
     if moved or largest(Rows(block).residual_rate, count) > most_rate:
         _correct(block, count, Rows(block).residual_rate, y[n:])

@@ -36,7 +36,7 @@ def has_friction(block: Array) -> bool:
 
 
 @jit
-def resist(block: Array) -> float:
+def resist(block: Array, at: Pose) -> float:
     """`loads.force` = `loads.applied` + friction for the multipliers of the last solve; return the power lost [W]."""
     keep_small()
     load = Loads(block)
@@ -47,24 +47,24 @@ def resist(block: Array) -> float:
     for k in range(joint.kind.shape[0]):
         if joint.friction[k] > 0.0:
             if joint.kind[k] == codes.REVOLUTE:
-                lost += _pin(block, k)
+                lost += _pin(block, at, k)
             else:
-                lost += _slider(block, k)
+                lost += _slider(block, at, k)
     table = Contacts(block)
     for c in range(table.mode.shape[0]):
         rubs = table.mode[c] == codes.CLOSED and table.value[c, codes.FRICTION] > 0.0
         if rubs and table.kind[c] == codes.POINT_LINE:
-            lost += _contact(block, c)
+            lost += _contact(block, at, c)
     return lost
 
 
 @jit
-def _contact(block: Array, contact: int) -> float:
+def _contact(block: Array, at: Pose, contact: int) -> float:
     """Friction of a point along its line; returns the power lost."""
     keep_small()
     table = Contacts(block)
     force = Loads(block).force
-    tangent_row(block, contact, Strikes(block).tangent_line)
+    tangent_row(block, at, contact, Strikes(block).tangent_line)
     spare = spare_row(block)
     slip = Rows(block).residual_rate[spare]
     normal = abs(LinearSystem(block).multiplier[table.row[contact]])
@@ -76,7 +76,7 @@ def _contact(block: Array, contact: int) -> float:
 
 
 @jit
-def _pin(block: Array, joint: int) -> float:
+def _pin(block: Array, at: Pose, joint: int) -> float:
     """Friction torque of a revolute joint; returns the power lost."""
     keep_small()
     table = Joints(block)
@@ -85,7 +85,7 @@ def _pin(block: Array, joint: int) -> float:
     row = table.row[joint]
     i = table.body_i[joint]
     j = table.body_j[joint]
-    slip = Pose(block).phi_rate[i] - Pose(block).phi_rate[j]
+    slip = at.phi_rate[i] - at.phi_rate[j]
     normal = math.sqrt(multiplier[row] * multiplier[row] + multiplier[row + 1] * multiplier[row + 1])
     torque = -table.friction[joint] * normal * math.tanh(slip / SLIP_RATE)
     Loads(block).rubbing[joint] = torque
@@ -96,11 +96,10 @@ def _pin(block: Array, joint: int) -> float:
 
 
 @jit
-def _slider(block: Array, joint: int) -> float:
+def _slider(block: Array, at: Pose, joint: int) -> float:
     """Friction force of a translational joint along its axis, on body j at its point; returns the power lost."""
     keep_small()
     table = Joints(block)
-    at = Pose(block)
     force = Loads(block).force
     i = table.body_i[joint]
     j = table.body_j[joint]

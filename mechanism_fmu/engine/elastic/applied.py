@@ -11,12 +11,12 @@ from ...tables.motion import Loads, Pose, Stages
 from ...tables.parts import Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..dynamics.forces import weight
+from ..dynamics.point_forces import weight
 from ..vectors import clear
 
 
 @jit
-def put_loads(block: Array) -> None:
+def put_loads(block: Array, at: Pose) -> None:
     """P: inertia forces -m a and moments -J alpha of all lumps in the rigid motion, and what else acts on the bodies.
 
     Forces on a centre of mass are shared among the body's lumps by their masses, which is exact for weight.
@@ -26,7 +26,7 @@ def put_loads(block: Array) -> None:
     it = Structure(block)
     body = Nodes(block).body
     place = Nodes(block).place
-    rate = Pose(block).phi_rate
+    rate = at.phi_rate
     acceleration = Stages(block).dy_at[Sizes(block).coordinates :]
     clear(it.load)
     for k in range(table.node.shape[0]):
@@ -45,14 +45,13 @@ def put_loads(block: Array) -> None:
     couple = Couples(block)
     for k in range(couple.node.shape[0]):
         it.load[3 * couple.node[k] + 2] += couple.sign[k] * Loads(block).torque[couple.force[k]]
-    _rub(block)
+    _rub(block, at)
 
 
 @jit
-def _rub(block: Array) -> None:
+def _rub(block: Array, at: Pose) -> None:
     """Add the friction of joints to the loads: torques of pins, and forces along the guides of sliders."""
     keep_small()
-    at = Pose(block)
     table = Joints(block)
     tie = Ties(block)
     place = Nodes(block).place

@@ -20,11 +20,11 @@ from ...tables.motion import LinearSystem, Pose, Stages
 from ...tables.parts import Bodies
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..dynamics.forces import weight
+from ..dynamics.point_forces import weight
 
 
 @jit
-def beam_reading(block: Array, kind: int, beam: int) -> float:
+def beam_reading(block: Array, at: Pose, kind: int, beam: int) -> float:
     """Deflection of the tip from the tangent at the hinge [m], or the largest bending stress of a bar [Pa].
 
     Accelerations and multipliers are those that `derivative` has left. The deflection counts along R t, where t points
@@ -33,7 +33,7 @@ def beam_reading(block: Array, kind: int, beam: int) -> float:
     keep_small()
     data = Beams(block).data[beam]
     length = data[codes.BEAM_SPAN]
-    zeroth, first, second, third = _moment(block, beam)
+    zeroth, first, second, third = _moment(block, at, beam)
     if kind == codes.BEAM_DEFLECTION:
         # the integral of M (l - x) / EI
         square = length * length
@@ -56,14 +56,13 @@ def beam_reading(block: Array, kind: int, beam: int) -> float:
 
 
 @jit
-def _moment(block: Array, beam: int) -> tuple[float, float, float, float]:
+def _moment(block: Array, at: Pose, beam: int) -> tuple[float, float, float, float]:
     """The bending moment M(x) as a polynomial: its coefficients of x^0 to x^3."""
     keep_small()
     table = Beams(block)
     data = table.data[beam]
     i = table.body[beam]
     row = table.row[beam]
-    at = Pose(block)
     tx = at.cosine[i] * data[codes.BEAM_ALONG_X] - at.sine[i] * data[codes.BEAM_ALONG_Y]
     ty = at.sine[i] * data[codes.BEAM_ALONG_X] + at.cosine[i] * data[codes.BEAM_ALONG_Y]
     multiplier = LinearSystem(block).multiplier

@@ -12,13 +12,13 @@ from ..compiler.subset import jit, keep_small
 
 
 @jit
-def elastic_reading(block: Array, kind: int, index: int) -> float:
+def elastic_reading(block: Array, at: Pose, kind: int, index: int) -> float:
     """The value of an output of members or their ends; `index` as in `ports.output_index`."""
     keep_small()
     it = Structure(block)
     value = 0.0
     if kind == codes.NODE_PLACE or kind == codes.NODE_BENT:
-        value = _place(block, index // 2, index % 2)
+        value = _place(block, at, index // 2, index % 2)
         if kind == codes.NODE_BENT:
             value += it.displacement[3 * (index // 2) + index % 2]
     elif kind == codes.NODE_DEFLECTION:
@@ -33,9 +33,8 @@ def elastic_reading(block: Array, kind: int, index: int) -> float:
 
 
 @jit
-def _place(block: Array, node: int, axis: int) -> float:
+def _place(block: Array, at: Pose, node: int, axis: int) -> float:
     """Where a node stands in the rigid motion [m]."""
-    at = Pose(block)
     i = Nodes(block).body[node]
     place: float = Nodes(block).place[node, axis]
     if axis == 0:

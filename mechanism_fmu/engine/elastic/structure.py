@@ -24,13 +24,13 @@ from .linear_equations import factorise, solve, solve_transposed
 
 
 @jit
-def bend(block: Array) -> None:
+def bend(block: Array, at: Pose) -> None:
     """Write loads, element forces, deformations and displacements to `structure`.
 
     Positions, accelerations and rows of joints are those that `derivative` has left, of `stages.y_at` and `dy_at`.
     """
     keep_small()
-    _place_nodes(block)
+    _place_nodes(block, at)
     it = Structure(block)
     for r in range(it.matrix.shape[0]):
         clear(it.matrix[r])
@@ -40,17 +40,16 @@ def bend(block: Array) -> None:
     for k in range(it.locked.shape[0]):
         it.matrix[first + k, it.locked[k]] = 1.0
     factorise(it.matrix, it.matrix_order)
-    put_loads(block)
+    put_loads(block, at)
     solve_transposed(it.matrix, it.matrix_order, it.load, it.element_force)
     _deform(block)
     solve(it.matrix, it.matrix_order, it.deformation, it.displacement)
 
 
 @jit
-def _place_nodes(block: Array) -> None:
+def _place_nodes(block: Array, at: Pose) -> None:
     """Write the vectors from the centres of mass of their bodies to the nodes [m], in the global frame."""
     keep_small()
-    at = Pose(block)
     node = Nodes(block)
     place = node.place
     for k in range(node.body.shape[0]):

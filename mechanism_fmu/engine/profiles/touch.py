@@ -42,11 +42,10 @@ class Touch(NamedTuple):
 
 
 @jit
-def look(block: Array, contact: int) -> Touch:
+def look(block: Array, at: Pose, contact: int) -> Touch:
     """The curve points of a contact at the present pose and contact coordinates."""
     keep_small()
     table = Contacts(block)
-    at = Pose(block)
     data = table.data[contact]
     kind = table.kind[contact]
     i = table.body_i[contact]

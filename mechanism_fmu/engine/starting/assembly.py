@@ -35,9 +35,9 @@ def assemble(block: Array) -> int:
     for i in range(Bodies(block).start.shape[0]):
         for k in range(3):
             now.y_end[3 * i + k] = Bodies(block).start[i, k]
-    place_bodies(block, now.y_end)
-    find_contact_points(block, now.y_end)
-    count = active_rows(block)
+    at = place_bodies(block, now.y_end)
+    find_contact_points(block, at, now.y_end)
+    count = active_rows(block, at)
     worst = worst_of(Rows(block).residual, count)
     for _ in range(_NEWTON_STEPS):
         if worst == 0.0:
@@ -49,9 +49,9 @@ def assemble(block: Array) -> int:
             copy(now.y_end, s.y_new)
             for k in range(n):
                 s.y_new[k] += step * Loads(block).weight[k] * LinearSystem(block).solution[k]
-            place_bodies(block, s.y_new)
-            settle_contact_points(block, s.y_new)
-            active_rows(block)
+            at = place_bodies(block, s.y_new)
+            settle_contact_points(block, at, s.y_new)
+            active_rows(block, at)
             after = worst_of(Rows(block).residual, count)
             if after < worst:
                 improved = True
@@ -61,8 +61,8 @@ def assemble(block: Array) -> int:
             break
         copy(s.y_new, now.y_end)
         worst = after
-    place_bodies(block, now.y_end)
-    active_rows(block)
+    at = place_bodies(block, now.y_end)
+    active_rows(block, at)
     if worst <= CLOSED_WITHIN:
         return status.OK
     return status.NOT_ASSEMBLED

@@ -34,26 +34,26 @@ def start_guess(block: Array, offset: int) -> None:
     held = Options(block).held
     for k in range(held.shape[0]):
         weight[held[k]] = 0.0
-    place_bodies(block, now.y_end)
+    at = place_bodies(block, now.y_end)
     for p in range(Patterns(block).copy.shape[0]):
         Patterns(block).copy[p] = 0
-        place_pattern(block, p)
+        place_pattern(block, at, p)
     for c in range(table.mode.shape[0]):
         table.clicks[c] = 0
         table.mode[c] = codes.OPEN
         if table.value[c, codes.STARTS_CLOSED] > 0.5 and table.value[c, codes.ENABLED] > 0.5:
             table.mode[c] = codes.CLOSED
-        place_contact(block, c)
+        place_contact(block, at, c)
     find_copies(block)
     for p in range(Patterns(block).copy.shape[0]):
         if Patterns(block).enabled[p] > 0.5:
             Patterns(block).copy[p] += offset
-            place_pattern(block, p)
+            place_pattern(block, at, p)
     for f in range(Functions(block).true.shape[0]):
         Functions(block).true[f] = 0
-        if function_value(block, f)[0] < 0.0:
+        if function_value(block, at, f)[0] < 0.0:
             Functions(block).true[f] = 1
-    switch_contacts(block)
+    switch_contacts(block, at)
 
 
 @jit
@@ -62,19 +62,19 @@ def find_copies(block: Array) -> bool:
     table = Patterns(block)
     first_next = 2 * Sizes(block).contacts
     count = table.copy.shape[0]
-    place_bodies(block, Course(block).y_end)
+    at = place_bodies(block, Course(block).y_end)
     moved = False
     for p in range(count):
         for _ in range(_MOST_COPIES):
             if table.enabled[p] < 0.5:
                 break
-            if guard_value(block, first_next + p)[0] <= 0.0:
+            if guard_value(block, at, first_next + p)[0] <= 0.0:
                 table.copy[p] += 1
-            elif guard_value(block, first_next + count + p)[0] <= 0.0:
+            elif guard_value(block, at, first_next + count + p)[0] <= 0.0:
                 table.copy[p] -= 1
             else:
                 break
-            place_pattern(block, p)
+            place_pattern(block, at, p)
             moved = True
     return moved
 
@@ -83,11 +83,12 @@ def find_copies(block: Array) -> bool:
 def is_inside(block: Array) -> bool:
     """Whether a point of a pattern is behind one of the other lines there, which logical functions do not switch."""
     table = Contacts(block)
+    at = place_bodies(block, Course(block).y_end)
     inside = False
     for c in range(table.mode.shape[0]):
         pattern = table.pattern[c]
         if pattern == codes.NONE or table.mode[c] == codes.CLOSED or table.value[c, codes.ENABLED] < 0.5:
             continue
         if table.function[c] == codes.NONE and Patterns(block).enabled[pattern] > 0.5:
-            inside = inside or gap(block, c)[0] < -TOUCHES_WITHIN
+            inside = inside or gap(block, at, c)[0] < -TOUCHES_WITHIN
     return inside

@@ -6,7 +6,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Loads, Rows
+from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows
 from ...tables.parts import Contacts, Options, Ports
 from ...tables.sizes import Sizes
 from ...tolerances import STICK_SPEED, TOUCHES_WITHIN
@@ -34,12 +34,12 @@ def start(block: Array, time: float) -> int:
     The first `stepper.advance`, to `time` itself, chooses the contacts that push.
     """
     _begin_at_zero(block, time)
-    place_bodies(block, Course(block).y_end)
-    if _profiles_overlap(block):
+    at = place_bodies(block, Course(block).y_end)
+    if _profiles_overlap(block, at):
         return status.OVERLAP
-    if not _close_rates(block):
+    if not _close_rates(block, at):
         return status.START_RATES
-    if not _contacts_begin(block):
+    if not _contacts_begin(block, at):
         return status.START_INSIDE
     return status.OK
 
@@ -73,13 +73,13 @@ def _begin_at_zero(block: Array, time: float) -> None:
 
 
 @jit
-def _profiles_overlap(block: Array) -> bool:
+def _profiles_overlap(block: Array, at: Pose) -> bool:
     """Whether two profiles that touch cut into each other elsewhere; `_blame` says which."""
     keep_small()
     table = Contacts(block)
     for c in range(table.mode.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
-            depth = overlap(block, c)
+            depth = overlap(block, at, c)
             if depth > 0.0 and table.mode[c] == codes.CLOSED:
                 _blame(block, c, -depth)
                 return True
@@ -87,7 +87,7 @@ def _profiles_overlap(block: Array) -> bool:
 
 
 @jit
-def _contacts_begin(block: Array) -> bool:
+def _contacts_begin(block: Array, at: Pose) -> bool:
     """Close the contacts that touch and rest; False when one is inside (`_blame` says which)."""
     keep_small()
     table = Contacts(block)
@@ -96,7 +96,7 @@ def _contacts_begin(block: Array) -> bool:
         table.touching[c] = 0
         exists = table.value[c, codes.ENABLED] > 0.5 and table.function[c] == codes.NONE
         if table.mode[c] == codes.OPEN and exists:
-            distance, rate = gap(block, c)
+            distance, rate = gap(block, at, c)
             if not distance >= -TOUCHES_WITHIN:
                 _blame(block, c, distance)
                 return False
@@ -115,7 +115,7 @@ def _blame(block: Array, contact: int, distance: float) -> None:
 
 
 @jit
-def _close_rates(block: Array) -> bool:
+def _close_rates(block: Array, at: Pose) -> bool:
     """Whether the start rates agree with the active rows, after those of coordinates that are not held have given way.
 
     Without held coordinates nothing tells which rates are meant, and all stay as they are given.
@@ -123,7 +123,7 @@ def _close_rates(block: Array) -> bool:
     keep_small()
     n = Sizes(block).coordinates
     y = Course(block).y_end
-    count = active_rows(block)
+    count = active_rows(block, at)
     worst = worst_of(Rows(block).residual_rate, count)
     if Options(block).held.shape[0] == 0 or worst <= _RATES_CLOSED:
         return worst <= RATES_WITHIN
@@ -131,6 +131,6 @@ def _close_rates(block: Array) -> bool:
         newton_direction(block, count, Rows(block).residual_rate)
         for k in range(n):
             y[n + k] += Loads(block).weight[k] * LinearSystem(block).solution[k]
-        place_bodies(block, y)
-        active_rows(block)
+        at = place_bodies(block, y)
+        active_rows(block, at)
     return worst_of(Rows(block).residual_rate, count) <= RATES_WITHIN

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Stages, Watch
+from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE
@@ -76,8 +76,8 @@ def refine(block: Array, contact: int, step_size: float) -> float:
     limit = 2.0 * step_size
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, step_size)
-        place_bodies(block, s.y_new)
-        distance, rate = gap(block, contact)
+        at = place_bodies(block, s.y_new)
+        distance, rate = gap(block, at, contact)
         if not rate < 0.0:
             return step_size
         move = -distance / rate
@@ -93,11 +93,11 @@ def _first_zero(block: Array) -> tuple[int, float]:
     """The first guard that reaches zero, and where; (`codes.NONE`, 2.0) when none does."""
     keep_small()
     look_at = Watch(block)
-    _place(block, 0.0)
+    at = _place(block, 0.0)
     count = 0
     for g in range(Sizes(block).guards):
         if is_watched(block, g):
-            if _begin(block, g):
+            if _begin(block, at, g):
                 return g, 0.0
             look_at.watched[count] = g
             count += 1
@@ -106,10 +106,10 @@ def _first_zero(block: Array) -> tuple[int, float]:
     before = 0.0
     for look in range(1, _LOOKS + 1):
         after = look / _LOOKS
-        _place(block, after)
+        at = _place(block, after)
         for k in range(count):
             g = look_at.watched[k]
-            look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, g)
+            look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, at, g)
         which = codes.NONE
         earliest = 2.0
         for k in range(count):
@@ -125,11 +125,11 @@ def _first_zero(block: Array) -> tuple[int, float]:
 
 
 @jit
-def _begin(block: Array, number: int) -> bool:
+def _begin(block: Array, at: Pose, number: int) -> bool:
     """Note a guard's value at the step's start; True when it fires right there."""
     keep_small()
     look_at = Watch(block)
-    value, rate = guard_value(block, number)
+    value, rate = guard_value(block, at, number)
     look_at.rate[number] = rate
     look_at.armed[number] = 1
     look_at.floor[number] = 0.0
@@ -181,19 +181,19 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
 
 
 @jit
-def _place(block: Array, fraction: float) -> None:
+def _place(block: Array, fraction: float) -> Pose:
     """Put the bodies where they are at `fraction` of the step."""
     keep_small()
     s = Stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
-    place_bodies(block, s.y_at)
+    return place_bodies(block, s.y_at)
 
 
 @jit
 def _value_at(block: Array, number: int, fraction: float) -> tuple[float, float]:
     keep_small()
-    _place(block, fraction)
-    return guard_value(block, number)
+    at = _place(block, fraction)
+    return guard_value(block, at, number)
 
 
 @jit

@@ -117,8 +117,8 @@ def _independence_at(block: Array, fraction: float) -> float:
     s = Stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
     set_time(block, s.tried[0] + fraction * s.tried[1])
-    place_bodies(block, s.y_at)
-    count = active_rows(block)
+    at = place_bodies(block, s.y_at)
+    count = active_rows(block, at)
     n = Sizes(block).coordinates
     for r in range(count):
         for k in range(n):

@@ -11,6 +11,7 @@ from ...tables.motion import Course, Stages
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
 from ..contacts.release import release
 from ..dynamics.acceleration import derivative
 from ..dynamics.drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
@@ -102,8 +103,10 @@ def _mend_and_check(block: Array) -> int:
     set_time(block, now.clock[codes.STEP_END])
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
-    if Sizes(block).alphas > 0 and not least_fit(block) > 0.0:
-        return status.NO_CONTACT_POINT
-    if Sizes(block).alphas > 0 and bridged(block):
-        return status.BRIDGED
+    if Sizes(block).alphas > 0:
+        at = place_bodies(block, now.y_end)
+        if not least_fit(block, at) > 0.0:
+            return status.NO_CONTACT_POINT
+        if bridged(block, at):
+            return status.BRIDGED
     return status.OK

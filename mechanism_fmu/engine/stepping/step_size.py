@@ -74,8 +74,8 @@ def why_no_step(block: Array) -> int:
     if LinearSystem(block).rank[0] > Course(block).counters[codes.RANK]:
         return status.SINGULAR
     if Sizes(block).alphas > 0:
-        place_bodies(block, s.y_start)
-        if not least_fit(block) > _FITS_BARELY:
+        at = place_bodies(block, s.y_start)
+        if not least_fit(block, at) > _FITS_BARELY:
             return status.NO_CONTACT_POINT
     return status.STEP_TOO_SMALL
 

@@ -1,0 +1,31 @@
+"""One compiled function out of many: which of them is called, a kind's number decides."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from .subset import jit
+
+
+def by_kind(functions: Mapping[int, Callable[..., Any]], arguments: str, otherwise: str) -> Callable[..., Any]:
+    """A function of a kind's number and other arguments that calls the function of this kind.
+
+    Compiled code cannot look into a table of functions; what stands here is the chain of comparisons that one would
+    write by hand.
+
+    Args:
+        functions: by number of the kind; each takes `arguments`.
+        arguments: their names, e.g. "block, at, k".
+        otherwise: what it returns for other kinds, e.g. "0.0" or "math.nan".
+    """
+    lines = [f"def choose(kind, {arguments}):"]
+    for number in functions:
+        lines += [f"    if kind == {number}:", f"        return function_{number}({arguments})"]
+    namespace: dict[str, Any] = {"math": math} | {
+        f"function_{number}": function for number, function in functions.items()
+    }
+    exec("\n".join([*lines, f"    return {otherwise}"]), namespace)
+    chosen: Callable[..., Any] = jit(namespace["choose"])
+    return chosen
