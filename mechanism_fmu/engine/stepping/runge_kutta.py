@@ -49,12 +49,11 @@ def try_step(block: Array, start: float, size_: float) -> float:
         least[c] = 0.0
     _euler(y, k[0], h * _A[1, 0], s.y_stage)
     _stage(block, start + h * _C[1], s.y_stage, k[1])
-    for r in range(2, _STAGES):
-        target = s.y_stage
-        if r == _LAST:
-            target = s.y_new
-        _weighted(k, _A[r], y, h, target)
-        _stage(block, start + h * _C[r], target, k[r])
+    for r in range(2, _LAST):  # the last one apart: to choose the target in the loop costs 3 % of the whole motion
+        _weighted(k, _A[r], y, h, s.y_stage)
+        _stage(block, start + h * _C[r], s.y_stage, k[r])
+    _weighted(k, _A[_LAST], y, h, s.y_new)
+    _stage(block, start + h, s.y_new, k[_LAST])
     write_dense(block, h)
     return _error_norm(block, h)
 
