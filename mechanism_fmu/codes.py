@@ -6,20 +6,6 @@ Plain integers, because compiled code freezes module-level integers as constants
 #: No contact, pattern or logical function.
 NONE = -1
 
-# joint_kind
-REVOLUTE = 0
-TRANSLATIONAL = 1
-DISTANCE = 2
-REVOLUTE_TRANSLATIONAL = 3
-GEARS = 4
-INTERNAL_GEARS = 5
-RACK = 6
-X_DRIVER = 7
-Y_DRIVER = 8
-ANGLE_DRIVER = 9
-DISTANCE_DRIVER = 10
-TRANSLATIONAL_DRIVER = 11
-
 # contact_kind
 POINT_LINE = 0
 ANGLE_STOP = 1

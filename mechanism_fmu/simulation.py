@@ -13,7 +13,6 @@ from . import codes
 from .engine import status
 from .engine.run import engine_for
 from .model import Mechanism, MechanismError, compile_mechanism
-from .model.contacts import too_deep
 from .model.event_names import event_name
 from .model.unknowns import unknown_names
 from .tables.layout import field_of, state_of
@@ -326,5 +325,5 @@ class Simulation:
         """Which contact point starts inside, and by how much."""
         contact = self._mechanism.contacts[self.counters.item(codes.PENDING_SUBJECT)]
         depth = -field_of(self._block, "residual").item(-1)
-        before, behind = too_deep(contact)
+        before, behind = contact.too_deep()
         return f" Contact {contact.name!r}: {before} {depth:.6g} {behind}; change the start angles or the lengths."

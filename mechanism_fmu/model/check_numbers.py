@@ -6,9 +6,7 @@ from collections.abc import Iterator
 from dataclasses import fields
 
 from .body import Body
-from .check_contact_numbers import contact_findings, pattern_findings
 from .check_curves import curve_findings
-from .check_joint_numbers import joint_findings, pair_findings
 from .check_members import disk_findings, member_findings
 from .conditions import (
     finite,
@@ -20,7 +18,7 @@ from .contacts import Contact
 from .curves import Curve
 from .findings import Finding, first, literal, refuse_unless
 from .forces import ForceElement
-from .joints import Joint, Revolute
+from .joints import Joint
 from .mechanism import Mechanism, Settings, curve_owners
 from .patterns import CircularPattern
 
@@ -33,9 +31,9 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
     for body in mechanism.bodies:
         yield from _body(body)
     for contact in mechanism.contacts:
-        yield from contact_findings(contact)
+        yield from contact.findings()
     for pattern in mechanism.patterns:
-        yield from pattern_findings(pattern)
+        yield from pattern.findings()
     for function in mechanism.functions:
         label = f"Logical function {literal(repr(function.name))}"
         text = f"{label}: its limit {{:g}} is not finite; give a finite one as below."
@@ -43,8 +41,7 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
     for force in mechanism.forces:
         yield from force.findings()
     for joint in mechanism.joints:
-        what = "friction_radius" if isinstance(joint, Revolute) else "friction"
-        text = f"Joint {literal(repr(joint.name))}: {what} = {{:g}} must be finite and not negative."
+        text = f"Joint {literal(repr(joint.name))}: {joint.friction_name} = {{:g}} must be finite and not negative."
         yield refuse_unless(finite_not_negative(joint.friction), text, joint.friction)
     for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts, *mechanism.patterns):
         yield from _not_finite(part)
@@ -54,9 +51,9 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         text = f"Input {literal(repr(port.name))}: factor {{:g}} and offset {{:g}} must be finite."
         yield refuse_unless(finite(port.factor, port.offset), text, port.factor, port.offset)
     for joint in mechanism.joints:
-        yield from joint_findings(joint)
+        yield from joint.findings()
     for contact in mechanism.contacts:
-        yield from pair_findings(contact)
+        yield from contact.shape_findings()
     for owner, curve in curve_owners(mechanism):
         yield from curve_findings(owner, curve)
     for member in mechanism.members:

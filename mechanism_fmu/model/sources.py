@@ -8,7 +8,7 @@ from difflib import get_close_matches
 
 from .. import codes
 from .beams import OF_BEAM, beam_members, hinge
-from .efforts import EFFORTS, effort
+from .contacts import AngleStop
 from .errors import MechanismError
 from .functions import Number
 from .mechanism import Mechanism
@@ -28,13 +28,8 @@ _COUNTERS = {
     "lost": codes.IMPACTS_LOST,
     "any": codes.IMPACT_FLAG,
 }
-_OF_CONTACT = {
-    "force": codes.CONTACT_FORCE,
-    "gap": codes.CONTACT_GAP,
-    "closed": codes.CONTACT_CLOSED,
-    "clicks": codes.STOP_CLICKS,
-    "latched": codes.STOP_REFERENCE,
-}
+#: Of any contact, and of a stop with memory besides, for messages.
+_OF_CONTACT = AngleStop.readings
 _FIELDS = {
     "time": codes.RECORD_TIME,
     "contact": codes.RECORD_CONTACT,
@@ -123,7 +118,7 @@ def _common_sources(mechanism: Mechanism) -> Iterator[str]:
     for force in mechanism.forces:
         yield from (f"{force.name}.{quantity}" for quantity in force.quantities)
     for joint in mechanism.joints:
-        yield from (f"{joint.name}.{quantity}" for quantity in EFFORTS.get(joint.kind, ()))
+        yield from (f"{joint.name}.{quantity}" for quantity in joint.efforts)
     for member in mechanism.members:
         yield from (f"{member.name}.{quantity}" for quantity in (*_OF_MEMBER, *OF_BEAM))
         yield from (f"{member.name}.{end}.{quantity}" for end in ("start", "end") for quantity in _OF_MEMBER_END)
@@ -149,12 +144,9 @@ def _of_contact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, in
     names = [c.name for c in mechanism.contacts]
     if part in names and quantity in ("alpha_i", "alpha_j"):
         return _of_profiles(names.index(part), int(quantity == "alpha_j"), mechanism)
-    if part not in names or quantity not in _OF_CONTACT:
+    if part not in names or quantity not in mechanism.contacts[names.index(part)].readings:
         return None
-    is_stop = mechanism.contacts[names.index(part)].kind == codes.ANGLE_STOP
-    if quantity in ("clicks", "latched") and not is_stop:
-        return None
-    return _OF_CONTACT[quantity], names.index(part), 0
+    return mechanism.contacts[names.index(part)].readings[quantity], names.index(part), 0
 
 
 def _of_profiles(contact: int, which: int, mechanism: Mechanism) -> tuple[int, int, int] | None:
@@ -170,7 +162,7 @@ def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
     row = 0
     for joint in mechanism.joints:
         if joint.name == part:
-            found = effort(joint, quantity)
+            found = joint.effort(quantity)
             return None if found is None else (codes.JOINT_FORCE, row + found[0], 0)
         row += joint.rows
     return None
@@ -186,7 +178,7 @@ def output_factor(source: str, mechanism: Mechanism) -> Number:
         return -1.0 if quantity == "start_moment" else 1.0
     for joint in mechanism.joints:
         if joint.name == part:
-            found = effort(joint, quantity)
+            found = joint.effort(quantity)
             return 0.0 if found is None else found[1]
     return 0.0
 

@@ -1,4 +1,4 @@
-"""The kinds of force elements, and what stands in a row of each: read by the model, which writes it, and the engine.
+"""The kinds of joints and force elements, and what stands in a row of each, for model and engine.
 
 A line a kind: its name, and the columns of its row of the table, in order; `point.x` is the first entry of the part's
 `point`. The kind's number is its place here, so that a new one comes last.
@@ -6,7 +6,10 @@ A line a kind: its name, and the columns of its row of the table, in order; `poi
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, TypeVar
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 class Kinds:
@@ -30,6 +33,10 @@ class Kinds:
         """What stands in the column `kind` of the table."""
         return self._numbers[kind]
 
+    def numbered(self, functions: Mapping[str, Function]) -> dict[int, Function]:
+        """Functions of kinds by their numbers."""
+        return {self.number(kind): function for kind, function in functions.items()}
+
     def columns(self, kind: str) -> tuple[str, ...]:
         """The names of a kind's columns."""
         return self._columns[kind]
@@ -48,4 +55,19 @@ FORCES = Kinds(
     slip_clutch="stiffness damping limit speed",
     dc_motor="constant resistance inductance voltage gain integral_gain anti_windup speed",
     spring_damper="point.x point.y reaction_point.x reaction_point.y stiffness damping free_length preload",
+)
+
+JOINTS = Kinds(
+    revolute="point_i.x point_i.y point_j.x point_j.y",
+    translational="point_i.x point_i.y point_j.x point_j.y axis_i.x axis_i.y axis_j.x axis_j.y",
+    distance="point_i.x point_i.y point_j.x point_j.y distance",
+    revolute_translational="point_i.x point_i.y point_j.x point_j.y normal_i.x normal_i.y distance",
+    gears="point_i.x point_i.y point_j.x point_j.y radius_i angle_i radius_j angle_j",
+    internal_gears="point_i.x point_i.y point_j.x point_j.y radius_i angle_i radius_j angle_j",
+    rack_and_pinion="point_i.x point_i.y origin_i.x origin_i.y direction_i point_j.x point_j.y radius_j angle_j",
+    x_driver="point_i.x point_i.y point_j.x point_j.y",
+    y_driver="point_i.x point_i.y point_j.x point_j.y",
+    angle_driver="",
+    distance_driver="point_i.x point_i.y point_j.x point_j.y",
+    translational_driver="point_i.x point_i.y point_j.x point_j.y direction_i.x direction_i.y",
 )

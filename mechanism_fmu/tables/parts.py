@@ -5,7 +5,7 @@ from __future__ import annotations
 from .. import codes
 from .contents import ANY, COUNT, FINITE, FLAG, NOT_NAN, WHOLE, whole
 from .declare import Table, integer, real
-from .kinds import FORCES
+from .kinds import FORCES, JOINTS
 
 
 class Bodies(Table, prefix="body_"):
@@ -25,7 +25,7 @@ class Joints(Table, rows="joints", prefix="joint_"):
     body_i = integer()
     body_j = integer()
     row = integer()
-    data = real(9)
+    data = real(JOINTS.width)
     friction = real()
     curve = integer()
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
+from ...tables.kinds import JOINTS
 from ...tables.motion import LinearSystem, Pose, Rows
 from ...tables.parts import Contacts, Joints, Options
 from ...tables.sizes import Sizes
+from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
@@ -26,6 +28,31 @@ from .joints.y_driver import y_driver
 from .point_line import point_line
 from .profile_row import profile_row
 
+#: The rows of every joint, by the name of its kind; those of the first two, which are frequent, are compiled for speed.
+FREQUENT = {"revolute": revolute, "translational": translational}
+OTHERS = {
+    "distance": distance,
+    "revolute_translational": revolute_translational,
+    "gears": gears,
+    "internal_gears": internal_gears,
+    "rack_and_pinion": rack_and_pinion,
+}
+#: Of every driver; these take C, C' and C'' besides.
+DRIVERS = {
+    "x_driver": x_driver,
+    "y_driver": y_driver,
+    "angle_driver": angle_driver,
+    "distance_driver": distance_driver,
+    "translational_driver": translational_driver,
+}
+
+_ROW = "at, out, row, i, j, data"
+_other = by_kind({JOINTS.number(kind): rows for kind, rows in OTHERS.items()}, _ROW, small=True)
+_joint = by_kind({JOINTS.number(kind): rows for kind, rows in FREQUENT.items()}, _ROW, rest=_other)
+_driver = by_kind(
+    {JOINTS.number(kind): rows for kind, rows in DRIVERS.items()}, f"{_ROW}, c, c_rate, c_bend", small=True
+)
+
 
 @jit
 def joint_rows(block: Array, at: Pose) -> None:
@@ -38,60 +65,21 @@ def joint_rows(block: Array, at: Pose) -> None:
         row = table.row[k]
         i = table.body_i[k]
         j = table.body_j[k]
-        if table.kind[k] == codes.REVOLUTE:
-            revolute(at, out, row, i, j, table.data[k])
-        elif table.kind[k] == codes.TRANSLATIONAL:
-            translational(at, out, row, i, j, table.data[k])
-        elif table.kind[k] < codes.X_DRIVER:
-            _other_joint(block, at, k)
+        if table.curve[k] == codes.NONE:
+            _joint(table.kind[k], at, out, row, i, j, table.data[k])
         else:
-            _driver(block, at, k)
+            _drive(block, at, k)
 
 
 @jit
-def _other_joint(block: Array, at: Pose, joint: int) -> None:
-    """Write the rows of a joint that is neither of the two frequent ones nor a driver."""
-    keep_small()
-    table = Joints(block)
-    kind = table.kind[joint]
-    row = table.row[joint]
-    i = table.body_i[joint]
-    j = table.body_j[joint]
-    data = table.data[joint]
-    if kind == codes.DISTANCE:
-        distance(at, Rows(block), row, i, j, data)
-    elif kind == codes.REVOLUTE_TRANSLATIONAL:
-        revolute_translational(at, Rows(block), row, i, j, data)
-    elif kind == codes.GEARS:
-        gears(at, Rows(block), row, i, j, data)
-    elif kind == codes.INTERNAL_GEARS:
-        internal_gears(at, Rows(block), row, i, j, data)
-    else:
-        rack_and_pinion(at, Rows(block), row, i, j, data)
-
-
-@jit
-def _driver(block: Array, at: Pose, joint: int) -> None:
+def _drive(block: Array, at: Pose, joint: int) -> None:
     """Write the row of a driver, whose motion is a curve over time."""
     keep_small()
-    out = Rows(block)
     table = Joints(block)
-    kind = table.kind[joint]
-    row = table.row[joint]
+    c, c_rate, c_bend, _ = curve(block, table.curve[joint], at.instant[0])
     i = table.body_i[joint]
     j = table.body_j[joint]
-    data = table.data[joint]
-    c, c_rate, c_bend, _ = curve(block, table.curve[joint], at.instant[0])
-    if kind == codes.X_DRIVER:
-        x_driver(at, out, row, i, j, data, c, c_rate, c_bend)
-    elif kind == codes.Y_DRIVER:
-        y_driver(at, out, row, i, j, data, c, c_rate, c_bend)
-    elif kind == codes.ANGLE_DRIVER:
-        angle_driver(at, out, row, i, j, data, c, c_rate, c_bend)
-    elif kind == codes.DISTANCE_DRIVER:
-        distance_driver(at, out, row, i, j, data, c, c_rate, c_bend)
-    else:
-        translational_driver(at, out, row, i, j, data, c, c_rate, c_bend)
+    _driver(table.kind[joint], at, Rows(block), table.row[joint], i, j, table.data[joint], c, c_rate, c_bend)
 
 
 @jit

@@ -23,8 +23,8 @@ ELEMENTS: dict[str, Element] = {**torsional.ELEMENTS, **point_forces.ELEMENTS, *
 
 def _function(role: str, arguments: str, otherwise: str) -> Any:
     """What all elements that have this role do."""
-    functions = {FORCES.number(kind): getattr(element, role) for kind, element in ELEMENTS.items()}
-    return by_kind({number: function for number, function in functions.items() if function}, arguments, otherwise)
+    functions = {kind: getattr(element, role) for kind, element in ELEMENTS.items() if getattr(element, role)}
+    return by_kind(FORCES.numbered(functions), arguments, otherwise)
 
 
 _act = _function("act", "block, at, k, y, dy, given, lost", "given, lost")

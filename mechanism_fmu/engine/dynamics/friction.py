@@ -10,6 +10,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
+from ...tables.kinds import JOINTS
 from ...tables.motion import LinearSystem, Loads, Pose, Rows, Strikes
 from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
@@ -19,6 +20,8 @@ from ..constraints.rows import spare_row, tangent_row
 #: Slip at which friction reaches 76 % of its full value: along a line [m/s], in a pin [rad/s].
 SLIP_SPEED = 1e-4
 SLIP_RATE = 1e-3
+
+_REVOLUTE = JOINTS.number("revolute")
 
 
 @jit
@@ -46,7 +49,7 @@ def resist(block: Array, at: Pose) -> float:
     joint = Joints(block)
     for k in range(joint.kind.shape[0]):
         if joint.friction[k] > 0.0:
-            if joint.kind[k] == codes.REVOLUTE:
+            if joint.kind[k] == _REVOLUTE:
                 lost += _pin(block, at, k)
             else:
                 lost += _slider(block, at, k)

@@ -6,6 +6,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
+from ...tables.kinds import JOINTS
 from ...tables.members import Couples, Lumps, Nodes, Structure, Ties
 from ...tables.motion import Loads, Pose, Stages
 from ...tables.parts import Joints
@@ -13,6 +14,8 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..dynamics.point_forces import weight
 from ..vectors import clear
+
+_REVOLUTE = JOINTS.number("revolute")
 
 
 @jit
@@ -66,7 +69,7 @@ def _rub(block: Array, at: Pose) -> None:
         j = table.body_j[joint]
         if Nodes(block).body[p] == i:
             rubbing = -rubbing  # as of a force on body j; the torque of a pin is given on body i
-        if table.kind[joint] == codes.REVOLUTE:
+        if table.kind[joint] == _REVOLUTE:
             load[3 * p + 2] -= rubbing
             continue
         data = table.data[joint]

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 
 from ...admissible import Rule, rules
 from ...model import Mechanism, Model, compile_mechanism
-from ...model.contacts import too_deep
 from ...model.unknowns import unknown_names
 from ...tables.layout import FIELDS, slot
 from ...tables.pack import pack
@@ -102,7 +101,7 @@ def _array(kind: str, name: str, entries: Iterable[str]) -> str:
 
 def _names(mechanism: Mechanism) -> list[str]:
     joints = (f"{{{c_text(joint.name)}, {joint.rows}}}" for joint in mechanism.joints)
-    contacts = (f"{{{', '.join(map(c_text, (c.name, *too_deep(c))))}}}" for c in mechanism.contacts)
+    contacts = (f"{{{', '.join(map(c_text, (c.name, *c.too_deep())))}}}" for c in mechanism.contacts)
     return [
         _array("Joint", "JOINTS", joints),
         _array("Contact", "CONTACTS", contacts),

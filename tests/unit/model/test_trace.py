@@ -144,11 +144,11 @@ def test_a_symbol_of_another_trace_is_refused():
 def test_symbolic_structure_is_refused_by_the_name_of_its_table():
     def mechanism(values):
         made = RATCHET.mechanism(RATCHET.values())
-        object.__setattr__(made.joints[0], "kind", values.a)
+        object.__setattr__(made.contacts[0], "kind", values.a)
         return made
 
     model = replace(MODEL, mechanism=mechanism, parameters=(replace(MODEL.parameters[0], start=1),))
-    with pytest.raises(MechanismError, match="the table joint_kind holds structure, but depends on a parameter"):
+    with pytest.raises(MechanismError, match="the table contact_kind holds structure, but depends on a parameter"):
         trace(model)
 
 
