@@ -153,13 +153,13 @@ def _spring_power(block: Array, at: Pose, _index: int, _slot: int, _value: float
 
 @jit
 def _energy_lost(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
-    lost: float = Course(block).ledger[codes.LEDGER_LOST] + Stages(block).y_at[2 * Sizes(block).coordinates + 1]
+    lost: float = Course(block).ledger[codes.LEDGER_LOST] + Stages(block).y_at[Sizes(block).y_loss]
     return lost
 
 
 @jit
 def _power_lost(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
-    rate: float = Stages(block).dy_at[2 * Sizes(block).coordinates + 1]
+    rate: float = Stages(block).dy_at[Sizes(block).y_loss]
     return rate
 
 

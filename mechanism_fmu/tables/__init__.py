@@ -5,6 +5,7 @@ the declarations follow the sizes, the offsets and shapes in the block (`layout`
 (`pack`), and the header of the C surface (`mechanism_fmu.fmu.native.headers`).
 
     parts      the mechanism: bodies, joints, forces, contacts, curves, ports, settings
+    method     the Runge-Kutta method, from which two tables take their sizes
     motion     how far the motion has come, and the scratch of its calculation
     members    elastic members and the structure that they make
 """

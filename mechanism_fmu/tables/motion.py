@@ -7,6 +7,7 @@ import math
 from .. import codes
 from .contents import ANY, COUNT, FINITE, FLAG, MOST, NOT_NEGATIVE, WHOLE, index_of, whole
 from .declare import Table, integer, real
+from .method import METHOD
 
 #: Subject of a guard: a contact, pattern or logical function, or the status of a failure; the guard says which.
 _SUBJECT = whole(codes.NONE, int(MOST))
@@ -75,7 +76,7 @@ class Course(Table):
     ledger = real(codes.LEDGER_LENGTH, holds=FINITE)
     y_end = real("unknowns", holds=FINITE)
     dy_end = real("unknowns", holds=ANY)
-    dense = real(5, "unknowns", holds=FINITE)
+    dense = real(METHOD.dense_rows, "unknowns", holds=FINITE)
     independence_end = real(1, holds=ANY)
     last_impact = real("record", holds=_RECORD)
     impacts = real("buffer", "record", holds=_RECORD)
@@ -163,16 +164,16 @@ class Stages(Table, prefix="stage_"):
     `stage` is the one computed last; `stiffest` is the unknown that limited the steps, once that was asked.
     """
 
-    derivatives = real(7, "unknowns", name="derivatives", work=True)
+    derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
     tried = real(2, name="tried", work=True)
     y_start = real("unknowns", name="y_start", work=True)
     y_stage = real("unknowns", name="y_stage", work=True)
     y_new = real("unknowns", name="y_new", work=True)
     y_at = real("unknowns", name="y_at", work=True)
     dy_at = real("unknowns", name="dy_at", work=True)
-    new_dense = real(5, "unknowns", name="new_dense", work=True)
+    new_dense = real(METHOD.dense_rows, "unknowns", name="new_dense", work=True)
     stage = integer(1, name="stage", work=True)
-    independence = real(7, work=True)
+    independence = real(METHOD.stages, work=True)
     stiffest = integer(1, work=True)
 
 

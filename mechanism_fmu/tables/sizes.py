@@ -1,4 +1,4 @@
-"""How many of each there are: the first words of a block."""
+"""How many of each there are, and where the parts of y begin: the first words of a block."""
 
 from __future__ import annotations
 
@@ -56,8 +56,12 @@ class Sizes:
     wide = _follows(lambda n: n["columns"] + n["alphas"])
     frames = _follows(lambda n: n["bodies"] + 1)  # and the ground
     rows = _follows(lambda n: n["joint_rows"] + n["contact_rows"] + 1)  # and a spare one
-    # positions, rates, work done, energy lost in motion, contact coordinates, own states
-    unknowns = _follows(lambda n: 2 * n["coordinates"] + 2 + n["alphas"] + n["own"])
+    # y = (q, qd, work, loss, alpha, own): positions begin at 0, rates at `coordinates`, the others here
+    y_work = _follows(lambda n: 2 * n["coordinates"])
+    y_loss = _follows(lambda n: n["y_work"] + 1)
+    y_alpha = _follows(lambda n: n["y_loss"] + 1)
+    y_own = _follows(lambda n: n["y_alpha"] + n["alphas"])
+    unknowns = _follows(lambda n: n["y_own"] + n["own"])
     # two a contact, two a pattern, one a logical function
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"])
     # columns of an impact record

@@ -38,6 +38,7 @@ def place_bodies(block: Array, y: Array) -> Pose:
     at.x_rate[bodies] = 0.0
     at.y_rate[bodies] = 0.0
     at.phi_rate[bodies] = 0.0
+    first = Sizes(block).y_alpha
     for k in range(Sizes(block).alphas):
-        at.alpha[k] = y[6 * bodies + 2 + k]
+        at.alpha[k] = y[first + k]
     return at

@@ -68,7 +68,7 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
         taking_part.impulse[c] = 0.0
         if table.mode[c] == codes.CLOSED:
             taking_part.impulse[c] = LinearSystem(block).multiplier[table.row[c]]
-    Course(block).y_end[2 * n] += driver_power(block)  # of impulses: drivers do work at once
+    Course(block).y_end[Sizes(block).y_work] += driver_power(block)  # of impulses: drivers do work at once
     rub(block)
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:

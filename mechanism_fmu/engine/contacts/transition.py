@@ -43,7 +43,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     inverse_mass = Bodies(block).inverse_mass
     old_mode = mode_number(block)
     energy = kinetic_energy(inverse_mass, rate, n)
-    work = now.y_end[2 * n]
+    work = now.y_end[Sizes(block).y_work]
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
@@ -69,7 +69,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     outcome = status.CHATTERING
     if settled:
         outcome = _settle(block, fired, only_choose, hits > 0)
-    lost = energy + (now.y_end[2 * n] - work) - kinetic_energy(inverse_mass, rate, n)
+    lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
         return outcome

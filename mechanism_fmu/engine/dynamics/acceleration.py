@@ -43,13 +43,14 @@ def derivative(block: Array, y: Array, dy: Array) -> Pose:
     for k in range(n):
         dy[k] = y[n + k]
         dy[n + k] = free[k] + root[k] * correction[k]
-    dy[2 * n] = given + driver_power(block)
-    dy[2 * n + 1] = lost
+    dy[Sizes(block).y_work] = given + driver_power(block)
+    dy[Sizes(block).y_loss] = lost
     alphas = Sizes(block).alphas
     if alphas > 0:
         follow_open_contacts(block, at)
+    first = Sizes(block).y_alpha
     for k in range(alphas):
-        dy[2 * n + 2 + k] = at.alpha_rate[k]
+        dy[first + k] = at.alpha_rate[k]
     return at
 
 

@@ -24,16 +24,9 @@ CURRENT, INTEGRAL = range(2)
 
 
 @jit
-def first_own(block: Array) -> int:
-    """Where own states begin among the unknowns."""
-    first: int = 2 * Sizes(block).coordinates + 2 + Sizes(block).alphas
-    return first
-
-
-@jit
 def _place(block: Array, k: int) -> int:
     """Where the own states of element `k` begin among the unknowns."""
-    place: int = first_own(block) + Forces(block).own[k]
+    place: int = Sizes(block).y_own + Forces(block).own[k]
     return place
 
 

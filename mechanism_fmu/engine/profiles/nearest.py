@@ -60,7 +60,7 @@ def find_contact_points(block: Array, at: Pose, y: Array) -> None:
 
 @jit
 def _keep(block: Array, at: Pose, y: Array) -> None:
-    first = 2 * Sizes(block).coordinates + 2
+    first = Sizes(block).y_alpha
     for k in range(Sizes(block).alphas):
         y[first + k] = at.alpha[k]
 

@@ -17,7 +17,6 @@ from ..constraints.rows import active_rows, spare_row
 from ..contacts.guards import gap
 from ..contacts.records import clear_impact, clear_records
 from ..dynamics.inputs import take_inputs
-from ..dynamics.own_states import first_own
 from ..profiles.overlap import overlap
 from ..vectors import clear
 from .assembly import newton_direction, worst_of
@@ -49,7 +48,6 @@ def start(block: Array, time: float) -> int:
 def _begin_at_zero(block: Array, time: float) -> None:
     """The clock stands at `time` [s], nothing has happened, and the inputs are those that are set."""
     keep_small()
-    n = Sizes(block).coordinates
     now = Course(block)
     now.clock[codes.TIME] = time
     now.clock[codes.STEP_END] = time
@@ -67,9 +65,9 @@ def _begin_at_zero(block: Array, time: float) -> None:
     now.counters[codes.PENDING_GUARD] = codes.GUARD_BEGIN
     now.counters[codes.PENDING_SUBJECT] = codes.NONE
     now.ledger[codes.LEDGER_LOST] = 0.0
-    now.y_end[2 * n] = 0.0
-    now.y_end[2 * n + 1] = 0.0
-    first = first_own(block)
+    now.y_end[Sizes(block).y_work] = 0.0
+    now.y_end[Sizes(block).y_loss] = 0.0
+    first = Sizes(block).y_own
     for k in range(Sizes(block).own):
         now.y_end[first + k] = 0.0
 

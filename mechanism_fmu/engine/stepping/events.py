@@ -30,8 +30,8 @@ from ..contacts.complementarity import push_ratio
 from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
 from ..dynamics.acceleration import derivative
 from ..dynamics.inputs import set_time
-from .dormand_prince import try_step
 from .interpolation import interpolate
+from .runge_kutta import try_step
 
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8

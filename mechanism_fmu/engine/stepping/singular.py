@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
+from ...tables.method import METHOD
 from ...tables.motion import Course, LinearSystem, Rows, Stages
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
@@ -18,6 +19,10 @@ from ..dynamics.inputs import set_time
 from ..dynamics.minimum_norm import orthogonalise
 from .interpolation import interpolate
 
+_LAST = METHOD.last
+_INTERIOR = METHOD.interior
+#: The stage next to the end of the step.
+_BEFORE_LAST = _INTERIOR[-1]
 #: Rows with less independence than this (a squared sine) are singular: the configuration is passed, not just neared.
 _SINGULAR_BELOW = 1e-10
 #: Dips above this are no sign of a singular configuration.
@@ -54,11 +59,13 @@ def is_singular(block: Array) -> bool:
     now = Course(block)
     at = Stages(block).independence
     at[0] = now.independence_end[0]
-    inside = min(min(at[1], at[2]), min(at[3], at[4]))
+    inside = at[_BEFORE_LAST]
+    for k in _INTERIOR:
+        inside = min(inside, at[k])
     if LinearSystem(block).rank[0] > now.counters[codes.RANK]:
         return True
     before = now.counters[codes.FALLING] == 1 and at[1] > at[0]
-    dips = before or (inside < at[0] and inside < at[6])
+    dips = before or (inside < at[0] and inside < at[_LAST])
     if not dips or min(inside, at[0]) > _LOOK_BELOW:
         return False
     begin = 0.0
@@ -72,9 +79,9 @@ def keep_independence(block: Array) -> None:
     """Of the step last tried, which is accepted: how independent the rows are at its end, and whether that falls."""
     now = Course(block)
     at = Stages(block).independence
-    now.independence_end[0] = at[6]
+    now.independence_end[0] = at[_LAST]
     now.counters[codes.FALLING] = 0
-    if at[6] < at[4]:
+    if at[_LAST] < at[_BEFORE_LAST]:
         now.counters[codes.FALLING] = 1
 
 

@@ -6,6 +6,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
+from ...tables.method import METHOD
 from ...tables.motion import Course, Stages
 from ...tables.sizes import Sizes
 from .. import status
@@ -18,11 +19,13 @@ from ..dynamics.inputs import set_time
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import copy
-from .dormand_prince import try_step
 from .events import first_event, refine
 from .pulling import watch_step
+from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
 from .step_size import accurate_step, smallest_step, why_no_step
+
+_LAST = METHOD.last
 
 
 @jit
@@ -47,7 +50,7 @@ def take_step(block: Array) -> int:
         step *= fraction
         if step > smallest_step(start):
             step = _end_at_event(block, guard, subject, start, step)
-            if math.isnan(s.y_new[2 * Sizes(block).coordinates + 1]):
+            if math.isnan(s.y_new[Sizes(block).y_loss]):
                 return why_no_step(block)
         else:
             step = 0.0  # it happens here and now
@@ -87,8 +90,8 @@ def _keep(block: Array, start: float, step: float) -> None:
     if now.counters[codes.RAMPING] != 0 and abs(start + step - now.clock[codes.RAMP_END]) <= smallest_step(start):
         now.clock[codes.STEP_END] = now.clock[codes.RAMP_END]
     copy(s.y_new, now.y_end)
-    copy(s.derivatives[6], now.dy_end)
-    for r in range(5):
+    copy(s.derivatives[_LAST], now.dy_end)
+    for r in range(now.dense.shape[0]):
         copy(s.new_dense[r], now.dense[r])
 
 

@@ -6,6 +6,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
+from ...tables.method import METHOD
 from ...tables.motion import Course, LinearSystem, Stages
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
@@ -13,9 +14,10 @@ from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..profiles.nearest import least_fit
-from .dormand_prince import ORDER, scaled_error, try_step
+from .runge_kutta import scaled_error, try_step
 from .step_limits import within_motions, within_ramp
 
+_ERROR_EXPONENT = METHOD.error_exponent
 #: Smallest step as a fraction of max(1 s, |t|).
 _SMALLEST_STEP = 1e-15
 #: Where there are guards, no body turns further than this in one step [rad]: a step without error may be of any length,
@@ -65,7 +67,7 @@ def smallest_step(start: float) -> float:
 def why_no_step(block: Array) -> int:
     """What has made the step shrink to nothing: the power lost is not a number where friction found no agreement."""
     s = Stages(block)
-    lost = 2 * Sizes(block).coordinates + 1
+    lost = Sizes(block).y_loss
     for k in range(1, s.derivatives.shape[0]):
         if math.isnan(s.derivatives[k, lost]) and not math.isnan(s.derivatives[k, 0]):
             return status.JAMMED
@@ -90,10 +92,10 @@ def _try(block: Array, start: float, step: float) -> float:
     for k in range(2, Sizes(block).coordinates, 3):
         turn = max(turn, abs(s.y_new[k] - s.y_start[k]) / MOST_TURN)
     haste = Contacts(block).alpha_haste
-    first = 2 * Sizes(block).coordinates + 2
+    first = Sizes(block).y_alpha
     for k in range(haste.shape[0]):
         turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) * haste[k])
-    too_far = math.pow(turn, float(ORDER))  # `_scale` takes the root
+    too_far = math.pow(turn, float(_ERROR_EXPONENT))  # `_scale` takes the root
     if too_far > error:
         return too_far
     return error
@@ -112,7 +114,7 @@ def _scale(error: float, most: float) -> float:
         return most
     if not error < math.inf:
         return _SHRINK_MOST
-    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -1.0 / ORDER)))
+    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -1.0 / _ERROR_EXPONENT)))
 
 
 @jit
@@ -123,10 +125,9 @@ def note_stiffest(block: Array) -> None:
     """
     keep_small()
     s = Stages(block)
-    work = 2 * Sizes(block).coordinates
     worst = -1.0
     for i in range(Sizes(block).unknowns):
-        if i == work or i == work + 1:
+        if i == Sizes(block).y_work or i == Sizes(block).y_loss:
             continue  # work and loss follow from the motion
         error = abs(scaled_error(block, i, s.tried[1]))
         if not error <= worst:

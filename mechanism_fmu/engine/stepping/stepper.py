@@ -22,9 +22,9 @@ from ..contacts.transition import transit
 from ..dynamics.acceleration import derivative
 from ..dynamics.inputs import feed, inputs_changed, set_time, show_reached, take_inputs
 from ..vectors import copy
-from .dormand_prince import initial_step_size, try_step
 from .interpolation import interpolate
 from .pulling import watch_at
+from .runge_kutta import initial_step_size, try_step
 from .singular import keep_independence, note_rank
 from .step import take_step
 from .step_size import note_stiffest
