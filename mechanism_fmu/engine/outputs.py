@@ -12,7 +12,7 @@ from ..tables.motion import Course, LinearSystem, Pose, Stages
 from ..tables.parts import Bodies, Contacts, Patterns, Ports
 from ..tables.sizes import Sizes
 from .compiler.by_kind import by_kind
-from .compiler.subset import entry, jit
+from .compiler.subset import entry, jit, keep_small
 from .constraints.kinematics import place_bodies
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
@@ -203,16 +203,6 @@ def _member_force(block: Array, _at: Pose, index: int, _slot: int, value: float)
     return value
 
 
-@jit
-def _beam_deflection(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
-    return beam_reading(block, at, codes.BEAM_DEFLECTION, index)
-
-
-@jit
-def _beam_stress(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
-    return beam_reading(block, at, codes.BEAM_STRESS, index)
-
-
 #: Every kind of output but those of elastic members.
 READINGS: dict[int, Reading] = {
     codes.CONSTANT: Reading(_constant, _rests),
@@ -233,14 +223,14 @@ READINGS: dict[int, Reading] = {
     codes.FORCE_READING: Reading(_force_element, _force_element_rate),
     codes.JOINT_FORCE: Reading(_joint_force, solves=True),
     codes.BUFFERED_EVENT: Reading(_buffered_event),
-    codes.BEAM_DEFLECTION: Reading(_beam_deflection, solves=True),
-    codes.BEAM_STRESS: Reading(_beam_stress, solves=True),
     codes.MEMBER_FORCE: Reading(_member_force),
 }
 
 
 @jit
 def _of_member(kind: int, block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
+    if kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
+        return beam_reading(block, at, kind, index)
     return elastic_reading(block, at, kind, index)
 
 
@@ -250,9 +240,10 @@ def _yes(_kind: int) -> bool:
 
 
 _ARGUMENTS = "block, at, index, slot, value"
-_read = by_kind({kind: reading.value for kind, reading in READINGS.items()}, _ARGUMENTS, rest=_of_member)
+_read = by_kind({kind: r.value for kind, r in READINGS.items()}, _ARGUMENTS, rest=_of_member)
 _read_rate = by_kind({kind: r.rate for kind, r in READINGS.items() if r.rate}, _ARGUMENTS, "math.nan")
-_solves = by_kind({kind: _yes for kind, reading in READINGS.items() if reading.solves}, "of", "False")
+_SOLVING = (codes.BEAM_DEFLECTION, codes.BEAM_STRESS, *(kind for kind, reading in READINGS.items() if reading.solves))
+_solves = by_kind(dict.fromkeys(_SOLVING, _yes), "of", "False")
 
 
 @entry
@@ -281,6 +272,7 @@ def read_output_rates(block: Array) -> None:
 
     Jumps in impacts do not count.
     """
+    keep_small()
     table = Ports(block)
     s = Stages(block)
     state_at_time(block, s.y_at)

@@ -180,6 +180,7 @@ def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
 @jit
 def _progress(block: Array) -> int:
     """Count events that follow each other without progress in time."""
+    keep_small()
     now = Course(block)
     time = now.clock[codes.STEP_END]
     if time - now.clock[codes.LAST_EVENT] > PILE_TIME:

@@ -33,6 +33,7 @@ def start(block: Array, time: float) -> int:
 
     The first `stepper.advance`, to `time` itself, chooses the contacts that push.
     """
+    keep_small()
     _begin_at_zero(block, time)
     at = place_bodies(block, Course(block).y_end)
     if _profiles_overlap(block, at):
