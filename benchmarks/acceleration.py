@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from mechanism_fmu.engine.block.layout import Array, field_of
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
+from mechanism_fmu.tables.declare import Array
+from mechanism_fmu.tables.layout import field_of
 
 from . import reference
 from .instance import INSTANTS, Instance

@@ -7,8 +7,6 @@ import math
 import numpy as np
 
 from mechanism_fmu.engine import status
-from mechanism_fmu.engine.block.layout import Array, field_of
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.engine.starting.begin import begin
@@ -28,6 +26,9 @@ from mechanism_fmu.model import (
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.joints import Joint
 from mechanism_fmu.model.profiles import circle, harmonic_profile
+from mechanism_fmu.tables.declare import Array
+from mechanism_fmu.tables.layout import field_of
+from mechanism_fmu.tables.pack import pack
 
 from .timing import Comparison, batch, in_turns, require_agreement
 

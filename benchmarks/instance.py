@@ -9,12 +9,12 @@ import numpy as np
 import models
 from mechanism_fmu import codes
 from mechanism_fmu.engine import status
-from mechanism_fmu.engine.block.layout import field_of, state_of
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.engine.outputs import read_outputs
 from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.engine.stepping.stepper import advance
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.tables.layout import field_of, state_of
+from mechanism_fmu.tables.pack import pack
 
 from .plain import OUTPUTS
 from .reference import FACE, State

@@ -13,8 +13,9 @@ import numpy as np
 
 from . import codes
 from .engine import status
-from .engine.block.contents import Holds
-from .engine.block.layout import COLUMNS, FIELDS, FIELDS_BY_NAME, Array, Field, shape_of
+from .tables.contents import Holds
+from .tables.declare import Array, Field
+from .tables.layout import FIELDS, FIELDS_BY_NAME, shape_of
 
 #: What the subject of a guard counts.
 SUBJECTS = {
@@ -62,7 +63,7 @@ def _of_field(field: Field, first: int, sizes: dict[str, int]) -> list[Rule]:
     if field.holds is None:
         raise TypeError(f"The field {field.name} of the state does not declare what it holds.")
     shape = shape_of(field, sizes)
-    names = COLUMNS.get(field.name, ("",))
+    names = field.columns or ("",)
     stride = shape[-1] if len(field.holds) > 1 else math.prod(shape)
     rows = math.prod(shape) // stride if stride else 0
     found = []

@@ -6,58 +6,6 @@ Plain integers, because compiled code freezes module-level integers as constants
 #: No contact, pattern or logical function.
 NONE = -1
 
-# joint_kind
-REVOLUTE = 0
-TRANSLATIONAL = 1
-DISTANCE = 2
-REVOLUTE_TRANSLATIONAL = 3
-GEARS = 4
-INTERNAL_GEARS = 5
-RACK = 6
-X_DRIVER = 7
-Y_DRIVER = 8
-ANGLE_DRIVER = 9
-DISTANCE_DRIVER = 10
-TRANSLATIONAL_DRIVER = 11
-
-# force_kind
-TORQUE = 0
-TORSION_SPRING = 1
-DAMPER = 2
-SHAFT = 3
-FORCE = 4
-SLIP_CLUTCH = 5
-DC_MOTOR = 6
-
-# force_data columns
-TORQUE_VALUE = 0
-SPRING_STIFFNESS = 0
-SPRING_FREE_ANGLE = 1
-SPRING_PRELOAD = 2
-DAMPING = 0
-SHAFT_STIFFNESS = 0
-SHAFT_DAMPING = 1
-SHAFT_ANGLE = 2
-SHAFT_SPEED = 3
-FORCE_X = 0
-FORCE_Y = 1
-CLUTCH_STIFFNESS = 0
-CLUTCH_DAMPING = 1
-CLUTCH_LIMIT = 2
-CLUTCH_SPEED = 3
-MOTOR_CONSTANT = 0
-MOTOR_RESISTANCE = 1
-MOTOR_INDUCTANCE = 2
-MOTOR_VOLTAGE_LIMIT = 3
-MOTOR_GAIN = 4
-MOTOR_INTEGRAL_GAIN = 5
-MOTOR_ANTI_WINDUP = 6
-MOTOR_SPEED = 7
-
-# states of a force element's own, from `force_own` on: of a clutch its twist [rad]; of a motor
-MOTOR_CURRENT = 0
-MOTOR_INTEGRAL = 1
-
 # contact_kind
 POINT_LINE = 0
 ANGLE_STOP = 1
@@ -131,17 +79,13 @@ SETTINGS = 4
 
 # output_kind: what an output reads; output_index says of which, output_slot of which buffered impact
 CONSTANT = 0
-COORDINATE = 1
-RATE = 2
+UNKNOWN = 1  # index: among the engine's unknowns, positions, rates, work done ...
+COUNTER = 2
 CONTACT_FORCE = 3
 CONTACT_GAP = 4
 KINETIC_ENERGY = 5
 SPRING_ENERGY = 6
-WORK_DONE = 7
 ENERGY_LOST = 8
-IMPACT_COUNT = 9
-IMPACTS_IN_STEP = 10
-IMPACTS_LOST = 11
 IMPACT_FLAG = 12
 LAST_IMPACT = 13
 BUFFERED_IMPACT = 14
@@ -149,15 +93,9 @@ CONTACT_CLOSED = 15
 PATTERN_INDEX = 16
 STOP_CLICKS = 17
 STOP_REFERENCE = 18
-SHAFT_TORQUE = 19
-EVENT_COUNT = 20
-EVENTS_IN_STEP_OUT = 21
+FORCE_READING = 19  # slot: which of those of its kind
 BUFFERED_EVENT = 22
 JOINT_FORCE = 23
-CONTACT_POINT = 24
-OWN_STATE = 25
-CLUTCH_TORQUE = 26
-MOTOR_VOLTAGE = 27
 NODE_PLACE = 28  # of the rigid motion; index 2 * node + axis
 NODE_BENT = 29  # with the deflection
 NODE_DEFLECTION = 30  # index 3 * node + (x, y, rotation)

@@ -11,13 +11,12 @@ import numpy as np
 
 from . import codes
 from .engine import status
-from .engine.block.layout import field_of, state_of
-from .engine.block.pack import pack
 from .engine.run import engine_for
 from .model import Mechanism, MechanismError, compile_mechanism
-from .model.contacts import too_deep
 from .model.event_names import event_name
 from .model.unknowns import unknown_names
+from .tables.layout import field_of, state_of
+from .tables.pack import pack
 
 __all__ = ["Event", "Impact", "Simulation", "SimulationError", "StepBudgetError"]
 
@@ -110,7 +109,7 @@ class Simulation:
 
         Args:
             mechanism: of the same structure; only names are taken from it.
-            block: as `engine.block.pack.pack` makes it.
+            block: as `tables.pack.pack` makes it.
             library: of the compiled engine; None: as `engine.run.engine_for` finds it.
         """
         self = cls.__new__(cls)
@@ -216,7 +215,7 @@ class Simulation:
         return dict(zip(self._output_names, self.field("output_rates").tolist(), strict=True))
 
     def field(self, name: str) -> Array:
-        """A view of a field of the instance's block (see `engine.block.layout`), for tests and diagnosis."""
+        """A view of a field of the instance's block (see `tables.layout`), for tests and diagnosis."""
         return field_of(self._block, name)
 
     def pulling_contacts(self) -> dict[str, float]:
@@ -326,5 +325,5 @@ class Simulation:
         """Which contact point starts inside, and by how much."""
         contact = self._mechanism.contacts[self.counters.item(codes.PENDING_SUBJECT)]
         depth = -field_of(self._block, "residual").item(-1)
-        before, behind = too_deep(contact)
+        before, behind = contact.too_deep()
         return f" Contact {contact.name!r}: {before} {depth:.6g} {behind}; change the start angles or the lengths."

@@ -9,15 +9,16 @@ import numpy as np
 import models
 from mechanism_fmu import codes
 from mechanism_fmu.engine import status
-from mechanism_fmu.engine.block.layout import Array, field_of, state_of
-from mechanism_fmu.engine.block.pack import pack
-from mechanism_fmu.engine.block.parts import ports
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.engine.dynamics.inputs import feed
 from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.engine.stepping.stepper import advance, state_at_time
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.tables.declare import Array
+from mechanism_fmu.tables.layout import field_of, state_of
+from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.parts import Ports
 
 from ..timing import Comparison, DisagreementError, batch, in_turns, require_agreement
 from .library import STEP, Limit, build
@@ -160,7 +161,7 @@ def _acceleration(when: str, engine: Engine, limit: Limit, pairs: int) -> Compar
 def _run(block: Array, torques: Array, step: float, first: int, count: int) -> int:
     """Communication steps in a compiled loop, as `engine_run` of engine.c."""
     for k in range(first, first + count):
-        ports(block).inputs[0] = torques[k % 2]
+        Ports(block).inputs[0] = torques[k % 2]
         outcome = advance(block, k * step)
         if outcome != status.OK:
             return outcome
@@ -174,7 +175,7 @@ def _read(block: Array, y: Array) -> None:
 
 @entry
 def _derivatives(block: Array, y: Array, dy: Array, count: int) -> None:
-    feed(block, ports(block).held_inputs)
+    feed(block, Ports(block).held_inputs)
     for _ in range(count):
         derivative(block, y, dy)
 

@@ -13,7 +13,9 @@ from typing import Any
 import numpy as np
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.block.layout import field_of, sizes_of
+from mechanism_fmu.tables.kinds import FORCES, JOINTS
+from mechanism_fmu.tables.layout import field_of
+from mechanism_fmu.tables.sizes import sizes_of
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -34,7 +36,7 @@ _TABLES = (
     *("contact_kind", "contact_body_i", "contact_body_j", "contact_data", "contact_value", "contact_line"),
     *("contact_function", "pattern_enabled"),
 )
-_KINDS = {codes.TORQUE: 0, codes.TORSION_SPRING: 1, codes.DAMPER: 2, codes.SHAFT: 3}
+_KINDS = {FORCES.number(kind): k for k, kind in enumerate(("torque", "torsion_spring", "damper", "shaft"))}
 
 
 class NoCompilerError(RuntimeError):
@@ -208,7 +210,7 @@ def export(block: Array) -> Mechanism:
 def _objections(of: dict[str, Any], enabled: list[int]) -> dict[str, bool]:
     """What engine.c does not know, and whether it is there."""
     return {
-        "sliders": any(kind != codes.REVOLUTE for kind in of["joint_kind"]),
+        "sliders": any(kind != JOINTS.number("revolute") for kind in of["joint_kind"]),
         "friction": any(of["joint_friction"]) or any(of["contact_value"][c][codes.FRICTION] for c in enabled),
         "forces other than torques": any(kind not in _KINDS for kind in of["force_kind"]),
         "free contacts": any(of["contact_value"][c][codes.GUIDED] < 0.5 for c in enabled),

@@ -71,7 +71,7 @@ ROWS = (
         "claim, section 2",
         "The DAE is reduced to ordinary differential equations.",
         "in words",
-        ("mechanism_fmu/engine/stepping/dormand_prince.py",),
+        ("mechanism_fmu/engine/stepping/runge_kutta.py",),
         _ode,
     ),
     Row(

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..engine.block.layout import sizes_of
+from ..tables.sizes import sizes_of
 from .numbers import Array
 
 

@@ -20,7 +20,7 @@ from ..model import Model
 _LIBRARY = Path(__file__).parents[1]
 
 #: What decides on an FMU's numbers, beside its model.
-_DECISIVE = re.compile(r"(engine|model)/.*\.py|(codes|simulation|tolerances)\.py")
+_DECISIVE = re.compile(r"(engine|model|tables)/.*\.py|(codes|simulation|tolerances)\.py")
 
 #: The slave file, and what it says to `start.slave_class`.
 _SLAVE = re.compile(r"resources/\w+\.py")

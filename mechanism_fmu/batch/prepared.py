@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from .. import codes
-from ..engine.block.layout import field_of, slot
-from ..engine.block.pack import pack
 from ..fmu.native.entries import Entry, entries
 from ..model import Mechanism, Model, compile_mechanism
 from ..model.trace import Trace, trace
+from ..tables.layout import field_of, slot
+from ..tables.pack import pack
 from .numbers import Array
 
 _FIRST_IMPACT = re.compile(r"impacts\[1\]\.(.+)")

@@ -12,8 +12,7 @@ from typing import Any
 
 from numba import carray, cfunc, types
 
-from .output_rates import read_output_rates
-from .outputs import read_outputs
+from .outputs import read_output_rates, read_outputs
 from .starting.begin import begin
 from .stepping.stepper import begin_step, go_on
 

@@ -1,132 +1,299 @@
-"""Outputs at the current time."""
+"""Outputs at the current time, and their derivatives: what each kind reads stands once, in `READINGS`."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
 from .. import codes
-from .block.elastic import structure
-from .block.layout import Array
-from .block.motion import course, linear_system, pose, stages
-from .block.parts import bodies, contacts, patterns, ports, sizes
-from .compiler.subset import entry, jit
+from ..tables.declare import Array
+from ..tables.members import Structure
+from ..tables.motion import Course, LinearSystem, Pose, Stages
+from ..tables.parts import Bodies, Contacts, Patterns, Ports
+from ..tables.sizes import Sizes
+from .compiler.by_kind import by_kind
+from .compiler.subset import entry, jit, keep_small
 from .constraints.kinematics import place_bodies
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
-from .dynamics.forces import body_speed, kinetic_energy, shaft_torque, spring_energy
+from .dynamics.forces import (
+    force_reading,
+    force_reading_rate,
+    kinetic_energy,
+    kinetic_power,
+    stored_energy,
+    stored_power,
+)
 from .dynamics.inputs import feed
-from .dynamics.own_states import clutch_torque, first_own, motor_voltage
 from .elastic.beam import beam_reading
 from .elastic.readings import elastic_reading
 from .elastic.structure import bend
 from .stepping.stepper import state_at_time
 
 
-@entry
-def read_outputs(block: Array) -> None:
-    """Write all output values, shape (outputs,), to the work field `outputs`; the motion is not touched."""
-    n = sizes(block).coordinates
-    table = ports(block)
-    now = course(block)
-    s = stages(block)
-    contact = contacts(block)
-    state_at_time(block, s.y_at)
-    pose(block).instant[0] = now.clock[codes.TIME]
-    feed(block, table.inputs)  # one that was set after the last step acts already
-    bends = sizes(block).nodes > 0
-    if bends or _needs_multipliers(block):
-        derivative(block, s.y_at, s.dy_at)
-    if bends:
-        bend(block)
-    for o in range(table.outputs.shape[0]):
-        kind = table.output_kind[o]
-        index = table.output_index[o]
-        value = table.output_value[o]
-        if kind == codes.COORDINATE:
-            value = s.y_at[index]
-        elif kind == codes.RATE:
-            value = s.y_at[n + index]
-        elif kind == codes.CONTACT_FORCE:
-            if contact.mode[index] == codes.CLOSED:
-                value = linear_system(block).multiplier[contact.row[index]]
-        elif kind == codes.CONTACT_GAP:
-            if contact.mode[index] == codes.OPEN:
-                place_bodies(block, s.y_at)
-                value, _ = gap(block, index)
-        elif kind == codes.KINETIC_ENERGY:
-            value = kinetic_energy(bodies(block).inverse_mass, s.y_at[n:], n)
-        elif kind == codes.SPRING_ENERGY:
-            value = spring_energy(block, s.y_at)
-        elif kind == codes.WORK_DONE:
-            value = s.y_at[2 * n]
-        elif kind == codes.ENERGY_LOST:
-            value = now.ledger[codes.LEDGER_LOST] + s.y_at[2 * n + 1]
-        elif kind == codes.IMPACT_COUNT:
-            value = float(now.counters[codes.COUNT_IMPACTS])
-        elif kind == codes.IMPACTS_IN_STEP:
-            value = float(now.counters[codes.COUNT_IN_STEP])
-        elif kind == codes.IMPACTS_LOST:
-            value = float(now.counters[codes.COUNT_LOST])
-        elif kind == codes.IMPACT_FLAG:
-            value = float(min(now.counters[codes.COUNT_IN_STEP], 1))
-        elif kind == codes.LAST_IMPACT:
-            value = now.last_impact[index]
-        elif kind == codes.BUFFERED_IMPACT:
-            value = now.impacts[table.output_slot[o], index]
-        elif kind == codes.CONTACT_CLOSED:
-            value = float(contact.mode[index])
-        elif kind == codes.PATTERN_INDEX:
-            value = float(patterns(block).copy[index])
-        elif kind == codes.STOP_CLICKS:
-            value = float(contact.clicks[index])
-        elif kind == codes.STOP_REFERENCE:
-            value = contact.line[index, 0]
-        elif kind == codes.SHAFT_TORQUE:
-            value = shaft_torque(block, s.y_at, index)
-        elif kind == codes.EVENT_COUNT:
-            value = float(now.counters[codes.COUNT_EVENTS])
-        elif kind == codes.EVENTS_IN_STEP_OUT:
-            value = float(now.counters[codes.EVENTS_IN_STEP])
-        elif kind == codes.JOINT_FORCE:
-            value *= linear_system(block).multiplier[index]
-        elif kind == codes.CONTACT_POINT:
-            value = s.y_at[2 * n + 2 + index]
-        elif kind == codes.OWN_STATE:
-            value *= s.y_at[first_own(block) + index]
-        elif kind == codes.CLUTCH_TORQUE:
-            value = clutch_torque(block, index, s.y_at, body_speed(block, s.y_at, index))
-        elif kind == codes.MOTOR_VOLTAGE:
-            value = motor_voltage(block, index, s.y_at, body_speed(block, s.y_at, index))
-        elif kind == codes.BUFFERED_EVENT:
-            value = _buffered_event(block, table.output_slot[o], index)
-        elif kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
-            value = beam_reading(block, kind, index)
-        elif kind == codes.MEMBER_FORCE:
-            value *= structure(block).element_force[index]
-        elif kind != codes.CONSTANT:
-            value = elastic_reading(block, kind, index)
-        table.outputs[o] = value
-    feed(block, table.held_inputs)
+class Reading(NamedTuple):
+    """What a kind of output (`codes`) reads at poses and rates `at` of the unknowns `stages.y_at`.
+
+    Attributes:
+        value: (block, at, index, slot, value) -> the value, with `ports.output_index`, `output_slot`, `output_value`.
+        rate: (block, at, index, slot, value) -> its derivative with respect to time, with `stages.dy_at`; None: not a
+            number, of what jumps only, and of what follows accelerations, whose derivatives depend on those of inputs.
+        solves: whether it reads multipliers or accelerations (of a contact: only while that is closed).
+    """
+
+    value: Callable[..., Any]
+    rate: Callable[..., Any] | None = None
+    solves: bool = False
 
 
 @jit
-def _buffered_event(block: Array, slot: int, column: int) -> float:
+def _constant(_block: Array, _at: Pose, _index: int, _slot: int, value: float) -> float:
+    return value
+
+
+@jit
+def _rests(_block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
+    return 0.0
+
+
+@jit
+def _unknown(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    value: float = Stages(block).y_at[index]
+    return value
+
+
+@jit
+def _unknown_rate(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    rate: float = Stages(block).dy_at[index]
+    return rate
+
+
+@jit
+def _contact_force(block: Array, _at: Pose, index: int, _slot: int, value: float) -> float:
+    contact = Contacts(block)
+    if contact.mode[index] == codes.CLOSED:
+        value = LinearSystem(block).multiplier[contact.row[index]]
+    return value
+
+
+@jit
+def _contact_gap(block: Array, at: Pose, index: int, _slot: int, value: float) -> float:
+    if Contacts(block).mode[index] == codes.OPEN:
+        value, _ = gap(block, at, index)
+    return value
+
+
+@jit
+def _contact_gap_rate(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
+    rate = 0.0  # closed
+    if Contacts(block).mode[index] == codes.OPEN:
+        _, rate = gap(block, at, index)
+    return rate
+
+
+@jit
+def _contact_closed(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    return float(Contacts(block).mode[index])
+
+
+@jit
+def _stop_clicks(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    return float(Contacts(block).clicks[index])
+
+
+@jit
+def _stop_reference(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    value: float = Contacts(block).line[index, 0]
+    return value
+
+
+@jit
+def _pattern_index(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    return float(Patterns(block).copy[index])
+
+
+@jit
+def _joint_force(block: Array, _at: Pose, index: int, _slot: int, value: float) -> float:
+    value *= LinearSystem(block).multiplier[index]
+    return value
+
+
+@jit
+def _force_element(block: Array, at: Pose, index: int, slot: int, _value: float) -> float:
+    return force_reading(block, at, index, Stages(block).y_at, slot)
+
+
+@jit
+def _force_element_rate(block: Array, at: Pose, index: int, slot: int, _value: float) -> float:
+    return force_reading_rate(block, at, index, Stages(block).dy_at, slot)
+
+
+@jit
+def _kinetic_energy(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
+    n = Sizes(block).coordinates
+    return kinetic_energy(Bodies(block).inverse_mass, Stages(block).y_at[n:], n)
+
+
+@jit
+def _kinetic_power(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
+    n = Sizes(block).coordinates
+    s = Stages(block)
+    return kinetic_power(Bodies(block).inverse_mass, s.y_at[n:], s.dy_at[n:], n)
+
+
+@jit
+def _spring_energy(block: Array, at: Pose, _index: int, _slot: int, _value: float) -> float:
+    return stored_energy(block, at, Stages(block).y_at)
+
+
+@jit
+def _spring_power(block: Array, at: Pose, _index: int, _slot: int, _value: float) -> float:
+    return stored_power(block, at, Stages(block).y_at, Stages(block).dy_at)
+
+
+@jit
+def _energy_lost(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
+    lost: float = Course(block).ledger[codes.LEDGER_LOST] + Stages(block).y_at[Sizes(block).y_loss]
+    return lost
+
+
+@jit
+def _power_lost(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
+    rate: float = Stages(block).dy_at[Sizes(block).y_loss]
+    return rate
+
+
+@jit
+def _counter(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    return float(Course(block).counters[index])
+
+
+@jit
+def _impact_flag(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
+    return float(min(Course(block).counters[codes.COUNT_IN_STEP], 1))
+
+
+@jit
+def _last_impact(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    value: float = Course(block).last_impact[index]
+    return value
+
+
+@jit
+def _buffered_impact(block: Array, _at: Pose, index: int, slot: int, _value: float) -> float:
+    value: float = Course(block).impacts[slot, index]
+    return value
+
+
+@jit
+def _buffered_event(block: Array, _at: Pose, index: int, slot: int, _value: float) -> float:
     """A field of an event of the last communication step; in an empty slot time, guard and subject are -1."""
-    now = course(block)
+    now = Course(block)
     if slot < now.counters[codes.EVENTS_IN_STEP]:
-        value: float = now.events[slot, column]
+        value: float = now.events[slot, index]
         return value
-    if column <= codes.EVENT_SUBJECT:
+    if index <= codes.EVENT_SUBJECT:
         return -1.0
     return 0.0
 
 
 @jit
+def _member_force(block: Array, _at: Pose, index: int, _slot: int, value: float) -> float:
+    value *= Structure(block).element_force[index]
+    return value
+
+
+#: Every kind of output but those of elastic members.
+READINGS: dict[int, Reading] = {
+    codes.CONSTANT: Reading(_constant, _rests),
+    codes.UNKNOWN: Reading(_unknown, _unknown_rate),
+    codes.COUNTER: Reading(_counter),
+    codes.CONTACT_FORCE: Reading(_contact_force, solves=True),
+    codes.CONTACT_GAP: Reading(_contact_gap, _contact_gap_rate),
+    codes.KINETIC_ENERGY: Reading(_kinetic_energy, _kinetic_power),
+    codes.SPRING_ENERGY: Reading(_spring_energy, _spring_power),
+    codes.ENERGY_LOST: Reading(_energy_lost, _power_lost),
+    codes.IMPACT_FLAG: Reading(_impact_flag),
+    codes.LAST_IMPACT: Reading(_last_impact),
+    codes.BUFFERED_IMPACT: Reading(_buffered_impact),
+    codes.CONTACT_CLOSED: Reading(_contact_closed),
+    codes.PATTERN_INDEX: Reading(_pattern_index),
+    codes.STOP_CLICKS: Reading(_stop_clicks),
+    codes.STOP_REFERENCE: Reading(_stop_reference, _rests),  # between clicks
+    codes.FORCE_READING: Reading(_force_element, _force_element_rate),
+    codes.JOINT_FORCE: Reading(_joint_force, solves=True),
+    codes.BUFFERED_EVENT: Reading(_buffered_event),
+    codes.MEMBER_FORCE: Reading(_member_force),
+}
+
+
+@jit
+def _of_member(kind: int, block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
+    if kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
+        return beam_reading(block, at, kind, index)
+    return elastic_reading(block, at, kind, index)
+
+
+@jit
+def _yes(_kind: int) -> bool:
+    return True
+
+
+_ARGUMENTS = "block, at, index, slot, value"
+_read = by_kind({kind: r.value for kind, r in READINGS.items()}, _ARGUMENTS, rest=_of_member)
+_read_rate = by_kind({kind: r.rate for kind, r in READINGS.items() if r.rate}, _ARGUMENTS, "math.nan")
+_SOLVING = (codes.BEAM_DEFLECTION, codes.BEAM_STRESS, *(kind for kind, reading in READINGS.items() if reading.solves))
+_solves = by_kind(dict.fromkeys(_SOLVING, _yes), "of", "False")
+
+
+@entry
+def read_outputs(block: Array) -> None:
+    """Write all output values, shape (outputs,), to the work field `outputs`; the motion is not touched."""
+    table = Ports(block)
+    s = Stages(block)
+    state_at_time(block, s.y_at)
+    Pose(block).instant[0] = Course(block).clock[codes.TIME]
+    feed(block, table.inputs)  # one that was set after the last step acts already
+    at = place_bodies(block, s.y_at)
+    bends = Sizes(block).nodes > 0
+    if bends or _needs_multipliers(block):
+        derivative(block, s.y_at, s.dy_at)
+    if bends:
+        bend(block, at)
+    for o in range(table.outputs.shape[0]):
+        slot, value = table.output_slot[o], table.output_value[o]
+        table.outputs[o] = _read(table.output_kind[o], block, at, table.output_index[o], slot, value)
+    feed(block, table.held_inputs)
+
+
+@entry
+def read_output_rates(block: Array) -> None:
+    """Write dz/dt of every output z, shape (outputs,), to the work field `output_rates`; the motion is not touched.
+
+    Jumps in impacts do not count.
+    """
+    keep_small()
+    table = Ports(block)
+    s = Stages(block)
+    state_at_time(block, s.y_at)
+    Pose(block).instant[0] = Course(block).clock[codes.TIME]
+    feed(block, table.inputs)  # one that was set after the last step acts already
+    at = derivative(block, s.y_at, s.dy_at)
+    for o in range(table.outputs.shape[0]):
+        slot, value = table.output_slot[o], table.output_value[o]
+        table.output_rates[o] = _read_rate(table.output_kind[o], block, at, table.output_index[o], slot, value)
+    feed(block, table.held_inputs)
+
+
+@jit
 def _needs_multipliers(block: Array) -> bool:
-    table = ports(block)
-    contact = contacts(block)
+    table = Ports(block)
+    contact = Contacts(block)
     for o in range(table.outputs.shape[0]):
         kind = table.output_kind[o]
-        if kind == codes.JOINT_FORCE or kind == codes.BEAM_DEFLECTION or kind == codes.BEAM_STRESS:
-            return True
-        if kind == codes.CONTACT_FORCE and contact.mode[table.output_index[o]] == codes.CLOSED:
+        if kind == codes.CONTACT_FORCE:
+            if contact.mode[table.output_index[o]] == codes.CLOSED:
+                return True
+        elif _solves(kind, kind):
             return True
     return False

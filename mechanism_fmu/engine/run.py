@@ -14,7 +14,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .block.layout import Array
+from ..tables.declare import Array
 
 _SYSTEMS = {"linux": ("linux", ".so"), "win32": ("windows", ".dll"), "darwin": ("darwin", ".dylib")}
 _PROCESSORS = {"amd64": "x86_64", "arm64": "aarch64"}
@@ -32,7 +32,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 
 
 class Engine(NamedTuple):
-    """The entry points for one block: see `assembly`, `stepper`, `outputs` and `output_rates`."""
+    """The entry points for one block: see `assembly`, `stepper`, and `outputs`."""
 
     begin: Callable[[float], int]
     advance: Callable[[float], int]
@@ -54,8 +54,7 @@ def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
         address, words = block.ctypes.data, len(block)
         functions: list[Any] = [getattr(library, f"engine_{name}") for name in Engine._fields]
         return Engine(*(partial(function, address, words) for function in functions))
-    from .output_rates import read_output_rates
-    from .outputs import read_outputs
+    from .outputs import read_output_rates, read_outputs
     from .starting.begin import begin
     from .stepping.stepper import advance, begin_step, go_on
 

@@ -11,9 +11,9 @@ from ctypes import CDLL
 from xml.etree.ElementTree import Element, SubElement, register_namespace
 
 from .. import __version__
-from ..engine.block.pack import pack
 from ..model import Model, compile_mechanism
 from ..simulation import Simulation, SimulationError
+from ..tables.pack import pack
 from .model_description import to_bytes
 from .variables import Variable, variables_of
 

@@ -17,12 +17,13 @@ from pythonfmu.enums import Fmi2Status
 
 from .. import __version__
 from ..admissible import Admissible
-from ..engine.block.layout import FIELDS, sizes_of
-from ..engine.block.pack import pack
 from ..engine.run import compiled_library
 from ..model import MechanismError, Model, compile_mechanism
 from ..model.model import check_value
 from ..simulation import Simulation, SimulationError, StepBudgetError
+from ..tables.layout import FIELDS
+from ..tables.pack import pack
+from ..tables.sizes import sizes_of
 from . import saved_state
 from .news import News
 from .protocol import TIGHTEST, Experiment, FmiError, Phase, experiment, require, step_target

@@ -7,13 +7,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..engine import status
-from ..engine.block.layout import field_of
-from ..engine.block.pack import pack
 from ..engine.constraints.textbook import textbook_rows
 from ..engine.starting.assembly import CLOSED_WITHIN
 from ..engine.starting.begin import assemble_at
 from ..model import Contact, Mechanism, compile_mechanism
 from ..model.joints import Joint
+from ..tables.layout import field_of
+from ..tables.pack import pack
+from ..tables.sizes import sizes_of
 from .errors import KinematicsError
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
@@ -53,6 +54,8 @@ class Equations:
         tables = compile_mechanism(mechanism)
         self._block = pack(tables)
         self._bodies = 3 * len(mechanism.bodies)
+        sizes = sizes_of(self._block)
+        self._alphas = slice(sizes["y_alpha"], sizes["y_own"])
         names = [f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle")]
         for contact in mechanism.contacts:
             pairs = zip(("alpha_i", "alpha_j"), contact.profiles, strict=True)
@@ -78,7 +81,7 @@ class Equations:
     def _assembled(self, time: float) -> FloatArray:
         outcome = assemble_at(self._block, float(time))
         y = field_of(self._block, "y_end")
-        q = np.concatenate([y[: self._bodies], y[2 * self._bodies + 2 :]])
+        q = np.concatenate([y[: self._bodies], y[self._alphas]])
         if outcome != status.OK:
             left = np.abs(self.at(q, time).residual)
             worst = ", ".join(
@@ -124,7 +127,7 @@ class Equations:
         y = field_of(self._block, "y_end")
         n = self._bodies
         y[:n], y[n : 2 * n] = q[:n], rates[:n]
-        y[2 * n + 2 : n + 2 + len(q)] = q[n:]
+        y[self._alphas] = q[n:]
         field_of(self._block, "alpha_rate")[:] = rates[n:]
         textbook_rows(self._block, float(time))
         residual, rate, gamma, jacobian = (

@@ -61,6 +61,12 @@ def _check_beside(member: Member, mechanism: Mechanism) -> None:
                 f"{member.name!r}, where {' and '.join(OF_BEAM)} would be wrong; let the member end at the point of a "
                 f"PointLineContact (give `member.end` to it)."
             )
+    for force in mechanism.forces:
+        if force.acts == "at points" and member.body in (force.body, force.reaction):
+            raise MechanismError(
+                f"{type(force).__name__} {force.name!r} acts at a point of body {member.body!r}, where "
+                f"{' and '.join(OF_BEAM)} of member {member.name!r} would be wrong; attach it to another body."
+            )
     for disk in mechanism.disks:
         if disk.body == member.body and not any(same_point(disk.point, end) for end in (member.start, member.end)):
             raise MechanismError(

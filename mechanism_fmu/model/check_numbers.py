@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import fields
 
 from .body import Body
-from .check_contact_numbers import contact_findings, pattern_findings
 from .check_curves import curve_findings
-from .check_joint_numbers import joint_findings, pair_findings
 from .check_members import disk_findings, member_findings
 from .conditions import (
     finite,
     finite_not_negative,
     finite_positive,
-    not_negative,
     within,
 )
 from .contacts import Contact
 from .curves import Curve
 from .findings import Finding, first, literal, refuse_unless
-from .forces import CompliantShaft, Damper, DCMotor, ForceElement, SlipClutch, TorsionSpring
-from .functions import Number
-from .joints import Joint, Revolute
+from .forces import ForceElement
+from .joints import Joint
 from .mechanism import Mechanism, Settings, curve_owners
 from .patterns import CircularPattern
 
@@ -35,18 +31,17 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
     for body in mechanism.bodies:
         yield from _body(body)
     for contact in mechanism.contacts:
-        yield from contact_findings(contact)
+        yield from contact.findings()
     for pattern in mechanism.patterns:
-        yield from pattern_findings(pattern)
+        yield from pattern.findings()
     for function in mechanism.functions:
         label = f"Logical function {literal(repr(function.name))}"
         text = f"{label}: its limit {{:g}} is not finite; give a finite one as below."
         yield refuse_unless(finite(function.below), text, function.below)
     for force in mechanism.forces:
-        yield from _force(force)
+        yield from force.findings()
     for joint in mechanism.joints:
-        what = "friction_radius" if isinstance(joint, Revolute) else "friction"
-        text = f"Joint {literal(repr(joint.name))}: {what} = {{:g}} must be finite and not negative."
+        text = f"Joint {literal(repr(joint.name))}: {joint.friction_name} = {{:g}} must be finite and not negative."
         yield refuse_unless(finite_not_negative(joint.friction), text, joint.friction)
     for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts, *mechanism.patterns):
         yield from _not_finite(part)
@@ -56,9 +51,9 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         text = f"Input {literal(repr(port.name))}: factor {{:g}} and offset {{:g}} must be finite."
         yield refuse_unless(finite(port.factor, port.offset), text, port.factor, port.offset)
     for joint in mechanism.joints:
-        yield from joint_findings(joint)
+        yield from joint.findings()
     for contact in mechanism.contacts:
-        yield from pair_findings(contact)
+        yield from contact.shape_findings()
     for owner, curve in curve_owners(mechanism):
         yield from curve_findings(owner, curve)
     for member in mechanism.members:
@@ -94,37 +89,6 @@ def _body(body: Body) -> Iterator[Finding]:
     start = (*body.start, *body.start_rate)
     text = f"{label}: start ({{:g}}, {{:g}}, {{:g}}) or start_rate ({{:g}}, {{:g}}, {{:g}}) is not finite."
     yield refuse_unless(finite(*start), text, *start)
-
-
-def _force(force: ForceElement) -> Iterator[Finding]:
-    values: list[tuple[str, Number, str]] = []
-    if isinstance(force, (TorsionSpring, CompliantShaft)):
-        values.append(("stiffness", force.stiffness, "N.m/rad"))
-    if isinstance(force, (Damper, CompliantShaft)):
-        values.append(("damping", force.damping, "N.m.s/rad"))
-    label = f"{type(force).__name__} {literal(repr(force.name))}"
-    if isinstance(force, SlipClutch):
-        values.append(("limit", force.limit, "N.m"))
-        above = (("stiffness", force.stiffness, "N.m/rad"), ("damping", force.damping, "N.m.s/rad"))
-        yield from _above_zero(label, above)
-    if isinstance(force, DCMotor):
-        yield from _above_zero(label, (("inductance", force.inductance, "H"),))
-        values += [
-            ("resistance", force.resistance, "ohm"),
-            ("voltage", force.voltage, "V"),
-            ("gain", force.gain, "V.s/rad"),
-            ("integral_gain", force.integral_gain, "V/rad"),
-            ("anti_windup", force.anti_windup, "rad/(V.s)"),
-        ]
-    for what, value, unit in values:
-        text = f"{label}: {what} = {{:g}} {unit}, but it must not be negative."
-        yield refuse_unless(not_negative(value), text, value)
-
-
-def _above_zero(label: str, values: Iterable[tuple[str, Number, str]]) -> Iterator[Finding]:
-    for what, value, unit in values:
-        text = f"{label}: {what} = {{:g}} {unit}, but it must be positive and finite."
-        yield refuse_unless(finite_positive(value), text, value)
 
 
 def _settings(settings: Settings) -> Iterator[Finding]:

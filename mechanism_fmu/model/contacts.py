@@ -10,18 +10,22 @@ closed, and `gap`, which is 0 then; the notation is that of `joints`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
 from .. import codes
 from .body import Point
+from .conditions import positive
+from .contact_facts import ContactFacts, no_unit_length
 from .curves import Curve
+from .findings import Finding, refuse_unless
 from .functions import Number
 from .joints import HigherPair
 
 
 @dataclass(frozen=True)
-class PointLineContact:
+class PointLineContact(ContactFacts):
     """A point of one body against a straight line fixed in another (Pennestrì et al., Fig. 1).
 
     The gap is s = normal . (A_j^T (r_i^P - r_j) - line_point), positive when open. An open contact whose gap reaches
@@ -68,9 +72,36 @@ class PointLineContact:
         """The contact's row of the table `contact_data`: point_i, line_point, normal."""
         return (*self.point_i, *self.line_point, *self.normal)
 
+    def findings(self) -> Iterator[Finding]:
+        """Those of all contacts, and that the normal is a unit vector."""
+        yield no_unit_length(f"{self.label}: its normal", self.normal)
+        yield from super().findings()
+
+    def too_deep(self) -> tuple[str, str]:
+        """As of all contacts."""
+        return f"the point of {self.body_i!r} is", f"m behind the line on {self.body_j!r}"
+
+
+class _OfAngles(ContactFacts):
+    """A contact whose gap is an angle."""
+
+    angular: ClassVar = True
+
+    pitch: Number | None
+
+    def findings(self) -> Iterator[Finding]:
+        """Those of all contacts, and of the pitch."""
+        yield from super().findings()
+        if self.pitch is not None:
+            yield refuse_unless(positive(self.pitch), f"{self.label}: pitch = {{:g}} rad must be positive.", self.pitch)
+
+    def too_deep(self) -> tuple[str, str]:
+        """As of all contacts."""
+        return f"{self.body_i!r} is", f"rad beyond its stop on {self.body_j!r}"
+
 
 @dataclass(frozen=True)
-class AngleStop:
+class AngleStop(_OfAngles):
     """A stop for the relative angle of two bodies, with the memory of a ratchet: gap s = phi_i - phi_j - latched angle.
 
     The latched angle is `angle` at first. Each time the relative angle has gone one pitch beyond it, the stop clicks:
@@ -89,6 +120,8 @@ class AngleStop:
     """
 
     kind: ClassVar[int] = codes.ANGLE_STOP
+    has_memory: ClassVar = True
+    readings: ClassVar = {**ContactFacts.readings, "clicks": codes.STOP_CLICKS, "latched": codes.STOP_REFERENCE}
     rows: ClassVar[int] = 1
     alphas: ClassVar[int] = 0
     profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
@@ -112,7 +145,7 @@ class AngleStop:
 
 
 @dataclass(frozen=True)
-class AngleLock:
+class AngleLock(_OfAngles):
     """A lock that a logical function closes, as the locking arc of a Geneva drive.
 
     While closed, it holds the relative angle at the nearest of `angle` + k `pitch`, in both directions.
@@ -149,20 +182,6 @@ class AngleLock:
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: angle, pitch."""
         return (self.angle, self.pitch)
-
-
-def is_angular(contact: Contact) -> bool:
-    """Whether a contact's gap is an angle, and its force a torque."""
-    return contact.kind in (codes.ANGLE_STOP, codes.ANGLE_LOCK)
-
-
-def too_deep(contact: Contact) -> tuple[str, str]:
-    """How to say that a contact starts inside the other body: what stands before and behind the depth."""
-    if contact.kind == codes.POINT_LINE:
-        return f"the point of {contact.body_i!r} is", f"m behind the line on {contact.body_j!r}"
-    if is_angular(contact):
-        return f"{contact.body_i!r} is", f"rad beyond its stop on {contact.body_j!r}"
-    return f"{contact.body_i!r} reaches", f"m into {contact.body_j!r}"
 
 
 #: Any contact.

@@ -38,6 +38,6 @@ def event_names(mechanism: Mechanism) -> Iterator[tuple[int, int, str]]:
     }
     for guard in sorted(subjects):
         for subject in range(subjects[guard]):
-            if guard != codes.GUARD_CLICK or mechanism.contacts[subject].kind == codes.ANGLE_STOP:
+            if guard != codes.GUARD_CLICK or mechanism.contacts[subject].has_memory:
                 yield guard, subject, event_name(mechanism, guard, subject)
     yield codes.GUARD_INPUT, codes.NONE, INPUT

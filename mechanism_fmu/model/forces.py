@@ -1,17 +1,90 @@
-"""Force elements."""
+"""Force elements: each class says what it is, what may be written into it and read of it, and what it refuses.
+
+What an element does is in `mechanism_fmu.engine.dynamics`; the two meet in a row of numbers (`tables.kinds.FORCES`).
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar, Literal, NamedTuple
 
-from .. import codes
-from .body import GROUND
+from ..tables.kinds import FORCES
+from .body import GROUND, Point
+from .conditions import finite_positive, not_negative
+from .findings import Finding, literal, refuse_unless
 from .functions import Number
+
+__all__ = ["CompliantShaft", "DCMotor", "Damper", "Force", "SlipClutch", "SpringDamper", "Torque", "TorsionSpring"]
+
+
+class Quantity(NamedTuple):
+    """What an `Output` can read of a part, with the source "<part>.<name of the quantity>".
+
+    Attributes:
+        unit: SI unit.
+        description: one line for the user.
+        feedthrough: entries of the part, as in `writable`, on which the value depends at the same instant.
+    """
+
+    unit: str
+    description: str
+    feedthrough: tuple[str, ...] = ()
+
+
+class _Element:
+    """What all force elements have.
+
+    Attributes:
+        row: name of the kind in `tables.kinds.FORCES`, whose columns are numbers of the element.
+        writable: entries that an `Input` may write, with the target "<element>.<entry>".
+        quantities: what an `Output` may read, by name, in the order of the engine's `Element.read`.
+        own: how many first-order states of its own it has.
+        acts: as a torque, at the centre of mass, or at points of the bodies; the last loads no elastic member.
+        positive, not_negative: units of the numbers that must be so.
+    """
+
+    row: ClassVar[str]
+    writable: ClassVar[tuple[str, ...]] = ()
+    quantities: ClassVar[Mapping[str, Quantity]] = {}
+    own: ClassVar = 0
+    acts: ClassVar[Literal["torque", "at centre", "at points"]] = "torque"
+    positive: ClassVar[Mapping[str, str]] = {}
+    not_negative: ClassVar[Mapping[str, str]] = {}
+
+    name: str
+
+    @property
+    def kind(self) -> int:
+        """The element's entry in the table `force_kind`."""
+        return FORCES.number(self.row)
+
+    @property
+    def columns(self) -> dict[str, int]:
+        """The columns of `force_data` that an `Input` may write, by entry."""
+        return {entry: FORCES.columns(self.row).index(entry) for entry in self.writable}
+
+    def data(self) -> tuple[Number, ...]:
+        """The element's row of the table `force_data`."""
+        return tuple(self._number(*column.split(".")) for column in FORCES.columns(self.row))
+
+    def _number(self, field: str, axis: str = "") -> Number:
+        value: Any = getattr(self, field)
+        return value["xy".index(axis)] if axis else value
+
+    def findings(self) -> Iterator[Finding]:
+        """Every problem that its numbers can have, but for those that are not finite."""
+        label = f"{type(self).__name__} {literal(repr(self.name))}"
+        for what, unit in self.positive.items():
+            text = f"{label}: {what} = {{:g}} {unit}, but it must be positive and finite."
+            yield refuse_unless(finite_positive(getattr(self, what)), text, getattr(self, what))
+        for what, unit in self.not_negative.items():
+            text = f"{label}: {what} = {{:g}} {unit}, but it must not be negative."
+            yield refuse_unless(not_negative(getattr(self, what)), text, getattr(self, what))
 
 
 @dataclass(frozen=True)
-class Torque:
+class Torque(_Element):
     """A torque on `body`, counter-clockwise positive, with its reaction on `reaction`.
 
     Attributes:
@@ -20,21 +93,17 @@ class Torque:
         torque: [N m]; usually written by an `Input` with target "<name>.torque".
     """
 
-    kind: ClassVar[int] = codes.TORQUE
-    columns: ClassVar[dict[str, int]] = {"torque": codes.TORQUE_VALUE}
+    row: ClassVar = "torque"
+    writable: ClassVar = ("torque",)
 
     name: str
     body: str
     reaction: str = GROUND
     torque: Number = 0.0
 
-    def data(self) -> tuple[Number, ...]:
-        """The element's row of the table `force_data`."""
-        return (self.torque,)
-
 
 @dataclass(frozen=True)
-class TorsionSpring:
+class TorsionSpring(_Element):
     """A torsion spring: torque on `body` = -(stiffness * (phi - phi_reaction - free_angle) + preload).
 
     The energy of the linear part counts as spring energy; the work of the preload, which an input may change at any
@@ -48,8 +117,9 @@ class TorsionSpring:
         preload: constant part of the torque that opposes positive rotation of `body` [N m].
     """
 
-    kind: ClassVar[int] = codes.TORSION_SPRING
-    columns: ClassVar[dict[str, int]] = {"preload": codes.SPRING_PRELOAD}
+    row: ClassVar = "torsion_spring"
+    writable: ClassVar = ("preload",)
+    not_negative: ClassVar = {"stiffness": "N.m/rad"}
 
     name: str
     body: str
@@ -58,13 +128,9 @@ class TorsionSpring:
     free_angle: Number = 0.0
     preload: Number = 0.0
 
-    def data(self) -> tuple[Number, ...]:
-        """The element's row of the table `force_data`."""
-        return (self.stiffness, self.free_angle, self.preload)
-
 
 @dataclass(frozen=True)
-class Damper:
+class Damper(_Element):
     """A viscous damper: torque on `body` = -damping * (phi' - phi_reaction'). What it takes counts as energy lost.
 
     Attributes:
@@ -73,21 +139,17 @@ class Damper:
         damping: [N m s/rad], >= 0.
     """
 
-    kind: ClassVar[int] = codes.DAMPER
-    columns: ClassVar[dict[str, int]] = {}
+    row: ClassVar = "damper"
+    not_negative: ClassVar = {"damping": "N.m.s/rad"}
 
     name: str
     body: str
     reaction: str = GROUND
     damping: Number = 0.0
 
-    def data(self) -> tuple[Number, ...]:
-        """The element's row of the table `force_data`."""
-        return (self.damping,)
-
 
 @dataclass(frozen=True)
-class CompliantShaft:
+class CompliantShaft(_Element):
     """A shaft whose other end is moved from outside.
 
     Torque on `body` = stiffness * (angle - (phi - phi_reaction)) + damping * (speed - (phi' - phi_reaction')). All of
@@ -102,8 +164,10 @@ class CompliantShaft:
         speed: of the driven end [rad/s]; usually written by an `Input` with target "<name>.speed".
     """
 
-    kind: ClassVar[int] = codes.SHAFT
-    columns: ClassVar[dict[str, int]] = {"angle": codes.SHAFT_ANGLE, "speed": codes.SHAFT_SPEED}
+    row: ClassVar = "shaft"
+    writable: ClassVar = ("angle", "speed")
+    quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the shaft on its body", ("angle", "speed"))}
+    not_negative: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
 
     name: str
     body: str
@@ -113,13 +177,9 @@ class CompliantShaft:
     angle: Number = 0.0
     speed: Number = 0.0
 
-    def data(self) -> tuple[Number, ...]:
-        """The element's row of the table `force_data`."""
-        return (self.stiffness, self.damping, self.angle, self.speed)
-
 
 @dataclass(frozen=True)
-class Force:
+class Force(_Element):
     """A force at the centre of mass of `body`, constant in the global frame, e.g. its weight.
 
     Attributes:
@@ -128,8 +188,9 @@ class Force:
         force: (fx, fy) [N]; an `Input` may write "<name>.x" and "<name>.y". Its work counts as work done.
     """
 
-    kind: ClassVar[int] = codes.FORCE
-    columns: ClassVar[dict[str, int]] = {"x": codes.FORCE_X, "y": codes.FORCE_Y}
+    row: ClassVar = "force"
+    writable: ClassVar = ("x", "y")
+    acts: ClassVar = "at centre"
     reaction: ClassVar[str] = GROUND
 
     name: str
@@ -142,7 +203,7 @@ class Force:
 
 
 @dataclass(frozen=True)
-class SlipClutch:
+class SlipClutch(_Element):
     """A clutch or brake with Coulomb friction: it holds up to a torque, and slips beyond.
 
     A spring and a damper in series with a slider: torque on `body` = stiffness * twist + damping * (speed - (phi' -
@@ -160,9 +221,12 @@ class SlipClutch:
         speed: of the driven end [rad/s]; an `Input` may write "<name>.speed".
     """
 
-    kind: ClassVar[int] = codes.SLIP_CLUTCH
-    columns: ClassVar[dict[str, int]] = {"limit": codes.CLUTCH_LIMIT, "speed": codes.CLUTCH_SPEED}
-    own: ClassVar[int] = 1
+    row: ClassVar = "slip_clutch"
+    writable: ClassVar = ("limit", "speed")
+    quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the clutch on its body", ("limit", "speed"))}
+    positive: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
+    not_negative: ClassVar = {"limit": "N.m"}
+    own: ClassVar = 1
 
     name: str
     body: str
@@ -172,13 +236,9 @@ class SlipClutch:
     limit: Number = 0.0
     speed: Number = 0.0
 
-    def data(self) -> tuple[Number, ...]:
-        """The element's row of the table `force_data`."""
-        return (self.stiffness, self.damping, self.limit, self.speed)
-
 
 @dataclass(frozen=True)
-class DCMotor:
+class DCMotor(_Element):
     """A direct-current motor between two bodies, with a PI controller of its speed whose voltage is limited.
 
     With the speed w = phi' - phi_reaction' and e = speed - w: torque on `body` = constant * i,
@@ -203,9 +263,22 @@ class DCMotor:
         speed: wanted [rad/s]; usually written by an `Input` with target "<name>.speed".
     """
 
-    kind: ClassVar[int] = codes.DC_MOTOR
-    columns: ClassVar[dict[str, int]] = {"voltage": codes.MOTOR_VOLTAGE_LIMIT, "speed": codes.MOTOR_SPEED}
-    own: ClassVar[int] = 2
+    row: ClassVar = "dc_motor"
+    writable: ClassVar = ("voltage", "speed")
+    quantities: ClassVar = {
+        "torque": Quantity("N.m", "Torque of the motor on its body"),
+        "current": Quantity("A", "Current in the armature"),
+        "voltage": Quantity("V", "Voltage that the controller gives", ("voltage", "speed")),
+    }
+    positive: ClassVar = {"inductance": "H"}
+    not_negative: ClassVar = {
+        "resistance": "ohm",
+        "voltage": "V",
+        "gain": "V.s/rad",
+        "integral_gain": "V/rad",
+        "anti_windup": "rad/(V.s)",
+    }
+    own: ClassVar = 2
 
     name: str
     body: str
@@ -219,16 +292,49 @@ class DCMotor:
     anti_windup: Number = 0.0
     speed: Number = 0.0
 
-    def data(self) -> tuple[Number, ...]:
-        """The element's row of the table `force_data`."""
-        electric = (self.constant, self.resistance, self.inductance, self.voltage)
-        return (*electric, self.gain, self.integral_gain, self.anti_windup, self.speed)
+
+@dataclass(frozen=True)
+class SpringDamper(_Element):
+    """A spring, a damper and a constant force side by side between two points (ME451's TSDA).
+
+    With the distance l of the points, the force that pulls them together is
+
+        f = stiffness (l - free_length) + damping l' + preload.
+
+    The energy of the linear part counts as spring energy, the work of the preload as work done on the mechanism, and
+    what the damper takes as lost. Where the points meet, the force has no direction and vanishes.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies (or `GROUND`).
+        point, reaction_point: the points, in the frame of each body [m].
+        stiffness: [N/m], >= 0.
+        free_length: [m], >= 0: at which the linear part vanishes.
+        damping: [N s/m], >= 0.
+        preload: constant part of the force [N], pulling positive; an actuator where an `Input` writes
+            "<name>.preload".
+    """
+
+    row: ClassVar = "spring_damper"
+    writable: ClassVar = ("preload",)
+    quantities: ClassVar = {
+        "length": Quantity("m", "Distance of the points"),
+        "speed": Quantity("m/s", "Rate of the distance of the points"),
+        "force": Quantity("N", "Force that pulls the points together", ("preload",)),
+    }
+    acts: ClassVar = "at points"
+    not_negative: ClassVar = {"stiffness": "N/m", "free_length": "m", "damping": "N.s/m"}
+
+    name: str
+    body: str
+    point: Point
+    reaction: str
+    reaction_point: Point
+    stiffness: Number = 0.0
+    free_length: Number = 0.0
+    damping: Number = 0.0
+    preload: Number = 0.0
 
 
 #: Any force element.
-ForceElement = Torque | TorsionSpring | Damper | CompliantShaft | Force | SlipClutch | DCMotor
-
-
-def own_states(force: ForceElement) -> int:
-    """How many first-order states of its own an element has."""
-    return getattr(force, "own", 0)
+ForceElement = Torque | TorsionSpring | Damper | CompliantShaft | Force | SlipClutch | DCMotor | SpringDamper

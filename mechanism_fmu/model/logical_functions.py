@@ -14,7 +14,7 @@ from ..tolerances import (
     STICK_SPEED,
     TOUCHES_WITHIN,
 )
-from .contacts import AngleStop, Contact, is_angular
+from .contacts import AngleStop, Contact
 from .mechanism import Mechanism
 from .patterns import CircularPattern
 
@@ -60,7 +60,7 @@ def definitions(mechanism: Mechanism) -> Iterator[Definition]:
 
 def _of_contact(contact: Contact) -> Iterator[Definition]:
     name = contact.name
-    length, force = ("rad", "N.m") if is_angular(contact) else ("m", "N")
+    length, force = ("rad", "N.m") if contact.angular else ("m", "N")
     speed = f"{length}/s"
     yield Definition(
         f"{name}.touches",

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .body import Point
+from .conditions import both, finite, not_zero, true_or_false
+from .contact_facts import no_unit_length
+from .findings import Finding, literal, refuse_unless
 from .functions import Number
 
 
@@ -39,3 +43,12 @@ class CircularPattern:
     def data(self) -> tuple[Number, ...]:
         """The pattern's row of the table `pattern_data`: point_i, boundary_point, boundary_normal."""
         return (*self.point_i, *self.boundary_point, *self.boundary_normal)
+
+    def findings(self) -> Iterator[Finding]:
+        """Every problem that its numbers can have."""
+        label = f"Pattern {literal(repr(self.name))}"
+        yield no_unit_length(f"{label}: its boundary normal", self.boundary_normal)
+        text = f"{label}: enabled = {{:g}} is neither true (1) nor false (0)."
+        yield refuse_unless(true_or_false(self.enabled), text, self.enabled)
+        text = f"{label}: pitch = {{:g}} rad must be finite and not zero."
+        yield refuse_unless(both(not_zero(self.pitch), finite(self.pitch)), text, self.pitch)

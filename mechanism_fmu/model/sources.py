@@ -8,9 +8,8 @@ from difflib import get_close_matches
 
 from .. import codes
 from .beams import OF_BEAM, beam_members, hinge
-from .efforts import EFFORTS, effort
+from .contacts import AngleStop
 from .errors import MechanismError
-from .forces import DCMotor, own_states
 from .functions import Number
 from .mechanism import Mechanism
 from .structure import nodes_of
@@ -20,28 +19,17 @@ _RATES = {"x_rate": 0, "y_rate": 1, "speed": 2}
 _ENERGIES = {
     "kinetic": codes.KINETIC_ENERGY,
     "spring": codes.SPRING_ENERGY,
-    "work": codes.WORK_DONE,
+    "work": codes.UNKNOWN,
     "lost": codes.ENERGY_LOST,
 }
 _COUNTERS = {
-    "count": codes.IMPACT_COUNT,
-    "in_step": codes.IMPACTS_IN_STEP,
-    "lost": codes.IMPACTS_LOST,
-    "any": codes.IMPACT_FLAG,
+    "count": (codes.COUNTER, codes.COUNT_IMPACTS),
+    "in_step": (codes.COUNTER, codes.COUNT_IN_STEP),
+    "lost": (codes.COUNTER, codes.COUNT_LOST),
+    "any": (codes.IMPACT_FLAG, 0),
 }
-_OF_CONTACT = {
-    "force": codes.CONTACT_FORCE,
-    "gap": codes.CONTACT_GAP,
-    "closed": codes.CONTACT_CLOSED,
-    "clicks": codes.STOP_CLICKS,
-    "latched": codes.STOP_REFERENCE,
-}
-_OF_FORCE = {
-    codes.SHAFT: {"torque": codes.SHAFT_TORQUE},
-    codes.SLIP_CLUTCH: {"torque": codes.CLUTCH_TORQUE},
-    codes.DC_MOTOR: {"torque": codes.OWN_STATE, "current": codes.OWN_STATE, "voltage": codes.MOTOR_VOLTAGE},
-}
-_OWN_STATES = {"torque": codes.MOTOR_CURRENT, "current": codes.MOTOR_CURRENT}
+#: Of any contact, and of a stop with memory besides, for messages.
+_OF_CONTACT = AngleStop.readings
 _FIELDS = {
     "time": codes.RECORD_TIME,
     "contact": codes.RECORD_CONTACT,
@@ -100,7 +88,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         or _of_member(part, quantity, mechanism)
     )
     if part == "energy" and quantity in _ENERGIES:
-        found = (_ENERGIES[quantity], 0, 0)
+        found = (_ENERGIES[quantity], 6 * len(mechanism.bodies) if quantity == "work" else 0, 0)
     if found is None:
         near = get_close_matches(source, list(_common_sources(mechanism)), 1)
         meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
@@ -128,9 +116,9 @@ def _common_sources(mechanism: Mechanism) -> Iterator[str]:
         yield f"impact.impulse:{contact.name}"
     yield from (f"{pattern.name}.index" for pattern in mechanism.patterns)
     for force in mechanism.forces:
-        yield from (f"{force.name}.{quantity}" for quantity in _OF_FORCE.get(force.kind, ()))
+        yield from (f"{force.name}.{quantity}" for quantity in force.quantities)
     for joint in mechanism.joints:
-        yield from (f"{joint.name}.{quantity}" for quantity in EFFORTS.get(joint.kind, ()))
+        yield from (f"{joint.name}.{quantity}" for quantity in joint.efforts)
     for member in mechanism.members:
         yield from (f"{member.name}.{quantity}" for quantity in (*_OF_MEMBER, *OF_BEAM))
         yield from (f"{member.name}.{end}.{quantity}" for end in ("start", "end") for quantity in _OF_MEMBER_END)
@@ -146,9 +134,9 @@ def _of_body(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, 
         return None
     first = 3 * names.index(part)
     if quantity in _COORDINATES:
-        return codes.COORDINATE, first + _COORDINATES[quantity], 0
+        return codes.UNKNOWN, first + _COORDINATES[quantity], 0
     if quantity in _RATES:
-        return codes.RATE, first + _RATES[quantity], 0
+        return codes.UNKNOWN, 3 * len(names) + first + _RATES[quantity], 0
     return None
 
 
@@ -156,12 +144,9 @@ def _of_contact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, in
     names = [c.name for c in mechanism.contacts]
     if part in names and quantity in ("alpha_i", "alpha_j"):
         return _of_profiles(names.index(part), int(quantity == "alpha_j"), mechanism)
-    if part not in names or quantity not in _OF_CONTACT:
+    if part not in names or quantity not in mechanism.contacts[names.index(part)].readings:
         return None
-    is_stop = mechanism.contacts[names.index(part)].kind == codes.ANGLE_STOP
-    if quantity in ("clicks", "latched") and not is_stop:
-        return None
-    return _OF_CONTACT[quantity], names.index(part), 0
+    return mechanism.contacts[names.index(part)].readings[quantity], names.index(part), 0
 
 
 def _of_profiles(contact: int, which: int, mechanism: Mechanism) -> tuple[int, int, int] | None:
@@ -170,33 +155,30 @@ def _of_profiles(contact: int, which: int, mechanism: Mechanism) -> tuple[int, i
     if profiles[which] is None:
         return None
     before = sum(other.alphas for other in mechanism.contacts[:contact])
-    return codes.CONTACT_POINT, before + which * (profiles[0] is not None), 0
+    return codes.UNKNOWN, 6 * len(mechanism.bodies) + 2 + before + which * (profiles[0] is not None), 0
 
 
 def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     row = 0
     for joint in mechanism.joints:
         if joint.name == part:
-            found = effort(joint, quantity)
+            found = joint.effort(quantity)
             return None if found is None else (codes.JOINT_FORCE, row + found[0], 0)
         row += joint.rows
     return None
 
 
 def output_factor(source: str, mechanism: Mechanism) -> Number:
-    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a motor's current, a member.
+    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a member.
 
     The moment on a member's start bends it against the sense in which it turns it.
     """
     part, _, quantity = source.partition(".")
     if quantity in _OF_MEMBER and any(member.name == part for member in mechanism.members):
         return -1.0 if quantity == "start_moment" else 1.0
-    for force in mechanism.forces:
-        if force.name == part and isinstance(force, DCMotor):
-            return force.constant if quantity == "torque" else 1.0
     for joint in mechanism.joints:
         if joint.name == part:
-            found = effort(joint, quantity)
+            found = joint.effort(quantity)
             return 0.0 if found is None else found[1]
     return 0.0
 
@@ -207,14 +189,9 @@ def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, in
 
 
 def _of_force(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
-    own = 0
     for place, force in enumerate(mechanism.forces):
-        if force.name == part:
-            kind = _OF_FORCE.get(force.kind, {}).get(quantity)
-            if kind is None:
-                return None
-            return kind, own + _OWN_STATES[quantity] if kind == codes.OWN_STATE else place, 0
-        own += own_states(force)
+        if force.name == part and quantity in force.quantities:
+            return codes.FORCE_READING, place, list(force.quantities).index(quantity)
     return None
 
 
@@ -246,7 +223,7 @@ def reads_members(mechanism: Mechanism) -> bool:
 def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     if part == "impact":
         if quantity in _COUNTERS:
-            return _COUNTERS[quantity], 0, 0
+            return *_COUNTERS[quantity], 0
         column = _record_column(quantity, mechanism)
         return None if column is None else (codes.LAST_IMPACT, column, 0)
     match = re.fullmatch(r"impacts\[(\d+)\]", part)
@@ -258,8 +235,8 @@ def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int
 
 def _of_event(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     if part == "event":
-        kinds = {"count": codes.EVENT_COUNT, "in_step": codes.EVENTS_IN_STEP_OUT}
-        return (kinds[quantity], 0, 0) if quantity in kinds else None
+        columns = {"count": codes.COUNT_EVENTS, "in_step": codes.EVENTS_IN_STEP}
+        return (codes.COUNTER, columns[quantity], 0) if quantity in columns else None
     match = re.fullmatch(r"events\[(\d+)\]", part)
     if match is None or quantity not in _EVENT_FIELDS or not 1 <= int(match[1]) <= codes.EVENT_BUFFER_LENGTH:
         return None

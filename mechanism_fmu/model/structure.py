@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from .. import codes
 from .body import GROUND, Point
 from .conditions import length
 from .errors import MechanismError
@@ -73,6 +72,12 @@ def structure(mechanism: Mechanism) -> Structure:
             f"Elastic members: contact {mechanism.contacts[0].name!r} opens and closes, but the structure must "
             f"stay the same; read elastic members of linkages without contacts."
         )
+    for force in mechanism.forces:
+        if force.acts == "at points":
+            raise MechanismError(
+                f"Elastic members: {type(force).__name__} {force.name!r} acts at points of its bodies, which loads no "
+                f"member yet; read elastic members of linkages without such elements."
+            )
     nodes = nodes_of(mechanism)
     made = replace(
         nodes,
@@ -198,7 +203,7 @@ def _shared(nodes: Structure, lumps: list[tuple[int, Number, Number]]) -> Iterat
 def _couples(mechanism: Mechanism, nodes: Structure) -> Iterator[tuple[int, int, int]]:
     for k, force in enumerate(mechanism.forces):
         for body, against, sign in ((force.body, force.reaction, 1), (force.reaction, force.body, -1)):
-            if force.kind != codes.FORCE and body != GROUND:
+            if force.acts == "torque" and body != GROUND:
                 yield k, _turned(mechanism, nodes, body, against, force), sign
 
 

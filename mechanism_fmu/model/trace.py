@@ -6,7 +6,7 @@ import math
 import operator
 import traceback
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -15,7 +15,7 @@ import numpy as np
 
 from . import functions
 from .check_numbers import number_findings
-from .compile import MechanismTables, Table, compile_mechanism, compile_tables
+from .compile import Array, MechanismTables, compile_mechanism, compile_tables
 from .errors import MechanismError
 from .findings import Finding
 from .functions import Number
@@ -70,12 +70,12 @@ class Trace:
         Raises:
             ValueError, ZeroDivisionError: where the model's own functions do, because a result does not exist.
         """
-        tables = {name: table for name, table in _arrays(self.tables) if table.dtype == object}
+        tables = {name: table for name, table in self.tables.columns.items() if table.dtype == object}
         numbers = iter(self.numbers([x for table in tables.values() for x in table.flat], values))
         plain: dict[str, Any] = {
             name: np.fromiter(numbers, np.float64, table.size).reshape(table.shape) for name, table in tables.items()
         }
-        return replace(self.tables, **plain)
+        return replace(self.tables, columns={**self.tables.columns, **plain})
 
     def needed(self, numbers: Iterable[Number], known: Collection[int] = ()) -> list[int]:
         """The operations, in order, on which numbers depend; plain numbers depend on none.
@@ -125,7 +125,7 @@ def trace(model: Model) -> Trace:
         objections, warnings = tuple(model.objections(values)), tuple(model.warnings(values))
     except (ArithmeticError, AttributeError, MechanismError, TypeError, ValueError) as error:
         raise MechanismError(f"{model.name} cannot be traced, {_place(error)}: {error}") from error
-    _check_structure(model, dict(_arrays(tables)), dict(_arrays(plain)))
+    _check_structure(model, tables.columns, plain.columns)
     # What depends on no parameter, or only on one whose limits exclude it, is not asked again.
     problems = tuple(f for f in number_findings(mechanism) if isinstance(f.applies, Symbol))
     traced = Trace(model, mechanism, tuple(recorder.operations), tables, objections, problems, warnings)
@@ -142,8 +142,8 @@ def _place(error: Exception) -> str:
 
 def _check_numbers(traced: Trace, plain: MechanismTables) -> None:
     """With the default values, the trace must give the model's numbers; else the model has looked at types."""
-    again = dict(_arrays(traced.evaluate(traced.model.values())))
-    for name, table in _arrays(plain):
+    again = traced.evaluate(traced.model.values()).columns
+    for name, table in plain.columns.items():
         if not np.array_equal(again[name], table, equal_nan=table.dtype == np.float64):
             raise MechanismError(
                 f"{traced.model.name}: with symbols instead of numbers the table {name} comes out differently; "
@@ -159,7 +159,7 @@ def _limits(parameter: Parameter) -> Limits:
     return Limits(low, high, whole=parameter.type == "Integer")
 
 
-def _check_structure(model: Model, tables: Mapping[str, Table], plain: Mapping[str, Table]) -> None:
+def _check_structure(model: Model, tables: Mapping[str, Array], plain: Mapping[str, Array]) -> None:
     for name, table in tables.items():
         integer = plain[name].dtype == np.int64
         if integer and table.dtype == object:
@@ -169,8 +169,3 @@ def _check_structure(model: Model, tables: Mapping[str, Table], plain: Mapping[s
             )
         if table.shape != plain[name].shape or (integer and not np.array_equal(table, plain[name])):
             raise MechanismError(f"{model.name}: the table {name} is not the same at every call; build the same parts.")
-
-
-def _arrays(tables: MechanismTables) -> list[tuple[str, Table]]:
-    named: list[tuple[str, Any]] = [(f.name, getattr(tables, f.name)) for f in fields(tables)]
-    return [(name, table) for name, table in named if isinstance(table, np.ndarray)]

@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ..statechart import ANY, Logic, Region, Transition, diagram, markdown
-from .contacts import AngleStop, Contact, is_angular
+from .contacts import AngleStop, Contact
 from .logic import switch
 from .logical_functions import definitions, exists, is_kept
 from .mechanism import Mechanism
@@ -162,7 +162,7 @@ def _switched(contact: Contact) -> Iterator[Transition]:
     function, value = switch(contact.closed_while)
     assert function is not None
     on, off = (function, f"not {function}") if value else (f"not {function}", function)
-    what = "row on, at the nearest locked angle" if is_angular(contact) else "row on"
+    what = "row on, at the nearest locked angle" if contact.angular else "row on"
     yield Transition(contact.name, OPEN, CLOSED, function, (on,), reset=f"{what}; impact, eq (7), e = 0")
     yield Transition(contact.name, CLOSED, OPEN, function, (off,), reset="row off")
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from .forces import own_states
 from .mechanism import Mechanism
 
 
@@ -19,7 +18,7 @@ def unknown_names(mechanism: Mechanism) -> tuple[str, ...]:
     ]
     names += ["the work done", "the energy lost"]
     names += [f"the contact point of {contact.name}" for contact in mechanism.contacts for _ in range(contact.alphas)]
-    names += [f"the state of {force.name}" for force in mechanism.forces for _ in range(own_states(force))]
+    names += [f"the state of {force.name}" for force in mechanism.forces for _ in range(force.own)]
     return tuple(names)
 
 

@@ -10,14 +10,12 @@ import math
 import numpy as np
 import pytest
 
-from mechanism_fmu.engine.block.motion import stages
-from mechanism_fmu.engine.block.pack import pack
-from mechanism_fmu.engine.block.vectors import copy
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.engine.dynamics.inputs import set_time
-from mechanism_fmu.engine.stepping.dormand_prince import DENSE_ORDER, ORDER, try_step
 from mechanism_fmu.engine.stepping.interpolation import interpolate
+from mechanism_fmu.engine.stepping.runge_kutta import try_step
+from mechanism_fmu.engine.vectors import copy
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -31,6 +29,9 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.method import METHOD
+from mechanism_fmu.tables.motion import Stages
+from mechanism_fmu.tables.pack import pack
 
 MASS, INERTIA, RADIUS = 2.0, 0.3, 0.5
 FREQUENCY, AMPLITUDE = 1.5, 1.2
@@ -68,7 +69,7 @@ def exact(time):
 @entry
 def fixed_steps(block, y, start, step, count, fractions, inside):
     """Take `count` steps from y, in place; `inside`, shape (fractions, unknowns), is the last one's dense output."""
-    s = stages(block)
+    s = Stages(block)
     for k in range(count):
         copy(y, s.y_start)
         set_time(block, start + k * step)
@@ -99,14 +100,14 @@ def orders(errors):
 
 def test_order_of_the_step_is_five():
     errors = [errors_of_steps("spring", 0.0, END / count, count)[0] for count in (32, 64, 128)]
-    assert np.all(orders(errors) > ORDER - 0.1)
-    assert np.all(orders(errors) < ORDER + 0.4)
+    assert np.all(orders(errors) > METHOD.order - 0.1)
+    assert np.all(orders(errors) < METHOD.order + 0.4)
 
 
 def test_order_of_the_step_is_five_in_time_too():
     """A single node of the method that is off by 1 % leaves order 1."""
     errors = [errors_of_steps("driver", 0.0, END / count, count)[0] for count in (32, 64, 128, 256)]
-    assert orders(errors).mean() == pytest.approx(ORDER, abs=0.1)
+    assert orders(errors).mean() == pytest.approx(METHOD.order, abs=0.1)
 
 
 @pytest.mark.parametrize("cause", CAUSES)
@@ -114,7 +115,7 @@ def test_order_of_the_step_is_five_in_time_too():
 def test_order_of_the_dense_output_is_four(start, cause):
     """Inside a single step from the exact state the error is of order 5; a cubic would leave one of order 4."""
     errors = [errors_of_steps(cause, start, step, 1)[1] for step in (0.08, 0.04, 0.02)]
-    np.testing.assert_allclose(orders(errors), DENSE_ORDER + 1, atol=0.1)
+    np.testing.assert_allclose(orders(errors), METHOD.dense_order + 1, atol=0.1)
 
 
 #: Above the first range of tolerances every step drifts by more than `drift.MOST_DRIFT` and is put back on the joints;

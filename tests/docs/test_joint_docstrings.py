@@ -5,7 +5,6 @@ from typing import get_args
 
 import pytest
 
-from mechanism_fmu.model.efforts import EFFORTS
 from mechanism_fmu.model.joints import Joint
 
 
@@ -14,5 +13,5 @@ def test_a_joint_names_its_forces_itself_with_their_units(joint):
     """So that nobody has to look for their signs elsewhere."""
     said = re.search(r"^    Outputs: (.*?)\n\n", joint.__doc__, re.MULTILINE | re.DOTALL)
     named = set(re.findall(r"`(\w*(?:force|torque)\w*)`", said[1] if said else ""))
-    assert named == set(EFFORTS.get(joint.kind, ()))
+    assert named == set(joint.efforts)
     assert not said or re.search(r"\[N(?: m)?\]", said[1])

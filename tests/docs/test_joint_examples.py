@@ -12,7 +12,6 @@ from pages import JOINTS, PAGES, examples
 
 from docs.joints.drawings import DRAWINGS
 from mechanism_fmu.model import joints
-from mechanism_fmu.model.efforts import EFFORTS
 from mechanism_fmu.model.joints import Joint
 
 EXAMPLES = [
@@ -70,7 +69,7 @@ def test_a_joint_says_its_five_steps_itself(name):
 @pytest.mark.parametrize("joint", get_args(Joint))
 def test_a_page_names_the_forces_that_can_be_asked_for(joint):
     name = joint.__name__
-    for quantity in EFFORTS.get(joint.kind, {}):
+    for quantity in joint.efforts:
         assert any(re.search(rf"`(<name>\.)?{quantity}`", page.read_text("utf-8")) for page in pages_of(name))
 
 

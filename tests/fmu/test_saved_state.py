@@ -10,9 +10,10 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 import models
-from mechanism_fmu.engine.block.layout import FIELDS, shape_of, sizes_of
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.model import compile_mechanism
+from mechanism_fmu.tables.layout import FIELDS, shape_of
+from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.sizes import sizes_of
 from tests.fuzz.forged import forged_words
 
 ROUGH = {"restitution": 0.5, "tooth_count": 15, "relative_tolerance": 1e-8}

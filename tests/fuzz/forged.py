@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mechanism_fmu.admissible import rules
-from mechanism_fmu.engine.block.layout import sizes_of
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.model import Model, compile_mechanism
+from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.sizes import sizes_of
 
 #: Words of the head of a native state, as in instance_data.h.
 HEAD = ("phase", "set_up", "prepared", "start_time", "stop_time", "tolerance", "clock", "left")

@@ -23,7 +23,6 @@ import fmpy
 
 import mechanism_fmu.fmu.native as native
 import models
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.fmu.native.description3 import tells_impacts
 from mechanism_fmu.fmu.native.formulas import formulas
 from mechanism_fmu.fmu.native.model_data import model_source
@@ -32,6 +31,7 @@ from mechanism_fmu.fmu.native.package import SURFACE
 from mechanism_fmu.fmu.variables import variables_of
 from mechanism_fmu.model import compile_mechanism
 from mechanism_fmu.model.trace import trace
+from mechanism_fmu.tables.pack import pack
 
 _FLAGS = (
     "-std=gnu11",

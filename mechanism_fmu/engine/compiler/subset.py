@@ -14,6 +14,7 @@ import numba
 from numba import types
 from numba.extending import lower_builtin, type_callable
 
+from . import views as views  # teaches the compiler the tables
 from .kept_code import check_files
 from .whole_program import InnerCompiler, refuse_python_calls
 

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 
-from ..block.layout import Array
-from ..block.motion import pose
-from ..block.parts import sizes
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 
 
 @jit
-def place_bodies(block: Array, y: Array) -> None:
-    """Write poses and rates from y = (q, qd, work, loss, alpha, ...).
+def place_bodies(block: Array, y: Array) -> Pose:
+    """Poses and rates of y = (q, qd, work, loss, alpha, ...).
 
     q and qd are (x, y, phi) of each body in turn, shape (3 bodies,); alpha are the contact coordinates.
     """
     keep_small()
-    bodies = sizes(block).bodies
-    at = pose(block)
+    bodies = Sizes(block).bodies
+    at = Pose(block)
     for i in range(bodies):
         k = 3 * i
         at.x[i] = y[k]
@@ -38,5 +38,7 @@ def place_bodies(block: Array, y: Array) -> None:
     at.x_rate[bodies] = 0.0
     at.y_rate[bodies] = 0.0
     at.phi_rate[bodies] = 0.0
-    for k in range(sizes(block).alphas):
-        at.alpha[k] = y[6 * bodies + 2 + k]
+    first = Sizes(block).y_alpha
+    for k in range(Sizes(block).alphas):
+        at.alpha[k] = y[first + k]
+    return at

@@ -8,15 +8,15 @@ rates enter gamma. The textbook's rows of the same pairs are in `joints`; both g
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import pose, rows
-from ..block.parts import contacts
+from ...tables.declare import Array
+from ...tables.motion import Pose, Rows
+from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from ..profiles.touch import change, look
 
 
 @jit
-def profile_row(block: Array, contact: int, row: int) -> float:
+def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
     """Write the gap, its rate, gamma and Jacobian of a contact, and the rates of its contact coordinates.
 
     With e = r_i + a - r_j, u = phi_j', n = -R t and the rates at fixed alpha T_1' = (u - phi_i') t.g_i and
@@ -28,13 +28,12 @@ def profile_row(block: Array, contact: int, row: int) -> float:
 
     """
     keep_small()
-    table = contacts(block)
-    at = pose(block)
-    out = rows(block)
+    table = Contacts(block)
+    out = Rows(block)
     i = table.body_i[contact]
     j = table.body_j[contact]
     kind = table.kind[contact]
-    touch = look(block, contact)
+    touch = look(block, at, contact)
     tx, ty = touch.tx, touch.ty
     nx, ny = ty, -tx
     ui, uj = at.phi_rate[i], at.phi_rate[j]

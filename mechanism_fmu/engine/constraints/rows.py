@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import linear_system, pose, rows
-from ..block.parts import contacts, joints, options, sizes
-from ..block.vectors import clear
+from ...tables.declare import Array
+from ...tables.kinds import JOINTS
+from ...tables.motion import LinearSystem, Pose, Rows
+from ...tables.parts import Contacts, Joints, Options
+from ...tables.sizes import Sizes
+from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
+from ..vectors import clear
 from .angle_row import angle_row
 from .joints.angle_driver import angle_driver
 from .joints.distance import distance
@@ -25,131 +28,115 @@ from .joints.y_driver import y_driver
 from .point_line import point_line
 from .profile_row import profile_row
 
+#: The rows of every joint, by the name of its kind; those of the first two, which are frequent, are compiled for speed.
+FREQUENT = {"revolute": revolute, "translational": translational}
+OTHERS = {
+    "distance": distance,
+    "revolute_translational": revolute_translational,
+    "gears": gears,
+    "internal_gears": internal_gears,
+    "rack_and_pinion": rack_and_pinion,
+}
+#: Of every driver; these take C, C' and C'' besides.
+DRIVERS = {
+    "x_driver": x_driver,
+    "y_driver": y_driver,
+    "angle_driver": angle_driver,
+    "distance_driver": distance_driver,
+    "translational_driver": translational_driver,
+}
+
+_ROW = "at, out, row, i, j, data"
+_other = by_kind({JOINTS.number(kind): rows for kind, rows in OTHERS.items()}, _ROW, small=True)
+_joint = by_kind({JOINTS.number(kind): rows for kind, rows in FREQUENT.items()}, _ROW, rest=_other)
+_driver = by_kind(
+    {JOINTS.number(kind): rows for kind, rows in DRIVERS.items()}, f"{_ROW}, c, c_rate, c_bend", small=True
+)
+
 
 @jit
-def joint_rows(block: Array) -> None:
+def joint_rows(block: Array, at: Pose) -> None:
     """Write the rows of all joints from the bodies' poses and rates (see `place_bodies`), and `pose.instant`."""
-    at = pose(block)
-    table = joints(block)
-    out = rows(block)
-    for r in range(sizes(block).joint_rows):
+    table = Joints(block)
+    out = Rows(block)
+    for r in range(Sizes(block).joint_rows):
         clear(out.jacobian[r])
     for k in range(table.kind.shape[0]):
         row = table.row[k]
         i = table.body_i[k]
         j = table.body_j[k]
-        if table.kind[k] == codes.REVOLUTE:
-            revolute(at, out, row, i, j, table.data[k])
-        elif table.kind[k] == codes.TRANSLATIONAL:
-            translational(at, out, row, i, j, table.data[k])
-        elif table.kind[k] < codes.X_DRIVER:
-            _other_joint(block, k)
+        if table.curve[k] == codes.NONE:
+            _joint(table.kind[k], at, out, row, i, j, table.data[k])
         else:
-            _driver(block, k)
+            _drive(block, at, k)
 
 
 @jit
-def _other_joint(block: Array, joint: int) -> None:
-    """Write the rows of a joint that is neither of the two frequent ones nor a driver."""
-    keep_small()
-    table = joints(block)
-    kind = table.kind[joint]
-    row = table.row[joint]
-    i = table.body_i[joint]
-    j = table.body_j[joint]
-    data = table.data[joint]
-    if kind == codes.DISTANCE:
-        distance(pose(block), rows(block), row, i, j, data)
-    elif kind == codes.REVOLUTE_TRANSLATIONAL:
-        revolute_translational(pose(block), rows(block), row, i, j, data)
-    elif kind == codes.GEARS:
-        gears(pose(block), rows(block), row, i, j, data)
-    elif kind == codes.INTERNAL_GEARS:
-        internal_gears(pose(block), rows(block), row, i, j, data)
-    else:
-        rack_and_pinion(pose(block), rows(block), row, i, j, data)
-
-
-@jit
-def _driver(block: Array, joint: int) -> None:
+def _drive(block: Array, at: Pose, joint: int) -> None:
     """Write the row of a driver, whose motion is a curve over time."""
     keep_small()
-    at = pose(block)
-    out = rows(block)
-    table = joints(block)
-    kind = table.kind[joint]
-    row = table.row[joint]
+    table = Joints(block)
+    c, c_rate, c_bend, _ = curve(block, table.curve[joint], at.instant[0])
     i = table.body_i[joint]
     j = table.body_j[joint]
-    data = table.data[joint]
-    c, c_rate, c_bend, _ = curve(block, table.curve[joint], at.instant[0])
-    if kind == codes.X_DRIVER:
-        x_driver(at, out, row, i, j, data, c, c_rate, c_bend)
-    elif kind == codes.Y_DRIVER:
-        y_driver(at, out, row, i, j, data, c, c_rate, c_bend)
-    elif kind == codes.ANGLE_DRIVER:
-        angle_driver(at, out, row, i, j, data, c, c_rate, c_bend)
-    elif kind == codes.DISTANCE_DRIVER:
-        distance_driver(at, out, row, i, j, data, c, c_rate, c_bend)
-    else:
-        translational_driver(at, out, row, i, j, data, c, c_rate, c_bend)
+    _driver(table.kind[joint], at, Rows(block), table.row[joint], i, j, table.data[joint], c, c_rate, c_bend)
 
 
 @jit
-def contact_row(block: Array, contact: int, row: int) -> None:
+def contact_row(block: Array, at: Pose, contact: int, row: int) -> None:
     """Write the row of one contact: its gap, gap rate, gamma and Jacobian."""
     keep_small()
-    table = contacts(block)
-    out = rows(block)
+    table = Contacts(block)
+    out = Rows(block)
     clear(out.jacobian[row])
     i = table.body_i[contact]
     j = table.body_j[contact]
     if table.kind[contact] == codes.POINT_LINE:
-        point_line(pose(block), out, row, i, j, table.data[contact], table.line[contact])
+        point_line(at, out, row, i, j, table.data[contact], table.line[contact])
     elif table.alpha[contact] != codes.NONE:
-        profile_row(block, contact, row)
+        profile_row(block, at, contact, row)
     else:
-        angle_row(pose(block), out, row, i, j, table.line[contact])
+        angle_row(at, out, row, i, j, table.line[contact])
 
 
 @jit
 def spare_row(block: Array) -> int:
     """The number of a row that no joint or contact uses."""
-    return sizes(block).rows - 1
+    return Sizes(block).rows - 1
 
 
 @jit
-def tangent_row(block: Array, contact: int, line: Array) -> None:
+def tangent_row(block: Array, at: Pose, contact: int, line: Array) -> None:
     """Write to the spare row how a point slides along its line: distance from the line's point, slip speed, Jacobian.
 
     `line`, shape (4,), is scratch: the line with its normal turned by -90 deg, so that it points along.
     """
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     own = table.line[contact]
     line[0] = own[0]
     line[1] = own[1]
     line[2] = own[3]
     line[3] = -own[2]
-    out = rows(block)
+    out = Rows(block)
     row = spare_row(block)
     clear(out.jacobian[row])
-    point_line(pose(block), out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
+    point_line(at, out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
 
 
 @jit
-def active_rows(block: Array) -> int:
+def active_rows(block: Array, at: Pose) -> int:
     """Write the rows of all joints and closed contacts; return their number.
 
     `contacts.row` afterwards holds each closed contact's row, and -1 for an open one.
     """
     keep_small()
-    joint_rows(block)
-    table = contacts(block)
-    count = sizes(block).joint_rows
+    joint_rows(block, at)
+    table = Contacts(block)
+    count = Sizes(block).joint_rows
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
-            contact_row(block, c, count)
+            contact_row(block, at, c, count)
             table.row[c] = count
             count += 1
         else:
@@ -158,22 +145,22 @@ def active_rows(block: Array) -> int:
 
 
 @jit
-def follow_open_contacts(block: Array) -> None:
+def follow_open_contacts(block: Array, at: Pose) -> None:
     """Write the rates of the contact coordinates of open contacts; those of closed ones come with their rows.
 
     Those that are sought afresh each time, or do not count, rest.
     """
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.mode.shape[0]):
         if table.alpha[c] == codes.NONE or table.mode[c] == codes.CLOSED:
             continue
         if table.value[c, codes.ENABLED] > 0.5 and not is_searched(block, c):
-            contact_row(block, c, spare_row(block))
+            contact_row(block, at, c, spare_row(block))
         else:
-            pose(block).alpha_rate[table.alpha[c]] = 0.0
+            at.alpha_rate[table.alpha[c]] = 0.0
             if table.kind[c] == codes.CAM_FOLLOWER:
-                pose(block).alpha_rate[table.alpha[c] + 1] = 0.0
+                at.alpha_rate[table.alpha[c] + 1] = 0.0
 
 
 @jit
@@ -182,19 +169,19 @@ def driver_power(block: Array) -> float:
 
     After an impact the multipliers are impulses, and it is their work [J].
     """
-    table = joints(block)
+    table = Joints(block)
     power = 0.0
     for k in range(table.kind.shape[0]):
         if table.curve[k] != codes.NONE:
-            power += linear_system(block).multiplier[table.row[k]] * rows(block).nu[table.row[k]]
+            power += LinearSystem(block).multiplier[table.row[k]] * Rows(block).nu[table.row[k]]
     return power
 
 
 @jit
 def row_count(block: Array) -> int:
     """The number of active rows."""
-    mode = contacts(block).mode
-    count: int = sizes(block).joint_rows
+    mode = Contacts(block).mode
+    count: int = Sizes(block).joint_rows
     for c in range(mode.shape[0]):
         count += mode[c]
     return count
@@ -203,9 +190,9 @@ def row_count(block: Array) -> int:
 @jit
 def stabilise(block: Array, count: int) -> None:
     """Baumgarte: gamma becomes gamma - 2 alpha Phi' - beta^2 Phi (Pennestrì et al., section 5)."""
-    settings = options(block).settings
+    settings = Options(block).settings
     alpha = settings[codes.BAUMGARTE_ALPHA]
     beta = settings[codes.BAUMGARTE_BETA]
-    out = rows(block)
+    out = Rows(block)
     for r in range(count):
         out.gamma[r] -= 2.0 * alpha * out.residual_rate[r] + beta * beta * out.residual[r]

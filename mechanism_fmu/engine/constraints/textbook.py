@@ -6,12 +6,13 @@ The motion itself does without contact coordinates; kinematic analysis works wit
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import course, pose, rows
-from ..block.parts import contacts, sizes
-from ..block.vectors import clear
+from ...tables.declare import Array
+from ...tables.motion import Course, Pose, Rows
+from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
 from ..compiler.subset import entry, jit, keep_small
 from ..profiles.curves import curve
+from ..vectors import clear
 from .joints.cam_flat_follower import cam_flat_follower
 from .joints.cam_follower import cam_follower
 from .joints.point_follower import point_follower
@@ -27,31 +28,30 @@ def textbook_rows(block: Array, time: float) -> None:
     Contact c has the rows from `joint_rows + row_first[c]` on (without meaning when it is not enabled); contact
     coordinate k has the column `columns + k`. gamma is without Baumgarte's terms.
     """
-    pose(block).instant[0] = time
-    place_bodies(block, course(block).y_end)
-    joint_rows(block)
-    table = contacts(block)
+    Pose(block).instant[0] = time
+    at = place_bodies(block, Course(block).y_end)
+    joint_rows(block, at)
+    table = Contacts(block)
     for c in range(table.kind.shape[0]):
         if table.value[c, codes.ENABLED] > 0.5:
-            row = sizes(block).joint_rows + table.row_first[c]
+            row = Sizes(block).joint_rows + table.row_first[c]
             if table.kind[c] >= codes.CAM_FOLLOWER:
-                _profile_rows(block, c, row)
+                _profile_rows(block, at, c, row)
             else:
-                contact_row(block, c, row)
+                contact_row(block, at, c, row)
 
 
 @jit
-def _profile_rows(block: Array, contact: int, row: int) -> None:
+def _profile_rows(block: Array, at: Pose, contact: int, row: int) -> None:
     """Write the rows of a contact of profiles."""
     keep_small()
-    at = pose(block)
-    out = rows(block)
-    table = contacts(block)
+    out = Rows(block)
+    table = Contacts(block)
     i = table.body_i[contact]
     j = table.body_j[contact]
     data = table.data[contact]
     first = table.alpha[contact]
-    column = sizes(block).columns + first
+    column = Sizes(block).columns + first
     clear(out.jacobian[row])
     clear(out.jacobian[row + 1])
     if table.kind[contact] == codes.CAM_FOLLOWER:

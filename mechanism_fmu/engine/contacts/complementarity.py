@@ -12,16 +12,17 @@ procedure serves impulses and accelerations; only the two kinds of trial differ.
 from __future__ import annotations
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Pose, Rows, Strikes
+from ...tables.parts import Bodies, Contacts
+from ...tables.sizes import Sizes
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, linear_system, rows, strikes
-from ..block.parts import bodies, contacts, sizes
-from ..block.vectors import largest
 from ..compiler.subset import jit, keep_small
 from ..constraints.rows import active_rows, contact_row, row_count, spare_row
 from ..dynamics.acceleration import derivative, scale_rows
 from ..dynamics.minimum_norm import minimum_norm
+from ..vectors import largest
 
 #: An acceleration [m/s2], or a share of its terms, that may be missing.
 _ACCELERATION = 1e-8
@@ -41,43 +42,43 @@ IMPULSES = 1
 
 
 @jit
-def push_impulses(block: Array) -> int:
+def push_impulses(block: Array, at: Pose) -> int:
     """Decide about `strikes.candidates` in an impact at y_end; return a status.
 
     Afterwards their modes say which push; the linear system holds impulses and the change of rates of that choice.
     """
-    strikes(block).problem[KIND] = IMPULSES
-    return _choose(block)
+    Strikes(block).problem[KIND] = IMPULSES
+    return _choose(block, at)
 
 
 @jit
-def push_forces(block: Array) -> int:
+def push_forces(block: Array, at: Pose) -> int:
     """Decide about `strikes.candidates`, all at rest at y_end; return a status.
 
     Afterwards their modes say which push; dy_end is the derivative of that choice.
     """
-    strikes(block).problem[KIND] = FORCES
-    return _choose(block)
+    Strikes(block).problem[KIND] = FORCES
+    return _choose(block, at)
 
 
 @jit
 def push_ratio(block: Array, contact: int, count: int) -> float:
     """A closed contact's force over the tolerance; it pulls below -1, and opens below -2."""
     keep_small()
-    multiplier = linear_system(block).multiplier
-    ratio: float = multiplier[contacts(block).row[contact]] / (
+    multiplier = LinearSystem(block).multiplier
+    ratio: float = multiplier[Contacts(block).row[contact]] / (
         PUSHES_WITHIN + PUSHES_SHARE * largest(multiplier, count)
     )
     return ratio
 
 
 @jit
-def _choose(block: Array) -> int:
-    count = strikes(block).problem[COUNT]
-    mode = contacts(block).mode
-    candidates = strikes(block).candidates
+def _choose(block: Array, at: Pose) -> int:
+    count = Strikes(block).problem[COUNT]
+    mode = Contacts(block).mode
+    candidates = Strikes(block).candidates
     for _ in range(_MOST_PIVOTS * (1 + count)):
-        wrong = _first_wrong(block)
+        wrong = _first_wrong(block, at)
         if wrong == codes.NONE:
             return status.OK
         mode[candidates[wrong]] = codes.CLOSED - mode[candidates[wrong]]
@@ -85,71 +86,71 @@ def _choose(block: Array) -> int:
         for combination in range(1 << count):
             for k in range(count):
                 mode[candidates[k]] = (combination >> k) & 1
-            if _first_wrong(block) == codes.NONE:
+            if _first_wrong(block, at) == codes.NONE:
                 return status.OK
     return status.NO_CHOICE
 
 
 @jit
-def _first_wrong(block: Array) -> int:
+def _first_wrong(block: Array, at: Pose) -> int:
     """The first candidate that pulls or comes off although closed, or goes in although open; `codes.NONE`: none.
 
     A closed one comes off when rows that depend on each other contradict each other: the solution is then a compromise.
     """
     keep_small()
-    mode = contacts(block).mode
-    candidates = strikes(block).candidates
-    impulses = strikes(block).problem[KIND] == IMPULSES
+    mode = Contacts(block).mode
+    candidates = Strikes(block).candidates
+    impulses = Strikes(block).problem[KIND] == IMPULSES
     if impulses:
-        active = _try_impulses(block)
+        active = _try_impulses(block, at)
     else:
-        derivative(block, course(block).y_end, course(block).dy_end)
+        derivative(block, Course(block).y_end, Course(block).dy_end)
         active = row_count(block)
-    for k in range(strikes(block).problem[COUNT]):
+    for k in range(Strikes(block).problem[COUNT]):
         c = candidates[k]
         if mode[c] == codes.CLOSED:
             if impulses:
-                multiplier = linear_system(block).multiplier
-                pulls = multiplier[contacts(block).row[c]] < -_IMPULSE_SHARE * largest(multiplier, active)
+                multiplier = LinearSystem(block).multiplier
+                pulls = multiplier[Contacts(block).row[c]] < -_IMPULSE_SHARE * largest(multiplier, active)
             else:
                 pulls = push_ratio(block, c, active) < -1.0
             if pulls or _comes_off(block, c):
                 return k
-        elif _goes_in(block, c):
+        elif _goes_in(block, at, c):
             return k
     return codes.NONE
 
 
 @jit
-def _try_impulses(block: Array) -> int:
+def _try_impulses(block: Array, at: Pose) -> int:
     """Impulses and change of rates for the present modes, eq (7) with the targets of all closed contacts."""
     keep_small()
-    table = contacts(block)
-    strike = strikes(block)
-    system = linear_system(block)
-    count = active_rows(block)
+    table = Contacts(block)
+    strike = Strikes(block)
+    system = LinearSystem(block)
+    count = active_rows(block, at)
     scale_rows(block, count)
     for r in range(count):
         system.right_side[r] = 0.0
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
             system.right_side[table.row[c]] = strike.target[c]
-    minimum_norm(block, count, sizes(block).coordinates)
+    minimum_norm(block, count, Sizes(block).coordinates)
     return count
 
 
 @jit
 def _comes_off(block: Array, contact: int) -> bool:
     """Whether a closed candidate exceeds its change of gap rate, or accelerates away from the other body."""
-    left, tolerance = _excess(block, contact, contacts(block).row[contact])
+    left, tolerance = _excess(block, contact, Contacts(block).row[contact])
     comes_off: bool = left > tolerance
     return comes_off
 
 
 @jit
-def _goes_in(block: Array, contact: int) -> bool:
+def _goes_in(block: Array, at: Pose, contact: int) -> bool:
     """Whether an open candidate misses its change of gap rate, or accelerates into the other body."""
-    contact_row(block, contact, spare_row(block))
+    contact_row(block, at, contact, spare_row(block))
     left, tolerance = _excess(block, contact, spare_row(block))
     goes_in: bool = left < -tolerance
     return goes_in
@@ -159,19 +160,19 @@ def _goes_in(block: Array, contact: int) -> bool:
 def _excess(block: Array, contact: int, r: int) -> tuple[float, float]:
     """A candidate's change of gap rate or acceleration, by row `r`, beyond the least that it must be; its rounding."""
     keep_small()
-    n = sizes(block).coordinates
-    impulses = strikes(block).problem[KIND] == IMPULSES
-    row = rows(block)
+    n = Sizes(block).coordinates
+    impulses = Strikes(block).problem[KIND] == IMPULSES
+    row = Rows(block)
     left = -row.gamma[r]
     tolerance = _ACCELERATION
     if impulses:
-        left = -strikes(block).target[contact]
+        left = -Strikes(block).target[contact]
         tolerance = _SPEED
     size = abs(left)
     for k in range(n):
-        change = course(block).dy_end[n + k]
+        change = Course(block).dy_end[n + k]
         if impulses:
-            change = bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
+            change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
         left += row.jacobian[r, k] * change
         size += abs(row.jacobian[r, k] * change)
     return left, tolerance + _SHARE * size

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import course, linear_system, rows, strikes
-from ..block.parts import bodies, contacts, sizes
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Rows, Strikes
+from ...tables.parts import Bodies, Contacts
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, spare_row, tangent_row
@@ -21,18 +22,18 @@ def rub(block: Array) -> None:
     less, or less still when more would add energy. It follows the normal impulses, contact by contact.
     """
     keep_small()
-    n = sizes(block).coordinates
-    table = contacts(block)
-    system = linear_system(block)
-    y = course(block).y_end
+    n = Sizes(block).coordinates
+    table = Contacts(block)
+    system = LinearSystem(block)
+    y = Course(block).y_end
     for c in range(table.mode.shape[0]):
-        most = table.value[c, codes.FRICTION] * abs(strikes(block).impulse[c])
+        most = table.value[c, codes.FRICTION] * abs(Strikes(block).impulse[c])
         if not most > 0.0 or table.kind[c] != codes.POINT_LINE:
             continue
-        place_bodies(block, y)
-        count = active_rows(block)
-        tangent_row(block, c, strikes(block).tangent_line)
-        row = rows(block)
+        at = place_bodies(block, y)
+        count = active_rows(block, at)
+        tangent_row(block, at, c, Strikes(block).tangent_line)
+        row = Rows(block)
         spare = spare_row(block)
         for k in range(n):
             row.jacobian[count, k] = row.jacobian[spare, k]
@@ -43,7 +44,7 @@ def rub(block: Array) -> None:
         minimum_norm(block, count + 1, n)
         share = min(_dissipative_share(block), most / max(most, abs(system.multiplier[count])))
         for k in range(n):
-            y[n + k] += share * bodies(block).inverse_root_mass[k] * system.solution[k]
+            y[n + k] += share * Bodies(block).inverse_root_mass[k] * system.solution[k]
 
 
 @jit
@@ -53,12 +54,12 @@ def _dissipative_share(block: Array) -> float:
     It is 1 unless closed rows separate after a bounce, or fix the slip themselves.
     """
     keep_small()
-    n = sizes(block).coordinates
-    solution = linear_system(block).solution
+    n = Sizes(block).coordinates
+    solution = LinearSystem(block).solution
     along = 0.0
     square = 0.0
     for k in range(n):
-        along -= course(block).y_end[n + k] / bodies(block).inverse_root_mass[k] * solution[k]
+        along -= Course(block).y_end[n + k] / Bodies(block).inverse_root_mass[k] * solution[k]
         square += solution[k] * solution[k]
     if not along > 0.0:
         return 0.0

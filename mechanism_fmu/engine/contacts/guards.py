@@ -8,10 +8,11 @@ gaps are passed by `MARGIN` before they count, so that what has just changed is 
 from __future__ import annotations
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Pose, Rows, Strikes
+from ...tables.parts import Contacts, Functions, Patterns
+from ...tables.sizes import Sizes
 from ...tolerances import MARGIN
-from ..block.layout import Array
-from ..block.motion import pose, rows, strikes
-from ..block.parts import contacts, functions, patterns, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.point_line import point_line
 from ..constraints.rows import contact_row, spare_row, tangent_row
@@ -19,12 +20,12 @@ from ..profiles.nearest import find_nearest, is_searched
 
 
 @jit
-def gap(block: Array, contact: int) -> tuple[float, float]:
+def gap(block: Array, at: Pose, contact: int) -> tuple[float, float]:
     """Gap s [m or rad] and gap rate s' of a contact at the bodies' pose (see `place_bodies`)."""
     keep_small()
-    if contacts(block).alpha[contact] != codes.NONE and is_searched(block, contact):
-        find_nearest(block, contact)
-    contact_row(block, contact, spare_row(block))
+    if Contacts(block).alpha[contact] != codes.NONE and is_searched(block, contact):
+        find_nearest(block, at, contact)
+    contact_row(block, at, contact, spare_row(block))
     return _spare(block)
 
 
@@ -32,21 +33,21 @@ def gap(block: Array, contact: int) -> tuple[float, float]:
 def _spare(block: Array) -> tuple[float, float]:
     """Residual and rate of the spare row."""
     spare = spare_row(block)
-    return rows(block).residual[spare], rows(block).residual_rate[spare]
+    return Rows(block).residual[spare], Rows(block).residual_rate[spare]
 
 
 @jit
 def guard_of(block: Array, number: int) -> tuple[int, int]:
     """The guard (`codes.GUARD_GAP` ...) with this number, and its contact, pattern or logical function."""
     keep_small()
-    count = sizes(block).contacts
+    count = Sizes(block).contacts
     if number < count:
         return codes.GUARD_GAP, number
     number -= count
     if number < count:
         return codes.GUARD_CLICK, number
     number -= count
-    count = sizes(block).patterns
+    count = Sizes(block).patterns
     if number < count:
         return codes.GUARD_NEXT, number
     number -= count
@@ -60,11 +61,11 @@ def is_watched(block: Array, number: int) -> bool:
     """Whether this guard can do anything in the present mode."""
     keep_small()
     guard, subject = guard_of(block, number)
-    table = contacts(block)
+    table = Contacts(block)
     if guard == codes.GUARD_FUNCTION:
         return True
     if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
-        repeats: bool = patterns(block).enabled[subject] > 0.5
+        repeats: bool = Patterns(block).enabled[subject] > 0.5
         return repeats
     exists = table.value[subject, codes.ENABLED] > 0.5
     if guard == codes.GUARD_CLICK:
@@ -77,54 +78,53 @@ def is_watched(block: Array, number: int) -> bool:
 @jit
 def can_open(block: Array, contact: int) -> bool:
     """Whether a closed contact opens when it would pull."""
-    table = contacts(block)
+    table = Contacts(block)
     opens: bool = table.function[contact] == codes.NONE and table.value[contact, codes.GUIDED] < 0.5
     return opens
 
 
 @jit
-def guard_value(block: Array, number: int) -> tuple[float, float]:
+def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
     """Value and rate of a guard at the bodies' pose."""
     keep_small()
     guard, subject = guard_of(block, number)
     if guard == codes.GUARD_GAP:
-        return gap(block, subject)
+        return gap(block, at, subject)
     if guard == codes.GUARD_CLICK:
-        value, rate = gap(block, subject)
-        return contacts(block).data[subject, codes.STOP_PITCH] + MARGIN - value, -rate
+        value, rate = gap(block, at, subject)
+        return Contacts(block).data[subject, codes.STOP_PITCH] + MARGIN - value, -rate
     if guard == codes.GUARD_FUNCTION:
-        value, rate = function_value(block, subject)
-        if functions(block).true[subject] == 1:
+        value, rate = function_value(block, at, subject)
+        if Functions(block).true[subject] == 1:
             return MARGIN - value, -rate
         return value + MARGIN, rate
     if guard == codes.GUARD_NEXT:
-        value, rate = _beyond(block, subject, patterns(block).line[subject, :4])
+        value, rate = _beyond(block, at, subject, Patterns(block).line[subject, :4])
         return MARGIN - value, -rate
-    value, rate = _beyond(block, subject, patterns(block).line[subject, 4:])
+    value, rate = _beyond(block, at, subject, Patterns(block).line[subject, 4:])
     return value + MARGIN, rate
 
 
 @jit
-def _beyond(block: Array, pattern: int, boundary: Array) -> tuple[float, float]:
+def _beyond(block: Array, at: Pose, pattern: int, boundary: Array) -> tuple[float, float]:
     """How far a pattern's point is beyond a boundary, and its rate."""
     keep_small()
-    table = patterns(block)
+    table = Patterns(block)
     i = table.body_i[pattern]
     j = table.body_j[pattern]
-    point_line(pose(block), rows(block), spare_row(block), i, j, table.data[pattern], boundary)
+    point_line(at, Rows(block), spare_row(block), i, j, table.data[pattern], boundary)
     return _spare(block)
 
 
 @jit
-def function_value(block: Array, function: int) -> tuple[float, float]:
+def function_value(block: Array, at: Pose, function: int) -> tuple[float, float]:
     """What a logical function looks at minus its limit (below zero: 1), and its rate."""
     keep_small()
-    table = functions(block)
-    at = pose(block)
+    table = Functions(block)
     index = table.subject[function]
     limit = table.limit[function]
     if table.kind[function] == codes.ANGLE:
         return at.phi[index] - limit, at.phi_rate[index]
-    tangent_row(block, index, strikes(block).tangent_line)
+    tangent_row(block, at, index, Strikes(block).tangent_line)
     value, rate = _spare(block)
     return value - limit, rate

@@ -10,11 +10,12 @@ it strikes in the next round, at the same instant.
 from __future__ import annotations
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Pose, Rows, Strikes
+from ...tables.parts import Bodies, Contacts
+from ...tables.sizes import Sizes
 from ...tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, linear_system, rows, strikes
-from ..block.parts import bodies, contacts, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import contact_row, driver_power, spare_row
@@ -41,12 +42,12 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     nothing is changed), and a status.
     """
     keep_small()
-    n = sizes(block).coordinates
-    table = contacts(block)
-    taking_part = strikes(block)
-    rate = course(block).y_end[n:]
-    place_bodies(block, course(block).y_end)
-    if not _cast(block, struck, round_ >= _PLASTIC_FROM):
+    n = Sizes(block).coordinates
+    table = Contacts(block)
+    taking_part = Strikes(block)
+    rate = Course(block).y_end[n:]
+    at = place_bodies(block, Course(block).y_end)
+    if not _cast(block, at, struck, round_ >= _PLASTIC_FROM):
         return False, status.OK
     count = 0
     for c in range(table.mode.shape[0]):
@@ -56,18 +57,18 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
         if taking_part.role[c] != ABSENT:
             table.mode[c] = codes.CLOSED
     taking_part.problem[COUNT] = count
-    outcome = push_impulses(block)
+    outcome = push_impulses(block, at)
     if outcome != status.OK:
         return False, outcome
     for k in range(n):
         if round_ == 0:
             taking_part.rates_before[k] = rate[k]
-        rate[k] += bodies(block).inverse_root_mass[k] * linear_system(block).solution[k]
+        rate[k] += Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
     for c in range(table.mode.shape[0]):
         taking_part.impulse[c] = 0.0
         if table.mode[c] == codes.CLOSED:
-            taking_part.impulse[c] = linear_system(block).multiplier[table.row[c]]
-    course(block).y_end[2 * n] += driver_power(block)  # of impulses: drivers do work at once
+            taking_part.impulse[c] = LinearSystem(block).multiplier[table.row[c]]
+    Course(block).y_end[Sizes(block).y_work] += driver_power(block)  # of impulses: drivers do work at once
     rub(block)
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
@@ -77,11 +78,11 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
 
 
 @jit
-def _cast(block: Array, struck: int, plastic: bool) -> bool:
+def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
     """Give every contact its role, closing speed and target; whether any of them approaches."""
     keep_small()
-    table = contacts(block)
-    taking_part = strikes(block)
+    table = Contacts(block)
+    taking_part = Strikes(block)
     approached = False
     for c in range(table.mode.shape[0]):
         taking_part.role[c] = ABSENT
@@ -95,7 +96,7 @@ def _cast(block: Array, struck: int, plastic: bool) -> bool:
         if closed and guided:
             taking_part.role[c] = KEPT
             continue
-        distance, rate = gap(block, c)
+        distance, rate = gap(block, at, c)
         if switched:
             if closed:
                 taking_part.role[c] = KEPT
@@ -129,16 +130,16 @@ def _cast(block: Array, struck: int, plastic: bool) -> bool:
 def _open_what_leaves(block: Array) -> None:
     """After the impact: what comes apart faster than `STICK_SPEED` is open, what rests is closed for the time being."""
     keep_small()
-    table = contacts(block)
-    taking_part = strikes(block)
-    place_bodies(block, course(block).y_end)
+    table = Contacts(block)
+    taking_part = Strikes(block)
+    at = place_bodies(block, Course(block).y_end)
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] == ABSENT or table.function[c] != codes.NONE:
             continue
         if taking_part.role[c] == KEPT and taking_part.closing[c] == 0.0:
             continue
-        contact_row(block, c, spare_row(block))
-        if rows(block).residual_rate[spare_row(block)] < STICK_SPEED:
+        contact_row(block, at, c, spare_row(block))
+        if Rows(block).residual_rate[spare_row(block)] < STICK_SPEED:
             table.mode[c] = codes.CLOSED
         else:
             table.mode[c] = codes.OPEN

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import course, strikes
-from ..block.parts import bodies, contacts, patterns, sizes
+from ...tables.declare import Array
+from ...tables.motion import Course, Strikes
+from ...tables.parts import Bodies, Contacts, Patterns
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 
 
@@ -16,9 +17,9 @@ def keep_impact(block: Array, contact: int) -> None:
     What all impacts of an instant share is known, and written, when they are over (`complete_impacts`).
     """
     keep_small()
-    table = contacts(block)
-    now = course(block)
-    taking_part = strikes(block)
+    table = Contacts(block)
+    now = Course(block)
+    taking_part = Strikes(block)
     record = now.last_impact
     record[codes.RECORD_TIME] = now.clock[codes.STEP_END]
     record[codes.RECORD_CONTACT] = contact
@@ -52,7 +53,7 @@ def complete_impacts(block: Array, made: int, energy: float) -> None:
     then.
     """
     keep_small()
-    now = course(block)
+    now = Course(block)
     if made == 0:
         return
     now.counters[codes.COUNT_INSTANTS] += 1
@@ -71,11 +72,11 @@ def _share(block: Array, record: Array) -> None:
     Other bodies have l = 0; there is one with teeth at the most (`model.sources`).
     """
     keep_small()
-    n = sizes(block).coordinates
-    tooth_length = bodies(block).tooth_length
-    rate = course(block).y_end[n:]
-    before = strikes(block).rates_before
-    first = codes.RECORD_CONTACT_IMPULSES + contacts(block).mode.shape[0]
+    n = Sizes(block).coordinates
+    tooth_length = Bodies(block).tooth_length
+    rate = Course(block).y_end[n:]
+    before = Strikes(block).rates_before
+    first = codes.RECORD_CONTACT_IMPULSES + Contacts(block).mode.shape[0]
     for k in range(n):
         record[first + k] = before[k]
         record[first + n + k] = rate[k]
@@ -89,7 +90,7 @@ def _share(block: Array, record: Array) -> None:
 def keep_event(block: Array, guard: int, subject: int, old_mode: float, impulse: float) -> None:
     """Record an event at STEP_END; when the buffer is full, the oldest is lost."""
     keep_small()
-    now = course(block)
+    now = Course(block)
     now.counters[codes.COUNT_EVENTS] += 1
     place = now.counters[codes.EVENTS_IN_STEP]
     if place == codes.EVENT_BUFFER_LENGTH:
@@ -109,7 +110,7 @@ def keep_event(block: Array, guard: int, subject: int, old_mode: float, impulse:
 @jit
 def mode_number(block: Array) -> float:
     """The mode of the mechanism: the sum of 2^c over its closed contacts c."""
-    mode = contacts(block).mode
+    mode = Contacts(block).mode
     number = 0.0
     bit = 1.0
     for c in range(mode.shape[0]):
@@ -132,7 +133,7 @@ def clear_impact(record: Array) -> None:
 @jit
 def clear_records(block: Array) -> None:
     """Begin a communication step: empty the buffers."""
-    now = course(block)
+    now = Course(block)
     for b in range(now.counters[codes.COUNT_IN_STEP]):
         clear_impact(now.impacts[b])
     now.counters[codes.COUNT_IN_STEP] = 0
@@ -145,12 +146,12 @@ def clear_records(block: Array) -> None:
 @jit
 def _copy(block: Array, contact: int) -> int:
     """The index of the tooth: of the contact's pattern, or the clicks of a stop."""
-    table = contacts(block)
+    table = Contacts(block)
     pattern = table.pattern[contact]
     if pattern == codes.NONE:
         clicks: int = table.clicks[contact]
         return clicks
-    index: int = patterns(block).copy[pattern]
+    index: int = Patterns(block).copy[pattern]
     return index
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course
+from ...tables.parts import Contacts
 from ...tolerances import GAP_NOISE, RESTS_BELOW
-from ..block.layout import Array
-from ..block.motion import course
-from ..block.parts import contacts
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from .guards import gap
@@ -19,10 +19,10 @@ def release(block: Array, struck: int) -> None:
     One that is open and comes back has been off, however low the hop: it strikes where its gap closes, not before.
     """
     keep_small()
-    table = contacts(block)
-    place_bodies(block, course(block).y_end)
+    table = Contacts(block)
+    at = place_bodies(block, Course(block).y_end)
     for c in range(table.mode.shape[0]):
         if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
-            distance, rate = gap(block, c)
+            distance, rate = gap(block, at, c)
             if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
                 table.touching[c] = 0

@@ -7,11 +7,12 @@ mending of drift; the choice, among the contacts at rest, of those that push. Al
 from __future__ import annotations
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, Pose, Strikes
+from ...tables.parts import Bodies, Contacts, Functions, Patterns
+from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, strikes
-from ..block.parts import bodies, contacts, functions, patterns, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..dynamics.drift import LEAST_DRIFT, mend
@@ -36,13 +37,13 @@ def transit(block: Array, guard: int, subject: int) -> int:
     """
     keep_small()
     only_choose = guard == codes.GUARD_INPUT or guard == codes.GUARD_BEGIN
-    n = sizes(block).coordinates
-    now = course(block)
+    n = Sizes(block).coordinates
+    now = Course(block)
     rate = now.y_end[n:]
-    inverse_mass = bodies(block).inverse_mass
+    inverse_mass = Bodies(block).inverse_mass
     old_mode = mode_number(block)
     energy = kinetic_energy(inverse_mass, rate, n)
-    work = now.y_end[2 * n]
+    work = now.y_end[Sizes(block).y_work]
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
@@ -68,7 +69,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     outcome = status.CHATTERING
     if settled:
         outcome = _settle(block, fired, only_choose, hits > 0)
-    lost = energy + (now.y_end[2 * n] - work) - kinetic_energy(inverse_mass, rate, n)
+    lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
         return outcome
@@ -83,8 +84,8 @@ def transit(block: Array, guard: int, subject: int) -> int:
 @jit
 def _struck_impulse(block: Array) -> float:
     """Sum of the impulses' magnitudes over the contacts that have just struck, or been switched on in motion."""
-    taking_part = strikes(block)
-    table = contacts(block)
+    taking_part = Strikes(block)
+    table = Contacts(block)
     total = 0.0
     for c in range(table.mode.shape[0]):
         switched_on = table.function[c] != codes.NONE and abs(taking_part.target[c]) > RESTS_BELOW
@@ -97,42 +98,46 @@ def _struck_impulse(block: Array) -> float:
 def _take_effect(block: Array, guard: int, subject: int) -> int:
     """What the guard itself changes; return a status."""
     keep_small()
-    table = contacts(block)
-    place_bodies(block, course(block).y_end)
+    table = Contacts(block)
+    at = place_bodies(block, Course(block).y_end)
     if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
         move = 1
         if guard == codes.GUARD_PREVIOUS:
             move = -1
-        patterns(block).copy[subject] += move
-        place_pattern(block, subject)
+        Patterns(block).copy[subject] += move
+        place_pattern(block, at, subject)
         for c in range(table.mode.shape[0]):
             if table.pattern[c] == subject and table.function[c] == codes.NONE:
                 table.mode[c] = codes.OPEN
                 table.touching[c] = 0
     elif guard == codes.GUARD_CLICK:
         table.clicks[subject] += 1
-        place_contact(block, subject)
+        place_contact(block, at, subject)
     elif guard == codes.GUARD_FUNCTION:
-        functions(block).true[subject] = 1 - functions(block).true[subject]
-        switch_contacts(block)
+        Functions(block).true[subject] = 1 - Functions(block).true[subject]
+        switch_contacts(block, at)
         for c in range(table.mode.shape[0]):
-            if table.function[c] == subject and table.mode[c] == codes.CLOSED and abs(gap(block, c)[0]) > CLOSES_WITHIN:
+            if (
+                table.function[c] == subject
+                and table.mode[c] == codes.CLOSED
+                and abs(gap(block, at, c)[0]) > CLOSES_WITHIN
+            ):
                 return status.ROW_AWAY
     return status.OK
 
 
 @jit
-def switch_contacts(block: Array) -> None:
+def switch_contacts(block: Array, at: Pose) -> None:
     """Close and open the contacts that logical functions switch; a lock closes where it is nearest."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.mode.shape[0]):
         function = table.function[c]
         if function == codes.NONE:
             continue
-        closed = functions(block).true[function] == table.closes_when[c] and table.value[c, codes.ENABLED] > 0.5
+        closed = Functions(block).true[function] == table.closes_when[c] and table.value[c, codes.ENABLED] > 0.5
         if closed and table.mode[c] == codes.OPEN:
-            place_contact(block, c)
+            place_contact(block, at, c)
             table.mode[c] = codes.CLOSED
         elif not closed:
             table.mode[c] = codes.OPEN
@@ -142,32 +147,32 @@ def switch_contacts(block: Array) -> None:
 def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
     """Choose, among the contacts that touch and rest, those that push; `fired` is the one whose gap has become zero."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     near = GAP_NOISE
     slow = RESTS_BELOW
     if hit:
         near = TOUCHES_WITHIN
         slow = STICK_SPEED
-    place_bodies(block, course(block).y_end)
+    at = place_bodies(block, Course(block).y_end)
     count = 0
     for c in range(table.mode.shape[0]):
         if table.value[c, codes.ENABLED] < 0.5 or not can_open(block, c):
             continue
         if table.mode[c] == codes.OPEN:
-            distance, rate = gap(block, c)
+            distance, rate = gap(block, at, c)
             if (distance > near and c != fired) or not abs(rate) < slow:
                 continue
             table.mode[c] = codes.CLOSED
-        strikes(block).candidates[count] = c
+        Strikes(block).candidates[count] = c
         count += 1
     if not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # also of what is about to open: a gap must not be left below zero
     if count == 0:
         return status.OK
-    strikes(block).problem[COUNT] = count
-    outcome = push_forces(block)
+    Strikes(block).problem[COUNT] = count
+    outcome = push_forces(block, at)
     for k in range(count):
-        c = strikes(block).candidates[k]
+        c = Strikes(block).candidates[k]
         table.touching[c] = 1 - table.mode[c]
     return outcome
 
@@ -175,7 +180,8 @@ def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
 @jit
 def _progress(block: Array) -> int:
     """Count events that follow each other without progress in time."""
-    now = course(block)
+    keep_small()
+    now = Course(block)
     time = now.clock[codes.STEP_END]
     if time - now.clock[codes.LAST_EVENT] > PILE_TIME:
         now.clock[codes.LAST_EVENT] = time

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
+from ...tables.declare import Array
+from ...tables.motion import LinearSystem, Loads, Pose, Rows
+from ...tables.parts import Bodies
+from ...tables.sizes import Sizes
 from ...tolerances import PUSHES_WITHIN
-from ..block.layout import Array
-from ..block.motion import linear_system, loads, pose, rows
-from ..block.parts import bodies, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, driver_power, follow_open_contacts, stabilise
@@ -22,46 +23,48 @@ _ROUNDS = 200
 
 
 @jit
-def derivative(block: Array, y: Array, dy: Array) -> None:
+def derivative(block: Array, y: Array, dy: Array) -> Pose:
     """Derivative of y = (q, qd, work, loss, alpha, own): dy = (qd, qdd, powers, alpha', own'); shape (unknowns,).
 
     qdd = qdd_f + M^-1/2 D^+ (gamma - Phi_q qdd_f), eq (3). `linear_system.multiplier` afterwards holds the force along
     each active row (M qdd = F + Phi_q^T multiplier; for a contact, positive when it pushes).
     """
-    n = sizes(block).coordinates
-    place_bodies(block, y)
-    count = active_rows(block)
+    n = Sizes(block).coordinates
+    at = place_bodies(block, y)
+    count = active_rows(block, at)
     stabilise(block, count)
-    given, lost = apply_forces(block, y, dy)
+    given, lost = apply_forces(block, at, y, dy)
     accelerate(block, count)
     if has_friction(block):
-        lost += _with_friction(block, count)
-    free = loads(block).free_acceleration
-    root = bodies(block).inverse_root_mass
-    correction = linear_system(block).solution
+        lost += _with_friction(block, at, count)
+    free = Loads(block).free_acceleration
+    root = Bodies(block).inverse_root_mass
+    correction = LinearSystem(block).solution
     for k in range(n):
         dy[k] = y[n + k]
         dy[n + k] = free[k] + root[k] * correction[k]
-    dy[2 * n] = given + driver_power(block)
-    dy[2 * n + 1] = lost
-    alphas = sizes(block).alphas
+    dy[Sizes(block).y_work] = given + driver_power(block)
+    dy[Sizes(block).y_loss] = lost
+    alphas = Sizes(block).alphas
     if alphas > 0:
-        follow_open_contacts(block)
+        follow_open_contacts(block, at)
+    first = Sizes(block).y_alpha
     for k in range(alphas):
-        dy[2 * n + 2 + k] = pose(block).alpha_rate[k]
+        dy[first + k] = at.alpha_rate[k]
+    return at
 
 
 @jit
 def accelerate(block: Array, count: int) -> None:
     """Solve D z = gamma - Phi_q qdd_f with D = Phi_q M^-1/2 and qdd_f = M^-1 F, eq (2)."""
-    n = sizes(block).coordinates
-    mass = bodies(block)
-    load = loads(block)
+    n = Sizes(block).coordinates
+    mass = Bodies(block)
+    load = Loads(block)
     for k in range(n):
         load.free_acceleration[k] = mass.inverse_mass[k] * load.force[k]
     scale_rows(block, count)
-    row = rows(block)
-    system = linear_system(block)
+    row = Rows(block)
+    system = LinearSystem(block)
     for r in range(count):
         right = row.gamma[r]
         for k in range(n):
@@ -73,28 +76,28 @@ def accelerate(block: Array, count: int) -> None:
 @jit
 def scale_rows(block: Array, count: int) -> None:
     """D = Phi_q M^-1/2, eq (2)."""
-    n = sizes(block).coordinates
-    root = bodies(block).inverse_root_mass
-    row = rows(block)
-    system = linear_system(block)
+    n = Sizes(block).coordinates
+    root = Bodies(block).inverse_root_mass
+    row = Rows(block)
+    system = LinearSystem(block)
     for r in range(count):
         for k in range(n):
             system.scaled[r, k] = row.jacobian[r, k] * root[k]
 
 
 @jit
-def _with_friction(block: Array, count: int) -> float:
+def _with_friction(block: Array, at: Pose, count: int) -> float:
     """Normal forces and friction that agree, by iteration; the power lost, or not a number when they never do."""
     keep_small()
-    load = loads(block)
-    multiplier = linear_system(block).multiplier
+    load = Loads(block)
+    multiplier = LinearSystem(block).multiplier
     for k in range(load.force.shape[0]):
         load.applied[k] = load.force[k]
     before = math.inf
     for _ in range(_ROUNDS):
         for r in range(count):
             load.last_multiplier[r] = multiplier[r]
-        lost = resist(block)
+        lost = resist(block, at)
         accelerate(block, count)
         change = 0.0
         largest = 0.0

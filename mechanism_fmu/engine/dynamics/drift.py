@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from ..block.layout import Array
-from ..block.motion import course, linear_system, rows
-from ..block.parts import bodies, sizes
-from ..block.vectors import largest
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Rows
+from ...tables.parts import Bodies
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from ..profiles.nearest import settle_contact_points
+from ..vectors import largest
 from .acceleration import scale_rows
 from .minimum_norm import minimum_norm
 
@@ -27,20 +28,20 @@ def mend(block: Array, most: float, most_rate: float) -> bool:
     Both corrections are the least in the metric of the masses, as that of an impact.
     """
     keep_small()
-    n = sizes(block).coordinates
-    y = course(block).y_end
+    n = Sizes(block).coordinates
+    y = Course(block).y_end
     moved = False
-    place_bodies(block, y)
-    settle_contact_points(block, y)
-    count = active_rows(block)
-    if largest(rows(block).residual, count) > most:
-        _correct(block, count, rows(block).residual, y)
-        place_bodies(block, y)
-        settle_contact_points(block, y)
-        active_rows(block)
+    at = place_bodies(block, y)
+    settle_contact_points(block, at, y)
+    count = active_rows(block, at)
+    if largest(Rows(block).residual, count) > most:
+        _correct(block, count, Rows(block).residual, y)
+        at = place_bodies(block, y)
+        settle_contact_points(block, at, y)
+        active_rows(block, at)
         moved = True
-    if moved or largest(rows(block).residual_rate, count) > most_rate:
-        _correct(block, count, rows(block).residual_rate, y[n:])
+    if moved or largest(Rows(block).residual_rate, count) > most_rate:
+        _correct(block, count, Rows(block).residual_rate, y[n:])
         moved = True
     return moved
 
@@ -49,9 +50,9 @@ def mend(block: Array, most: float, most_rate: float) -> bool:
 def _correct(block: Array, count: int, left: Array, values: Array) -> None:
     """Values += -M^-1/2 D^+ left."""
     keep_small()
-    n = sizes(block).coordinates
-    root = bodies(block).inverse_root_mass
-    system = linear_system(block)
+    n = Sizes(block).coordinates
+    root = Bodies(block).inverse_root_mass
+    system = LinearSystem(block)
     scale_rows(block, count)
     for r in range(count):
         system.right_side[r] = -left[r]

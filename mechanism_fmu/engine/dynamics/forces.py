@@ -1,141 +1,90 @@
-"""Applied forces: generalised forces, their power, and the energy stored in springs."""
+"""Applied forces: generalised forces, their power, the energy that they store, and what is read of them.
+
+What an element does stands with its kind: a file of `ELEMENTS` for each family.
+"""
 
 from __future__ import annotations
 
-from ... import codes
-from ..block.layout import Array
-from ..block.motion import loads
-from ..block.parts import forces, sizes
-from ..block.vectors import clear
+from typing import Any
+
+from ...tables.declare import Array
+from ...tables.kinds import FORCES
+from ...tables.motion import Loads, Pose
+from ...tables.parts import Forces
+from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
-from .own_states import clutch_at, motor_at, own_energy, own_power
+from ..vectors import clear
+from . import own_states, point_forces, torsional
+from .element import Element
+
+#: Every force element of the engine, by the name of its kind.
+ELEMENTS: dict[str, Element] = {**torsional.ELEMENTS, **point_forces.ELEMENTS, **own_states.ELEMENTS}
+
+
+def _function(role: str, arguments: str, otherwise: str) -> Any:
+    """What all elements that have this role do."""
+    functions = {kind: getattr(element, role) for kind, element in ELEMENTS.items() if getattr(element, role)}
+    return by_kind(FORCES.numbered(functions), arguments, otherwise)
+
+
+_act = _function("act", "block, at, k, y, dy, given, lost", "given, lost")
+_stored = _function("stored", "block, at, k, y", "0.0")
+_storing = _function("storing", "block, at, k, y, dy", "0.0")
+_read = _function("read", "block, at, k, y, which", "math.nan")
+_read_rate = _function("read_rate", "block, at, k, dy, which", "math.nan")
 
 
 @jit
-def apply_forces(block: Array, y: Array, dy: Array) -> tuple[float, float]:
+def apply_forces(block: Array, at: Pose, y: Array, dy: Array) -> tuple[float, float]:
     """Write the generalised forces F [N, N m] to `loads.force`; return the powers given and lost [W].
 
     Given: by torques, forces, shafts, the driven ends of clutches, the supplies of motors, and the preloads of springs
     (the linear part of a spring stores energy instead). Lost: in dampers, clutches and the windings of motors.
     Derivatives of own states go to their place in `dy`, shape (unknowns,).
     """
-    n = sizes(block).coordinates
-    force = loads(block).force
-    clear(force)
-    table = forces(block)
-    rates = y[n:]
+    clear(Loads(block).force)
+    kind = Forces(block).kind
     given = 0.0
     lost = 0.0
-    for k in range(table.kind.shape[0]):
-        kind = table.kind[k]
-        first = 3 * table.body[k]
-        if kind == codes.FORCE:
-            for axis in range(2):
-                force[first + axis] += table.data[k, axis]
-                given += table.data[k, axis] * _entry(rates, first + axis, n)
-            continue
-        on = first + 2
-        against = 3 * table.reaction[k] + 2
-        rate = _relative(rates, on, against, n)
-        if kind == codes.TORSION_SPRING:
-            preload = table.data[k, codes.SPRING_PRELOAD]
-            stretch = _stretch(block, k, y)
-            torque = -(table.data[k, codes.SPRING_STIFFNESS] * stretch + preload)
-            given -= preload * rate
-        elif kind == codes.DAMPER:
-            torque = -table.data[k, codes.DAMPING] * rate
-            lost -= torque * rate
-        elif kind == codes.SLIP_CLUTCH:
-            torque, power, loss = clutch_at(block, k, y, rate, dy)
-            given += power
-            lost += loss
-        elif kind == codes.DC_MOTOR:
-            torque, power, loss = motor_at(block, k, y, rate, dy)
-            given += power
-            lost += loss
-        else:
-            torque = table.data[k, codes.TORQUE_VALUE]
-            if kind == codes.SHAFT:
-                torque = shaft_torque(block, y, k)
-            given += torque * rate
-        loads(block).torque[k] = torque
-        force[on] += torque
-        force[against] -= torque
+    for k in range(kind.shape[0]):
+        given, lost = _act(kind[k], block, at, k, y, dy, given, lost)
     return given, lost
 
 
 @jit
-def weight(block: Array, body: int) -> tuple[float, float]:
-    """Sum of the forces on a body's centre of mass [N]."""
-    keep_small()
-    table = forces(block)
-    x = 0.0
-    y = 0.0
-    for k in range(table.kind.shape[0]):
-        if table.kind[k] == codes.FORCE and table.body[k] == body:
-            x += table.data[k, codes.FORCE_X]
-            y += table.data[k, codes.FORCE_Y]
-    return x, y
-
-
-@jit
-def shaft_torque(block: Array, y: Array, shaft: int) -> float:
-    """Torque of a compliant shaft on its body [N m]."""
-    n = sizes(block).coordinates
-    table = forces(block)
-    data = table.data[shaft]
-    on = 3 * table.body[shaft] + 2
-    against = 3 * table.reaction[shaft] + 2
-    twist = data[codes.SHAFT_ANGLE] - _relative(y, on, against, n)
-    twist_rate = data[codes.SHAFT_SPEED] - _relative(y[n:], on, against, n)
-    torque: float = data[codes.SHAFT_STIFFNESS] * twist + data[codes.SHAFT_DAMPING] * twist_rate
-    return torque
-
-
-@jit
-def body_speed(block: Array, y: Array, element: int) -> float:
-    """Rate of a force element's body relative to its reaction [rad/s]."""
-    n = sizes(block).coordinates
-    table = forces(block)
-    return _relative(y[n:], 3 * table.body[element] + 2, 3 * table.reaction[element] + 2, n)
-
-
-@jit
-def spring_energy(block: Array, y: Array) -> float:
+def stored_energy(block: Array, at: Pose, y: Array) -> float:
     """Energy stored in the linear part of all springs, and in what has states of its own [J]."""
     keep_small()
-    table = forces(block)
-    energy = own_energy(block, y)
-    for k in range(table.kind.shape[0]):
-        if table.kind[k] == codes.TORSION_SPRING:
-            stretch = _stretch(block, k, y)
-            energy += 0.5 * table.data[k, codes.SPRING_STIFFNESS] * stretch * stretch
+    kind = Forces(block).kind
+    energy = 0.0
+    for k in range(kind.shape[0]):
+        energy += _stored(kind[k], block, at, k, y)
     return energy
 
 
 @jit
-def spring_power(block: Array, y: Array, dy: Array) -> float:
-    """Derivative of `spring_energy` [W]."""
+def stored_power(block: Array, at: Pose, y: Array, dy: Array) -> float:
+    """Derivative of `stored_energy` [W]."""
     keep_small()
-    n = sizes(block).coordinates
-    table = forces(block)
-    power = own_power(block, y, dy)
-    for k in range(table.kind.shape[0]):
-        if table.kind[k] == codes.TORSION_SPRING:
-            on = 3 * table.body[k] + 2
-            against = 3 * table.reaction[k] + 2
-            power += table.data[k, codes.SPRING_STIFFNESS] * _stretch(block, k, y) * _relative(y[n:], on, against, n)
+    kind = Forces(block).kind
+    power = 0.0
+    for k in range(kind.shape[0]):
+        power += _storing(kind[k], block, at, k, y, dy)
     return power
 
 
 @jit
-def _stretch(block: Array, spring: int, y: Array) -> float:
-    """By how much a torsion spring is wound up beyond its free angle [rad]."""
-    table = forces(block)
-    on = 3 * table.body[spring] + 2
-    against = 3 * table.reaction[spring] + 2
-    free: float = table.data[spring, codes.SPRING_FREE_ANGLE]
-    return _relative(y, on, against, sizes(block).coordinates) - free
+def force_reading(block: Array, at: Pose, k: int, y: Array, which: int) -> float:
+    """An output of force element `k`."""
+    value: float = _read(Forces(block).kind[k], block, at, k, y, which)
+    return value
+
+
+@jit
+def force_reading_rate(block: Array, at: Pose, k: int, dy: Array, which: int) -> float:
+    """Derivative of an output of force element `k` with respect to time; not a number where it is not known."""
+    rate: float = _read_rate(Forces(block).kind[k], block, at, k, dy, which)
+    return rate
 
 
 @jit
@@ -156,18 +105,3 @@ def kinetic_power(inverse_mass: Array, rate: Array, acceleration: Array, count: 
     for k in range(count):
         power += rate[k] * acceleration[k] / inverse_mass[k]
     return power
-
-
-@jit
-def _relative(values: Array, on: int, against: int, n: int) -> float:
-    """Difference of two entries; the ground's is zero."""
-    return _entry(values, on, n) - _entry(values, against, n)
-
-
-@jit
-def _entry(values: Array, index: int, n: int) -> float:
-    """One entry; the ground's (index >= n) is zero."""
-    if index < n:
-        value: float = values[index]
-        return value
-    return 0.0

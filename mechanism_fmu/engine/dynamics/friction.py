@@ -9,9 +9,11 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import linear_system, loads, pose, rows, strikes
-from ..block.parts import contacts, joints, sizes
+from ...tables.declare import Array
+from ...tables.kinds import JOINTS
+from ...tables.motion import LinearSystem, Loads, Pose, Rows, Strikes
+from ...tables.parts import Contacts, Joints
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.rows import spare_row, tangent_row
 
@@ -19,75 +21,77 @@ from ..constraints.rows import spare_row, tangent_row
 SLIP_SPEED = 1e-4
 SLIP_RATE = 1e-3
 
+_REVOLUTE = JOINTS.number("revolute")
+
 
 @jit
 def has_friction(block: Array) -> bool:
     """Whether a joint or a closed contact rubs."""
     keep_small()
     rubs = False
-    joint = joints(block)
+    joint = Joints(block)
     for k in range(joint.kind.shape[0]):
         rubs = rubs or joint.friction[k] > 0.0
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.mode.shape[0]):
         rubs = rubs or (table.mode[c] == codes.CLOSED and table.value[c, codes.FRICTION] > 0.0)
     return rubs
 
 
 @jit
-def resist(block: Array) -> float:
+def resist(block: Array, at: Pose) -> float:
     """`loads.force` = `loads.applied` + friction for the multipliers of the last solve; return the power lost [W]."""
     keep_small()
-    load = loads(block)
+    load = Loads(block)
     for k in range(load.force.shape[0]):
         load.force[k] = load.applied[k]
     lost = 0.0
-    joint = joints(block)
+    joint = Joints(block)
     for k in range(joint.kind.shape[0]):
         if joint.friction[k] > 0.0:
-            if joint.kind[k] == codes.REVOLUTE:
-                lost += _pin(block, k)
+            if joint.kind[k] == _REVOLUTE:
+                lost += _pin(block, at, k)
             else:
-                lost += _slider(block, k)
-    table = contacts(block)
+                lost += _slider(block, at, k)
+    table = Contacts(block)
     for c in range(table.mode.shape[0]):
         rubs = table.mode[c] == codes.CLOSED and table.value[c, codes.FRICTION] > 0.0
         if rubs and table.kind[c] == codes.POINT_LINE:
-            lost += _contact(block, c)
+            lost += _contact(block, at, c)
     return lost
 
 
 @jit
-def _contact(block: Array, contact: int) -> float:
+def _contact(block: Array, at: Pose, contact: int) -> float:
     """Friction of a point along its line; returns the power lost."""
     keep_small()
-    table = contacts(block)
-    force = loads(block).force
-    tangent_row(block, contact, strikes(block).tangent_line)
+    table = Contacts(block)
+    force = Loads(block).force
+    tangent_row(block, at, contact, Strikes(block).tangent_line)
     spare = spare_row(block)
-    slip = rows(block).residual_rate[spare]
-    normal = abs(linear_system(block).multiplier[table.row[contact]])
+    slip = Rows(block).residual_rate[spare]
+    normal = abs(LinearSystem(block).multiplier[table.row[contact]])
     friction = -table.value[contact, codes.FRICTION] * normal * math.tanh(slip / SLIP_SPEED)
-    for k in range(sizes(block).coordinates):
-        force[k] += friction * rows(block).jacobian[spare, k]
+    for k in range(Sizes(block).coordinates):
+        force[k] += friction * Rows(block).jacobian[spare, k]
     lost: float = -friction * slip
     return lost
 
 
 @jit
-def _pin(block: Array, joint: int) -> float:
+def _pin(block: Array, at: Pose, joint: int) -> float:
     """Friction torque of a revolute joint; returns the power lost."""
     keep_small()
-    table = joints(block)
-    force = loads(block).force
-    multiplier = linear_system(block).multiplier
+    table = Joints(block)
+    force = Loads(block).force
+    multiplier = LinearSystem(block).multiplier
     row = table.row[joint]
     i = table.body_i[joint]
     j = table.body_j[joint]
-    slip = pose(block).phi_rate[i] - pose(block).phi_rate[j]
+    slip = at.phi_rate[i] - at.phi_rate[j]
     normal = math.sqrt(multiplier[row] * multiplier[row] + multiplier[row + 1] * multiplier[row + 1])
     torque = -table.friction[joint] * normal * math.tanh(slip / SLIP_RATE)
-    loads(block).rubbing[joint] = torque
+    Loads(block).rubbing[joint] = torque
     force[3 * i + 2] += torque
     force[3 * j + 2] -= torque
     lost: float = -torque * slip
@@ -95,12 +99,11 @@ def _pin(block: Array, joint: int) -> float:
 
 
 @jit
-def _slider(block: Array, joint: int) -> float:
+def _slider(block: Array, at: Pose, joint: int) -> float:
     """Friction force of a translational joint along its axis, on body j at its point; returns the power lost."""
     keep_small()
-    table = joints(block)
-    at = pose(block)
-    force = loads(block).force
+    table = Joints(block)
+    force = Loads(block).force
     i = table.body_i[joint]
     j = table.body_j[joint]
     data = table.data[joint]
@@ -114,9 +117,9 @@ def _slider(block: Array, joint: int) -> float:
     cy = at.y[j] + by - at.y[i]
     slip = vx * (at.x_rate[j] - by * at.phi_rate[j] - at.x_rate[i] + cy * at.phi_rate[i])
     slip += vy * (at.y_rate[j] + bx * at.phi_rate[j] - at.y_rate[i] - cx * at.phi_rate[i])
-    normal = abs(linear_system(block).multiplier[table.row[joint]]) * length
+    normal = abs(LinearSystem(block).multiplier[table.row[joint]]) * length
     friction = -table.friction[joint] * normal * math.tanh(slip / SLIP_SPEED)
-    loads(block).rubbing[joint] = friction
+    Loads(block).rubbing[joint] = friction
     force[3 * j] += friction * vx
     force[3 * j + 1] += friction * vy
     force[3 * j + 2] += friction * (bx * vy - by * vx)

@@ -8,17 +8,17 @@ are asked for.
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import course, pose
-from ..block.parts import forces, ports
+from ...tables.declare import Array
+from ...tables.motion import Course, Pose
+from ...tables.parts import Forces, Ports
 from ..compiler.subset import jit, keep_small
 
 
 @jit
 def inputs_changed(block: Array) -> bool:
     """Whether an input differs from what the motion has used so far, or has, or had until now, a slope."""
-    table = ports(block)
-    changed: bool = course(block).counters[codes.RAMPING] != 0
+    table = Ports(block)
+    changed: bool = Course(block).counters[codes.RAMPING] != 0
     for k in range(table.inputs.shape[0]):
         if table.inputs[k] != table.held_inputs[k] or table.input_slopes[k] != 0.0:
             changed = True
@@ -29,8 +29,8 @@ def inputs_changed(block: Array) -> bool:
 def take_inputs(block: Array) -> None:
     """Let the present inputs act from TIME on, with their slopes, which are used up by that."""
     keep_small()
-    table = ports(block)
-    now = course(block)
+    table = Ports(block)
+    now = Course(block)
     now.clock[codes.RAMP_START] = now.clock[codes.TIME]
     now.counters[codes.RAMPING] = 0
     for k in range(table.inputs.shape[0]):
@@ -45,8 +45,8 @@ def take_inputs(block: Array) -> None:
 @jit
 def feed(block: Array, values: Array) -> None:
     """Write what `values`, shape (inputs,), stand for into the table entries that the inputs feed."""
-    table = ports(block)
-    data = forces(block).data
+    table = Ports(block)
+    data = Forces(block).data
     for k in range(values.shape[0]):
         entry = table.input_factor[k] * values[k] + table.input_offset[k]
         data[table.input_force[k], table.input_column[k]] = entry
@@ -55,16 +55,16 @@ def feed(block: Array, values: Array) -> None:
 @jit
 def set_time(block: Array, time: float) -> None:
     """Make `time` [s] the instant that drivers see, and feed the inputs' values there, if any has a slope."""
-    pose(block).instant[0] = time
-    if course(block).counters[codes.RAMPING] != 0:
+    Pose(block).instant[0] = time
+    if Course(block).counters[codes.RAMPING] != 0:
         _feed_ramp(block, time)
 
 
 @jit
 def _feed_ramp(block: Array, time: float) -> None:
     keep_small()
-    table = ports(block)
-    data = forces(block).data
+    table = Ports(block)
+    data = Forces(block).data
     for k in range(table.inputs.shape[0]):
         entry = table.input_factor[k] * _reached(block, k, time) + table.input_offset[k]
         data[table.input_force[k], table.input_column[k]] = entry
@@ -73,8 +73,8 @@ def _feed_ramp(block: Array, time: float) -> None:
 @jit
 def show_reached(block: Array) -> None:
     """Make `inputs` the values that inputs with slopes have reached at TIME."""
-    now = course(block)
-    table = ports(block)
+    now = Course(block)
+    table = Ports(block)
     if now.counters[codes.RAMPING] != 0:
         for k in range(table.inputs.shape[0]):
             table.inputs[k] = _reached(block, k, now.clock[codes.TIME])
@@ -83,6 +83,6 @@ def show_reached(block: Array) -> None:
 @jit
 def _reached(block: Array, k: int, time: float) -> float:
     """Value of input `k` at `time` [s]."""
-    table = ports(block)
-    value: float = table.held_inputs[k] + table.held_slopes[k] * (time - course(block).clock[codes.RAMP_START])
+    table = Ports(block)
+    value: float = table.held_inputs[k] + table.held_slopes[k] * (time - Course(block).clock[codes.RAMP_START])
     return value

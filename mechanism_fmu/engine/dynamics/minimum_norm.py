@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
-from ..block.layout import Array
-from ..block.motion import LinearSystem, linear_system
+from ...tables.declare import Array
+from ...tables.motion import LinearSystem
 from ..compiler.subset import jit, keep_small
 
 #: A row depends on the rows before it when less than this fraction of its length is left after projection.
@@ -28,7 +28,7 @@ def minimum_norm(block: Array, count: int, width: int) -> None:
     Reads D = `scaled`[:count, :width] and b = `right_side`[:count] of the linear system; writes z = D^+ b to
     `solution`[:width], the minimum-norm solution of D^T multiplier = z to `multiplier`[:count], and the rank of D.
     """
-    system = linear_system(block)
+    system = LinearSystem(block)
     rank = orthogonalise(block, count, width)
     if rank == count:
         _solve_full_rank(block, count)
@@ -43,7 +43,7 @@ def minimum_norm(block: Array, count: int, width: int) -> None:
 @jit
 def orthogonalise(block: Array, count: int, width: int) -> int:
     """D = L Q; row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i. Return the rank."""
-    system = linear_system(block)
+    system = LinearSystem(block)
     basis = system.basis
     system.rank[0] = count
     system.independence[0] = 1.0
@@ -109,7 +109,7 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
 @jit
 def _solve_full_rank(block: Array, count: int) -> None:
     """L coefficient = b forwards, then L^T multiplier = coefficient backwards."""
-    system = linear_system(block)
+    system = LinearSystem(block)
     for r in range(count):
         p = system.order[r]
         value = system.right_side[p]
@@ -130,7 +130,7 @@ def _solve_full_rank(block: Array, count: int) -> None:
 def _solve_deficient(block: Array, count: int, rank: int) -> None:
     """L = U R by columns; coefficient = R^-1 U^T b, multiplier = U R^-T coefficient."""
     keep_small()
-    system = linear_system(block)
+    system = LinearSystem(block)
     u = system.column_basis
     triangle = system.column_triangle
     for r in range(rank):

@@ -7,124 +7,140 @@ follows by itself.
 
 from __future__ import annotations
 
-from ... import codes
-from ..block.layout import Array
-from ..block.parts import forces, sizes
+import math
+
+from ...tables.declare import Array
+from ...tables.kinds import FORCES
+from ...tables.motion import Pose
+from ...tables.parts import Forces
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
+from .element import Element, relative_speed, turn
+
+CLUTCH_STIFFNESS, CLUTCH_DAMPING, CLUTCH_LIMIT, CLUTCH_SPEED = FORCES.places("slip_clutch")
+CONSTANT, RESISTANCE, INDUCTANCE, VOLTAGE_LIMIT, GAIN, INTEGRAL_GAIN, ANTI_WINDUP, SPEED = FORCES.places("dc_motor")
+#: States of a motor's own: current [A], and the integral of the error of speed [rad].
+CURRENT, INTEGRAL = range(2)
 
 
 @jit
-def first_own(block: Array) -> int:
-    """Where own states begin among the unknowns."""
-    first: int = 2 * sizes(block).coordinates + 2 + sizes(block).alphas
-    return first
+def _place(block: Array, k: int) -> int:
+    """Where the own states of element `k` begin among the unknowns."""
+    place: int = Sizes(block).y_own + Forces(block).own[k]
+    return place
 
 
 @jit
-def clutch_at(block: Array, clutch: int, y: Array, rate: float, dy: Array) -> tuple[float, float, float]:
-    """Torque on a clutch's body [N m], powers given by its driven end and lost in it [W]; its twist's rate into `dy`.
+def _clutch(block: Array, at: Pose, k: int, y: Array, dy: Array, given: float, lost: float) -> tuple[float, float]:
+    """Spring and damper in series with a slider: T = k s + c (speed - rate), but never beyond the limit.
 
-    Spring and damper in series with a slider: T = k s + c (speed - rate), but never beyond the limit, and s' is what
-    the damper then does, s' = (T - k s) / c. What is left of the difference of speeds is slip.
-
-    Args:
-        block: of the instance.
-        clutch: number of the force element.
-        y: shape (unknowns,).
-        rate: of the body, relative to the reaction [rad/s].
-        dy: shape (unknowns,).
+    The twist's rate s' is what the damper then does, s' = (T - k s) / c. What is left of the difference of speeds is
+    slip. Powers are given by the driven end and lost in slip and damper.
     """
-    data = forces(block).data[clutch]
-    place = first_own(block) + forces(block).own[clutch]
-    twist = y[place]
-    torque = clutch_torque(block, clutch, y, rate)
-    elastic = data[codes.CLUTCH_STIFFNESS] * twist
-    twist_rate = (torque - elastic) / data[codes.CLUTCH_DAMPING]
-    dy[place] = twist_rate
-    speed = data[codes.CLUTCH_SPEED]
-    return torque, torque * speed, torque * (speed - rate) - elastic * twist_rate
-
-
-@jit
-def clutch_torque(block: Array, clutch: int, y: Array, rate: float) -> float:
-    """Torque of a clutch on its body [N m]; arguments as of `clutch_at`."""
-    data = forces(block).data[clutch]
-    twist = y[first_own(block) + forces(block).own[clutch]]
-    torque = data[codes.CLUTCH_STIFFNESS] * twist
-    torque += data[codes.CLUTCH_DAMPING] * (data[codes.CLUTCH_SPEED] - rate)
-    return _limited(torque, data[codes.CLUTCH_LIMIT])
-
-
-@jit
-def motor_at(block: Array, motor: int, y: Array, rate: float, dy: Array) -> tuple[float, float, float]:
-    """Torque on a motor's body [N m], powers given by its supply and lost in its winding [W]; own rates into `dy`.
-
-    L i' = u - R i - K rate and z' = e + g (u - v), with the error e, and v and u as of `motor_voltage`: the integral
-    stops where the voltage is at its limit. Arguments as of `clutch_at`.
-    """
-    data = forces(block).data[motor]
-    place = first_own(block) + forces(block).own[motor]
-    current = y[place + codes.MOTOR_CURRENT]
-    wanted = _wanted_voltage(block, motor, y, rate)
-    voltage = _limited(wanted, data[codes.MOTOR_VOLTAGE_LIMIT])
-    drop = data[codes.MOTOR_RESISTANCE] * current
-    back = data[codes.MOTOR_CONSTANT] * rate
-    dy[place + codes.MOTOR_CURRENT] = (voltage - drop - back) / data[codes.MOTOR_INDUCTANCE]
-    error = data[codes.MOTOR_SPEED] - rate
-    dy[place + codes.MOTOR_INTEGRAL] = error + data[codes.MOTOR_ANTI_WINDUP] * (voltage - wanted)
-    return data[codes.MOTOR_CONSTANT] * current, voltage * current, drop * current
-
-
-@jit
-def motor_voltage(block: Array, motor: int, y: Array, rate: float) -> float:
-    """Voltage that the controller gives to a motor [V]: u = v = kp e + ki z within the limit; as of `motor_at`."""
-    return _limited(_wanted_voltage(block, motor, y, rate), forces(block).data[motor, codes.MOTOR_VOLTAGE_LIMIT])
-
-
-@jit
-def _wanted_voltage(block: Array, motor: int, y: Array, rate: float) -> float:
-    data = forces(block).data[motor]
-    integral = y[first_own(block) + forces(block).own[motor] + codes.MOTOR_INTEGRAL]
-    error = data[codes.MOTOR_SPEED] - rate
-    voltage: float = data[codes.MOTOR_GAIN] * error + data[codes.MOTOR_INTEGRAL_GAIN] * integral
-    return voltage
-
-
-@jit
-def own_energy(block: Array, y: Array) -> float:
-    """Energy in the twist of clutches and the windings of motors [J]."""
     keep_small()
-    table = forces(block)
-    energy = 0.0
-    for k in range(table.kind.shape[0]):
-        if table.own[k] != codes.NONE:
-            state = y[first_own(block) + table.own[k]]
-            energy += 0.5 * _storage(block, k) * state * state
-    return energy
+    data = Forces(block).data[k]
+    torque = _clutch_torque(block, at, k, y, 0)
+    elastic = data[CLUTCH_STIFFNESS] * y[_place(block, k)]
+    twist_rate = (torque - elastic) / data[CLUTCH_DAMPING]
+    dy[_place(block, k)] = twist_rate
+    speed = data[CLUTCH_SPEED]
+    rate = relative_speed(block, at, k)
+    turn(block, k, torque)
+    return given + torque * speed, lost + (torque * (speed - rate) - elastic * twist_rate)
 
 
 @jit
-def own_power(block: Array, y: Array, dy: Array) -> float:
-    """Power that goes into the twist of clutches and the windings of motors [W]."""
-    keep_small()
-    table = forces(block)
-    power = 0.0
-    for k in range(table.kind.shape[0]):
-        if table.own[k] != codes.NONE:
-            place = first_own(block) + table.own[k]
-            power += _storage(block, k) * y[place] * dy[place]
+def _clutch_torque(block: Array, at: Pose, k: int, y: Array, _which: int) -> float:
+    """Torque of a clutch on its body [N m]."""
+    data = Forces(block).data[k]
+    torque = data[CLUTCH_STIFFNESS] * y[_place(block, k)]
+    torque += data[CLUTCH_DAMPING] * (data[CLUTCH_SPEED] - relative_speed(block, at, k))
+    return _limited(torque, data[CLUTCH_LIMIT])
+
+
+@jit
+def _clutch_energy(block: Array, _at: Pose, k: int, y: Array) -> float:
+    return _stored(y[_place(block, k)], Forces(block).data[k, CLUTCH_STIFFNESS])
+
+
+@jit
+def _clutch_power(block: Array, _at: Pose, k: int, y: Array, dy: Array) -> float:
+    power: float = Forces(block).data[k, CLUTCH_STIFFNESS] * y[_place(block, k)] * dy[_place(block, k)]
     return power
 
 
 @jit
-def _storage(block: Array, element: int) -> float:
-    """The stiffness of a clutch [N m/rad], the inductance of a motor [H]: energy is half of it times state squared."""
-    table = forces(block)
-    column = codes.CLUTCH_STIFFNESS
-    if table.kind[element] == codes.DC_MOTOR:
-        column = codes.MOTOR_INDUCTANCE
-    value: float = table.data[element, column]
+def _motor(block: Array, at: Pose, k: int, y: Array, dy: Array, given: float, lost: float) -> tuple[float, float]:
+    """L i' = u - R i - K rate and z' = e + g (u - v), with the error e and the wanted voltage v = kp e + ki z.
+
+    The integral stops where the voltage u is at its limit. Powers are given by the supply and lost in the winding.
+    """
+    keep_small()
+    data = Forces(block).data[k]
+    place = _place(block, k)
+    current = y[place + CURRENT]
+    rate = relative_speed(block, at, k)
+    wanted = _wanted_voltage(block, at, k, y)
+    voltage = _limited(wanted, data[VOLTAGE_LIMIT])
+    drop = data[RESISTANCE] * current
+    back = data[CONSTANT] * rate
+    dy[place + CURRENT] = (voltage - drop - back) / data[INDUCTANCE]
+    error = data[SPEED] - rate
+    dy[place + INTEGRAL] = error + data[ANTI_WINDUP] * (voltage - wanted)
+    turn(block, k, data[CONSTANT] * current)
+    return given + voltage * current, lost + drop * current
+
+
+@jit
+def _wanted_voltage(block: Array, at: Pose, k: int, y: Array) -> float:
+    data = Forces(block).data[k]
+    error = data[SPEED] - relative_speed(block, at, k)
+    voltage: float = data[GAIN] * error + data[INTEGRAL_GAIN] * y[_place(block, k) + INTEGRAL]
+    return voltage
+
+
+@jit
+def _read_motor(block: Array, at: Pose, k: int, y: Array, which: int) -> float:
+    """Torque on its body [N m], current [A], or the voltage that the controller gives to it [V]."""
+    keep_small()
+    data = Forces(block).data[k]
+    if which == 2:
+        return _limited(_wanted_voltage(block, at, k, y), data[VOLTAGE_LIMIT])
+    return _of_current(block, k, y, which)
+
+
+@jit
+def _read_motor_rate(block: Array, _at: Pose, k: int, dy: Array, which: int) -> float:
+    if which == 2:
+        return math.nan
+    return _of_current(block, k, dy, which)
+
+
+@jit
+def _of_current(block: Array, k: int, y: Array, which: int) -> float:
+    """Torque and current, or with rates instead of states their derivatives."""
+    value: float = y[_place(block, k) + CURRENT]
+    if which == 0:
+        value *= Forces(block).data[k, CONSTANT]
     return value
+
+
+@jit
+def _motor_energy(block: Array, _at: Pose, k: int, y: Array) -> float:
+    return _stored(y[_place(block, k) + CURRENT], Forces(block).data[k, INDUCTANCE])
+
+
+@jit
+def _motor_power(block: Array, _at: Pose, k: int, y: Array, dy: Array) -> float:
+    place = _place(block, k) + CURRENT
+    power: float = Forces(block).data[k, INDUCTANCE] * y[place] * dy[place]
+    return power
+
+
+@jit
+def _stored(state: float, storage: float) -> float:
+    """Half of a stiffness or inductance times the square of a twist or current [J]."""
+    return 0.5 * storage * state * state
 
 
 @jit
@@ -132,3 +148,9 @@ def _limited(value: float, limit: float) -> float:
     """`value` within +-limit; a negative limit is none at all, 0."""
     most = max(limit, 0.0)
     return min(max(value, -most), most)
+
+
+ELEMENTS = {
+    "slip_clutch": Element(_clutch, _clutch_energy, _clutch_power, _clutch_torque),
+    "dc_motor": Element(_motor, _motor_energy, _motor_power, _read_motor, _read_motor_rate),
+}

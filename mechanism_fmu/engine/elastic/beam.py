@@ -14,25 +14,26 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.elastic import beams
-from ..block.layout import Array
-from ..block.motion import linear_system, pose, stages
-from ..block.parts import bodies, sizes
+from ...tables.declare import Array
+from ...tables.members import Beams
+from ...tables.motion import LinearSystem, Pose, Stages
+from ...tables.parts import Bodies
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..dynamics.forces import weight
+from ..dynamics.point_forces import weight
 
 
 @jit
-def beam_reading(block: Array, kind: int, beam: int) -> float:
+def beam_reading(block: Array, at: Pose, kind: int, beam: int) -> float:
     """Deflection of the tip from the tangent at the hinge [m], or the largest bending stress of a bar [Pa].
 
     Accelerations and multipliers are those that `derivative` has left. The deflection counts along R t, where t points
     from the hinge to the tip.
     """
     keep_small()
-    data = beams(block).data[beam]
+    data = Beams(block).data[beam]
     length = data[codes.BEAM_SPAN]
-    zeroth, first, second, third = _moment(block, beam)
+    zeroth, first, second, third = _moment(block, at, beam)
     if kind == codes.BEAM_DEFLECTION:
         # the integral of M (l - x) / EI
         square = length * length
@@ -55,23 +56,22 @@ def beam_reading(block: Array, kind: int, beam: int) -> float:
 
 
 @jit
-def _moment(block: Array, beam: int) -> tuple[float, float, float, float]:
+def _moment(block: Array, at: Pose, beam: int) -> tuple[float, float, float, float]:
     """The bending moment M(x) as a polynomial: its coefficients of x^0 to x^3."""
     keep_small()
-    table = beams(block)
+    table = Beams(block)
     data = table.data[beam]
     i = table.body[beam]
     row = table.row[beam]
-    at = pose(block)
     tx = at.cosine[i] * data[codes.BEAM_ALONG_X] - at.sine[i] * data[codes.BEAM_ALONG_Y]
     ty = at.sine[i] * data[codes.BEAM_ALONG_X] + at.cosine[i] * data[codes.BEAM_ALONG_Y]
-    multiplier = linear_system(block).multiplier
+    multiplier = LinearSystem(block).multiplier
     hinge = data[codes.BEAM_SIDE] * (tx * multiplier[row + 1] - ty * multiplier[row])
     length = data[codes.BEAM_SPAN]
     centre = data[codes.BEAM_CENTRE]
-    mass = 1.0 / bodies(block).inverse_mass[3 * i]
-    inertia = 1.0 / bodies(block).inverse_mass[3 * i + 2]
-    acceleration = stages(block).dy_at[sizes(block).coordinates :]
+    mass = 1.0 / Bodies(block).inverse_mass[3 * i]
+    inertia = 1.0 / Bodies(block).inverse_mass[3 * i + 2]
+    acceleration = Stages(block).dy_at[Sizes(block).coordinates :]
     weight_x, weight_y = weight(block, i)
     at_centre = tx * (acceleration[3 * i + 1] - weight_y / mass) - ty * (acceleration[3 * i] - weight_x / mass)
     turning = acceleration[3 * i + 2]

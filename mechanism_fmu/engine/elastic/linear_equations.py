@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..block.layout import Array
+from ...tables.declare import Array
 from ..compiler.subset import jit, keep_small
 
 #: A pivot below this part of the largest entry is taken as this part: what hangs on it becomes huge, but stays finite.

@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.elastic import members, nodes, structure
-from ..block.layout import Array
-from ..block.motion import pose
+from ...tables.declare import Array
+from ...tables.members import Members, Nodes, Structure
+from ...tables.motion import Pose
 from ..compiler.subset import jit, keep_small
 
 
 @jit
-def elastic_reading(block: Array, kind: int, index: int) -> float:
+def elastic_reading(block: Array, at: Pose, kind: int, index: int) -> float:
     """The value of an output of members or their ends; `index` as in `ports.output_index`."""
     keep_small()
-    it = structure(block)
+    it = Structure(block)
     value = 0.0
     if kind == codes.NODE_PLACE or kind == codes.NODE_BENT:
-        value = _place(block, index // 2, index % 2)
+        value = _place(block, at, index // 2, index % 2)
         if kind == codes.NODE_BENT:
             value += it.displacement[3 * (index // 2) + index % 2]
     elif kind == codes.NODE_DEFLECTION:
@@ -33,11 +33,10 @@ def elastic_reading(block: Array, kind: int, index: int) -> float:
 
 
 @jit
-def _place(block: Array, node: int, axis: int) -> float:
+def _place(block: Array, at: Pose, node: int, axis: int) -> float:
     """Where a node stands in the rigid motion [m]."""
-    at = pose(block)
-    i = nodes(block).body[node]
-    place: float = nodes(block).place[node, axis]
+    i = Nodes(block).body[node]
+    place: float = Nodes(block).place[node, axis]
     if axis == 0:
         place += at.x[i]
     else:
@@ -51,8 +50,8 @@ def _stress(block: Array, member: int) -> float:
 
     Between the ends the moment runs straight, because all mass stands at nodes.
     """
-    force = structure(block).element_force
-    data = members(block).data[member]
+    force = Structure(block).element_force
+    data = Members(block).data[member]
     moment = max(abs(force[3 * member + 1]), abs(force[3 * member + 2]))
     stress: float = abs(force[3 * member]) / data[codes.MEMBER_AREA] + moment / data[codes.MEMBER_MODULUS]
     return stress

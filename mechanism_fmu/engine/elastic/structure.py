@@ -12,25 +12,26 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.elastic import members, nodes, structure, ties
-from ..block.layout import Array
-from ..block.motion import pose, rows
-from ..block.parts import joints, sizes
-from ..block.vectors import clear
+from ...tables.declare import Array
+from ...tables.members import Members, Nodes, Structure, Ties
+from ...tables.motion import Pose, Rows
+from ...tables.parts import Joints
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
+from ..vectors import clear
 from .applied import put_loads
 from .linear_equations import factorise, solve, solve_transposed
 
 
 @jit
-def bend(block: Array) -> None:
+def bend(block: Array, at: Pose) -> None:
     """Write loads, element forces, deformations and displacements to `structure`.
 
     Positions, accelerations and rows of joints are those that `derivative` has left, of `stages.y_at` and `dy_at`.
     """
     keep_small()
-    _place_nodes(block)
-    it = structure(block)
+    _place_nodes(block, at)
+    it = Structure(block)
     for r in range(it.matrix.shape[0]):
         clear(it.matrix[r])
     _compatibility_of_members(block)
@@ -39,18 +40,17 @@ def bend(block: Array) -> None:
     for k in range(it.locked.shape[0]):
         it.matrix[first + k, it.locked[k]] = 1.0
     factorise(it.matrix, it.matrix_order)
-    put_loads(block)
+    put_loads(block, at)
     solve_transposed(it.matrix, it.matrix_order, it.load, it.element_force)
     _deform(block)
     solve(it.matrix, it.matrix_order, it.deformation, it.displacement)
 
 
 @jit
-def _place_nodes(block: Array) -> None:
+def _place_nodes(block: Array, at: Pose) -> None:
     """Write the vectors from the centres of mass of their bodies to the nodes [m], in the global frame."""
     keep_small()
-    at = pose(block)
-    node = nodes(block)
+    node = Nodes(block)
     place = node.place
     for k in range(node.body.shape[0]):
         i = node.body[k]
@@ -65,9 +65,9 @@ def _compatibility_of_members(block: Array) -> None:
     The latter are rotation_a - n.(u_b - u_a)/l and rotation_b - n.(u_b - u_a)/l.
     """
     keep_small()
-    table = members(block)
-    it = structure(block)
-    place = nodes(block).place
+    table = Members(block)
+    it = Structure(block)
+    place = Nodes(block).place
     for m in range(table.start.shape[0]):
         a = table.start[m]
         b = table.end[m]
@@ -98,17 +98,17 @@ def _compatibility_of_joints(block: Array) -> None:
     With a from the centre of mass to the node, its moment there is J_phi - (a_x J_y - a_y J_x).
     """
     keep_small()
-    table = ties(block)
-    it = structure(block)
-    jacobian = rows(block).jacobian
-    body = nodes(block).body
-    place = nodes(block).place
-    first = 3 * members(block).start.shape[0]
+    table = Ties(block)
+    it = Structure(block)
+    jacobian = Rows(block).jacobian
+    body = Nodes(block).body
+    place = Nodes(block).place
+    first = 3 * Members(block).start.shape[0]
     for k in range(table.joint.shape[0]):
-        row = joints(block).row[table.joint[k]]
-        after = sizes(block).joint_rows
-        if table.joint[k] + 1 < sizes(block).joints:
-            after = joints(block).row[table.joint[k] + 1]
+        row = Joints(block).row[table.joint[k]]
+        after = Sizes(block).joint_rows
+        if table.joint[k] + 1 < Sizes(block).joints:
+            after = Joints(block).row[table.joint[k] + 1]
         node = table.node[k]
         i = 3 * body[node]
         for r in range(row, after):
@@ -123,8 +123,8 @@ def _compatibility_of_joints(block: Array) -> None:
 def _deform(block: Array) -> None:
     """The deformations d = F f of each member: l/EA along it; l/3EI and -l/6EI of the moments on its two ends."""
     keep_small()
-    table = members(block)
-    it = structure(block)
+    table = Members(block)
+    it = Structure(block)
     clear(it.deformation)
     for m in range(table.start.shape[0]):
         first = it.element_force[3 * m + 1]

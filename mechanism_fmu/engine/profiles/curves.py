@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.layout import Array
-from ..block.parts import curves
+from ...tables.declare import Array
+from ...tables.parts import Curves
 from ..compiler.subset import jit, keep_small
 
 _DEGREE = codes.AMPLITUDE - codes.POLYNOMIAL - 1
@@ -16,7 +16,7 @@ _DEGREE = codes.AMPLITUDE - codes.POLYNOMIAL - 1
 def curve(block: Array, number: int, x: float) -> tuple[float, float, float, float]:
     """Value and first three derivatives of a curve at x."""
     keep_small()
-    table = curves(block)
+    table = Curves(block)
     first = table.piece[number]
     last = first + table.pieces[number] - 1
     start = table.range[number, 0]
@@ -65,7 +65,7 @@ def curve(block: Array, number: int, x: float) -> tuple[float, float, float, flo
 @jit
 def sample(block: Array, number: int, k: int, count: int) -> float:
     """The k-th of `count` equidistant places in the range of a profile."""
-    table = curves(block)
+    table = Curves(block)
     value: float = table.range[number, 0] + table.range[number, 1] * k / count
     return value
 
@@ -74,7 +74,7 @@ def sample(block: Array, number: int, k: int, count: int) -> float:
 def quarter_wave(block: Array, piece: int) -> float:
     """A quarter of the shortest wave within a piece of a curve, in the unit of its variable; infinite without waves."""
     keep_small()
-    table = curves(block)
+    table = Curves(block)
     shortest = math.inf
     for t in range(table.piece_term[piece], table.piece_term[piece] + table.piece_terms[piece]):
         frequency = abs(table.term_data[t, codes.FREQUENCY])

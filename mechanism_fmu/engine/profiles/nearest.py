@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import pose
-from ..block.parts import contacts, curves, sizes
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.parts import Contacts, Curves
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from .curves import curve, sample
 from .touch import change, look
@@ -30,96 +31,94 @@ _PAIRED_SAMPLES = 72
 
 
 @jit
-def settle_contact_points(block: Array, y: Array) -> None:
+def settle_contact_points(block: Array, at: Pose, y: Array) -> None:
     """Bring all contact coordinates to the nearest points at the bodies' pose, and write them to the end of `y`."""
     keep_small()
-    count = sizes(block).alphas
+    count = Sizes(block).alphas
     if count == 0:
         return
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.kind.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
             if is_searched(block, c):
-                find_nearest(block, c)
+                find_nearest(block, at, c)
             else:
-                _settle(block, c)
-    _keep(block, y)
+                _settle(block, at, c)
+    _keep(block, at, y)
 
 
 @jit
-def find_contact_points(block: Array, y: Array) -> None:
+def find_contact_points(block: Array, at: Pose, y: Array) -> None:
     """As `settle_contact_points`, but with a search on the whole of both curves of every pair."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.kind.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
-            find_nearest(block, c)
-    _keep(block, y)
+            find_nearest(block, at, c)
+    _keep(block, at, y)
 
 
 @jit
-def _keep(block: Array, y: Array) -> None:
-    first = 2 * sizes(block).coordinates + 2
-    for k in range(sizes(block).alphas):
-        y[first + k] = pose(block).alpha[k]
+def _keep(block: Array, at: Pose, y: Array) -> None:
+    first = Sizes(block).y_alpha
+    for k in range(Sizes(block).alphas):
+        y[first + k] = at.alpha[k]
 
 
 @jit
 def is_searched(block: Array, contact: int) -> bool:
     """Whether a pair's nearest points are sought afresh at each pose: it is open, and one of its profiles is hollow."""
-    table = contacts(block)
+    table = Contacts(block)
     searched: bool = table.mode[contact] == codes.OPEN and table.hollow[contact] != codes.CONVEX
     return searched
 
 
 @jit
-def find_nearest(block: Array, contact: int) -> None:
+def find_nearest(block: Array, at: Pose, contact: int) -> None:
     """Bring a pair's contact coordinates to the nearest points of all."""
     keep_small()
-    at = pose(block)
-    alpha = contacts(block).alpha[contact]
+    alpha = Contacts(block).alpha[contact]
     last = alpha
-    if contacts(block).kind[contact] == codes.CAM_FOLLOWER:
+    if Contacts(block).kind[contact] == codes.CAM_FOLLOWER:
         last = alpha + 1
-    _find(block, contact)
+    _find(block, at, contact)
     found_i = at.alpha[alpha]
     found_j = at.alpha[last]
-    _settle(block, contact)
+    _settle(block, at, contact)
     if not abs(at.alpha[alpha] - found_i) + abs(at.alpha[last] - found_j) < _LONGEST_STEP:
         at.alpha[alpha] = found_i  # where curves hardly bend, Newton's method may lead away
         at.alpha[last] = found_j
 
 
 @jit
-def least_fit(block: Array) -> float:
+def least_fit(block: Array, at: Pose) -> float:
     """How well the closed pair fits that fits least: the sum of the turnings of both curves; positive if well."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     least = math.inf
     for c in range(table.kind.shape[0]):
         if table.alpha[c] != codes.NONE and table.mode[c] == codes.CLOSED:
-            least = min(least, _fit(block, c))
+            least = min(least, _fit(block, at, c))
     return least
 
 
 @jit
-def _fit(block: Array, contact: int) -> float:
+def _fit(block: Array, at: Pose, contact: int) -> float:
     """How well a pair fits at its contact point; 0 when that has not been found: Newton's method did not settle."""
-    move_i, move_j, _, _, _, fit = _newton_step(block, contact)
+    move_i, move_j, _, _, _, fit = _newton_step(block, at, contact)
     if abs(move_i) + abs(move_j) > _NEAR:
         return 0.0
     return fit
 
 
 @jit
-def _settle(block: Array, contact: int) -> None:
+def _settle(block: Array, at: Pose, contact: int) -> None:
     keep_small()
-    at = pose(block)
-    alpha = contacts(block).alpha[contact]
-    kind = contacts(block).kind[contact]
+    alpha = Contacts(block).alpha[contact]
+    kind = Contacts(block).kind[contact]
     least = _MOST_DRIFT
     for _ in range(_NEWTON_STEPS):
-        move_i, move_j, _, _, _, _ = _newton_step(block, contact)
+        move_i, move_j, _, _, _, _ = _newton_step(block, at, contact)
         size = abs(move_i) + abs(move_j)
         if not size > least:
             return
@@ -134,12 +133,11 @@ def _settle(block: Array, contact: int) -> None:
 
 
 @jit
-def _newton_step(block: Array, contact: int) -> tuple[float, float, float, float, float, float]:
+def _newton_step(block: Array, at: Pose, contact: int) -> tuple[float, float, float, float, float, float]:
     """Changes of alpha_i and alpha_j towards the nearest points, gap, distance squared, t.g_i/|g_i|, and the fit."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
-    touch = look(block, contact)
+    table = Contacts(block)
+    touch = look(block, at, contact)
     i = table.body_i[contact]
     j = table.body_j[contact]
     dx = at.x[i] + touch.ax - at.x[j] - touch.bx
@@ -159,11 +157,10 @@ def _newton_step(block: Array, contact: int) -> tuple[float, float, float, float
 
 
 @jit
-def _find(block: Array, contact: int) -> None:
+def _find(block: Array, at: Pose, contact: int) -> None:
     """Bring a pair's contact coordinates near to the best place of all, by sampling and then by ever smaller steps."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
+    table = Contacts(block)
     alpha = table.alpha[contact]
     first = table.curve_i[contact]
     second = table.curve_j[contact]
@@ -182,7 +179,7 @@ def _find(block: Array, contact: int) -> None:
         for m in range(others + 1):
             if others > 0:
                 at.alpha[alpha + 1] = sample(block, second, m, others)
-            found = _distance(block, contact)
+            found = _distance(block, at, contact)
             if found < least:
                 least = found
                 best_i = at.alpha[alpha]
@@ -191,17 +188,16 @@ def _find(block: Array, contact: int) -> None:
     at.alpha[alpha] = best_i
     if others > 0:
         at.alpha[alpha + 1] = best_j
-    _descend(block, contact, least, curves(block).range[first, 1] / samples)
+    _descend(block, at, contact, least, Curves(block).range[first, 1] / samples)
 
 
 @jit
-def _descend(block: Array, contact: int, least: float, step: float) -> None:
+def _descend(block: Array, at: Pose, contact: int, least: float, step: float) -> None:
     """From where the distance is `least`, go on to less in steps of `step` [rad] at first, until Newton's are safe."""
     keep_small()
-    at = pose(block)
-    first = contacts(block).alpha[contact]
+    first = Contacts(block).alpha[contact]
     last = first
-    if contacts(block).kind[contact] == codes.CAM_FOLLOWER:
+    if Contacts(block).kind[contact] == codes.CAM_FOLLOWER:
         last = first + 1
     while step > _NEAR:
         moved = False
@@ -209,7 +205,7 @@ def _descend(block: Array, contact: int, least: float, step: float) -> None:
             for way in range(-1, 2, 2):
                 kept = at.alpha[k]
                 at.alpha[k] = kept + way * step
-                found = _distance(block, contact)
+                found = _distance(block, at, contact)
                 if found < least:
                     least = found
                     moved = True
@@ -220,17 +216,17 @@ def _descend(block: Array, contact: int, least: float, step: float) -> None:
 
 
 @jit
-def _distance(block: Array, contact: int) -> float:
+def _distance(block: Array, at: Pose, contact: int) -> float:
     """What is least at the best place: the gap to a face, or the squared distance of two points [m2].
 
     Of two profiles, normals that are not opposite make it larger.
     """
     keep_small()
-    kind = contacts(block).kind[contact]
-    _, _, gap, square, cosine, _ = _newton_step(block, contact)
+    kind = Contacts(block).kind[contact]
+    _, _, gap, square, cosine, _ = _newton_step(block, at, contact)
     if kind == codes.CAM_FLAT_FOLLOWER:
         return gap
     if kind == codes.CAM_FOLLOWER:
-        rho, _, _, _ = curve(block, contacts(block).curve_i[contact], pose(block).alpha[contacts(block).alpha[contact]])
+        rho, _, _, _ = curve(block, Contacts(block).curve_i[contact], at.alpha[Contacts(block).alpha[contact]])
         square += (1.0 + cosine) * rho * rho
     return square

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import pose
-from ..block.parts import contacts
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from .curves import curve, sample
 from .touch import look
@@ -19,23 +19,22 @@ _OVERLAP = 1e-9
 
 
 @jit
-def bridged(block: Array) -> bool:
+def bridged(block: Array, at: Pose) -> bool:
     """Whether a closed pair has run into itself at a second point, because one profile bridges the other's hollow."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     deepest = 0.0
     for c in range(table.kind.shape[0]):
         if table.hollow[c] == codes.BRIDGES and table.mode[c] == codes.CLOSED:
-            deepest = max(deepest, overlap(block, c))
+            deepest = max(deepest, overlap(block, at, c))
     return deepest > 0.0
 
 
 @jit
-def overlap(block: Array, contact: int) -> float:
+def overlap(block: Array, at: Pose, contact: int) -> float:
     """How far profile i reaches into the other one anywhere, beyond what is allowed for rounding [m]; 0 if nowhere."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
+    table = Contacts(block)
     if table.kind[contact] == codes.POINT_FOLLOWER:
         return 0.0
     alpha = table.alpha[contact]
@@ -43,7 +42,7 @@ def overlap(block: Array, contact: int) -> float:
     deepest = 0.0
     for k in range(_SAMPLES):
         at.alpha[alpha] = sample(block, table.curve_i[contact], k, _SAMPLES)
-        deepest = max(deepest, _depth(block, contact))
+        deepest = max(deepest, _depth(block, at, contact))
     at.alpha[alpha] = kept
     if deepest > _OVERLAP:
         return deepest
@@ -51,12 +50,11 @@ def overlap(block: Array, contact: int) -> float:
 
 
 @jit
-def _depth(block: Array, contact: int) -> float:
+def _depth(block: Array, at: Pose, contact: int) -> float:
     """How deep the present point of curve i is inside the other body [m]; in a profile, towards its centre."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
-    touch = look(block, contact)
+    table = Contacts(block)
+    touch = look(block, at, contact)
     i = table.body_i[contact]
     j = table.body_j[contact]
     dx = at.x[i] + touch.ax - at.x[j]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..block.motion import Pose
+from ...tables.motion import Pose
 from ..compiler.subset import jit, keep_small
 
 #: rho and its first three derivatives at a contact coordinate.

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course
+from ...tables.parts import Contacts, Curves
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course
-from ..block.parts import contacts, curves
 from ..compiler.subset import jit, keep_small
 from .curves import curve, quarter_wave, sample
 
@@ -26,7 +26,7 @@ def examine_profiles(block: Array) -> int:
     When a profile reaches its centre, PENDING_SUBJECT holds the contact.
     """
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     for k in range(table.alpha_haste.shape[0]):
         table.alpha_haste[k] = 0.0
     for c in range(table.kind.shape[0]):
@@ -47,7 +47,7 @@ def examine_profiles(block: Array) -> int:
             rho = min(rho, rho_j)
             table.alpha_haste[alpha] = 1.0 / _shortest(block, table.curve_j[c])
         if not rho > 0.0:
-            course(block).counters[codes.PENDING_SUBJECT] = c
+            Course(block).counters[codes.PENDING_SUBJECT] = c
             return status.AT_CENTRE
         if not min(least_i, least_j) > _STRAIGHT / rho:
             table.hollow[c] = codes.HOLLOW
@@ -77,7 +77,7 @@ def _least(block: Array, number: int) -> tuple[float, float]:
 def _shortest(block: Array, number: int) -> float:
     """How far one may go along a curve without passing over something: a piece, or a quarter of a wave."""
     keep_small()
-    table = curves(block)
+    table = Curves(block)
     first = table.piece[number]
     after = first + table.pieces[number]
     shortest = math.inf

@@ -12,9 +12,9 @@ import math
 from typing import NamedTuple
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import Pose, pose
-from ..block.parts import contacts
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from .curves import curve
 from .profile import profile_point
@@ -42,11 +42,10 @@ class Touch(NamedTuple):
 
 
 @jit
-def look(block: Array, contact: int) -> Touch:
+def look(block: Array, at: Pose, contact: int) -> Touch:
     """The curve points of a contact at the present pose and contact coordinates."""
     keep_small()
-    table = contacts(block)
-    at = pose(block)
+    table = Contacts(block)
     data = table.data[contact]
     kind = table.kind[contact]
     i = table.body_i[contact]

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Loads, Rows, Stages
+from ...tables.parts import Bodies
+from ...tables.sizes import Sizes
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, linear_system, loads, rows, stages
-from ..block.parts import bodies, sizes
-from ..block.vectors import copy
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from ..dynamics.minimum_norm import minimum_norm
 from ..profiles.nearest import find_contact_points, settle_contact_points
+from ..vectors import copy
 
 #: Position rows are closed when none is off by more than this [m, rad, m^2].
 CLOSED_WITHIN = 1e-12
@@ -28,30 +29,30 @@ def assemble(block: Array) -> int:
     Held coordinates do not move. The result, or the closest position found, stands in y_end; `rows.residual` holds
     what is left of Phi, for the joints and the contacts that are closed at the start.
     """
-    n = sizes(block).coordinates
-    now = course(block)
-    s = stages(block)
-    for i in range(bodies(block).start.shape[0]):
+    n = Sizes(block).coordinates
+    now = Course(block)
+    s = Stages(block)
+    for i in range(Bodies(block).start.shape[0]):
         for k in range(3):
-            now.y_end[3 * i + k] = bodies(block).start[i, k]
-    place_bodies(block, now.y_end)
-    find_contact_points(block, now.y_end)
-    count = active_rows(block)
-    worst = worst_of(rows(block).residual, count)
+            now.y_end[3 * i + k] = Bodies(block).start[i, k]
+    at = place_bodies(block, now.y_end)
+    find_contact_points(block, at, now.y_end)
+    count = active_rows(block, at)
+    worst = worst_of(Rows(block).residual, count)
     for _ in range(_NEWTON_STEPS):
         if worst == 0.0:
             return status.OK
-        newton_direction(block, count, rows(block).residual)
+        newton_direction(block, count, Rows(block).residual)
         step = 1.0
         improved = False
         for _ in range(_HALVINGS):
             copy(now.y_end, s.y_new)
             for k in range(n):
-                s.y_new[k] += step * loads(block).weight[k] * linear_system(block).solution[k]
-            place_bodies(block, s.y_new)
-            settle_contact_points(block, s.y_new)
-            active_rows(block)
-            after = worst_of(rows(block).residual, count)
+                s.y_new[k] += step * Loads(block).weight[k] * LinearSystem(block).solution[k]
+            at = place_bodies(block, s.y_new)
+            settle_contact_points(block, at, s.y_new)
+            active_rows(block, at)
+            after = worst_of(Rows(block).residual, count)
             if after < worst:
                 improved = True
                 break
@@ -60,8 +61,8 @@ def assemble(block: Array) -> int:
             break
         copy(s.y_new, now.y_end)
         worst = after
-    place_bodies(block, now.y_end)
-    active_rows(block)
+    at = place_bodies(block, now.y_end)
+    active_rows(block, at)
     if worst <= CLOSED_WITHIN:
         return status.OK
     return status.NOT_ASSEMBLED
@@ -71,10 +72,10 @@ def assemble(block: Array) -> int:
 def newton_direction(block: Array, count: int, left: Array) -> None:
     """Minimum-norm solution of Phi_q dq = -left over the coordinates that are not held; left is Phi, or Phi'."""
     keep_small()
-    n = sizes(block).coordinates
-    row = rows(block)
-    weight = loads(block).weight
-    system = linear_system(block)
+    n = Sizes(block).coordinates
+    row = Rows(block)
+    weight = Loads(block).weight
+    system = LinearSystem(block)
     for r in range(count):
         system.right_side[r] = -left[r]
         for k in range(n):

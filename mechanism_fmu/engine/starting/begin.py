@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from ...tables.declare import Array
 from .. import status
-from ..block.layout import Array
-from ..compiler.subset import entry, jit
+from ..compiler.subset import entry, jit, keep_small
 from ..dynamics.inputs import set_time
 from ..profiles.shape import examine_profiles
 from .assembly import assemble
@@ -22,6 +22,7 @@ def begin(block: Array, time: float) -> int:
     When the mechanism cannot be assembled, y_end and `rows.residual` hold the closest position and what is left of
     Phi. When it starts inside, PENDING_SUBJECT and the last entry of `rows.residual` hold the contact and its gap [m].
     """
+    keep_small()
     outcome = status.NOT_ASSEMBLED
     set_time(block, time)
     seen = examine_profiles(block)
@@ -44,6 +45,7 @@ def begin(block: Array, time: float) -> int:
 @entry
 def assemble_at(block: Array, time: float) -> int:
     """Close the position rows from the start guess at `time` [s], whatever the rates; return a status (see `begin`)."""
+    keep_small()
     set_time(block, time)
     start_guess(block, 0)
     return assemble(block)

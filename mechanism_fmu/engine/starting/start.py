@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows
+from ...tables.parts import Contacts, Options, Ports
+from ...tables.sizes import Sizes
 from ...tolerances import STICK_SPEED, TOUCHES_WITHIN
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, linear_system, loads, rows
-from ..block.parts import contacts, options, ports, sizes
-from ..block.vectors import clear
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, spare_row
 from ..contacts.guards import gap
 from ..contacts.records import clear_impact, clear_records
 from ..dynamics.inputs import take_inputs
-from ..dynamics.own_states import first_own
 from ..profiles.overlap import overlap
+from ..vectors import clear
 from .assembly import newton_direction, worst_of
 
 #: Start rates agree with the joints within this [m/s, rad/s].
@@ -33,13 +33,14 @@ def start(block: Array, time: float) -> int:
 
     The first `stepper.advance`, to `time` itself, chooses the contacts that push.
     """
+    keep_small()
     _begin_at_zero(block, time)
-    place_bodies(block, course(block).y_end)
-    if _profiles_overlap(block):
+    at = place_bodies(block, Course(block).y_end)
+    if _profiles_overlap(block, at):
         return status.OVERLAP
-    if not _close_rates(block):
+    if not _close_rates(block, at):
         return status.START_RATES
-    if not _contacts_begin(block):
+    if not _contacts_begin(block, at):
         return status.START_INSIDE
     return status.OK
 
@@ -48,14 +49,13 @@ def start(block: Array, time: float) -> int:
 def _begin_at_zero(block: Array, time: float) -> None:
     """The clock stands at `time` [s], nothing has happened, and the inputs are those that are set."""
     keep_small()
-    n = sizes(block).coordinates
-    now = course(block)
+    now = Course(block)
     now.clock[codes.TIME] = time
     now.clock[codes.STEP_END] = time
     now.clock[codes.LAST_EVENT] = time
     now.clock[codes.STEP_START] = time
     now.clock[codes.STEP_SIZE] = 0.0
-    clear(ports(block).input_slopes)  # a slope belongs to a step
+    clear(Ports(block).input_slopes)  # a slope belongs to a step
     take_inputs(block)
     for k in range(codes.COUNTERS_LENGTH):
         now.counters[k] = 0
@@ -66,21 +66,21 @@ def _begin_at_zero(block: Array, time: float) -> None:
     now.counters[codes.PENDING_GUARD] = codes.GUARD_BEGIN
     now.counters[codes.PENDING_SUBJECT] = codes.NONE
     now.ledger[codes.LEDGER_LOST] = 0.0
-    now.y_end[2 * n] = 0.0
-    now.y_end[2 * n + 1] = 0.0
-    first = first_own(block)
-    for k in range(sizes(block).own):
+    now.y_end[Sizes(block).y_work] = 0.0
+    now.y_end[Sizes(block).y_loss] = 0.0
+    first = Sizes(block).y_own
+    for k in range(Sizes(block).own):
         now.y_end[first + k] = 0.0
 
 
 @jit
-def _profiles_overlap(block: Array) -> bool:
+def _profiles_overlap(block: Array, at: Pose) -> bool:
     """Whether two profiles that touch cut into each other elsewhere; `_blame` says which."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.mode.shape[0]):
         if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
-            depth = overlap(block, c)
+            depth = overlap(block, at, c)
             if depth > 0.0 and table.mode[c] == codes.CLOSED:
                 _blame(block, c, -depth)
                 return True
@@ -88,16 +88,16 @@ def _profiles_overlap(block: Array) -> bool:
 
 
 @jit
-def _contacts_begin(block: Array) -> bool:
+def _contacts_begin(block: Array, at: Pose) -> bool:
     """Close the contacts that touch and rest; False when one is inside (`_blame` says which)."""
     keep_small()
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.mode.shape[0]):
         table.pull_time[c] = math.inf
         table.touching[c] = 0
         exists = table.value[c, codes.ENABLED] > 0.5 and table.function[c] == codes.NONE
         if table.mode[c] == codes.OPEN and exists:
-            distance, rate = gap(block, c)
+            distance, rate = gap(block, at, c)
             if not distance >= -TOUCHES_WITHIN:
                 _blame(block, c, distance)
                 return False
@@ -111,27 +111,27 @@ def _contacts_begin(block: Array) -> bool:
 @jit
 def _blame(block: Array, contact: int, distance: float) -> None:
     """Tell which contact is inside, and its gap [m or rad]: PENDING_SUBJECT and the spare row's residual."""
-    course(block).counters[codes.PENDING_SUBJECT] = contact
-    rows(block).residual[spare_row(block)] = distance
+    Course(block).counters[codes.PENDING_SUBJECT] = contact
+    Rows(block).residual[spare_row(block)] = distance
 
 
 @jit
-def _close_rates(block: Array) -> bool:
+def _close_rates(block: Array, at: Pose) -> bool:
     """Whether the start rates agree with the active rows, after those of coordinates that are not held have given way.
 
     Without held coordinates nothing tells which rates are meant, and all stay as they are given.
     """
     keep_small()
-    n = sizes(block).coordinates
-    y = course(block).y_end
-    count = active_rows(block)
-    worst = worst_of(rows(block).residual_rate, count)
-    if options(block).held.shape[0] == 0 or worst <= _RATES_CLOSED:
+    n = Sizes(block).coordinates
+    y = Course(block).y_end
+    count = active_rows(block, at)
+    worst = worst_of(Rows(block).residual_rate, count)
+    if Options(block).held.shape[0] == 0 or worst <= _RATES_CLOSED:
         return worst <= RATES_WITHIN
     for _ in range(2):  # once more, for what rounding has left
-        newton_direction(block, count, rows(block).residual_rate)
+        newton_direction(block, count, Rows(block).residual_rate)
         for k in range(n):
-            y[n + k] += loads(block).weight[k] * linear_system(block).solution[k]
-        place_bodies(block, y)
-        active_rows(block)
-    return worst_of(rows(block).residual_rate, count) <= RATES_WITHIN
+            y[n + k] += Loads(block).weight[k] * LinearSystem(block).solution[k]
+        at = place_bodies(block, y)
+        active_rows(block, at)
+    return worst_of(Rows(block).residual_rate, count) <= RATES_WITHIN

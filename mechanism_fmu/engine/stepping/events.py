@@ -18,10 +18,11 @@ are not, nor one within the noise of a gap at rest.
 from __future__ import annotations
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Pose, Stages, Watch
+from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
 from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE
-from ..block.layout import Array
-from ..block.motion import stages, watch
-from ..block.parts import contacts, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
@@ -29,8 +30,8 @@ from ..contacts.complementarity import push_ratio
 from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
 from ..dynamics.acceleration import derivative
 from ..dynamics.inputs import set_time
-from .dormand_prince import try_step
 from .interpolation import interpolate
+from .runge_kutta import try_step
 
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
@@ -55,7 +56,7 @@ def first_event(block: Array) -> tuple[int, int, float]:
     subject = codes.NONE
     if fraction <= 1.0:
         guard, subject = guard_of(block, number)
-    table = contacts(block)
+    table = Contacts(block)
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED and can_open(block, c) and table.least_push[c] < _OPENS:
             lets_go = _first_pull(block, c, fraction)
@@ -70,13 +71,13 @@ def first_event(block: Array) -> tuple[int, int, float]:
 def refine(block: Array, contact: int, step_size: float) -> float:
     """The step size at which the true step, not its interpolant, ends at zero gap; that step is the last one tried."""
     keep_small()
-    s = stages(block)
+    s = Stages(block)
     start = s.tried[0]
     limit = 2.0 * step_size
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, step_size)
-        place_bodies(block, s.y_new)
-        distance, rate = gap(block, contact)
+        at = place_bodies(block, s.y_new)
+        distance, rate = gap(block, at, contact)
         if not rate < 0.0:
             return step_size
         move = -distance / rate
@@ -91,12 +92,12 @@ def refine(block: Array, contact: int, step_size: float) -> float:
 def _first_zero(block: Array) -> tuple[int, float]:
     """The first guard that reaches zero, and where; (`codes.NONE`, 2.0) when none does."""
     keep_small()
-    look_at = watch(block)
-    _place(block, 0.0)
+    look_at = Watch(block)
+    at = _place(block, 0.0)
     count = 0
-    for g in range(sizes(block).guards):
+    for g in range(Sizes(block).guards):
         if is_watched(block, g):
-            if _begin(block, g):
+            if _begin(block, at, g):
                 return g, 0.0
             look_at.watched[count] = g
             count += 1
@@ -105,10 +106,10 @@ def _first_zero(block: Array) -> tuple[int, float]:
     before = 0.0
     for look in range(1, _LOOKS + 1):
         after = look / _LOOKS
-        _place(block, after)
+        at = _place(block, after)
         for k in range(count):
             g = look_at.watched[k]
-            look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, g)
+            look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, at, g)
         which = codes.NONE
         earliest = 2.0
         for k in range(count):
@@ -124,18 +125,18 @@ def _first_zero(block: Array) -> tuple[int, float]:
 
 
 @jit
-def _begin(block: Array, number: int) -> bool:
+def _begin(block: Array, at: Pose, number: int) -> bool:
     """Note a guard's value at the step's start; True when it fires right there."""
     keep_small()
-    look_at = watch(block)
-    value, rate = guard_value(block, number)
+    look_at = Watch(block)
+    value, rate = guard_value(block, at, number)
     look_at.rate[number] = rate
     look_at.armed[number] = 1
     look_at.floor[number] = 0.0
     guard, subject = guard_of(block, number)
     if guard != codes.GUARD_GAP:
         return value <= 0.0
-    if value > 0.0 and contacts(block).touching[subject] == 0:
+    if value > 0.0 and Contacts(block).touching[subject] == 0:
         return False
     if rate < -RESTS_BELOW:
         return True
@@ -151,7 +152,7 @@ def _begin(block: Array, number: int) -> bool:
 def _zero_between(block: Array, number: int, before: float, after: float) -> float:
     """Where between two looks, whose values are in `watch`, a guard reaches zero; 2.0 when it does not."""
     keep_small()
-    look_at = watch(block)
+    look_at = Watch(block)
     rate = look_at.rate[number]
     next_value = look_at.next[number, 0]
     next_rate = look_at.next[number, 1]
@@ -180,19 +181,19 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
 
 
 @jit
-def _place(block: Array, fraction: float) -> None:
+def _place(block: Array, fraction: float) -> Pose:
     """Put the bodies where they are at `fraction` of the step."""
     keep_small()
-    s = stages(block)
+    s = Stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
-    place_bodies(block, s.y_at)
+    return place_bodies(block, s.y_at)
 
 
 @jit
 def _value_at(block: Array, number: int, fraction: float) -> tuple[float, float]:
     keep_small()
-    _place(block, fraction)
-    return guard_value(block, number)
+    at = _place(block, fraction)
+    return guard_value(block, at, number)
 
 
 @jit
@@ -260,7 +261,7 @@ def _first_pull(block: Array, contact: int, latest: float) -> float:
 def _push_at(block: Array, contact: int, fraction: float) -> float:
     """A closed contact's force over its tolerance at `fraction` of the step."""
     keep_small()
-    s = stages(block)
+    s = Stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
     set_time(block, s.tried[0] + fraction * s.tried[1])
     derivative(block, s.y_at, s.dy_at)

@@ -8,9 +8,10 @@ its stages is looked at: where it has a dip, the least value is sought, and that
 from __future__ import annotations
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import course, linear_system, rows, stages
-from ..block.parts import sizes
+from ...tables.declare import Array
+from ...tables.method import METHOD
+from ...tables.motion import Course, LinearSystem, Rows, Stages
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
@@ -18,6 +19,10 @@ from ..dynamics.inputs import set_time
 from ..dynamics.minimum_norm import orthogonalise
 from .interpolation import interpolate
 
+_LAST = METHOD.last
+_INTERIOR = METHOD.interior
+#: The stage next to the end of the step.
+_BEFORE_LAST = _INTERIOR[-1]
 #: Rows with less independence than this (a squared sine) are singular: the configuration is passed, not just neared.
 _SINGULAR_BELOW = 1e-10
 #: Dips above this are no sign of a singular configuration.
@@ -32,8 +37,8 @@ _GOLDEN = 0.3819660112501051
 def independence(block: Array) -> float:
     """How independent the active rows are, by the last acceleration; 0 when their rank has dropped."""
     keep_small()
-    system = linear_system(block)
-    if system.rank[0] < course(block).counters[codes.RANK]:
+    system = LinearSystem(block)
+    if system.rank[0] < Course(block).counters[codes.RANK]:
         return 0.0
     value: float = system.independence[0]
     return value
@@ -42,23 +47,25 @@ def independence(block: Array) -> float:
 @jit
 def note_rank(block: Array) -> None:
     """After an event or a change of inputs, and the acceleration there: the rank that the rows have from now on."""
-    now = course(block)
-    now.counters[codes.RANK] = linear_system(block).rank[0]
-    now.independence_end[0] = linear_system(block).independence[0]
+    now = Course(block)
+    now.counters[codes.RANK] = LinearSystem(block).rank[0]
+    now.independence_end[0] = LinearSystem(block).independence[0]
 
 
 @jit
 def is_singular(block: Array) -> bool:
     """Whether the step last tried, from y_start on, leads over a singular configuration, or begins in one."""
     keep_small()
-    now = course(block)
-    at = stages(block).independence
+    now = Course(block)
+    at = Stages(block).independence
     at[0] = now.independence_end[0]
-    inside = min(min(at[1], at[2]), min(at[3], at[4]))
-    if linear_system(block).rank[0] > now.counters[codes.RANK]:
+    inside = at[_BEFORE_LAST]
+    for k in _INTERIOR:
+        inside = min(inside, at[k])
+    if LinearSystem(block).rank[0] > now.counters[codes.RANK]:
         return True
     before = now.counters[codes.FALLING] == 1 and at[1] > at[0]
-    dips = before or (inside < at[0] and inside < at[6])
+    dips = before or (inside < at[0] and inside < at[_LAST])
     if not dips or min(inside, at[0]) > _LOOK_BELOW:
         return False
     begin = 0.0
@@ -70,11 +77,11 @@ def is_singular(block: Array) -> bool:
 @jit
 def keep_independence(block: Array) -> None:
     """Of the step last tried, which is accepted: how independent the rows are at its end, and whether that falls."""
-    now = course(block)
-    at = stages(block).independence
-    now.independence_end[0] = at[6]
+    now = Course(block)
+    at = Stages(block).independence
+    now.independence_end[0] = at[_LAST]
     now.counters[codes.FALLING] = 0
-    if at[6] < at[4]:
+    if at[_LAST] < at[_BEFORE_LAST]:
         now.counters[codes.FALLING] = 1
 
 
@@ -107,14 +114,14 @@ def _least(block: Array, low: float) -> float:
 def _independence_at(block: Array, fraction: float) -> float:
     """As `independence`, of the bare rows: very different masses make rows look alike that are not."""
     keep_small()
-    s = stages(block)
+    s = Stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
     set_time(block, s.tried[0] + fraction * s.tried[1])
-    place_bodies(block, s.y_at)
-    count = active_rows(block)
-    n = sizes(block).coordinates
+    at = place_bodies(block, s.y_at)
+    count = active_rows(block, at)
+    n = Sizes(block).coordinates
     for r in range(count):
         for k in range(n):
-            linear_system(block).scaled[r, k] = rows(block).jacobian[r, k]
+            LinearSystem(block).scaled[r, k] = Rows(block).jacobian[r, k]
     orthogonalise(block, count, n)
     return independence(block)

@@ -5,31 +5,35 @@ from __future__ import annotations
 import math
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.method import METHOD
+from ...tables.motion import Course, Stages
+from ...tables.sizes import Sizes
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, stages
-from ..block.parts import sizes
-from ..block.vectors import copy
 from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
 from ..contacts.release import release
 from ..dynamics.acceleration import derivative
 from ..dynamics.drift import MOST_DRIFT, MOST_RATE_DRIFT, mend
 from ..dynamics.inputs import set_time
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
-from .dormand_prince import try_step
+from ..vectors import copy
 from .events import first_event, refine
 from .pulling import watch_step
+from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
 from .step_size import accurate_step, smallest_step, why_no_step
+
+_LAST = METHOD.last
 
 
 @jit
 def take_step(block: Array) -> int:
     """Take one step from STEP_END on, cut at the first event, which then waits as PENDING_GUARD; return a status."""
     keep_small()
-    now = course(block)
-    s = stages(block)
+    now = Course(block)
+    s = Stages(block)
     start = now.clock[codes.STEP_END]
     copy(now.y_end, s.y_start)
     copy(now.dy_end, s.derivatives[0])
@@ -46,7 +50,7 @@ def take_step(block: Array) -> int:
         step *= fraction
         if step > smallest_step(start):
             step = _end_at_event(block, guard, subject, start, step)
-            if math.isnan(s.y_new[2 * sizes(block).coordinates + 1]):
+            if math.isnan(s.y_new[Sizes(block).y_loss]):
                 return why_no_step(block)
         else:
             step = 0.0  # it happens here and now
@@ -77,8 +81,8 @@ def _end_at_event(block: Array, guard: int, subject: int, start: float, step: fl
 def _keep(block: Array, start: float, step: float) -> None:
     """The step last tried, from `start` on and of size `step` [s], is where the motion has come to."""
     keep_small()
-    now = course(block)
-    s = stages(block)
+    now = Course(block)
+    s = Stages(block)
     now.counters[codes.COUNT_STEPS] += 1
     now.clock[codes.STEP_START] = start
     now.clock[codes.STEP_SIZE] = step
@@ -86,8 +90,8 @@ def _keep(block: Array, start: float, step: float) -> None:
     if now.counters[codes.RAMPING] != 0 and abs(start + step - now.clock[codes.RAMP_END]) <= smallest_step(start):
         now.clock[codes.STEP_END] = now.clock[codes.RAMP_END]
     copy(s.y_new, now.y_end)
-    copy(s.derivatives[6], now.dy_end)
-    for r in range(5):
+    copy(s.derivatives[_LAST], now.dy_end)
+    for r in range(now.dense.shape[0]):
         copy(s.new_dense[r], now.dense[r])
 
 
@@ -95,12 +99,14 @@ def _keep(block: Array, start: float, step: float) -> None:
 def _mend_and_check(block: Array) -> int:
     """After a step: bring back what has drifted, and look whether profiles still fit; return a status."""
     keep_small()
-    now = course(block)
+    now = Course(block)
     set_time(block, now.clock[codes.STEP_END])
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
-    if sizes(block).alphas > 0 and not least_fit(block) > 0.0:
-        return status.NO_CONTACT_POINT
-    if sizes(block).alphas > 0 and bridged(block):
-        return status.BRIDGED
+    if Sizes(block).alphas > 0:
+        at = place_bodies(block, now.y_end)
+        if not least_fit(block, at) > 0.0:
+            return status.NO_CONTACT_POINT
+        if bridged(block, at):
+            return status.BRIDGED
     return status.OK

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 
 from ... import codes
-from ..block.layout import Array
-from ..block.motion import course
-from ..block.parts import curves, joints
+from ...tables.declare import Array
+from ...tables.motion import Course
+from ...tables.parts import Curves, Joints
 from ..compiler.subset import jit, keep_small
 from ..profiles.curves import quarter_wave
 
@@ -22,7 +22,7 @@ _NEARLY = 0.99
 @jit
 def within_ramp(block: Array, start: float, step: float) -> float:
     """The step, or what is left until slopes of inputs end."""
-    now = course(block)
+    now = Course(block)
     left: float = now.clock[codes.RAMP_END] - start
     if now.counters[codes.RAMPING] != 0 and step > _NEARLY * left:
         return left
@@ -33,7 +33,7 @@ def within_ramp(block: Array, start: float, step: float) -> float:
 def within_motions(block: Array, start: float, step: float) -> float:
     """The step, or what is left of it to the next piece of a driver's motion, or to a quarter of its wave [s]."""
     keep_small()
-    table = joints(block)
+    table = Joints(block)
     for k in range(table.kind.shape[0]):
         if table.curve[k] != codes.NONE:
             step = _within_motion(block, table.curve[k], start, step)
@@ -44,7 +44,7 @@ def within_motions(block: Array, start: float, step: float) -> float:
 def _within_motion(block: Array, number: int, start: float, step: float) -> float:
     """The step, or what is left of it to the next piece of one curve, or to a quarter of its wave [s]."""
     keep_small()
-    table = curves(block)
+    table = Curves(block)
     first = table.piece[number]
     after = first + table.pieces[number]
     turns = 0.0

@@ -5,16 +5,19 @@ from __future__ import annotations
 import math
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.method import METHOD
+from ...tables.motion import Course, LinearSystem, Stages
+from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, linear_system, stages
-from ..block.parts import contacts, sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..profiles.nearest import least_fit
-from .dormand_prince import ORDER, scaled_error, try_step
+from .runge_kutta import scaled_error, try_step
 from .step_limits import within_motions, within_ramp
 
+_ERROR_EXPONENT = METHOD.error_exponent
 #: Smallest step as a fraction of max(1 s, |t|).
 _SMALLEST_STEP = 1e-15
 #: Where there are guards, no body turns further than this in one step [rad]: a step without error may be of any length,
@@ -36,7 +39,7 @@ def accurate_step(block: Array, start: float) -> float:
     NEXT_STEP, the size that is tried first, becomes that of the step to come.
     """
     keep_small()
-    now = course(block)
+    now = Course(block)
     wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
     step = representable(start, within_ramp(block, start, wanted))
     step = representable(start, within_motions(block, start, step))
@@ -63,16 +66,16 @@ def smallest_step(start: float) -> float:
 @jit
 def why_no_step(block: Array) -> int:
     """What has made the step shrink to nothing: the power lost is not a number where friction found no agreement."""
-    s = stages(block)
-    lost = 2 * sizes(block).coordinates + 1
+    s = Stages(block)
+    lost = Sizes(block).y_loss
     for k in range(1, s.derivatives.shape[0]):
         if math.isnan(s.derivatives[k, lost]) and not math.isnan(s.derivatives[k, 0]):
             return status.JAMMED
-    if linear_system(block).rank[0] > course(block).counters[codes.RANK]:
+    if LinearSystem(block).rank[0] > Course(block).counters[codes.RANK]:
         return status.SINGULAR
-    if sizes(block).alphas > 0:
-        place_bodies(block, s.y_start)
-        if not least_fit(block) > _FITS_BARELY:
+    if Sizes(block).alphas > 0:
+        at = place_bodies(block, s.y_start)
+        if not least_fit(block, at) > _FITS_BARELY:
             return status.NO_CONTACT_POINT
     return status.STEP_TOO_SMALL
 
@@ -81,18 +84,18 @@ def why_no_step(block: Array) -> int:
 def _try(block: Array, start: float, step: float) -> float:
     """Try a step from `start`; return its error, or how much too far a body turns if that shortens the step more."""
     keep_small()
-    s = stages(block)
+    s = Stages(block)
     error = try_step(block, start, step)
-    if sizes(block).guards == 0:
+    if Sizes(block).guards == 0:
         return error
     turn = 0.0
-    for k in range(2, sizes(block).coordinates, 3):
+    for k in range(2, Sizes(block).coordinates, 3):
         turn = max(turn, abs(s.y_new[k] - s.y_start[k]) / MOST_TURN)
-    haste = contacts(block).alpha_haste
-    first = 2 * sizes(block).coordinates + 2
+    haste = Contacts(block).alpha_haste
+    first = Sizes(block).y_alpha
     for k in range(haste.shape[0]):
         turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) * haste[k])
-    too_far = math.pow(turn, float(ORDER))  # `_scale` takes the root
+    too_far = math.pow(turn, float(_ERROR_EXPONENT))  # `_scale` takes the root
     if too_far > error:
         return too_far
     return error
@@ -111,7 +114,7 @@ def _scale(error: float, most: float) -> float:
         return most
     if not error < math.inf:
         return _SHRINK_MOST
-    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -1.0 / ORDER)))
+    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -1.0 / _ERROR_EXPONENT)))
 
 
 @jit
@@ -121,11 +124,10 @@ def note_stiffest(block: Array) -> None:
     It is the one whose error is largest, measured by its tolerance.
     """
     keep_small()
-    s = stages(block)
-    work = 2 * sizes(block).coordinates
+    s = Stages(block)
     worst = -1.0
-    for i in range(sizes(block).unknowns):
-        if i == work or i == work + 1:
+    for i in range(Sizes(block).unknowns):
+        if i == Sizes(block).y_work or i == Sizes(block).y_loss:
             continue  # work and loss follow from the motion
         error = abs(scaled_error(block, i, s.tried[1]))
         if not error <= worst:

@@ -11,20 +11,20 @@ from __future__ import annotations
 import math
 
 from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, Stages
+from ...tables.parts import Contacts, Options, Ports
 from .. import status
-from ..block.layout import Array
-from ..block.motion import course, stages
-from ..block.parts import contacts, options, ports
-from ..block.vectors import copy
 from ..compiler.subset import entry, jit, keep_small
 from ..contacts.records import clear_records
 from ..contacts.release import release
 from ..contacts.transition import transit
 from ..dynamics.acceleration import derivative
 from ..dynamics.inputs import feed, inputs_changed, set_time, show_reached, take_inputs
-from .dormand_prince import initial_step_size, try_step
+from ..vectors import copy
 from .interpolation import interpolate
 from .pulling import watch_at
+from .runge_kutta import initial_step_size, try_step
 from .singular import keep_independence, note_rank
 from .step import take_step
 from .step_size import note_stiffest
@@ -72,7 +72,7 @@ def _begin_step(block: Array) -> int:
     if outcome != status.OK:
         return outcome
     clear_records(block)
-    now = course(block)
+    now = Course(block)
     now.counters[codes.STEPS_IN_STEP] = 0
     now.clock[codes.STEP_BEGUN] = now.clock[codes.TIME]
     if inputs_changed(block):
@@ -82,7 +82,7 @@ def _begin_step(block: Array) -> int:
 
 @jit
 def _go_on(block: Array, target: float, rule: int) -> int:
-    now = course(block)
+    now = Course(block)
     if now.clock[codes.TIME] < now.clock[codes.STEP_END] and target < now.clock[codes.STEP_END]:
         now.clock[codes.TIME] = target  # the engine has been there already
         return status.OK
@@ -98,7 +98,7 @@ def _go_on(block: Array, target: float, rule: int) -> int:
 @jit
 def _why_ended(block: Array) -> int:
     """The status of an event that has failed, or `status.OK`."""
-    counters = course(block).counters
+    counters = Course(block).counters
     if counters[codes.PENDING_GUARD] == codes.GUARD_FAILED:
         failed: int = counters[codes.PENDING_SUBJECT]
         return failed
@@ -108,8 +108,8 @@ def _why_ended(block: Array) -> int:
 @jit
 def _move(block: Array, target: float, rule: int) -> int:
     """Step after step, event after event, until there is a reason to stop; return a status."""
-    now = course(block)
-    feed(block, ports(block).held_inputs)  # a restored state brings its own
+    now = Course(block)
+    feed(block, Ports(block).held_inputs)  # a restored state brings its own
     if now.counters[codes.RAMPING] != 0:
         now.clock[codes.RAMP_END] = target
     while True:
@@ -149,8 +149,8 @@ def _move(block: Array, target: float, rule: int) -> int:
 @jit
 def _spend(block: Array, target: float) -> int:
     """Count one more internal step on the way to `target` [s]; return a status: no more, or no progress."""
-    now = course(block)
-    most = options(block).settings[codes.MOST_STEPS]
+    now = Course(block)
+    most = Options(block).settings[codes.MOST_STEPS]
     spent = now.counters[codes.STEPS_IN_STEP]
     begun = now.clock[codes.STEP_BEGUN]
     if spent == math.ceil(_LOOK_AFTER * most) and now.clock[codes.TIME] - begun < _COVERED * (target - begun):
@@ -165,7 +165,7 @@ def _spend(block: Array, target: float) -> int:
 def restart(block: Array) -> None:
     """Begin anew from y_end at STEP_END: nothing lies ahead."""
     keep_small()
-    now = course(block)
+    now = Course(block)
     now.clock[codes.STEP_START] = now.clock[codes.STEP_END]
     now.clock[codes.STEP_SIZE] = 0.0
     now.counters[codes.PENDING_GUARD] = codes.GUARD_NONE
@@ -180,8 +180,8 @@ def restart(block: Array) -> None:
 def resume(block: Array) -> int:
     """Drop what lies ahead of TIME, because the inputs or their slopes have changed; return a status."""
     keep_small()
-    now = course(block)
-    table = contacts(block)
+    now = Course(block)
+    table = Contacts(block)
     time = now.clock[codes.TIME]
     if time < now.clock[codes.STEP_END]:
         _step_back(block)
@@ -205,10 +205,10 @@ def _step_back(block: Array) -> None:
     The dense output is less accurate, which adds up when inputs change at every communication point.
     """
     keep_small()
-    now = course(block)
-    s = stages(block)
+    now = Course(block)
+    s = Stages(block)
     start = now.clock[codes.STEP_START]
-    feed(block, ports(block).held_inputs)
+    feed(block, Ports(block).held_inputs)
     set_time(block, start)
     copy(now.dense[0], s.y_start)
     derivative(block, s.y_start, s.derivatives[0])
@@ -221,7 +221,7 @@ def _step_back(block: Array) -> None:
 def state_at_time(block: Array, y: Array) -> None:
     """Y at TIME, shape (unknowns,); `y` may be `y_end` itself."""
     keep_small()
-    now = course(block)
+    now = Course(block)
     if now.clock[codes.TIME] < now.clock[codes.STEP_END]:
         fraction = (now.clock[codes.TIME] - now.clock[codes.STEP_START]) / now.clock[codes.STEP_SIZE]
         interpolate(now.dense, fraction, y)

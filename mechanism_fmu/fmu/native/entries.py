@@ -6,7 +6,6 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ...engine.block.layout import FIELDS, Array, field_of, slot
 from ...model import GROUND, Mechanism, MechanismError, Settings
 from ...model.beams import beam_members
 from ...model.mechanism import curve_owners
@@ -14,6 +13,8 @@ from ...model.sources import reads_members
 from ...model.structure import Structure, structure
 from ...model.symbol import Symbol
 from ...model.trace import Trace
+from ...tables.declare import Array
+from ...tables.layout import FIELDS, field_of, slot
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engine.block.layout import Array
 from ...model.findings import MOST_NUMBERS, Finding, pieces
 from ...model.functions import Number
 from ...model.symbol import Operation, Symbol
 from ...model.trace import Trace
+from ...tables.declare import Array
 from .entries import Entry, entries
 
 _FORMS = {

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from ... import codes
 from ...engine import status
-from ...engine.block.layout import FIELDS, SIZES, size_slot, slot
+from ...tables.layout import FIELDS, size_slot, slot
+from ...tables.sizes import SIZES
 from .. import protocol
 from ..model_description import LOG_CATEGORIES
 

@@ -18,7 +18,7 @@ _SURFACE = Path(__file__).with_name("c")
 
 _FLAGS = (
     "-std=gnu11",  # c11 would take ??! in a text for a trigraph
-    "-O2",
+    "-Os",  # what takes time is in the engine's object
     "-Wall",
     "-Wextra",
     "-Werror",

@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterable, Sequence
 
 from ...admissible import Rule, rules
-from ...engine.block.layout import FIELDS, sizes_of, slot
-from ...engine.block.pack import pack
 from ...model import Mechanism, Model, compile_mechanism
-from ...model.contacts import too_deep
 from ...model.unknowns import unknown_names
+from ...tables.layout import FIELDS, slot
+from ...tables.pack import pack
+from ...tables.sizes import sizes_of
 from ..variables import FIRST_REFERENCE, Variable, variables_of
 from .description3 import Again, outputs_again
 from .formulas import Formulas, c_number
@@ -101,7 +101,7 @@ def _array(kind: str, name: str, entries: Iterable[str]) -> str:
 
 def _names(mechanism: Mechanism) -> list[str]:
     joints = (f"{{{c_text(joint.name)}, {joint.rows}}}" for joint in mechanism.joints)
-    contacts = (f"{{{', '.join(map(c_text, (c.name, *too_deep(c))))}}}" for c in mechanism.contacts)
+    contacts = (f"{{{', '.join(map(c_text, (c.name, *c.too_deep())))}}}" for c in mechanism.contacts)
     return [
         _array("Joint", "JOINTS", joints),
         _array("Contact", "CONTACTS", contacts),

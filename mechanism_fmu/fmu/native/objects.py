@@ -28,7 +28,8 @@ _GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_DISABL
 def _digest() -> str:
     """Fingerprint of the engine's sources, of its header and targets, and of what compiles them."""
     own = [Path(__file__).with_name(name) for name in ("emit.py", "targets.py", "objects.py")]
-    sources = [*(_LIBRARY / "engine").rglob("*.py"), _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
+    folders = [path for name in ("engine", "tables") for path in (_LIBRARY / name).rglob("*.py")]
+    sources = [*folders, _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
     contents = {str(path.relative_to(_LIBRARY)): path.read_bytes() for path in sources}
     compilers = " ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "llvmlite"))
     return content_hash({**contents, "engine.h": engine_header().encode(), "compilers": compilers.encode()})[:16]

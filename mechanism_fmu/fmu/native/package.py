@@ -12,10 +12,10 @@ from types import ModuleType
 
 import fmpy
 
-from ...engine.block.pack import pack
 from ...model import Model, compile_mechanism
 from ...model.baked import NOTHING_BAKED, Baked
 from ...model.trace import trace
+from ...tables.pack import pack
 from ..archive import DESCRIPTION, content_hash, write_archive
 from ..built import record_build
 from ..contents import common_entries, file_in, model_of

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
 from ..body import GROUND
 from ..curves import Curve
 from ..functions import Number
+from .base import Effort, JointFacts
 
 
 @dataclass(frozen=True)
-class AngleDriver:
+class AngleDriver(JointFacts):
     """A body turns as a function of time prescribes (ME451, absolute and relative angle driver).
 
     1. Allows: any motion of the points; prescribes one degree of freedom.
@@ -30,8 +30,8 @@ class AngleDriver:
         body_i: what it is driven against: the ground unless given.
     """
 
-    kind: ClassVar[int] = codes.ANGLE_DRIVER
-    rows: ClassVar[int] = 1
+    row: ClassVar = "angle_driver"
+    efforts: ClassVar = {"torque": Effort(0, unit="N.m")}
     friction: ClassVar[Number] = 0.0
 
     name: str

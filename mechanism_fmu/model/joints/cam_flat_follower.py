@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ... import codes
 from ..body import Point
 from ..curves import Curve
+from ..findings import Finding
 from ..functions import Number
+from .base import no_direction
 from .profile_contact import ProfileContact
 from .unit_vector import unit_vector
 
@@ -64,3 +67,7 @@ class CamFlatFollower(ProfileContact):
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, point_j, u_j."""
         return (*self.centre_i, *self.point_j, *unit_vector(self.direction_j))
+
+    def shape_findings(self) -> Iterator[Finding]:
+        """That the face has no direction."""
+        yield no_direction(f"{self.label}: direction_j", self.direction_j)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
+from .base import Effort, JointFacts
 
 
 @dataclass(frozen=True)
-class Distance:
+class Distance(JointFacts):
     """A massless rod with a pin at either end (ME451, revolute-revolute composite).
 
     1. Allows: both bodies turn freely and point P_j moves on a circle about P_i; two degrees of freedom remain.
@@ -30,8 +30,9 @@ class Distance:
         distance: C [m], > 0.
     """
 
-    kind: ClassVar[int] = codes.DISTANCE
-    rows: ClassVar[int] = 1
+    row: ClassVar = "distance"
+    efforts: ClassVar = {"force": Effort(0, "effort_factor")}
+    sizes: ClassVar = ("distance",)
     motion: ClassVar[Curve | None] = None
     friction: ClassVar[Number] = 0.0
 
@@ -45,3 +46,8 @@ class Distance:
     def data(self) -> tuple[Number, ...]:
         """The joint's row of the table `joint_data`: point_i, point_j, C."""
         return (*self.point_i, *self.point_j, self.distance)
+
+    @property
+    def effort_factor(self) -> Number:
+        """From the multiplier [N/m] to the tension: |Phi_q| is twice the distance."""
+        return -2 * self.distance

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
+from ..check_curves import least_value
+from ..conditions import positive
+from ..findings import Finding, refuse_unless
 from .point_driver import PointDriver
 
 
@@ -22,4 +25,15 @@ class DistanceDriver(PointDriver):
     Attributes: as of `PointDriver`, with C > 0.
     """
 
-    kind: ClassVar[int] = codes.DISTANCE_DRIVER
+    row: ClassVar = "distance_driver"
+
+    def findings(self) -> Iterator[Finding]:
+        """That the distance comes to nothing."""
+        if not self.motion.pieces:
+            return
+        least = least_value(self.motion)
+        text = (
+            f"{self.label}: its motion comes to a distance of {{:.6g}} m, but it must stay above 0: where the two "
+            "points meet, nothing says in which direction they part. Give another motion."
+        )
+        yield refuse_unless(positive(least), text, least)

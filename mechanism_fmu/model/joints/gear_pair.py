@@ -8,13 +8,15 @@ from typing import ClassVar
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
+from .base import Effort, JointFacts
 
 
 @dataclass(frozen=True)
-class GearPair:
+class GearPair(JointFacts):
     """Two gears, as of `Gears`."""
 
-    rows: ClassVar[int] = 1
+    efforts: ClassVar = {"force": Effort(0, -1.0)}
+    sizes: ClassVar = ("radius_i", "radius_j")
     motion: ClassVar[Curve | None] = None
     friction: ClassVar[Number] = 0.0
 

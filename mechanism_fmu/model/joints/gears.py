@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
 from .gear_pair import GearPair
 
 
@@ -35,4 +34,4 @@ class Gears(GearPair):
         point_i, point_j: centres in the frame of each body [m].
     """
 
-    kind: ClassVar[int] = codes.GEARS
+    row: ClassVar = "gears"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
+from ..conditions import plain
+from ..findings import Finding, refuse_unless
 from .gear_pair import GearPair
 
 
@@ -32,4 +34,12 @@ class InternalGears(GearPair):
         point_i, point_j: centres in the frame of each body [m].
     """
 
-    kind: ClassVar[int] = codes.INTERNAL_GEARS
+    row: ClassVar = "internal_gears"
+
+    def findings(self) -> Iterator[Finding]:
+        """Those of gears, and that the ring must be the larger one."""
+        yield from super().findings()
+        text = (
+            f"{self.label}: the ring's radius_i = {{:g}} m must be larger than radius_j = {{:g}} m of the gear inside."
+        )
+        yield refuse_unless(plain(self.radius_i) - plain(self.radius_j), text, self.radius_i, self.radius_j)

@@ -8,10 +8,11 @@ from typing import ClassVar
 from ..body import GROUND, Point
 from ..curves import Curve
 from ..functions import Number
+from .base import JointFacts
 
 
 @dataclass(frozen=True)
-class PointDriver:
+class PointDriver(JointFacts):
     """A driver of point P of body j against point P of body i.
 
     Attributes:
@@ -21,7 +22,6 @@ class PointDriver:
         body_i, point_i: what they are driven against: the ground at its origin unless given.
     """
 
-    rows: ClassVar[int] = 1
     friction: ClassVar[Number] = 0.0
 
     name: str

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from ..contact_facts import ContactFacts
 from ..functions import Number
 
 
-class ProfileContact:
+class ProfileContact(ContactFacts):
     """A contact in which at least one of the bodies has a profile.
 
     Not a record itself, so that the fields of each pair keep their order: its bodies, what they touch with, then these.
@@ -19,6 +20,7 @@ class ProfileContact:
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
     """
 
+    holds: ClassVar = "unilateral"
     friction: ClassVar[Number] = 0.0
     pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None

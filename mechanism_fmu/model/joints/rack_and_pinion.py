@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
+from .base import Effort, JointFacts
 
 
 @dataclass(frozen=True)
-class RackAndPinion:
+class RackAndPinion(JointFacts):
     """A rack, body i, on which the pitch circle of a pinion, body j, rolls (ME451, rack and pinion).
 
     1. Allows: rolling along the rack, one relative degree of freedom.
@@ -39,8 +39,10 @@ class RackAndPinion:
         angle_j: th_j, direction of the marked point in the frame of the pinion [rad].
     """
 
-    kind: ClassVar[int] = codes.RACK
-    rows: ClassVar[int] = 2
+    row: ClassVar = "rack_and_pinion"
+    efforts: ClassVar = {"force": Effort(1), "normal_force": Effort(0)}
+    sizes: ClassVar = ("radius_j",)
+    rows: ClassVar = 2
     motion: ClassVar[Curve | None] = None
     friction: ClassVar[Number] = 0.0
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
+from .base import Effort, JointFacts
 
 
 @dataclass(frozen=True)
-class Revolute:
+class Revolute(JointFacts):
     """A pin: point P of `body_i` and point P of `body_j` coincide (ME451, revolute).
 
     1. Allows: both bodies turn freely about P; one degree of freedom remains of three.
@@ -30,8 +30,10 @@ class Revolute:
         friction_radius: coefficient of friction times radius of the pin [m]; friction torque = it times the pin force.
     """
 
-    kind: ClassVar[int] = codes.REVOLUTE
-    rows: ClassVar[int] = 2
+    row: ClassVar = "revolute"
+    efforts: ClassVar = {"force_x": Effort(0), "force_y": Effort(1)}
+    friction_name: ClassVar = "friction_radius"
+    rows: ClassVar = 2
     motion: ClassVar[Curve | None] = None
 
     name: str

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
 from ..body import Point
 from ..curves import Curve
 from ..functions import Number
+from .base import Effort, JointFacts
 from .unit_vector import unit_vector
 
 
 @dataclass(frozen=True)
-class RevoluteTranslational:
+class RevoluteTranslational(JointFacts):
     """A pin of `body_j` in a straight guide of `body_i`, with a massless slider between (ME451, of that name).
 
     1. Allows: point P_j slides along a line fixed in body i, and body j turns; two degrees of freedom remain.
@@ -33,8 +33,9 @@ class RevoluteTranslational:
         distance: c [m], of any sign.
     """
 
-    kind: ClassVar[int] = codes.REVOLUTE_TRANSLATIONAL
-    rows: ClassVar[int] = 1
+    row: ClassVar = "revolute_translational"
+    efforts: ClassVar = {"force": Effort(0)}
+    axes: ClassVar = ("axis_i",)
     motion: ClassVar[Curve | None] = None
     friction: ClassVar[Number] = 0.0
 

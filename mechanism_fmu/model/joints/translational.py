@@ -5,14 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
 from ..body import Point
+from ..conditions import length
 from ..curves import Curve
 from ..functions import Number
+from .base import Effort, JointFacts
 
 
 @dataclass(frozen=True)
-class Translational:
+class Translational(JointFacts):
     """A slider: the bodies keep their relative angle and slide along a common axis (ME451, translational).
 
     1. Allows: sliding along the axis; one degree of freedom remains of three.
@@ -34,8 +35,10 @@ class Translational:
         friction: coefficient of friction; friction force = it times the force across the axis.
     """
 
-    kind: ClassVar[int] = codes.TRANSLATIONAL
-    rows: ClassVar[int] = 2
+    row: ClassVar = "translational"
+    efforts: ClassVar = {"force": Effort(0, "axis_length")}
+    axes: ClassVar = ("axis_i", "axis_j")
+    rows: ClassVar = 2
     motion: ClassVar[Curve | None] = None
 
     name: str
@@ -50,3 +53,8 @@ class Translational:
     def data(self) -> tuple[Number, ...]:
         """The joint's row of the table `joint_data`: point_i, point_j, axis_i, axis_j."""
         return (*self.point_i, *self.point_j, *self.axis_i, *self.axis_j)
+
+    @property
+    def axis_length(self) -> Number:
+        """Of `axis_i`, by which the multiplier must be taken to be a force."""
+        return length(self.axis_i)

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
 from ..body import GROUND, Point
 from ..curves import Curve
 from ..functions import Number
+from .base import Effort, JointFacts
 from .unit_vector import unit_vector
 
 
 @dataclass(frozen=True)
-class TranslationalDriver:
+class TranslationalDriver(JointFacts):
     """Point P_j moves along an axis of body i as a function of time prescribes (ME451, translational driver).
 
     1. Allows: any motion across the axis, and any angles; prescribes one degree of freedom.
@@ -32,8 +32,9 @@ class TranslationalDriver:
         body_i, point_i: what they are driven against: the ground at its origin unless given.
     """
 
-    kind: ClassVar[int] = codes.TRANSLATIONAL_DRIVER
-    rows: ClassVar[int] = 1
+    row: ClassVar = "translational_driver"
+    efforts: ClassVar = {"force": Effort(0)}
+    axes: ClassVar = ("axis_i",)
     friction: ClassVar[Number] = 0.0
 
     name: str

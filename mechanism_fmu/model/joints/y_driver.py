@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ... import codes
+from .base import Effort
 from .point_driver import PointDriver
 
 
@@ -24,4 +24,5 @@ class YDriver(PointDriver):
     Attributes: as of `PointDriver`.
     """
 
-    kind: ClassVar[int] = codes.Y_DRIVER
+    row: ClassVar = "y_driver"
+    efforts: ClassVar = {"force": Effort(0)}

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from mechanism_fmu.engine.block.layout import GIVEN_SIZES, allocate, field_of
-from mechanism_fmu.engine.block.motion import linear_system
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.minimum_norm import minimum_norm
+from mechanism_fmu.tables.layout import allocate, field_of
+from mechanism_fmu.tables.motion import LinearSystem
+from mechanism_fmu.tables.sizes import GIVEN_SIZES
 
 Array = np.ndarray[Any, Any]
 
@@ -19,7 +20,7 @@ BLOCK = allocate(dict.fromkeys(GIVEN_SIZES, 0) | {"bodies": 4, "joint_rows": 12}
 @entry
 def _solve_in(block: Array, count: int, width: int) -> int:
     minimum_norm(block, count, width)
-    return linear_system(block).rank[0]
+    return LinearSystem(block).rank[0]
 
 
 def solve(D: Array, b: Array) -> tuple[Array, Array, int]:

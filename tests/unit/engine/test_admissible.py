@@ -12,10 +12,12 @@ import models
 from mechanism_fmu import codes
 from mechanism_fmu.admissible import SUBJECTS, Admissible, rules
 from mechanism_fmu.engine import status
-from mechanism_fmu.engine.block.layout import COLUMNS, FIELDS, Field, sizes_of, state_of
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.model import compile_mechanism
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.declare import Field
+from mechanism_fmu.tables.layout import FIELDS, state_of
+from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.sizes import sizes_of
 from tests.fuzz.forged import forged_words
 
 RATCHET = models.load("ratchet").MODEL
@@ -35,7 +37,7 @@ def running(model=RATCHET, until=1.0):
 @pytest.mark.parametrize("field", [field for field in FIELDS if field.room == "state"], ids=lambda field: field.name)
 def test_every_field_of_the_state_declares_what_it_holds(field):
     assert field.holds is not None
-    assert len(field.holds) == len(COLUMNS.get(field.name, ("",)))
+    assert len(field.holds) == len(field.columns or ("",))
     if field.integer:
         assert all(holds.whole for holds in field.holds)
 
@@ -44,6 +46,9 @@ def test_a_field_without_a_declaration_fails(monkeypatch):
     monkeypatch.setattr("mechanism_fmu.admissible.FIELDS", (*FIELDS, Field("state", "forgotten", (1,))))
     with pytest.raises(TypeError, match="forgotten"):
         rules(sizes_of(block_of("ratchet")))
+
+
+COLUMNS = {field.name: field.columns for field in FIELDS if field.columns}
 
 
 @pytest.mark.parametrize("name", COLUMNS)

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from textbook import evaluated_rows
 
-from mechanism_fmu.engine.block.layout import field_of, sizes_of
 from mechanism_fmu.model import (
     GROUND,
     Body,
@@ -24,6 +23,8 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.profiles import circle, harmonic_profile
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.layout import field_of
+from mechanism_fmu.tables.sizes import sizes_of
 from tests.parallel_cranks import parallel_cranks
 from tests.slide_cam import EGG, SLIDE_CAM, cam_mechanism
 

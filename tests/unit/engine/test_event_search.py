@@ -11,9 +11,9 @@ import pytest
 from written_step import NOTHING, T, search, write
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.block.layout import field_of
 from mechanism_fmu.model import GROUND, AngleStop, Body, Mechanism, PointLineContact
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.layout import field_of
 from mechanism_fmu.tolerances import GAP_NOISE, MARGIN
 
 

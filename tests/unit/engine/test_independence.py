@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from minimum_norm_solver import BLOCK, solve
 
-from mechanism_fmu.engine.block.layout import field_of
 from mechanism_fmu.engine.dynamics.minimum_norm import RANK_TOLERANCE
+from mechanism_fmu.tables.layout import field_of
 
 
 def independence(D):

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from textbook import evaluated_rows
 
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -37,6 +36,7 @@ from mechanism_fmu.model import (
     YDriver,
 )
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.tables.pack import pack
 
 ORACLE = Path(os.environ.get("JOINT_ORACLE", Path(__file__).parents[2] / "data" / "joints.json"))
 

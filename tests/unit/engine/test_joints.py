@@ -10,9 +10,6 @@ from hypothesis.extra.numpy import arrays
 from stated_joints import DRIVERS, JOINTS, PAIRS, STATEMENTS, State, differentiated_rows
 from textbook import evaluated_rows, written_rows
 
-from mechanism_fmu.engine.block.layout import field_of
-from mechanism_fmu.engine.block.motion import strikes
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.constraints.rows import spare_row, tangent_row
 from mechanism_fmu.model import (
@@ -41,6 +38,9 @@ from mechanism_fmu.model import (
     YDriver,
 )
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.tables.layout import field_of
+from mechanism_fmu.tables.motion import Pose, Strikes
+from mechanism_fmu.tables.pack import pack
 
 NAMES = ("a", "b", GROUND)
 ORIGIN = (0.0, 0.0)
@@ -49,7 +49,7 @@ ALONG_X = (1.0, 0.0)
 
 @entry
 def evaluate_tangent(block):
-    tangent_row(block, 0, strikes(block).tangent_line)
+    tangent_row(block, Pose(block), 0, Strikes(block).tangent_line)
     return spare_row(block)
 
 

@@ -4,9 +4,10 @@ import numpy as np
 from rotor import Stop, rotor
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.block.layout import FIELDS, SIZES, allocate, field_of, sizes_of, state_of
-from mechanism_fmu.engine.block.pack import pack, write_tables
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.tables.layout import FIELDS, allocate, field_of, state_of
+from mechanism_fmu.tables.pack import pack, write_tables
+from mechanism_fmu.tables.sizes import SIZES, sizes_of
 
 GIVEN = {
     "bodies": 2,
@@ -54,6 +55,7 @@ def test_sizes_that_follow_from_others():
     assert sizes["wide"] == 9 + 3  # a column for each contact coordinate
     assert sizes["rows"] == 8 + 7 + 1  # of joints, of contacts, a spare one
     assert sizes["unknowns"] == 2 * 6 + 2 + 3 + 2  # positions, rates, work and loss, contact coordinates, own states
+    assert [sizes[name] for name in ("y_work", "y_loss", "y_alpha", "y_own")] == [12, 13, 14, 17]
     assert sizes["displacements"] == 3 * 4  # x, y and rotation of a node
     assert sizes["buffer"] == codes.IMPACT_BUFFER_LENGTH
     assert sizes["guards"] == 2 * 5 + 2 * 2 + 3  # gap and click of a contact, both ends of a pattern, functions

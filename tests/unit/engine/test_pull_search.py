@@ -8,9 +8,9 @@ import pytest
 from written_step import NOTHING, T, search, write
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.block.layout import field_of
 from mechanism_fmu.model import GROUND, AngleStop, Body, Mechanism, TorsionSpring
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.layout import field_of
 from mechanism_fmu.tolerances import PUSHES_WITHIN
 
 #: A contact opens when its force is less than minus this [N m].

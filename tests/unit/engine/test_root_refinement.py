@@ -2,11 +2,11 @@
 
 import pytest
 
-from mechanism_fmu.engine.block.layout import field_of
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.stepping.events import refine
 from mechanism_fmu.model import GROUND, Body, Mechanism, PointLineContact
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.layout import field_of
 
 STARTS = 7.0
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from rotor import Stop, rotor
 
-from mechanism_fmu.engine.block.layout import FIELDS
 from mechanism_fmu.model import Output
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.layout import FIELDS
 
 OUTPUTS = (Output("angle", "rotor.angle", ""), Output("force", "stop0.force", ""), Output("lost", "energy.lost", ""))
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from textbook import evaluated_rows
 
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -23,6 +22,7 @@ from mechanism_fmu.model import (
     Term,
 )
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.tables.pack import pack
 
 EGG = Curve((Piece(0.0, (Term((1.0,), 0.2, 2.0),)),))
 ROUND = Curve((Piece(0.0, (Term((0.25,)),)),))

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from stated_joints import Rows
 
-from mechanism_fmu.engine.block.layout import field_of, sizes_of
 from mechanism_fmu.engine.constraints.textbook import textbook_rows
+from mechanism_fmu.tables.layout import field_of
+from mechanism_fmu.tables.sizes import sizes_of
 
 Array = np.ndarray[Any, Any]
 

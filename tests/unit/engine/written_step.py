@@ -8,9 +8,9 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.block.layout import field_of
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.stepping.events import first_event
+from mechanism_fmu.tables.layout import field_of
 
 T = Polynomial([0.0, 1.0])
 #: What the search answers when there is no event.

@@ -63,7 +63,7 @@ def test_the_readme_becomes_part_of_the_page(tmp_path: Path) -> None:
     assert "<td>1</td>" in html
     assert "<script>" not in html
     read = Reader(html)
-    assert [r.partition(",")[0] for r in read.references] == ["data:image/svg+xml;base64", "https://example.org"]
+    assert [r.partition(",")[0] for r in read.references] == ["data:image/svg+xml", "https://example.org"]
     assert "data" in read.text
 
 

@@ -10,13 +10,13 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 import models
-from mechanism_fmu.engine.block.layout import FIELDS, field_of
-from mechanism_fmu.engine.block.pack import pack
 from mechanism_fmu.fmu.native.formulas import c_number, formulas, printf_text
 from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model, Parameter
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan, where_positive
 from mechanism_fmu.model.trace import trace
+from mechanism_fmu.tables.layout import FIELDS, field_of
+from mechanism_fmu.tables.pack import pack
 from models.geneva.model import MODEL as GENEVA
 from models.ratchet.model import MODEL as RATCHET
 from tests.parameter_sets import near_defaults, within_limits

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -71,7 +71,7 @@ def dual(x):
 def tables(model, values):
     """All tables of a model for parameter values by name, which may be dual numbers."""
     compiled = compile_tables(model.mechanism(SimpleNamespace(**values)))
-    return {f.name: np.asarray(getattr(compiled, f.name)) for f in fields(compiled)}
+    return {name: np.asarray(value) for name, value in {**compiled.columns, **compiled.numbers}.items()}
 
 
 def assert_derivatives_agree(model, values, name):

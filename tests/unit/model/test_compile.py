@@ -30,6 +30,7 @@ from mechanism_fmu.model import (
     Translational,
 )
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.tables.kinds import FORCES, JOINTS
 
 TABLES = compile_mechanism(
     Mechanism(
@@ -106,7 +107,7 @@ def test_start_of_each_body():
 
 
 def test_joints_follow_each_other_in_the_rows():
-    assert list(TABLES.joint_kind) == [codes.REVOLUTE, codes.TRANSLATIONAL]
+    assert list(TABLES.joint_kind) == [JOINTS.number("revolute"), JOINTS.number("translational")]
     assert list(TABLES.joint_body_i) == [0, 1]
     assert list(TABLES.joint_body_j) == [2, 0]  # the ground has the number behind the last body
     assert list(TABLES.joint_row) == [0, 2]
@@ -115,7 +116,9 @@ def test_joints_follow_each_other_in_the_rows():
 
 
 def test_forces():
-    assert list(TABLES.force_kind) == [codes.TORQUE, codes.TORSION_SPRING, codes.DAMPER, codes.SHAFT, codes.FORCE]
+    assert list(TABLES.force_kind) == [
+        FORCES.number(kind) for kind in ("torque", "torsion_spring", "damper", "shaft", "force")
+    ]
     assert list(TABLES.force_body) == [1, 0, 0, 1, 0]
     assert list(TABLES.force_reaction) == [0, 2, 1, 2, 2]
     assert TABLES.force_data.shape == (5, 8)
@@ -130,12 +133,12 @@ def test_forces():
             [-3, -4, 0, 0],
         ],
     )
-    columns = [codes.SPRING_STIFFNESS, codes.SPRING_FREE_ANGLE, codes.SPRING_PRELOAD]
+    columns = FORCES.places("torsion_spring")
     np.testing.assert_array_equal(TABLES.force_data[1, columns], [1, 2, 3])
-    assert TABLES.force_data[2, codes.DAMPING] == 0.5
-    columns = [codes.SHAFT_STIFFNESS, codes.SHAFT_DAMPING, codes.SHAFT_ANGLE, codes.SHAFT_SPEED]
+    assert TABLES.force_data[2, 0] == 0.5
+    columns = FORCES.places("shaft")
     np.testing.assert_array_equal(TABLES.force_data[3, columns], [7, 8, 0.1, 0.2])
-    np.testing.assert_array_equal(TABLES.force_data[4, [codes.FORCE_X, codes.FORCE_Y]], [-3, -4])
+    np.testing.assert_array_equal(TABLES.force_data[4, FORCES.places("force")], [-3, -4])
 
 
 def test_contacts():
@@ -204,7 +207,7 @@ def test_friction_of_joints():
 
 def test_inputs_write_entries_of_the_force_table():
     assert list(TABLES.input_force) == [1, 0]
-    assert list(TABLES.input_column) == [codes.SPRING_PRELOAD, codes.TORQUE_VALUE]
+    assert list(TABLES.input_column) == [2, 0]
     np.testing.assert_array_equal(TABLES.input_start, [0.1, 0.2])
 
 
@@ -232,10 +235,10 @@ def test_states_of_forces_own():
     assert tables.own == 4
     np.testing.assert_array_equal(tables.force_data[0], [1, 2, 3, 4, 0, 0, 0, 0])
     np.testing.assert_array_equal(tables.force_data[2], [1, 2, 3, 4, 5, 6, 7, 8])
-    assert list(tables.input_column) == [codes.MOTOR_SPEED, codes.CLUTCH_LIMIT]
-    assert list(tables.output_kind) == [codes.OWN_STATE, codes.OWN_STATE, codes.MOTOR_VOLTAGE, codes.CLUTCH_TORQUE]
-    assert list(tables.output_index) == [1, 1, 2, 3]
-    np.testing.assert_array_equal(tables.output_value, [1.0, 1.0, 1.0, 0.0])
+    assert list(tables.input_column) == [7, 2]
+    assert list(tables.output_kind) == [codes.FORCE_READING] * 4
+    assert list(tables.output_index) == [2, 2, 2, 3]
+    assert list(tables.output_slot) == [0, 1, 2, 0]
     with pytest.raises(MechanismError, match=r"did you mean 'motor\.current'"):
         compile_mechanism(replace(mechanism, outputs=(Output("current", "motor.curent", ""),)))
 
@@ -244,18 +247,18 @@ def test_outputs_and_calculated_values():
     contacts, bodies = 6, 2
     impulses = codes.RECORD_CONTACT_IMPULSES
     expected = [
-        (codes.COORDINATE, 5, 0),
-        (codes.RATE, 1, 0),
+        (codes.UNKNOWN, 5, 0),
+        (codes.UNKNOWN, 3 * bodies + 1, 0),
         (codes.CONTACT_FORCE, 1, 0),
         (codes.CONTACT_GAP, 0, 0),
         (codes.CONTACT_CLOSED, 1, 0),
         (codes.STOP_CLICKS, 3, 0),
         (codes.STOP_REFERENCE, 4, 0),
         (codes.PATTERN_INDEX, 1, 0),
-        (codes.SHAFT_TORQUE, 3, 0),
-        (codes.EVENT_COUNT, 0, 0),
-        (codes.WORK_DONE, 0, 0),
-        (codes.IMPACT_COUNT, 0, 0),
+        (codes.FORCE_READING, 3, 0),
+        (codes.COUNTER, codes.COUNT_EVENTS, 0),
+        (codes.UNKNOWN, 6 * bodies, 0),
+        (codes.COUNTER, codes.COUNT_IMPACTS, 0),
         (codes.LAST_IMPACT, codes.RECORD_TIME, 0),
         (codes.LAST_IMPACT, impulses + 1, 0),
         (codes.LAST_IMPACT, impulses + contacts + 5, 0),

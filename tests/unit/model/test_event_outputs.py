@@ -14,8 +14,8 @@ RATCHET = MODEL.build(MODEL.values())
 
 
 def test_events_have_sources():
-    assert resolve_output("event.count", RATCHET) == (codes.EVENT_COUNT, 0, 0)
-    assert resolve_output("event.in_step", RATCHET) == (codes.EVENTS_IN_STEP_OUT, 0, 0)
+    assert resolve_output("event.count", RATCHET) == (codes.COUNTER, codes.COUNT_EVENTS, 0)
+    assert resolve_output("event.in_step", RATCHET) == (codes.COUNTER, codes.EVENTS_IN_STEP, 0)
     assert resolve_output("events[1].time", RATCHET) == (codes.BUFFERED_EVENT, codes.EVENT_TIME, 0)
     assert resolve_output("events[16].new_mode", RATCHET) == (codes.BUFFERED_EVENT, codes.EVENT_NEW_MODE, 15)
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -10,6 +11,8 @@ from hypothesis import strategies as st
 from recorded import said
 
 from mechanism_fmu import codes
+from mechanism_fmu.engine.constraints import rows
+from mechanism_fmu.engine.dynamics.forces import ELEMENTS
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -38,7 +41,20 @@ from mechanism_fmu.model import (
 from mechanism_fmu.model.check_numbers import number_findings
 from mechanism_fmu.model.compile import compile_mechanism, compile_tables
 from mechanism_fmu.model.findings import messages
+from mechanism_fmu.model.forces import (
+    CompliantShaft,
+    Damper,
+    DCMotor,
+    Force,
+    ForceElement,
+    SlipClutch,
+    SpringDamper,
+    Torque,
+    TorsionSpring,
+)
+from mechanism_fmu.model.joints import Joint
 from mechanism_fmu.model.trace import trace
+from mechanism_fmu.tables.kinds import FORCES, JOINTS
 
 RAMP = Curve((Piece(0.0, (Term((1.0, 2.0)),)),))
 HILL = Piece(1.0, (Term((9.0, 3.0, -18.0, 12.0)), Term((), -5.0, 2 * math.pi, math.pi / 2)))
@@ -65,20 +81,30 @@ GOOD = Mechanism(
     contacts=(ROLLER, FLAT, PIN),
 )
 TABLES = compile_mechanism(GOOD)
+FORCE_ELEMENTS = (
+    Torque("torque", "a"),
+    TorsionSpring("spring", "a"),
+    Damper("damper", "a"),
+    CompliantShaft("shaft", "a"),
+    Force("force", "a"),
+    SlipClutch("clutch", "a"),
+    DCMotor("motor", "a"),
+    SpringDamper("strut", "a", (0.0, 0.0), "b", (0.0, 0.0)),
+)
 
 
 def test_joints():
-    assert list(TABLES.joint_kind) == [
-        codes.DISTANCE,
-        codes.REVOLUTE_TRANSLATIONAL,
-        codes.GEARS,
-        codes.INTERNAL_GEARS,
-        codes.RACK,
-        codes.X_DRIVER,
-        codes.Y_DRIVER,
-        codes.ANGLE_DRIVER,
-        codes.DISTANCE_DRIVER,
-        codes.TRANSLATIONAL_DRIVER,
+    assert [list(JOINTS)[number] for number in TABLES.joint_kind] == [
+        "distance",
+        "revolute_translational",
+        "gears",
+        "internal_gears",
+        "rack_and_pinion",
+        "x_driver",
+        "y_driver",
+        "angle_driver",
+        "distance_driver",
+        "translational_driver",
     ]
     assert list(TABLES.joint_row) == [0, 1, 2, 3, 4, 6, 7, 8, 9, 10]
     assert TABLES.joint_rows == 11
@@ -264,3 +290,22 @@ def test_numbers_may_be_symbolic(size, axis, unilateral):
     expected, found = compile_tables(mechanism), TRACED.evaluate(values)
     for name in ("joint_data", "contact_data", "contact_value", "curve_range", "term_data"):
         assert getattr(found, name).tobytes() == getattr(expected, name).tobytes(), name
+
+
+@pytest.mark.parametrize("part", [*GOOD.joints, *FORCE_ELEMENTS], ids=lambda part: type(part).__name__)
+def test_a_row_has_as_many_numbers_as_its_kind_has_columns(part):
+    kinds = JOINTS if part in GOOD.joints else FORCES
+    assert len(part.data()) == len(kinds.columns(part.row))
+
+
+def test_every_kind_has_a_class_and_every_class_a_kind():
+    assert [joint.row for joint in get_args(Joint)] == list(JOINTS)
+    assert sorted(force.row for force in get_args(ForceElement)) == sorted(FORCES)
+
+
+def test_the_engine_has_every_kind():
+    assert {*rows.FREQUENT, *rows.OTHERS, *rows.DRIVERS} == set(JOINTS)
+    assert set(ELEMENTS) == set(FORCES)
+    for force in get_args(ForceElement):
+        assert bool(force.quantities) == (ELEMENTS[force.row].read is not None)
+        assert (ELEMENTS[force.row].stored is None) == (ELEMENTS[force.row].storing is None)

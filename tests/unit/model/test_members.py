@@ -27,7 +27,8 @@ def test_a_rectangle_has_the_area_and_second_moment_of_beam_theory():
 
 def test_the_engine_reads_nothing_of_members():
     plain, elastic = compile_mechanism(replace(ARM, members=(), disks=())), compile_mechanism(ARM)
-    for name in vars(plain):
+    assert plain.numbers == elastic.numbers
+    for name in plain.columns:
         np.testing.assert_array_equal(getattr(plain, name), getattr(elastic, name))
 
 

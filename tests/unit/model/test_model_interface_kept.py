@@ -35,7 +35,7 @@ def test_kept_interface_of_a_model(name: str) -> None:
 @pytest.mark.parametrize("name", sorted(models.available()))
 def test_kept_tables_of_a_model(name: str) -> None:
     tables = compile_mechanism(build_fmu.mechanism(name))
-    told = {field.name: np.asarray(getattr(tables, field.name)).tolist() for field in dataclasses.fields(tables)}
+    told = {name: np.asarray(value).tolist() for name, value in {**tables.columns, **tables.numbers}.items()}
     same_as_kept(f"tables_{name}.json", plain_data(told))
 
 

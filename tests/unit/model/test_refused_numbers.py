@@ -41,6 +41,7 @@ from mechanism_fmu.model import (
     Section,
     Settings,
     SlipClutch,
+    SpringDamper,
     Term,
     Torque,
     TorsionSpring,
@@ -93,6 +94,7 @@ PARTS: list[tuple[Any, str]] = [
     (Force("x", "a"), "forces"),
     (SlipClutch("x", "a"), "forces"),
     (DCMotor("x", "a"), "forces"),
+    (SpringDamper("x", "a", HERE, "b", HERE), "forces"),
     (Member("x", "a", HERE, EAST, **STEEL), "members"),
     (Disk("x", "a", HERE, 1.0), "disks"),
     (CircularPattern("x", "a", HERE, "b", 0.5, HERE, EAST), "patterns"),
@@ -101,7 +103,17 @@ PARTS: list[tuple[Any, str]] = [
 ]
 #: What the docstrings allow besides "finite": an argument's kind is looked up by its name.
 POSITIVE = ("mass", "inertia", "tooth_length", "distance", "radius_i", "radius_j", "inductance", "young")
-NOT_NEGATIVE = ("friction", "friction_radius", "resistance", "voltage", "gain", "integral_gain", "anti_windup", "limit")
+NOT_NEGATIVE = (
+    "friction",
+    "friction_radius",
+    "resistance",
+    "voltage",
+    "gain",
+    "integral_gain",
+    "anti_windup",
+    "limit",
+    "free_length",
+)
 SWITCHES = ("enabled", "closed", "guided", "unilateral")
 DIRECTIONS = ("axis_i", "axis_j", "direction_j", "normal", "boundary_normal")
 #: Arguments that a message calls otherwise.

@@ -20,8 +20,6 @@ MECHANISM = SimpleNamespace(
 @pytest.mark.parametrize(
     ("source", "factor"),
     [
-        ("motor.torque", 0.05),
-        ("motor.current", 1.0),
         ("pin.force_x", 1.0),
         ("rod.force", -0.6),
         ("bar.start_moment", -1.0),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...block.motion import Rows
+from ....tables.motion import Rows
 from ...compiler.subset import jit, keep_small
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...block.layout import Array
-from ...block.motion import Pose, Rows
+from ....tables.declare import Array
+from ....tables.motion import Pose, Rows
 from ...compiler.subset import jit, keep_small
 
 

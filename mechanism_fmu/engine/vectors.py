@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..compiler.subset import jit, keep_small
-from .layout import Array
+from ..tables.declare import Array
+from .compiler.subset import jit, keep_small
 
 
 @jit

@@ -1,13 +1,12 @@
-"""Named views of an instance's block, in Python and compiled.
+"""The tables of `mechanism_fmu.tables` for compiled code.
 
-In Python a view is a named tuple of arrays. Compiled, it is the block's address, and each attribute is computed where
-it is used: nothing is copied, nothing is allocated.
+Compiled, `Joints(block)` is the block's address, and each column is computed where it is used: nothing is copied,
+nothing is allocated.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any
 
 from llvmlite import ir
 from numba import types
@@ -16,42 +15,9 @@ from numba.core.typing.templates import AttributeTemplate
 from numba.extending import infer_getattr, lower_builtin, lower_getattr, models, register_model, type_callable
 from numba.np.arrayobj import make_array, populate_array
 
-from .layout import FIELDS_BY_NAME, Array, Field, field_of, size_slot, sizes_of, slot
-
-_View = TypeVar("_View")  # a NamedTuple class; the type system has no bound for those
-
-
-def room(view: type[_View], prefix: str = "") -> Callable[[Array], _View]:
-    """A function from a block to a `view`: each entry is the field of that name, with `prefix` where there is one."""
-    fields = {entry: _field(prefix, entry) for entry in _entries(view)}
-
-    last: tuple[Array | None, _View | None] = (None, None)
-
-    def look(block: Array) -> Any:
-        nonlocal last
-        seen = last  # plain Python looks at the same block again and again
-        if seen[0] is not block:
-            last = seen = block, view(*(field_of(block, field.name) for field in fields.values()))
-        return seen[1]
-
-    return _compilable(look, view.__name__, {entry: _FieldEntry(field) for entry, field in fields.items()})
-
-
-def _field(prefix: str, entry: str) -> Field:
-    return FIELDS_BY_NAME.get(prefix + entry) or FIELDS_BY_NAME[entry]
-
-
-def sizes_room(view: type[_View]) -> Callable[[Array], _View]:
-    """A function from a block to a `view` of its sizes, named as in `layout.SIZES`."""
-
-    def look(block: Array) -> _View:
-        return view(*(sizes_of(block)[name] for name in _entries(view)))
-
-    return _compilable(look, view.__name__, {name: _SizeEntry(name) for name in _entries(view)})
-
-
-def _entries(view: Any) -> tuple[str, ...]:
-    return tuple(view._fields)
+from ...tables.declare import Field
+from ...tables.layout import TABLES, size_slot, slot
+from ...tables.sizes import SIZES, Sizes
 
 
 class _ViewType(types.Type):
@@ -99,10 +65,11 @@ def _header_word(builder: Any, block: Any, index: int) -> Any:
     return word
 
 
-def _compilable(look: Callable[[Array], _View], name: str, entries: dict[str, Any]) -> Callable[[Array], _View]:
-    """Teach the compiler to call `look` and to read the entries of what it returns."""
-    view_class = type(f"{name}View", (_ViewType,), {})
-    view_type = view_class(name=f"{name}View")
+def _teach(view: type[Any], entries: dict[str, _SizeEntry] | dict[str, _FieldEntry]) -> None:
+    """Teach the compiler to make a view of a block, and to read its entries."""
+    name = f"{view.__name__}View"
+    view_class = type(name, (_ViewType,), {})
+    view_type = view_class(name=name)
 
     @register_model(view_class)
     class _Model(models.PrimitiveModel):
@@ -120,8 +87,12 @@ def _compilable(look: Callable[[Array], _View], name: str, entries: dict[str, An
         lower_getattr(view_class, attribute)(
             lambda context, builder, _type, value, entry=entry: entry.lower(context, builder, value)
         )
-    type_callable(look)(lambda _context: lambda block: view_type)
-    lower_builtin(look, types.Array)(
+    type_callable(view)(lambda _context: lambda block: view_type)
+    lower_builtin(view, types.Array)(
         lambda context, builder, signature, args: make_array(signature.args[0])(context, builder, args[0]).data
     )
-    return look
+
+
+_teach(Sizes, {name: _SizeEntry(name) for name in SIZES})
+for _table in TABLES:
+    _teach(_table, {column: _FieldEntry(field) for column, field in _table.fields.items()})

@@ -1,0 +1,57 @@
+"""What a force element is to the engine, and what elements have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from ...tables.declare import Array
+from ...tables.motion import Loads, Pose
+from ...tables.parts import Forces
+from ..compiler.subset import jit
+
+
+class Element(NamedTuple):
+    """The functions of a kind of force element `k`; `at` are the poses and rates of the unknowns y, shape (unknowns,).
+
+    Attributes:
+        act: (block, at, k, y, dy, given, lost) -> (given, lost): adds the generalised forces [N, N m] to `loads.force`
+            and the powers [W] that come in from outside and that are lost to `given` and `lost`; writes the rates of
+            own states to `dy`, shape (unknowns,).
+        stored: (block, at, k, y) -> energy that it stores [J].
+        storing: (block, at, k, y, dy) -> the derivative of that [W].
+        read: (block, at, k, y, which) -> the value of an output, `which` counted as in the model's class.
+        read_rate: (block, at, k, dy, which) -> its derivative with respect to time, not a number where unknown.
+    """
+
+    act: Callable[..., Any]
+    stored: Callable[..., Any] | None = None
+    storing: Callable[..., Any] | None = None
+    read: Callable[..., Any] | None = None
+    read_rate: Callable[..., Any] | None = None
+
+
+@jit
+def turn(block: Array, k: int, torque: float) -> None:
+    """Let element `k` act on its body with a torque [N m], and on its reaction against it."""
+    table = Forces(block)
+    load = Loads(block)
+    load.torque[k] = torque
+    load.force[3 * table.body[k] + 2] += torque
+    load.force[3 * table.reaction[k] + 2] -= torque
+
+
+@jit
+def relative_angle(block: Array, at: Pose, k: int) -> float:
+    """Angle of the body of element `k` from its reaction [rad]."""
+    table = Forces(block)
+    angle: float = at.phi[table.body[k]] - at.phi[table.reaction[k]]
+    return angle
+
+
+@jit
+def relative_speed(block: Array, at: Pose, k: int) -> float:
+    """Derivative of `relative_angle` [rad/s]."""
+    table = Forces(block)
+    speed: float = at.phi_rate[table.body[k]] - at.phi_rate[table.reaction[k]]
+    return speed

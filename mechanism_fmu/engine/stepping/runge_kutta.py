@@ -1,0 +1,162 @@
+"""Explicit Runge-Kutta steps by the tableau of `METHOD` (Hairer, Nørsett, Wanner: Solving ODEs I, II.4 and II.5)."""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.method import METHOD
+from ...tables.motion import Course, Stages
+from ...tables.parts import Contacts, Options
+from ...tables.sizes import Sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.rows import row_count
+from ..contacts.complementarity import push_ratio
+from ..dynamics.acceleration import derivative
+from ..dynamics.inputs import set_time
+from .interpolation import write_dense
+from .singular import independence
+
+_STAGES = METHOD.stages
+_LAST = METHOD.last
+_C = METHOD.c
+_A = METHOD.a
+_ERROR = METHOD.error
+_ERROR_EXPONENT = METHOD.error_exponent
+
+#: Absolute tolerance as a fraction of the relative one, for every unknown (m, rad, m/s, rad/s, J).
+ABSOLUTE_FRACTION = 1e-3
+
+
+@jit
+def try_step(block: Array, start: float, size_: float) -> float:
+    """One step of `size_` [s] from y_start at the time `start` [s], with derivatives[0] there; return the error norm.
+
+    The step is accurate enough when that is at most 1.
+
+    Writes y_new, all derivatives (the last one belongs to y_new), the dense output, and `contacts.least_push`.
+    """
+    s = Stages(block)
+    k = s.derivatives
+    y = s.y_start
+    h = size_
+    s.tried[0] = start
+    s.tried[1] = h
+    s.stage[0] = 0
+    least = Contacts(block).least_push
+    for c in range(least.shape[0]):
+        least[c] = 0.0
+    _euler(y, k[0], h * _A[1, 0], s.y_stage)
+    _stage(block, start + h * _C[1], s.y_stage, k[1])
+    for r in range(2, _LAST):  # the last one apart: to choose the target in the loop costs 3 % of the whole motion
+        _weighted(k, _A[r], y, h, s.y_stage)
+        _stage(block, start + h * _C[r], s.y_stage, k[r])
+    _weighted(k, _A[_LAST], y, h, s.y_new)
+    _stage(block, start + h, s.y_new, k[_LAST])
+    write_dense(block, h)
+    return _error_norm(block, h)
+
+
+@jit
+def _euler(y: Array, dy: Array, h: float, target: Array) -> None:
+    """An Euler step of size `h` [s] from y; all of shape (unknowns,)."""
+    for i in range(y.shape[0]):
+        target[i] = y[i] + h * dy[i]
+
+
+@jit
+def _weighted(k: Array, weights: Array, y: Array, h: float, target: Array) -> None:
+    """Y + h (the sum of the derivatives by their weights, from left to right).
+
+    A derivative without weight is not touched: it may be no number, and adding nothing can change the sign of zero.
+    """
+    for i in range(y.shape[0]):
+        total = weights[0] * k[0, i]
+        for j in range(1, _STAGES):
+            if weights[j] != 0.0:
+                total += weights[j] * k[j, i]
+        target[i] = y[i] + h * total
+
+
+@jit
+def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
+    """The derivative at one stage, with the inputs' values at its `time` [s]."""
+    keep_small()
+    set_time(block, time)
+    derivative(block, y, dy)
+    _note_pushes(block)
+    s = Stages(block)
+    s.stage[0] += 1
+    s.independence[s.stage[0]] = independence(block)
+
+
+@jit
+def _note_pushes(block: Array) -> None:
+    """After an acceleration: keep the least force of every closed contact."""
+    table = Contacts(block)
+    count = row_count(block)
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED:
+            table.least_push[c] = min(table.least_push[c], push_ratio(block, c, count))
+
+
+@jit
+def _error_norm(block: Array, h: float) -> float:
+    """Root mean square of the local error over its tolerance."""
+    n = Sizes(block).unknowns
+    total = 0.0
+    for i in range(n):
+        error = scaled_error(block, i, h)
+        total += error * error
+    return math.sqrt(total / n)
+
+
+@jit
+def scaled_error(block: Array, i: int, h: float) -> float:
+    """Local error of unknown `i` over its tolerance, in the step of size `h` [s] last tried."""
+    s = Stages(block)
+    k = s.derivatives
+    relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
+    error: float = _ERROR[0] * k[0, i]
+    for j in range(1, _STAGES):
+        if _ERROR[j] != 0.0:
+            error += _ERROR[j] * k[j, i]
+    error *= h
+    scale: float = relative * (ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i])))
+    return error / scale
+
+
+@jit
+def initial_step_size(block: Array) -> float:
+    """A first step size from y_end and dy_end [s] (Hairer, Nørsett, Wanner, II.4, algorithm of the starting step)."""
+    keep_small()
+    n = Sizes(block).unknowns
+    now = Course(block)
+    s = Stages(block)
+    relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
+    size_y = 0.0
+    size_dy = 0.0
+    for i in range(n):
+        scale = relative * (ABSOLUTE_FRACTION + abs(now.y_end[i]))
+        size_y += (now.y_end[i] / scale) * (now.y_end[i] / scale)
+        size_dy += (now.dy_end[i] / scale) * (now.dy_end[i] / scale)
+    size_y = math.sqrt(size_y / n)
+    size_dy = math.sqrt(size_dy / n)
+    first = 1e-6
+    if size_y > 1e-5 and size_dy > 1e-5:
+        first = 0.01 * size_y / size_dy
+    _euler(now.y_end, now.dy_end, first, s.y_stage)
+    set_time(block, now.clock[codes.STEP_END] + first)
+    derivative(block, s.y_stage, s.dy_at)
+    bend = 0.0
+    for i in range(n):
+        scale = relative * (ABSOLUTE_FRACTION + abs(now.y_end[i]))
+        difference = (s.dy_at[i] - now.dy_end[i]) / scale
+        bend += difference * difference
+    bend = math.sqrt(bend / n) / first
+    steepest = max(size_dy, bend)
+    second = max(1e-6, first * 1e-3)
+    if steepest > 1e-15:
+        second = math.pow(0.01 / steepest, 1.0 / _ERROR_EXPONENT)
+    return min(100.0 * first, second)

@@ -1,0 +1,80 @@
+"""What all contacts have: what can be read of them, and what they refuse."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import ClassVar
+
+from .. import codes
+from .body import Point
+from .conditions import both, finite_not_negative, is_zero, length, size, true_or_false, within
+from .findings import Finding, literal, refuse_unless
+from .functions import Number
+
+#: A normal must have unit length to this accuracy.
+_UNIT_LENGTH = 1e-9
+
+
+class ContactFacts:
+    """What all contacts have.
+
+    Attributes:
+        angular: whether the gap is an angle, and the force a torque.
+        has_memory: whether it clicks (see `AngleStop`).
+        holds: name of the number that says whether it also pulls.
+        readings: what an `Output` may read, with the source "<contact>.<name>", as codes.
+    """
+
+    angular: ClassVar[bool] = False
+    has_memory: ClassVar[bool] = False
+    holds: ClassVar[str] = "guided"
+    readings: ClassVar[Mapping[str, int]] = {
+        "force": codes.CONTACT_FORCE,
+        "gap": codes.CONTACT_GAP,
+        "closed": codes.CONTACT_CLOSED,
+    }
+
+    name: str
+    body_i: str
+    body_j: str
+
+    def findings(self) -> Iterator[Finding]:
+        """Every problem that its numbers can have, but for its shape and for those that are not finite."""
+        contact = self._numbers()
+        label = self.label
+        text = f"{label}: restitution = {{:g}} is outside 0..1."
+        yield refuse_unless(within(contact["restitution"], 0.0, 1.0), text, contact["restitution"])
+        text = f"{label}: friction = {{:g}} must be finite and not negative."
+        yield refuse_unless(finite_not_negative(contact["friction"]), text, contact["friction"])
+        for what in ("enabled", self.holds, "closed"):
+            switch = getattr(self, what)
+            text = f"{label}: {what} = {{:g}} is neither true (1) nor false (0); give one of the two."
+            yield refuse_unless(true_or_false(switch), text, switch)
+        closed_while = getattr(self, "closed_while", None)
+        if closed_while is not None:
+            alone = both(is_zero(contact["closed"]), both(is_zero(contact["guided"]), is_zero(contact["restitution"])))
+            text = f"{label} is closed while {literal(repr(closed_while))}; "
+            yield refuse_unless(alone, text + "leave closed, guided and restitution alone there.")
+
+    def shape_findings(self) -> Iterator[Finding]:
+        """What the shapes in contact can have wrong, which is said behind all else."""
+        yield from ()
+
+    def too_deep(self) -> tuple[str, str]:
+        """How to say that it starts inside the other body: what stands before and behind the depth."""
+        return f"{self.body_i!r} reaches", f"m into {self.body_j!r}"
+
+    @property
+    def label(self) -> str:
+        """Its name, for messages."""
+        return f"Contact {literal(repr(self.name))}"
+
+    def _numbers(self) -> dict[str, Number]:
+        return {name: getattr(self, name) for name in ("restitution", "friction", "closed", "guided")}
+
+
+def no_unit_length(what: str, normal: Point) -> Finding:
+    """The finding that a normal is no unit vector."""
+    long = length(normal)
+    text = f"{what} has length {{:g}}, but it must be a unit vector."
+    return refuse_unless(_UNIT_LENGTH - size(long - 1.0), text, long)

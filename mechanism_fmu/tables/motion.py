@@ -1,0 +1,209 @@
+"""How far the motion has come, the instant that is looked at, and scratch."""
+
+from __future__ import annotations
+
+import math
+
+from .. import codes
+from .contents import ANY, COUNT, FINITE, FLAG, MOST, NOT_NEGATIVE, WHOLE, index_of, whole
+from .declare import Table, integer, real
+from .method import METHOD
+
+#: Subject of a guard: a contact, pattern or logical function, or the status of a failure; the guard says which.
+_SUBJECT = whole(codes.NONE, int(MOST))
+
+#: Columns of the clock and of the counters, in the order of `codes`.
+_CLOCK = {
+    "TIME": FINITE,
+    "STEP_START": FINITE,
+    "STEP_END": FINITE,
+    "STEP_SIZE": NOT_NEGATIVE,
+    "NEXT_STEP": NOT_NEGATIVE._replace(high=math.inf, nan=True),
+    "LAST_EVENT": FINITE,
+    "RAMP_START": FINITE,
+    "RAMP_END": FINITE,
+    "STEP_BEGUN": FINITE,
+}
+_COUNTERS = {
+    "COUNT_IMPACTS": COUNT,
+    "COUNT_IN_STEP": whole(0, codes.IMPACT_BUFFER_LENGTH),
+    "COUNT_LOST": COUNT,
+    "COUNT_STEPS": COUNT,
+    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_FAILED),
+    "PENDING_SUBJECT": _SUBJECT,
+    "COUNT_PULLS": WHOLE,
+    "COUNT_EVENTS": COUNT,
+    "EVENTS_IN_STEP": whole(0, codes.EVENT_BUFFER_LENGTH),
+    "PILE": COUNT,
+    "RAMPING": FLAG,
+    "RANK": whole(0, 0, "rows"),
+    "FALLING": FLAG,
+    "COUNT_INSTANTS": COUNT,
+    "STEPS_IN_STEP": COUNT,
+}
+#: Columns of an impact record, the last one for all behind it, and of an event record.
+_RECORD = {
+    "RECORD_TIME": FINITE,
+    "RECORD_CONTACT": index_of("contacts"),
+    "RECORD_TOOTH": WHOLE,
+    "RECORD_CLOSING_SPEED": FINITE,
+    "RECORD_IMPULSE": FINITE,
+    "RECORD_VELOCITY": FINITE,
+    "RECORD_INSTANT": COUNT,
+    "RECORD_ENERGY": FINITE,
+    "RECORD_CONTACT_IMPULSES": FINITE,
+}
+_EVENT = {
+    "EVENT_TIME": FINITE,
+    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_FAILED),
+    "EVENT_SUBJECT": _SUBJECT,
+    "EVENT_OLD_MODE": COUNT,
+    "EVENT_NEW_MODE": COUNT,
+    "EVENT_IMPULSE": FINITE,
+}
+
+
+class Course(Table):
+    """How far the motion has come.
+
+    Clock, counters and ledger (columns in `codes`); y = (q, qd, work, loss, alpha, own) and its derivative at the end
+    of the engine's own step, and the step's dense output; how independent the active rows are there (see `singular`);
+    the last impact, and impacts and events of the last communication step.
+    """
+
+    clock = real(codes.CLOCK_LENGTH, holds=_CLOCK)
+    counters = integer(codes.COUNTERS_LENGTH, holds=_COUNTERS)
+    ledger = real(codes.LEDGER_LENGTH, holds=FINITE)
+    y_end = real("unknowns", holds=FINITE)
+    dy_end = real("unknowns", holds=ANY)
+    dense = real(METHOD.dense_rows, "unknowns", holds=FINITE)
+    independence_end = real(1, holds=ANY)
+    last_impact = real("record", holds=_RECORD)
+    impacts = real("buffer", "record", holds=_RECORD)
+    events = real(codes.EVENT_BUFFER_LENGTH, codes.EVENT_COLUMNS, holds=_EVENT)
+
+
+class Pose(Table):
+    """Positions and rates of all bodies at the instant that is looked at; the last entry is the ground.
+
+    `alpha` are the contact coordinates and `alpha_rate` what goes with the rates of the bodies; `instant` is the time
+    [s], on which drivers depend.
+    """
+
+    x = real("frames", work=True)
+    y = real("frames", work=True)
+    phi = real("frames", work=True)
+    cosine = real("frames", work=True)
+    sine = real("frames", work=True)
+    x_rate = real("frames", work=True)
+    y_rate = real("frames", work=True)
+    phi_rate = real("frames", work=True)
+    alpha = real("alphas", work=True)
+    alpha_rate = real("alphas", work=True)
+    instant = real(1, work=True)
+
+
+class Rows(Table):
+    """The constraint rows at the instant that is looked at: Phi, Phi', gamma (with Baumgarte's terms), nu, Phi_q.
+
+    The entries of `nu` count for drivers only. Columns of contact coordinates, behind those of the ground, are written
+    only where these count as coordinates (see `textbook`).
+    """
+
+    residual = real("rows", work=True)
+    residual_rate = real("rows", work=True)
+    gamma = real("rows", work=True)
+    nu = real("rows", work=True)
+    jacobian = real("rows", "wide", work=True)
+
+
+class LinearSystem(Table):
+    """The minimum-norm problem D z = b, with D^T multiplier = z, and the scratch of its solution.
+
+    `rank` is that of D, and `independence` says how far its least independent row is from depending on the others: the
+    share of its squared length that is left after projection.
+    """
+
+    scaled = real("rows", "columns", work=True)
+    right_side = real("rows", work=True)
+    solution = real("columns", work=True)
+    multiplier = real("rows", work=True)
+    basis = real("rows", "columns", work=True)
+    triangle = real("rows", "rows", work=True)
+    column_basis = real("rows", "rows", work=True)
+    column_triangle = real("rows", "rows", work=True)
+    order = integer("rows", work=True)
+    row_norm = real("rows", 2, work=True)
+    coefficient = real("rows", work=True)
+    dual = real("rows", work=True)
+    rank = integer(1, work=True)
+    independence = real(1, work=True)
+
+
+class Loads(Table):
+    """Generalised forces [N, N m].
+
+    `force` acts; `applied` is its part without friction; `torque` is that of each force element on its body, `rubbing`
+    that of the friction in each joint (a force in sliders); the accelerations that the forces alone would give;
+    assembly weights; the multipliers of the last round of the friction iteration.
+    """
+
+    force = real("columns", work=True)
+    applied = real("columns", work=True)
+    torque = real("forces", work=True)
+    rubbing = real("joints", work=True)
+    last_multiplier = real("rows", work=True)
+    free_acceleration = real("columns", work=True)
+    weight = real("columns", work=True)
+
+
+class Stages(Table, prefix="stage_"):
+    """Scratch of one Runge-Kutta step.
+
+    `tried`: start and size of the one last tried [s]; `independence` of the rows at each of its stages, of which
+    `stage` is the one computed last; `stiffest` is the unknown that limited the steps, once that was asked.
+    """
+
+    derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
+    tried = real(2, name="tried", work=True)
+    y_start = real("unknowns", name="y_start", work=True)
+    y_stage = real("unknowns", name="y_stage", work=True)
+    y_new = real("unknowns", name="y_new", work=True)
+    y_at = real("unknowns", name="y_at", work=True)
+    dy_at = real("unknowns", name="dy_at", work=True)
+    new_dense = real(METHOD.dense_rows, "unknowns", name="new_dense", work=True)
+    stage = integer(1, name="stage", work=True)
+    independence = real(METHOD.stages, work=True)
+    stiffest = integer(1, work=True)
+
+
+class Strikes(Table, rows="contacts", prefix="contact_"):
+    """Scratch of an impact.
+
+    What each contact is in it (`impact.ABSENT` ...), by how much its gap rate must rise at least (v of eq (6)), its
+    closing speed and impulse; the contacts that a complementarity problem decides about, and which problem it is
+    (columns in `complementarity`); all rates before the impact; the line along which a point slides.
+    """
+
+    role = integer(work=True)
+    target = real(work=True)
+    closing = real(work=True)
+    impulse = real(work=True)
+    candidates = integer(name="candidates", work=True)
+    problem = integer(2, alone=True, name="problem", work=True)
+    rates_before = real("coordinates", alone=True, name="rates_before", work=True)
+    tangent_line = real(4, alone=True, name="tangent_line", work=True)
+
+
+class Watch(Table, rows="guards", prefix="guard_"):
+    """Scratch of the search for events.
+
+    Which guards are looked at, whether each is armed and what it must come down to; its rate at the last look; value
+    and rate at the next.
+    """
+
+    watched = integer(work=True)
+    armed = integer(work=True)
+    floor = real(work=True)
+    rate = real(work=True)
+    next = real(2, work=True)

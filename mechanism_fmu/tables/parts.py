@@ -1,0 +1,145 @@
+"""The mechanism: its parts, their present state, its ports and settings."""
+
+from __future__ import annotations
+
+from .. import codes
+from .contents import ANY, COUNT, FINITE, FLAG, NOT_NAN, WHOLE, whole
+from .declare import Table, integer, real
+from .kinds import FORCES, JOINTS
+
+
+class Bodies(Table, prefix="body_"):
+    """The bodies: inverse masses, 3 a body and zeros for the ground [1/kg, 1/(kg m2)], and where they start."""
+
+    inverse_mass = real("columns", name="inverse_mass")
+    inverse_root_mass = real("columns", name="inverse_root_mass")
+    start = real("bodies", 3)
+    start_rate = real("bodies", 3)
+    tooth_length = real("bodies")
+
+
+class Joints(Table, rows="joints", prefix="joint_"):
+    """The joints' specifications; `curve` is the motion of a driver."""
+
+    kind = integer()
+    body_i = integer()
+    body_j = integer()
+    row = integer()
+    data = real(JOINTS.width)
+    friction = real()
+    curve = integer()
+
+
+class Curves(Table, prefix="curve_"):
+    """Functions of one variable, in pieces that are sums of terms (columns in `codes`), with their ranges."""
+
+    piece = integer("curves")
+    pieces = integer("curves")
+    periodic = integer("curves")
+    range = real("curves", 2)
+    piece_term = integer("pieces", name="piece_term")
+    piece_terms = integer("pieces", name="piece_terms")
+    piece_start = real("pieces", name="piece_start")
+    term_data = real("terms", codes.TERM_COLUMNS, name="term_data")
+
+
+class Forces(Table, rows="forces", prefix="force_"):
+    """The force elements; `data` holds what inputs write, `own` says which of the own states is an element's first."""
+
+    kind = integer()
+    body = integer()
+    reaction = integer()
+    own = integer()
+    data = real(FORCES.width)
+
+
+class Contacts(Table, rows="contacts", prefix="contact_"):
+    """The contacts' specifications and state.
+
+    `value` holds numbers by column (`codes.RESTITUTION` ...). State is the mode (`codes.OPEN` or `CLOSED`), whether the
+    gap was zero when the step began, the clicks of a stop with memory, the line of the present copy (of stops and
+    locks: the present angle), whether profiles have hollows (`codes.CONVEX` ...), one over how far their contact
+    coordinates may go in a step [1/rad], and the first time at which a guided contact pulled [s] (infinity: never).
+    `row` is the constraint row of a closed contact; `least_push` the least contact force of the step last tried, over
+    its tolerance.
+    Contacts of profiles have contact coordinates, the first of which is `alpha`, and curves; `row_first` counts the
+    rows that contacts have when contact coordinates are coordinates.
+    """
+
+    kind = integer()
+    body_i = integer()
+    body_j = integer()
+    pattern = integer()
+    function = integer()
+    closes_when = integer()
+    data = real(6)
+    row_first = integer()
+    alpha = integer()
+    curve_i = integer()
+    curve_j = integer()
+    value = real(codes.CONTACT_VALUES)
+    mode = integer(holds=whole(codes.OPEN, codes.CLOSED))
+    touching = integer(holds=FLAG)
+    clicks = integer(holds=COUNT)
+    line = real(4, holds=FINITE)
+    hollow = integer(holds=whole(codes.CONVEX, codes.BRIDGES))
+    alpha_haste = real("alphas", alone=True, name="alpha_haste", holds=NOT_NAN)
+    pull_time = real(name="pull_time", holds=NOT_NAN)
+    row = integer(work=True)
+    least_push = real(name="least_push", work=True)
+
+
+class Patterns(Table, rows="patterns", prefix="pattern_"):
+    """The circular patterns; state: the index of the present copy, and its two boundaries as lines (4 numbers each)."""
+
+    body_i = integer()
+    body_j = integer()
+    data = real(6)
+    pitch = real()
+    enabled = real()
+    copy = integer(holds=WHOLE)
+    line = real(8, holds=FINITE)
+
+
+class Functions(Table, rows="functions", prefix="function_"):
+    """The logical functions that switch contacts; state: their values."""
+
+    kind = integer()
+    subject = integer()
+    limit = real()
+    true = integer(holds=FLAG)
+
+
+class Ports(Table):
+    """Inputs and outputs: which table entries they write and read, and their values.
+
+    `inputs` and `input_slopes` (unit of the input per second) are what the outside sets. When a communication step
+    begins, the motion takes them as `held_inputs` and `held_slopes`, and `input_slopes` become zero; where it stops,
+    `inputs` become the values reached. All of them are as the outside has them; `input_factor` and `input_offset` make
+    of them what a table entry gets. `left_outputs` are kept by who stops before an event (FMI 3.0's event mode), and
+    else 0.
+    """
+
+    input_force = integer("inputs")
+    input_column = integer("inputs")
+    input_start = real("inputs")
+    input_factor = real("inputs")
+    input_offset = real("inputs")
+    inputs = real("inputs", holds=FINITE)
+    held_inputs = real("inputs", holds=FINITE)
+    input_slopes = real("inputs", holds=FINITE)
+    held_slopes = real("inputs", holds=FINITE)
+    output_kind = integer("outputs")
+    output_index = integer("outputs")
+    output_slot = integer("outputs")
+    output_value = real("outputs")
+    outputs = real("outputs", work=True)
+    output_rates = real("outputs", work=True)
+    left_outputs = real("outputs", holds=ANY)
+
+
+class Options(Table):
+    """Engine settings (columns in `codes`), and the coordinates that assembly must not move."""
+
+    settings = real(codes.SETTINGS)
+    held = integer("held")

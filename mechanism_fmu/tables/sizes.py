@@ -1,0 +1,97 @@
+"""How many of each there are, and where the parts of y begin: the first words of a block."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple, Self, cast
+
+import numpy as np
+
+from .. import codes
+from .declare import Array
+
+
+class _Size(NamedTuple):
+    """A size; `rule` calculates it from those before it, or is None for one that is given."""
+
+    rule: Callable[[Mapping[str, int]], int] | None
+
+
+def _given() -> int:
+    return cast(int, _Size(None))
+
+
+def _follows(rule: Callable[[Mapping[str, int]], int]) -> int:
+    return cast(int, _Size(rule))
+
+
+class Sizes:
+    """How many of each there are, in the order of the header."""
+
+    bodies = _given()
+    joints = _given()
+    forces = _given()
+    contacts = _given()
+    patterns = _given()
+    functions = _given()
+    curves = _given()
+    pieces = _given()
+    terms = _given()
+    alphas = _given()  # contact coordinates
+    own = _given()  # states of force elements' own
+    held = _given()
+    inputs = _given()
+    outputs = _given()
+    members = _given()  # elastic ones; these seven are zero when no output asks for them
+    nodes = _given()
+    ties = _given()
+    lumps = _given()
+    couples = _given()
+    locked = _given()
+    beams = _given()
+    joint_rows = _given()
+    contact_rows = _given()  # of all contacts, when contact coordinates count as coordinates
+    coordinates = _follows(lambda n: 3 * n["bodies"])
+    columns = _follows(lambda n: n["coordinates"] + 3)  # and those of the ground
+    wide = _follows(lambda n: n["columns"] + n["alphas"])
+    frames = _follows(lambda n: n["bodies"] + 1)  # and the ground
+    rows = _follows(lambda n: n["joint_rows"] + n["contact_rows"] + 1)  # and a spare one
+    # y = (q, qd, work, loss, alpha, own): positions begin at 0, rates at `coordinates`, the others here
+    y_work = _follows(lambda n: 2 * n["coordinates"])
+    y_loss = _follows(lambda n: n["y_work"] + 1)
+    y_alpha = _follows(lambda n: n["y_loss"] + 1)
+    y_own = _follows(lambda n: n["y_alpha"] + n["alphas"])
+    unknowns = _follows(lambda n: n["y_own"] + n["own"])
+    # two a contact, two a pattern, one a logical function
+    guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"])
+    # columns of an impact record
+    record = _follows(lambda n: codes.RECORD_CONTACT_IMPULSES + n["contacts"] + 2 * n["coordinates"])
+    buffer = _follows(lambda _: codes.IMPACT_BUFFER_LENGTH)  # impacts that are kept of one communication step
+    displacements = _follows(lambda n: 3 * n["nodes"])
+
+    def __new__(cls, block: Array) -> Self:
+        """The sizes of a block."""
+        view = super().__new__(cls)
+        view.__dict__.update(sizes_of(block))
+        return view
+
+
+_RULES = {name: size.rule for name, size in vars(Sizes).items() if isinstance(size, _Size)}
+#: Names of the sizes, in the order of the header.
+SIZES = tuple(_RULES)
+#: Those that `layout.allocate` is given; the others follow.
+GIVEN_SIZES = tuple(name for name, rule in _RULES.items() if rule is None)
+
+
+def complete(given: Mapping[str, int]) -> dict[str, int]:
+    """All sizes, from those of `GIVEN_SIZES`."""
+    sizes = dict(given)
+    for name, rule in _RULES.items():
+        if rule is not None:
+            sizes[name] = rule(sizes)
+    return {name: sizes[name] for name in SIZES}
+
+
+def sizes_of(block: Array) -> dict[str, int]:
+    """The sizes in a block's header, by name, in the order of `SIZES`."""
+    return dict(zip(SIZES, block[: len(SIZES)].view(np.int64).tolist(), strict=True))

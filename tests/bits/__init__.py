@@ -1,0 +1,1 @@
+"""Whether two revisions of this project calculate the same, to the bit."""
