@@ -160,7 +160,7 @@ def mechanism(model: str, **parameters: float) -> Mechanism:
     """
     import models
     from mechanism_fmu.fmu.own.find import find
-    from mechanism_fmu.fmu.own.load import load
+    from mechanism_fmu.fmu.own.prepare import load
     from mechanism_fmu.model import MechanismError
 
     try:

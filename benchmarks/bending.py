@@ -7,9 +7,8 @@ import math
 import numpy as np
 
 from mechanism_fmu.elastodynamics import configurations, linkage, quasi_static
-from mechanism_fmu.elastodynamics.dynamics import deflection_of, elastic_cycle
-from mechanism_fmu.elastodynamics.periodic import periodic_response
-from mechanism_fmu.elastodynamics.transient import transient
+from mechanism_fmu.elastodynamics.elastic_cycle import deflection_of, elastic_cycle
+from mechanism_fmu.elastodynamics.responses import periodic_response, transient
 from mechanism_fmu.kinematics import analyse
 
 from .path_generator import PathGenerator

@@ -27,8 +27,7 @@ from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.joints import Joint
 from mechanism_fmu.model.profiles import circle, harmonic_profile
 from mechanism_fmu.tables.declare import Array
-from mechanism_fmu.tables.layout import field_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import field_of, pack
 
 from .timing import Comparison, batch, in_turns, require_agreement
 

@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from mechanism_fmu.fmu.archive import content_hash
+from mechanism_fmu.fmu.disk.archive import content_hash
 
 ROOT = Path(__file__).parents[1]
 

@@ -13,8 +13,7 @@ from mechanism_fmu.engine.outputs import read_outputs
 from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.engine.stepping.stepper import advance
 from mechanism_fmu.model.compile import compile_mechanism
-from mechanism_fmu.tables.layout import field_of, state_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import field_of, pack, state_of
 
 from .plain import OUTPUTS
 from .reference import FACE, State

@@ -15,19 +15,17 @@ import numpy as np
 import numpy.typing as npt
 
 import models
-from harness.clock import TimeGrid
-from harness.description import Value
 from harness.fmu import Fmu, open_fmu
-from harness.fmu.fmi2 import Fmi2Slave
-from harness.fmu.slave import discard_message
-from harness.machine.algorithms.jacobi import Jacobi
+from harness.fmu.description import Value
+from harness.fmu.instances.common import discard_message
+from harness.fmu.instances.fmi2 import Fmi2Slave
+from harness.fmu.interface import Observable
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.observers import Observer
-from harness.slave import Observable
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Jacobi
+from harness.run.master import Ending, Observer, TimeGrid
 from mechanism_fmu.fmu.native.package import build_native_fmu
 
 from .fmus import ROOT

@@ -1,4 +1,4 @@
-"""Command: `python -m benchmarks.plane_teeth`, from the root of the repository: writes harness/plane_teeth.csv.
+"""Command: `python -m benchmarks.plane_teeth`, from the repository's root: writes harness/papers/study/plane_teeth.csv.
 
 The paper's 20 teeth as plates of finite elements, whole and as the right-angled triangle that the paper makes of them,
 beside its beam. It shows how far the meshes agree, and takes a minute. Needs scikit-fem (extra `test`).
@@ -13,8 +13,8 @@ from dataclasses import astuple, dataclass, fields
 
 import numpy as np
 
-from harness.paper import SLOPE_ANGLES_DEG, TOOTH_COUNTS
-from harness.plane_teeth import FILE, PLACE, PlaneTooth
+from harness.papers.study.accuracy import FILE, PLACE, PlaneTooth
+from harness.papers.study.wheels import SLOPE_ANGLES_DEG, TOOTH_COUNTS
 from mechanism_fmu.stress import Material, ModeScaling, WedgeTooth, natural_modes, ritz_modes, wedge_of_sawtooth
 
 from .plane_tooth import FloatArray, Plate, PlateSolution, solve, wedge_plate, whole_plate

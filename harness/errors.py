@@ -1,10 +1,58 @@
-"""What can go wrong, in words for the user."""
+"""What can go wrong, in words for the user: errors, log messages of an FMU, and what a computer runs out of."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import errno
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from enum import IntEnum
 
-from .messages import LogMessage, Status
+# Log messages of an FMU.
+
+
+class Status(IntEnum):
+    """The status codes of FMI 2.0, section 2.1.3."""
+
+    OK = 0
+    WARNING = 1
+    DISCARD = 2
+    ERROR = 3
+    FATAL = 4
+    PENDING = 5
+
+    @classmethod
+    def _missing_(cls, value: object) -> Status:
+        """A number that is no status of FMI is an error."""
+        return cls.ERROR
+
+
+@dataclass(frozen=True)
+class LogMessage:
+    """One message of an FMU.
+
+    Attributes:
+        instance: name of the FMU instance.
+        time: last communication point before the message [s].
+        status: how bad it is.
+        category: the FMU's own, one of the LogCategories of its modelDescription.xml; "" when it gave none.
+        text: what it says.
+    """
+
+    instance: str
+    time: float
+    status: Status
+    category: str
+    text: str
+
+    @property
+    def needs_attention(self) -> bool:
+        """Whether the user should see it."""
+        return self.status in (Status.WARNING, Status.DISCARD, Status.ERROR, Status.FATAL)
+
+
+# What can go wrong, in words for the user.
 
 
 class HarnessError(Exception):
@@ -39,3 +87,43 @@ class FmuError(HarnessError):
         self.time = time
         self.status = status
         self.messages = tuple(messages)
+
+
+# What a machine runs out of at any place: memory, and room where something is printed.
+
+#: What systems call a full disk, a file that may not become longer, and a full share of a disk.
+NO_ROOM = frozenset(getattr(errno, name) for name in ("ENOSPC", "EFBIG", "EDQUOT") if hasattr(errno, name))
+#: How the system says in the loading of a library that it has no memory for it.
+_NOT_LOADED = ("failed to map segment", "cannot allocate memory")
+_FAILED = 1
+
+
+@contextmanager
+def exhaustion_told() -> Iterator[None]:
+    """Say in a line that memory or a disk is full, and end with an exit code that says so; nothing of it is imported.
+
+    Files that are written say so themselves (`results`).
+
+    Raises:
+        SystemExit: it is.
+    """
+    try:
+        yield
+    except MemoryError:
+        _end("The memory is full.")
+    except ImportError as error:
+        if not any(words in str(error).lower() for words in _NOT_LOADED):
+            raise
+        _end(f"The memory is full: {error}.")
+    except OSError as error:
+        if error.errno == errno.ENOMEM:
+            _end(f"The memory is full: {error}.")
+        if error.errno in NO_ROOM:
+            _end(f"There is no room for what is printed or written: {error}.")
+        raise
+
+
+def _end(reason: str) -> None:
+    with suppress(OSError):
+        print(f"Error: {reason} What was recorded before is kept.", file=sys.stderr)
+    raise SystemExit(_FAILED) from None

@@ -1,4 +1,4 @@
-"""TOML files whose mistakes are told all at once, each with its line."""
+"""TOML files whose mistakes are all listed at once, each with its line; and the values of variables in them."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from .description import hint_at
 from .errors import UsageError
+from .fmu.description import Description, Value, Variable, hint_at
+from .fmu.values import parse_value
+
+# TOML files whose mistakes are told all at once, each with its line.
 
 #: Where something stands in a file: names of tables, then of the key.
 Key = tuple[str, ...]
@@ -286,3 +289,38 @@ def _entry(name: Key, number: int) -> Key:
 
 def _names(dotted: str) -> Key:
     return tuple("".join(match.groups(default="")) for match in _NAME.finditer(dotted))
+
+
+# Values of variables as a TOML file has them: numbers, or texts with units.
+
+#: Times of a file are parsed like variables.
+_REFERENCE = -1
+
+
+def parsed(section: Section, key: str, text: str, variable: Variable, description: Description) -> Value | None:
+    """The value that `text` gives to `variable`; None when it cannot, which is noted at the key."""
+    try:
+        return parse_value(text, variable, description)
+    except UsageError as error:
+        section.wrong(key, str(error))
+        return None
+
+
+def as_text(value: object) -> str:
+    """A value of TOML as it would be written behind --set."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return value if isinstance(value, str) else repr(value)
+
+
+def time_at(section: Section, name: str, default: float | None, description: Description) -> float | None:
+    """The time at a key [s]; None when it cannot be used, which is noted."""
+    given = section.take(name)
+    if given is None:
+        if default is None:
+            section.file.wrong((*section.key, name), f"is missing; {description.model} has no default for it")
+        return default
+    variable = Variable(name, _REFERENCE, "Real", "parameter", unit="s", minimum=0.0)
+    alone = Description(description.model, "", "", {name: variable}, description.units)
+    value = parsed(section, name, as_text(given), variable, alone)
+    return None if value is None else float(value)

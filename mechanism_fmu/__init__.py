@@ -6,7 +6,5 @@ means), `slides` (the worked examples of the ME451 slides). The machine around a
 ready-made mechanisms in `models`. What of all this is for users: docs/public-interface.md.
 """
 
-__all__ = ["__version__"]
-
 #: Version of the library, which every FMU tells as its own.
 __version__ = "0.1.0"

@@ -13,10 +13,9 @@ from . import codes
 from .engine import status
 from .engine.run import engine_for
 from .model import Mechanism, MechanismError, compile_mechanism
-from .model.event_names import event_name
-from .model.unknowns import unknown_names
-from .tables.layout import field_of, state_of
-from .tables.pack import pack
+from .model.compile import unknown_names
+from .model.logical_functions import event_name
+from .tables.layout import field_of, pack, state_of
 
 __all__ = ["Event", "Impact", "Simulation", "SimulationError", "StepBudgetError"]
 
@@ -73,7 +72,7 @@ class Event(NamedTuple):
     Attributes:
         time: [s].
         guard: e.g. "face.gap", "slope.force", "teeth.next", "teeth.previous", "holding_pawl.click", "pin_in_slot", or
-            "input" when inputs have changed (`mechanism_fmu.model.event_names`).
+            "input" when inputs have changed (`mechanism_fmu.model.logical_functions`).
         old_mode, new_mode: names of the closed contacts.
         impulse: sum of magnitudes over the contacts that struck or were switched on [N s; N m s of stops and locks].
     """

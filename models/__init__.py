@@ -11,8 +11,6 @@ from types import ModuleType
 
 from mechanism_fmu.model import MechanismError
 
-__all__ = ["available", "load", "machines"]
-
 
 def available() -> dict[str, Path]:
     """Folders of all models, by name."""
@@ -32,4 +30,4 @@ def load(name: str) -> ModuleType:
     """
     if name not in available():
         raise MechanismError(f"There is no model {name!r}; there are: {', '.join(available())}.")
-    return import_module(f"models.{name}.model")
+    return import_module(f"{__name__}.{name}.model")

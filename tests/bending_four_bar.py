@@ -11,8 +11,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
-from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
+from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle, instantaneous_modes
 
 FloatArray = npt.NDArray[np.float64]
 

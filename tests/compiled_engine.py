@@ -14,8 +14,7 @@ from pathlib import Path
 import numba
 
 from mechanism_fmu.engine import run
-from mechanism_fmu.fmu.native.libraries import engine_libraries
-from mechanism_fmu.fmu.native.objects import engine_is_compiled
+from mechanism_fmu.fmu.native.objects import engine_is_compiled, engine_libraries
 from mechanism_fmu.model import MechanismError
 
 _waits = False

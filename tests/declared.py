@@ -6,9 +6,9 @@ import io
 import zipfile
 
 import models
-from harness.declared import FILE, Declared, Struck, read_declared
-from mechanism_fmu.fmu.analysis import analysis
-from mechanism_fmu.fmu.variables import variables_of
+from harness.fmu.declared import FILE, Declared, Struck, read_declared
+from mechanism_fmu.fmu.parts.resources import analysis
+from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.model import Model
 
 

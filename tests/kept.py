@@ -22,6 +22,8 @@ from typing import Any
 
 import numpy as np
 
+from tests.public import listed_by
+
 FOLDER = Path(__file__).parent / "data" / "kept"
 
 _NUMBER = re.compile(r"(?<![\w#.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
@@ -67,7 +69,7 @@ def plain_data(data: Any) -> str:
 def defaults_of(package: ModuleType) -> dict[str, Any]:
     """Of what a package offers: fields of records and arguments of functions that have a default, and numbers."""
     told: dict[str, Any] = {}
-    for name in sorted(package.__all__):
+    for name in sorted(listed_by(package) or ()):
         one = getattr(package, name)
         if isinstance(one, int | float) or (is_dataclass(one) and not isinstance(one, type)):
             told[name] = repr(one)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from mechanism_fmu.fmu.native.alone import alone
+from mechanism_fmu.fmu.disk.user_cache import alone
 
 
 def once(folders: pytest.TempPathFactory, name: str, work: Callable[[Path], object]) -> Path:

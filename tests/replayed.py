@@ -17,14 +17,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from harness.clock import TimeGrid
-from harness.description import Description, Value, read_description
-from harness.errors import FmuError
-from harness.experiment import Experiment
+from harness.errors import FmuError, LogMessage, Status
 from harness.fmu import open_fmu
-from harness.master import run_fixed_step
-from harness.messages import LogMessage, Status
-from harness.slave import Observable
+from harness.fmu.description import Description, Value, read_description
+from harness.fmu.interface import Observable
+from harness.run.experiment import Experiment
+from harness.run.master import TimeGrid, run_fixed_step
 
 FOLDER = Path(__file__).parent / "data" / "replayed"
 #: Long enough for three impacts.

@@ -16,8 +16,7 @@ from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.engine.stepping.stepper import advance, state_at_time
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.tables.declare import Array
-from mechanism_fmu.tables.layout import field_of, state_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import field_of, pack, state_of
 from mechanism_fmu.tables.parts import Ports
 
 from ..timing import Comparison, DisagreementError, batch, in_turns, require_agreement

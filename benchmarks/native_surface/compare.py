@@ -11,11 +11,10 @@ import fmpy
 
 import models
 from mechanism_fmu.engine.run import library_path
-from mechanism_fmu.fmu.native.libraries import engine_libraries
+from mechanism_fmu.fmu.native.objects import engine_libraries
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.model.compile import compile_mechanism
-from mechanism_fmu.tables.layout import field_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import field_of, pack
 
 from ..c_limit.library import NoCompilerError
 from ..timing import Comparison

@@ -17,17 +17,16 @@ from pathlib import Path
 import pandas as pd
 
 from build_fmu import Flavour, build
-from harness.clock import TimeGrid
 from harness.fmu import open_fmu
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.bonds import Bond, BondEnergy, Bonds
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.record import Recorder
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.results import prepare_folder
+from harness.machine.observers.bonds import Bond, BondEnergy, Bonds
+from harness.machine.observers.record import Recorder
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import EventAware
+from harness.run.master import Ending, TimeGrid
+from harness.run.results import prepare_folder
 
 STOP_TIME, STEP = 17.0, 2e-3
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from models.svg import Point, polar
+from docs.drawings.pictures import Point, polar
 
 from .sketch import AXIS, BODY_I, BODY_J, EDGE, LINE, THIN, Sketch, add, joint_sheet, joint_sketch, quarter, scale, turn
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from models.svg import Point, sheet
+from docs.drawings.pictures import Point, sheet
 
 from .sketch import AXIS, BODY_I, BODY_J, THIN, Sketch, add, quarter, scale
 

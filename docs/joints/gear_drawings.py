@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from docs.drawings.pictures import INK, Point, polar, sheet
 from mechanism_fmu.slides import CARRIER, MARK_1, MARK_2, RADIUS_1, RADIUS_2, rolled_angle
-from models.svg import INK, Point, polar, sheet
 
 from .sketch import AXIS, BODY_I, BODY_J, EDGE, NOTE, THIN, Sketch, add, joint_sheet, joint_sketch, quarter, scale
 

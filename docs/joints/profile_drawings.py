@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from mechanism_fmu.kinematics.profile_values import curve_values
+from docs.drawings.pictures import INK, Point, polar, sheet
+from mechanism_fmu.kinematics.profiles import curve_values
 from mechanism_fmu.model import Curve, Piece, cycloidal, modified_sine, polynomial_345
 from mechanism_fmu.slides import CAM
-from models.svg import INK, Point, polar, sheet
 
 from .sketch import ACCENT, AXIS, BODY_I, BODY_J, EDGE, NOTE, THIN, Sketch
 

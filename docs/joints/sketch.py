@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from models.svg import DIMENSION, HALO, INK, Point, View, polar, sheet
+from docs.drawings.pictures import DIMENSION, HALO, INK, Point, View, polar, sheet
 
 BODY_I, BODY_J = "#c9d2dc", "#e9c46a"
 EDGE = f'stroke="{INK}" stroke-width="1.6"'

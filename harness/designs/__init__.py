@@ -2,15 +2,10 @@
 
 Internal: they serve the commands `sweep` and `optimise`. In the order in which a design passes them:
 
-- the file (`harness/toml_file.py`): `plan` ([fmu], [run], [set]), `quantities` ([record]),
-  `variation` ([vary.*]), `sampling` (the list of designs), `sweep_file` (all of it)
-- one design: `task` (what is done with each), `by_fmu` (a run), `by_batch` (hundreds in one call),
-  `of_impacts`, `ways` (which ways there are)
-- many: `workers` (processes), `cluster` (Dask), `store` (files that survive everything)
-- `sweep`: all of it together
-
-For an optimum, besides: `optimum_file`, `goal` (objective and constraints), `history` (what was asked for is not run
-again), `search`, `sensitivity`.
+- the file: `variation` (what all designs share, and what is varied), `sweep` or `optimum_file` (all of it)
+- one design: `task` (what is done with each), `by_fmu` (a run), `by_batch` (hundreds in one call)
+- many: `workers` (this process or others), `cluster` (Dask), `store` (files that survive everything)
+- `search`: how better designs are found, and how much each variable matters near the best
 """
 
 __all__: list[str] = []

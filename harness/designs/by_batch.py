@@ -12,14 +12,13 @@ import pandas as pd
 
 from mechanism_fmu.batch import Batch, BatchResult, MechanismError, NoBatchError
 
-from ..clock import seconds
-from ..description import Description, Value, Variable
+from ..analysis.impacts import ImpactCollector
 from ..errors import FmuError, UsageError
 from ..fmu import Fmu
-from ..impacts import ImpactCollector
+from ..fmu.description import Description, Value, Variable
+from ..run.master import seconds
 from . import by_fmu
-from .of_impacts import of_impacts, struck_in
-from .task import Design, Quantity, Result, Task, When
+from .task import Design, Quantity, Result, Task, When, of_impacts, struck_in
 
 NAME = "batch"
 #: So many designs go together at most, and are kept together when they come.

@@ -17,11 +17,10 @@ from mechanism_fmu import __version__
 
 from ..errors import HarnessError, UsageError
 from ..fmu import open_fmu
-from ..fmu.workspace import temporary_folder
-from ..master import never
+from ..fmu.instances.workspace import temporary_folder
+from ..run.master import never
 from .task import Design, Result, Task
-from .ways import Way
-from .workers import Pairs, Work, portions
+from .workers import Pairs, Way, Work, portions
 
 #: The scheduler must answer within [s].
 _PATIENCE = 10

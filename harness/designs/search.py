@@ -1,22 +1,129 @@
-"""How better designs are found. Every search asks for the same designs each time."""
+"""How better designs are found, always the same ones; and how much each variable matters near the optimum."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy import optimize
+from scipy import optimize, stats
 
-from ..description import Value
 from ..errors import UsageError
-from .history import EnoughError, History
-from .optimum_file import CONTINUOUS, Optimum
+from ..fmu.description import Value
+from .optimum_file import CONTINUOUS, Optimum, near
+from .store import Store
 from .task import Design, Result
 from .variation import Axis
+from .workers import Crew
+
+# The designs of a search, in the order in which it asks for them; what is there already is not run again.
+
+#: A search that asks so often in a row for what it has had will not come to anything new.
+_MOST_IDLE = 50
+
+#: Of a design, in the order of the variables.
+_Values = tuple[Value, ...]
+
+
+class EnoughError(Exception):
+    """The search has had all designs that it may have."""
+
+
+class InterruptedSearchError(Exception):
+    """Somebody wants it to end; what there is, is kept."""
+
+
+class History:
+    """All designs that a search has asked for.
+
+    A search that is the same each time asks for the same designs in the same order. So one that was interrupted begins
+    anew and is answered from the disk until it comes to what is not there.
+
+    Attributes:
+        designs: asked for so far, in this run of the command.
+        results: theirs.
+        limit: how many may be asked for.
+        earlier: how many were on the disk when it began.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        crew: Crew,
+        limit: int,
+        stop_requested: Callable[[], bool],
+        on_progress: Callable[[History], None],
+    ) -> None:
+        """Begin, with what a store has of earlier runs."""
+        self.designs: list[Design] = []
+        self.results: list[Result] = []
+        self._seen: dict[_Values, Result] = {}
+        self.allow(limit)
+        self._kept = store.pairs()
+        self.earlier = len(self._kept)
+        self._store, self._crew = store, crew
+        self._stop_requested, self._on_progress = stop_requested, on_progress
+
+    def allow(self, limit: int) -> None:
+        """Begin a part of the search, which may go on to so many designs in all."""
+        self.limit = limit
+        self._idle = 0
+
+    def results_of(self, candidates: Sequence[Mapping[str, Value]]) -> list[Result]:
+        """Results of designs, in their order; those behind the first that exceeds the limit are left out.
+
+        Values that were asked for before are answered from memory and count no second time.
+
+        Raises:
+            EnoughError: there is no room for a single one, or the search has nothing new to ask for.
+            InterruptedSearchError: somebody wants it to end.
+            UsageError: what is kept belongs to another search, or the disk refuses.
+        """
+        new: dict[_Values, Design] = {}
+        wanted: list[_Values] = []
+        for candidate in candidates:
+            values = tuple(candidate.values())
+            if values not in self._seen and values not in new:
+                if len(self.designs) + len(new) == self.limit:
+                    break
+                new[values] = Design(len(self.designs) + len(new) + 1, dict(candidate))
+            wanted.append(values)
+        self._idle = 0 if new else self._idle + 1
+        if not wanted or self._idle > _MOST_IDLE:
+            raise EnoughError
+        self._run(list(new.values()))
+        return [self._seen[values] for values in wanted]
+
+    def _run(self, designs: Sequence[Design]) -> None:
+        """Find the results of designs, on the disk or by running them."""
+        found = {design.number: self._known(design) for design in designs if design.number in self._kept}
+        missing = [design for design in designs if design.number not in found]
+        for pairs in self._crew(missing, self._stop_requested) if missing else ():
+            self._store.append(pairs)
+            found |= {design.number: result for design, result in pairs}
+        if len(found) < len(designs):
+            raise InterruptedSearchError
+        for design in designs:
+            self.designs.append(design)
+            self.results.append(found[design.number])
+            self._seen[tuple(design.values.values())] = found[design.number]
+        self._on_progress(self)
+
+    def _known(self, design: Design) -> Result:
+        values, result = self._kept[design.number]
+        if values != design.values:
+            raise UsageError(
+                f"Design {design.number} in '{self._store.folder}' has other values than the search asks for now: it "
+                f"was found with other versions of scipy or optuna. Choose another folder with -o."
+            )
+        return result
+
+
+# How better designs are found. Every search asks for the same designs each time.
 
 #: Members of a generation for each variable.
 _MEMBERS = 8
@@ -178,3 +285,94 @@ def _chosen(axis: Axis, choice: Any) -> Value:
 
 def _at(axes: Sequence[Axis], fractions: npt.NDArray[np.float64]) -> dict[str, Value]:
     return {axis.name: axis.at(float(x)) for axis, x in zip(axes, fractions, strict=True)}
+
+
+# How much each variable matters near the optimum.
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Sobol indices of the objective, for variables that are uniform near the optimum.
+
+    Attributes:
+        names: of the variables.
+        first: part of the objective's variance that each explains by itself, shape (variables,).
+        total: part that is gone when each is kept still; more than `first` where variables act together.
+        spread: standard deviation of the objective, in its unit.
+        mean: of the objective.
+        limits: of the neighbourhood, in each variable's unit of the file.
+    """
+
+    names: tuple[str, ...]
+    first: npt.NDArray[np.float64]
+    total: npt.NDArray[np.float64]
+    spread: float
+    mean: float
+    limits: tuple[tuple[float, float], ...]
+
+
+class NoIndicesError(ValueError):
+    """There are no Sobol indices; the message says why."""
+
+
+def sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity | None:
+    """The sensitivity of the optimum; None when nothing is asked for.
+
+    By (variables + 2) count designs (A. Saltelli et al., Comput. Phys. Commun. 181 (2010)). Whole numbers are those
+    next to the optimum's; variables with a list of values keep theirs.
+
+    Raises:
+        NoIndicesError: some neighbour gives no number, or all of them the same.
+        InterruptedSearchError: somebody wants it to end.
+    """
+    around = optimum.around
+    free = near(optimum.axes)
+    if around is None:
+        return None
+    history.allow(len(history.designs) + around.designs(len(free)))
+    vicinity = [_vicinity(axis, best.design.values[axis.name], around.width) for axis in free]
+    seen: list[float] = []
+
+    def objective(fractions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        points = [_design(best, vicinity, point) for point in fractions.T]
+        values = [optimum.goal.value(result, optimum.task) for result in history.results_of(points)]
+        seen.extend(np.nan if value is None else value for value in values)
+        return np.array(seen[-len(values) :])
+
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore", RuntimeWarning)
+        found = stats.sobol_indices(
+            func=objective,
+            n=around.count,
+            dists=[stats.uniform()] * len(free),
+            rng=np.random.default_rng(optimum.seed),
+        )
+    missing = int(np.sum(~np.isfinite(seen)))
+    if missing:
+        raise NoIndicesError(f"near the optimum, {missing} of {len(seen)} designs give no number")
+    if min(seen) == max(seen):
+        value = f"{seen[0]:.9g} {optimum.goal.objective.unit or '1'}"
+        raise NoIndicesError(f"near the optimum, the objective is {value} everywhere: no variable matters there")
+    return Sensitivity(
+        names=tuple(axis.name for axis in free),
+        first=np.asarray(found.first_order),
+        total=np.asarray(found.total_order),
+        spread=float(np.std(seen)),
+        mean=float(np.mean(seen)),
+        limits=tuple((axis.low, axis.high) for axis in vicinity),
+    )
+
+
+def _vicinity(axis: Axis, value: Value, width: float) -> Axis:
+    """The part of an axis that lies around a value, within its limits; of whole numbers at least one on each side."""
+    half = 0.5 * width * (axis.high - axis.low)
+    if axis.variable.type == "Integer":
+        place, half = float(value), float(max(round(half), 1))
+    else:
+        place = axis.low + axis.fraction(float(value)) * (axis.high - axis.low)
+    return replace(axis, low=max(place - half, axis.low), high=min(place + half, axis.high))
+
+
+def _design(best: Best, vicinity: Sequence[Axis], fractions: npt.NDArray[np.float64]) -> dict[str, Value]:
+    moved = {axis.name: axis.at(float(x)) for axis, x in zip(vicinity, fractions, strict=True)}
+    return dict(best.design.values) | moved

@@ -1,20 +1,15 @@
-"""Results on the disk, such that a process may end at any moment.
-
-    FOLDER/identity.json         what the results belong to (`identity`); written first
-    FOLDER/parts/*.parquet    results as they come: a file for what came together, by its first design's number;
-                              many of them are put into one, which takes the place of the first
-    FOLDER/results.parquet    all of them, in the order of their numbers; written last
-
-Every file is written under another name and then renamed, so it is there as a whole or not at all. The parts go only
-when `results.parquet` is there; whoever finds both reads each design once.
-"""
+"""Results on the disk, such that a process may end at any moment; and what makes two runs of a file the same."""
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
+import re
 import shutil
+import zipfile
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -24,14 +19,140 @@ import numpy.typing as npt
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from mechanism_fmu import __version__
+from mechanism_fmu import __version__, stress as beam_stress
 
-from ..description import Value, Variable
+from ..analysis import stress
 from ..errors import UsageError
-from ..results import UNFINISHED, prepare_folder, write_json
-from .identity import Identity
-from .task import Design, Quantity, Result
+from ..fmu import Fmu
+from ..fmu.description import Value, Variable
+from ..run.results import UNFINISHED, prepare_folder, write_json
+from .task import Design, Quantity, Result, Task, wants_stress
 from .variation import RESERVED, Axis
+
+# What makes two runs of a file the same.
+
+_DESIGNS = "designs"
+#: Where stress and damage of impacts are calculated.
+_STRESS_CODE = (Path(beam_stress.__file__).parent, Path(stress.__file__))
+_DESCRIPTION = "modelDescription.xml"
+_DATE = re.compile(rb'generationDateAndTime="[^"]*"')
+
+
+@dataclass(frozen=True)
+class Identity:
+    """Everything on which results depend, by topic, as JSON.
+
+    Comments, titles and the order of tables in the file are no part of it.
+
+    Attributes:
+        topics: names of the file's tables, with what they mean once they are read.
+    """
+
+    topics: Mapping[str, Any]
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of it all."""
+        return _digest(self.topics)
+
+    def changed(self, other: Mapping[str, Any]) -> list[str]:
+        """The topics that differ; the designs only where nothing else explains it, as with another scipy."""
+        names = dict.fromkeys([*self.topics, *other])
+        found = [name for name in names if self.topics.get(name) != other.get(name)]
+        return [name for name in found if name != _DESIGNS] or found
+
+
+def identity(
+    fmu: Mapping[str, str],
+    task: Task,
+    axes: Sequence[Axis],
+    how: tuple[str, Mapping[str, Any]],
+    designs: Sequence[Design] = (),
+) -> Identity:
+    """The identity of a list of designs.
+
+    Args:
+        fmu: what `contents` says of it.
+        task: of every design.
+        axes: what is varied.
+        how: designs are found: name of the table, and what is in it.
+        designs: the list, if it is known from the beginning. It is part of the identity, because another version of
+            scipy might make another list of the same file.
+    """
+    return Identity(
+        {
+            "fmu": dict(fmu),
+            # The stresses are no FMU's: they change with the code.
+            "mechanism_fmu": {
+                "version": __version__,
+                "stress": code_of(_STRESS_CODE) if wants_stress(task) else None,
+            },
+            "run": {
+                "start": task.grid.start,
+                "stop": task.grid.stop,
+                "step": task.grid.step,
+                "material": asdict(task.material.material) | asdict(task.material.strength),
+                "input": None if task.inputs is None else _signals(task),
+            },
+            "set": dict(sorted(task.fixed.items())),
+            "vary": {
+                axis.name: {
+                    "unit": axis.unit,
+                    "limits": None if axis.values is not None else [axis.low, axis.high],
+                    "values": None if axis.values is None else list(axis.values),
+                }
+                for axis in axes
+            },
+            "record": [quantity.column for quantity in task.quantities],
+            how[0]: dict(how[1]),
+            _DESIGNS: _digest([list(design.values.values()) for design in designs]),
+        }
+    )
+
+
+def contents(fmu: Fmu) -> dict[str, str]:
+    """What tells an FMU from another: its model, its GUID, and SHA-256 of all that is in it but the date of its making.
+
+    Whoever edits an FMU seldom gives it another GUID.
+    """
+    with zipfile.ZipFile(fmu.path) as archive:
+        files = {name: archive.read(name) for name in sorted(archive.namelist())}
+    files[_DESCRIPTION] = _DATE.sub(b"", files[_DESCRIPTION])
+    return {"model": fmu.description.model, "guid": fmu.description.guid, "sha256": _files_digest(files.items())}
+
+
+def code_of(places: Iterable[Path]) -> str:
+    """SHA-256 of Python files, and of those in folders; where the places lie does not matter."""
+    paths = [(place.parent, path) for place in places for path in (sorted(place.rglob("*.py")) or [place])]
+    return _files_digest((path.relative_to(root).as_posix(), path.read_bytes()) for root, path in paths)
+
+
+def _files_digest(files: Iterable[tuple[str, bytes]]) -> str:
+    found = hashlib.sha256()
+    for name, content in files:
+        found.update(name.encode() + hashlib.sha256(content).digest())
+    return found.hexdigest()
+
+
+def _signals(task: Task) -> str:
+    assert task.inputs is not None
+    names = [variable.name for variable in task.inputs.variables]
+    return _digest([names, task.inputs.times.tolist(), task.inputs.values.tolist()])
+
+
+def _digest(data: Any) -> str:
+    return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
+
+
+# Results on the disk, such that a process may end at any moment.
+#
+#     FOLDER/identity.json         what the results belong to (`identity`); written first
+#     FOLDER/parts/*.parquet    results as they come: a file for what came together, by its first design's number;
+#                               many of them are put into one, which takes the place of the first
+#     FOLDER/results.parquet    all of them, in the order of their numbers; written last
+#
+# Every file is written under another name and then renamed, so it is there as a whole or not at all. The parts go only
+# when `results.parquet` is there; whoever finds both reads each design once.
 
 _ARROW = {"Real": pa.float64(), "Integer": pa.int64(), "Boolean": pa.bool_(), "String": pa.string()}
 _OK, _FAILED = "ok", "failed"

@@ -1,16 +1,53 @@
-"""Who runs the designs: this process (`here`), or some of this machine's (`worker_processes`)."""
+"""By which ways designs run, and who runs them: this process, or some of this machine's."""
 
 from __future__ import annotations
 
+import selectors
+import socket
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
+from multiprocessing.process import BaseProcess
 from time import perf_counter
+from typing import Any
 
 from ..fmu import Fmu
-from ..master import never
+from ..fmu.processes import BrokenFrameError, LateFrameError, Wire, serve_only, starting_from
+from ..run.master import never
+from . import by_fmu
 from .task import Design, Result, Task
-from .ways import Way
+
+# By which ways designs can run.
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way of running designs.
+
+    Attributes:
+        name: what the results call it.
+        run: runs some designs and gives a result for each; called in worker processes, so it must be importable there.
+        together: how many designs are given to one call.
+    """
+
+    name: str
+    run: Callable[[Fmu, Task, Sequence[Design]], list[Result]]
+    together: int = 1
+
+
+BY_FMU = Way(by_fmu.NAME, by_fmu.run_designs)
+
+
+def by_batch_in(threads: int | None) -> Way:
+    """The way of many designs in one call, in so many threads; None: as many as there are processors."""
+    from . import by_batch  # the engine's way in, which takes a moment to load
+
+    return Way(by_batch.NAME, partial(by_batch.run_designs, threads=threads), by_batch.TOGETHER)
+
+
+# Who runs the designs: this process (`here`), or some of this machine's.
 
 #: Designs with their results, as they came back together.
 Pairs = list[tuple[Design, Result]]
@@ -61,3 +98,217 @@ def here(work: Work, designs: Iterable[Design], stop_requested: Callable[[], boo
             fitting = int(_PORTION * good / (perf_counter() - began))
             size = max(1, min(fitting, 2 * size, work.way.together))
         yield done
+
+
+# Processes of this machine that run designs.
+#
+# What they send is plain data, and checked (`wire`): an FMU in them can write whatever it likes.
+
+#: A result that has begun to come must be there within [s].
+_PATIENCE = 60.0
+#: So long may a process take for its end [s].
+_ENDING = 10.0
+
+_CRASHED = (
+    "The process that ran it ended without a word, twice: the FMU crashed it, or it was killed, perhaps because the "
+    "memory was full."
+)
+
+_TYPES: dict[str, tuple[type, ...]] = {"Real": (float, int), "Integer": (int,), "Boolean": (bool,), "String": (str,)}
+
+
+class Processes:
+    """Processes of this machine, to be used in a `with`; they are started when the first designs come.
+
+    When a process dies, or sends what is no result, those designs that it had been given run again, each in a process
+    of its own; one that kills this, too, has failed. All others go on.
+    """
+
+    def __init__(self, work: Work, count: int) -> None:
+        self._work, self._count = work, count
+        self._workers: list[_Worker] = []
+
+    def __enter__(self) -> Processes:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._end()
+
+    def run(self, designs: Iterable[Design], stop_requested: Callable[[], bool] = never) -> Iterator[Pairs]:
+        """Run designs; a `Crew`. Each process has one portion more than it works on."""
+        waiting = portions(designs, self._work.way.together)
+        suspects: list[Design] = []
+        whole = False
+        try:
+            while True:
+                if not stop_requested():
+                    self._give(waiting, suspects)
+                if any(worker.given for worker in self._workers):
+                    yield self._came(suspects)
+                elif suspects and not stop_requested():
+                    yield _alone(self._work, suspects.pop(0))
+                else:
+                    whole = True
+                    return
+        finally:
+            if not whole:
+                self._end()
+
+    def _give(self, waiting: Iterator[list[Design]], suspects: list[Design]) -> None:
+        """Give every process as much as it may have; one that is gone is replaced."""
+        for round_ in (1, 2):
+            for place in range(self._count):
+                if len(self._workers) > place and len(self._workers[place].given) >= round_:
+                    continue
+                portion = next(waiting, None)
+                if portion is None:
+                    return
+                if len(self._workers) <= place:
+                    self._workers.append(_Worker(self._work))
+                if not self._workers[place].give(portion):
+                    suspects += self._replace(self._workers[place])
+
+    def _came(self, suspects: list[Design]) -> Pairs:
+        """What has come from processes, at least one of which has something to do; designs of dead ones: `suspects`."""
+        pairs: Pairs = []
+        for worker in _ready([worker for worker in self._workers if worker.given]):
+            done = worker.take()
+            if done is None:
+                suspects += self._replace(worker)
+            else:
+                pairs += done
+        return pairs
+
+    def _replace(self, worker: _Worker) -> list[Design]:
+        """Let a process go; the designs that it was given. Another one takes its place with the next portion."""
+        self._workers.remove(worker)
+        worker.kill()
+        return [design for portion in worker.given for design in portion]
+
+    def _end(self) -> None:
+        for worker in self._workers:
+            worker.ask_to_end()
+        for worker in self._workers:
+            worker.end()
+        self._workers.clear()
+
+
+class _Worker:
+    """A process, with the portions that it has been given, the oldest first."""
+
+    def __init__(self, work: Work) -> None:
+        here, there = socket.socketpair()
+        context = starting_from(__name__)
+        self.process: BaseProcess = context.Process(target=_serve, args=(there, work), daemon=True)  # type: ignore[attr-defined]
+        self.process.start()
+        there.close()
+        self.wire = Wire(here, turns=False)
+        self.given: deque[list[Design]] = deque()
+        self._task, self._way = work.task, work.way.name
+
+    def give(self, portion: list[Design]) -> bool:
+        """Send it designs; False when it is gone."""
+        self.given.append(portion)
+        plain = [[design.number, {name: _plain(value) for name, value in design.values.items()}] for design in portion]
+        try:
+            self.wire.send(plain, limit=_PATIENCE)
+        except (LateFrameError, BrokenFrameError, OSError):
+            return False
+        return True
+
+    def take(self) -> Pairs | None:
+        """The results of its oldest portion; None when it is gone, or has sent something else."""
+        try:
+            data, _ = self.wire.receive(_PATIENCE)
+            results = read_results(data, self.given[0], self._task, self._way)
+        except (LateFrameError, BrokenFrameError, EOFError, OSError):
+            return None
+        return list(zip(self.given.popleft(), results, strict=True))
+
+    def ask_to_end(self) -> None:
+        """Let it end when it has done what it has; one that has something to do is not waited for."""
+        if self.given:
+            self.process.kill()
+            return
+        try:
+            self.wire.send([], limit=_ENDING)
+        except (LateFrameError, OSError):
+            self.process.kill()
+
+    def end(self) -> None:
+        """Wait for its end."""
+        self.process.join(_ENDING)
+        self.kill()
+
+    def kill(self) -> None:
+        """End it."""
+        if self.process.is_alive():
+            self.process.kill()
+            self.process.join()
+        self.wire.close()
+
+
+def _ready(workers: Sequence[_Worker]) -> list[_Worker]:
+    """Those that have sent something, or are gone; waits for one."""
+    if pending := [worker for worker in workers if worker.wire.pending]:
+        return pending
+    with selectors.DefaultSelector() as selector:
+        for worker in workers:
+            selector.register(worker.wire, selectors.EVENT_READ, worker)
+        return [key.data for key, _ in selector.select()]
+
+
+def _alone(work: Work, design: Design) -> Pairs:
+    """Run one design in a process of its own."""
+    worker = _Worker(work)
+    try:
+        done = worker.take() if worker.give([design]) else None
+        worker.ask_to_end()
+    finally:
+        worker.end()
+    return done or [(design, Result.failed(design, work.way.name, work.task, _CRASHED))]
+
+
+def _serve(end: socket.socket, work: Work) -> None:
+    """Run designs until the other side says that there are no more, or is gone."""
+    leader = serve_only(work.fmu.folder)
+    wire = Wire(end, turns=False)
+    try:
+        while asked := wire.receive()[0]:
+            pairs = work.run([Design(number, values) for number, values in asked])
+            wire.send([[r.number, [_plain(value) for value in r.values], r.failure, r.warnings] for _, r in pairs])
+    except (EOFError, ConnectionError):  # nobody is there any more
+        leader.join()
+
+
+def read_results(data: Any, designs: Sequence[Design], task: Task, way: str) -> list[Result]:
+    """The results of designs from plain data.
+
+    Raises:
+        BrokenFrameError: these are none.
+    """
+    if type(data) is not list or len(data) != len(designs):
+        raise BrokenFrameError(f"it has not the results of {len(designs)} designs")
+    return [_result(one, design, task, way) for one, design in zip(data, designs, strict=True)]
+
+
+def _result(data: Any, design: Design, task: Task, way: str) -> Result:
+    if type(data) is not list or len(data) != 4:
+        raise BrokenFrameError("one of its results has not four parts")
+    number, values, failure, warnings = data
+    if type(number) is not int or number != design.number:
+        raise BrokenFrameError("a result in it is of another design")
+    if type(values) is not list or len(values) != len(task.quantities):
+        raise BrokenFrameError("a result in it has not the quantities that are asked for")
+    for value, quantity in zip(values, task.quantities, strict=True):
+        if value is not None and type(value) not in _TYPES[quantity.type]:
+            raise BrokenFrameError(f"a result in it has a value of type {type(value).__name__} for {quantity.column}")
+    for text in (failure, warnings):
+        if text is not None and type(text) is not str:
+            raise BrokenFrameError("a result in it has a reason that is no text")
+    return Result(number, way, tuple(values), failure, warnings)
+
+
+def _plain(value: Any) -> Any:
+    """A number as JSON knows it; of numpy's types it knows only some."""
+    return value.item() if hasattr(value, "item") else value

@@ -1,11 +1,9 @@
-"""FMUs by way of fmpy: extracted, instantiated, and always cleaned up.
+"""One FMU: its description, units and values, and instances of it.
 
-- `extracted`: an FMU's file, and instances of it (`workspace`: the folders)
-- `slave`: what instances have in common; `fmi2` and `fmi3`: what they have not; `event_mode`: that of FMI 3.0
-- `binaries`: the libraries that an FMU has
-- variables: `batches` (one call for each type), `raw_reals` (many numbers, often), `element_reals` (one by one)
+- `description`: modelDescription.xml; `units` and `values`: as people write them
+- `interface`: what a simulation unit is to those around it, so that a test can fake it
+- `instances`: by way of fmpy, for both versions of the standard
+- `remote`: an instance in a process of its own (`processes`: how those start, end and exchange frames)
 """
 
-from .extracted import Fmu, open_fmu
-
-__all__ = ["Fmu", "open_fmu"]
+from .instances.extracted import Fmu as Fmu, open_fmu as open_fmu

@@ -1,13 +1,10 @@
 """Machines: several FMUs that exchange outputs and inputs (docs/machines.md).
 
-- `structure`: who follows whom, known before any component is there (`loops`, `order`)
-- `machine`: parts and their exchange (`component`, `part`, `signals`, `connection`, `extrapolation`, `names`); `run`;
-  `initialization`, `driven` (inputs of a table), `held` (signals that are not continuous), `events` (FMI 3.0)
-- `algorithms`: how it takes a step, a file each; `algorithm` chooses, `cautions` says what one cannot do
-- what looks on: `record` (`growing_table`, `recorded`), `impacts` (`watched`, `impact_times`), `bonds` (`port`),
-  `statistics`
-- `remote`: a component in a process of its own
-- `file`: a machine in TOML; `ssp` and `container`: for other tools
+- `connection` and `structure`: who follows whom, known before any component is there
+- `machine`: parts and their exchange (`part`, `exchange`: values that are no continuous signals, `event_iteration`)
+- `stepping`: the algorithms by which it takes a step; `running`: from start to stop
+- `observers`: energies of couplings, impacts, recorded signals, statistics
+- `file`: a machine in TOML; `formats`: SSP and containers, for other tools
 """
 
-__all__ = ["algorithms", "component", "connection", "extrapolation", "machine", "remote", "run"]
+__all__ = ["connection", "machine", "part", "running", "stepping"]

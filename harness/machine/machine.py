@@ -4,21 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from ..clock import SECOND
-from ..description import Value
 from ..errors import UsageError
-from ..inputs import InputSignals
-from .component import Component
-from .connection import Connection, Link
-from .driven import Driven
-from .events import Events
-from .extrapolation import Extrapolation
-from .held import Held
-from .initialization import initialize
-from .loops import in_order
-from .names import own_of, part_of
-from .part import Part
-from .structure import structure_of
+from ..fmu.description import Value
+from ..fmu.interface import Component
+from ..run.inputs import InputSignals
+from ..run.master import SECOND
+from .connection import Connection, Link, own_of, part_of
+from .event_iteration import Events
+from .exchange import Driven, Held, initialize
+from .part import Extrapolation, Part
+from .structure import in_order, structure_of
 
 _NOTHING: Mapping[str, Sequence[float]] = {}
 

@@ -1,18 +1,99 @@
-"""How the parts of a machine hang together, as far as their descriptions tell."""
+"""How the parts of a machine hang together, as far as their descriptions say: order, and loops without delay."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ..description import Description, Variable
 from ..errors import UsageError
-from ..terminals import Terminal
-from .connection import Connection, Link, linked
-from .loops import loops
-from .names import part_of
-from .order import dependency_order
-from .part_units import units_of_parts
+from ..fmu.description import Description, Terminal, Variable
+from .connection import Connection, Link, linked, own_of, part_of, units_of_parts
+
+# In which order parts depend on each other.
+
+
+def dependency_order(nodes: Sequence[str], edges: Iterable[tuple[str, str]]) -> tuple[list[str], list[list[str]]]:
+    """Nodes such that each comes behind those that it follows, but in cycles, and the cycles.
+
+    By strongly connected components (R. Tarjan, SIAM J. Comput. 1 (1972)); within a cycle, and among nodes that do not
+    depend on each other, the given order stays.
+
+    Args:
+        nodes: all of them.
+        edges: pairs (from, to): `to` follows `from`.
+    """
+    pairs = set(edges)
+    follows = {node: [other for other in nodes if (other, node) in pairs] for node in nodes}
+    groups = _Groups(follows).found
+    order = [node for group in groups for node in sorted(group, key=list(nodes).index)]
+    cycles = [sorted(g, key=list(nodes).index) for g in groups if len(g) > 1 or (g[0], g[0]) in pairs]
+    return order, cycles
+
+
+class _Groups:
+    """Strongly connected components; each comes behind those that it follows."""
+
+    def __init__(self, follows: Mapping[str, Sequence[str]]) -> None:
+        self.found: list[list[str]] = []
+        self._follows = follows
+        self._number: dict[str, int] = {}
+        self._lowest: dict[str, int] = {}
+        self._stack: list[str] = []
+        for node in follows:
+            if node not in self._number:
+                self._visit(node)
+
+    def _visit(self, node: str) -> None:
+        self._number[node] = self._lowest[node] = len(self._number)
+        self._stack.append(node)
+        for other in self._follows[node]:
+            if other not in self._number:
+                self._visit(other)
+                self._lowest[node] = min(self._lowest[node], self._lowest[other])
+            elif other in self._stack:
+                self._lowest[node] = min(self._lowest[node], self._number[other])
+        if self._lowest[node] == self._number[node]:
+            place = self._stack.index(node)
+            self.found.append(self._stack[place:])
+            del self._stack[place:]
+
+
+# Which connected inputs follow each other at once: their order, and loops without any delay.
+
+
+def loops(links: Sequence[Link], machine: Description) -> list[list[str]]:
+    """The connected inputs of each loop, named as in the machine.
+
+    Args:
+        links: the machine's connections.
+        machine: description of its parts' variables; an output that tells no dependencies may follow any input.
+    """
+    return _dependencies(links, machine)[1]
+
+
+def in_order(links: Sequence[Link], machine: Description) -> list[Link]:
+    """Links such that each comes behind those that its source follows at once; loops without delay stay as they are.
+
+    Args:
+        links: the machine's connections.
+        machine: as for `loops`.
+    """
+    by_target = {link.target: link for link in links}
+    return [by_target[target] for target in _dependencies(links, machine)[0]]
+
+
+def _dependencies(links: Sequence[Link], machine: Description) -> tuple[list[str], list[list[str]]]:
+    targets = [link.target for link in links]
+    edges = [(before, link.target) for link in links for before in targets if _follows(link.source, before, machine)]
+    return dependency_order(targets, edges)
+
+
+def _follows(output: str, target: str, machine: Description) -> bool:
+    known = machine.variables[output].depends_on
+    return part_of(output) == part_of(target) and (known is None or own_of(target) in known)
+
+
+# How the parts of a machine hang together, as far as their descriptions tell.
 
 
 @dataclass(frozen=True)
@@ -24,7 +105,7 @@ class Structure:
         links: its connections.
         order: names of its parts, each behind those that it follows.
         cycles: groups of parts that follow each other.
-        loops: groups of connected inputs that follow each other without any delay (`loops.loops`).
+        loops: groups of connected inputs that follow each other without any delay (`loops`).
     """
 
     description: Description

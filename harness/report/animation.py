@@ -1,18 +1,284 @@
-"""The mechanism in motion: an animation that plays in the report, from the recorded outputs alone."""
+"""The mechanism in motion: its shapes for every frame, and a player that plays them in the report."""
 
 from __future__ import annotations
 
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..experiment import Run
-from .modes import contacts
-from .page import section
-from .player import MOST_IMPACTS, flags, legend, picture_data, player, rounded, times_data
-from .scene import Scene, names_of
-from .style import IMPACT_COLOUR
-from .thin import frame_rows, strongest
+from ..run.drawing import Place, Quantity, Shape
+from ..run.experiment import Run
+from .motion import Contact, contacts
+from .page import COLOURS, IMPACT_COLOUR, section
+from .plot import FloatArray, frame_rows, strongest
+
+# A mechanism in motion: the shapes of a drawing, with numbers for every frame.
+
+#: A bar that turns further than this between two frames [rad] may point anywhere in between.
+_SURE_TURN = 0.2
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Numbers for the shapes of a drawing.
+
+    Attributes:
+        shapes: in the order in which they are drawn.
+        columns: shape (frames,) each: the variables that move, by name.
+        constants: the other variables, by name.
+    """
+
+    shapes: Sequence[Shape]
+    columns: Mapping[str, FloatArray]
+    constants: Mapping[str, float]
+
+    def value(self, quantity: Quantity) -> FloatArray | float:
+        """A quantity: shape (frames,) when it moves, else a number."""
+        if not isinstance(quantity, str):
+            return quantity
+        name = quantity.removeprefix("-")
+        value = self.columns[name] if name in self.columns else self.constants[name]
+        return -value if quantity.startswith("-") else value
+
+    def at_start(self, quantity: Quantity) -> float:
+        """A quantity that makes the form of a part, which does not move: its value in the first frame."""
+        return float(np.ravel(self.value(quantity))[0])
+
+
+@dataclass(frozen=True)
+class _Spot:
+    """Where a point is: within `slack` of (x, y), which are numbers or of shape (frames,) [m]."""
+
+    x: FloatArray | float
+    y: FloatArray | float
+    slack: float = 0.0
+
+
+def names_of(shapes: Sequence[Shape]) -> set[str]:
+    """Names of the variables that a drawing needs."""
+    quantities: list[Quantity] = []
+    for shape in shapes:
+        quantities += shape.quantities.values()
+        quantities += [quantity for point in shape.outline for quantity in point]
+        quantities += [] if isinstance(shape.at, str) else shape.at
+    return {quantity.removeprefix("-") for quantity in quantities if isinstance(quantity, str)}
+
+
+def bounds(scene: Scene) -> tuple[float, float, float, float]:
+    """The smallest box that holds the mechanism in all frames and on the way between them.
+
+    Returns:
+        Left, bottom, right, top [m].
+    """
+    ends: dict[str, _Spot] = {}
+    boxes = []
+    for shape in scene.shapes:
+        spot = _spot(shape.at, scene, ends)
+        boxes.append(_box(spot, _radius(shape, scene)))
+        if shape.kind == "bar":
+            ends[shape.name] = _far_end(shape, spot, scene)
+            boxes.append(_box(ends[shape.name], 0.0))
+    left, bottom, right, top = np.array(boxes).T
+    return float(left.min()), float(bottom.min()), float(right.max()), float(top.max())
+
+
+def _spot(at: Place, scene: Scene, ends: Mapping[str, _Spot]) -> _Spot:
+    return ends[at] if isinstance(at, str) else _Spot(scene.value(at[0]), scene.value(at[1]))
+
+
+def _far_end(bar: Shape, start: _Spot, scene: Scene) -> _Spot:
+    angle, length = scene.value(bar.quantities["angle"]), scene.value(bar.quantities["length"])
+    turns = np.abs(np.diff(np.ravel(angle)))
+    if turns.size and turns.max() > _SURE_TURN:
+        return _Spot(start.x, start.y, start.slack + float(np.max(np.abs(length))))
+    return _Spot(start.x + length * np.cos(angle), start.y + length * np.sin(angle), start.slack)
+
+
+def _radius(shape: Shape, scene: Scene) -> float:
+    """How far a shape reaches around its place, whichever way it is turned [m]."""
+    if shape.kind == "disc":
+        return float(np.max(np.abs(scene.value(shape.quantities["radius"]))))
+    return max((abs(scene.at_start(radius)) for radius, _ in shape.outline), default=0.0)
+
+
+def _box(spot: _Spot, radius: float) -> tuple[float, float, float, float]:
+    around = spot.slack + radius
+    return (
+        float(np.min(spot.x)) - around,
+        float(np.min(spot.y)) - around,
+        float(np.max(spot.x)) + around,
+        float(np.max(spot.y)) + around,
+    )
+
+
+# The player of mechanisms in motion: what `animation.js` brings to life, whatever the pictures are of.
+
+#: More impacts than this are not shown one by one.
+MOST_IMPACTS = 400
+
+#: Parts of a picture's size that nobody sees, and the same as an angle [rad].
+_FINENESS, _ANGLE_DECIMALS = 1e-4, 4
+
+#: Nothing smaller is drawn [m].
+_LEAST_SIZE = 1e-12
+#: More teeth than this are no picture.
+_MOST_TEETH = 10_000
+
+#: A run plays within these times [s] unless told otherwise; the speeds to choose from reach at least from 0.1 to 10.
+_SHORTEST, _LONGEST = 2.0, 20.0
+
+_WHEEL = "#c9d2dc"
+
+
+def picture_data(scene: Scene, angles: set[str]) -> dict[str, Any] | None:
+    """What the player needs of one mechanism, as JSON; None when there is nothing to draw.
+
+    Keys: `columns` of the frames; `shapes`, whose numbers are plain or [column, sign]; `view`, the box [m] that holds
+    everything at all times.
+
+    Args:
+        scene: it.
+        angles: which of its columns are in rad.
+    """
+    moves = all(np.isfinite(column).all() for column in scene.columns.values())
+    if not moves or not all(map(math.isfinite, scene.constants.values())):
+        return None
+    with np.errstate(over="ignore", invalid="ignore"):
+        left, bottom, right, top = box = bounds(scene)
+    size = max(right - left, top - bottom)
+    if not all(map(math.isfinite, (*box, size))) or size < _LEAST_SIZE:
+        return None
+    return {
+        "columns": [
+            rounded(column, _ANGLE_DECIMALS if name in angles else decimals(size * _FINENESS))
+            for name, column in scene.columns.items()
+        ],
+        "shapes": _shapes(scene),
+        "view": list(box),
+    }
+
+
+def times_data(time: FloatArray) -> dict[str, Any]:
+    """The player's clock: `time` [s] of the frames, `speeds` and the default `speed`, `decimals` of the time shown."""
+    span = float(time[-1] - time[0])
+    speeds, speed = playing_speeds(span)
+    return {
+        "time": rounded(time, decimals(float(np.diff(time).min(initial=span or 1.0)) / 100)),
+        "speeds": speeds,
+        "speed": speed,
+        "decimals": decimals(span / 1000 or 1.0),
+    }
+
+
+def flags(signal: Iterable[Any]) -> str:
+    """Whether something is on, for each frame."""
+    return "".join("01"[bool(flag)] for flag in signal)
+
+
+def playing_speeds(span: float) -> tuple[list[float], float]:
+    """Speeds to choose from, in the series 1, 2, 5 and at least from 0.1 to 10, and the default.
+
+    The default is 1 when a run of length `span` [s] then takes between 2 and 20 s, else the nearest to it that does.
+    """
+    slow, fast = -1, 1
+    if span > 0:
+        slow = min(slow, math.floor(math.log10(span / _LONGEST)))
+        fast = max(fast, math.ceil(math.log10(span / _LONGEST)))
+    speeds = [float(f"{digit}e{power}") for power in range(slow, fast) for digit in (1, 2, 5)] + [10.0**fast]
+    fitting = [speed for speed in speeds if span / _LONGEST <= speed <= span / _SHORTEST]
+    return speeds, min(fitting, key=lambda speed: abs(math.log(speed)), default=1.0)
+
+
+def decimals(step: float) -> int:
+    """Decimals that tell multiples of `step` > 0 apart."""
+    return max(0, math.ceil(-math.log10(step)))
+
+
+def rounded(values: FloatArray, places: int) -> list[float]:
+    """Short texts in JSON."""
+    return [round(value, places) for value in values.tolist()]
+
+
+def player(data: Mapping[str, Any], pictures: str) -> str:
+    """The element that the script brings to life.
+
+    Args:
+        data: of `times_data`, `impacts` (times [s]), `contacts` with a flag for each frame, `flash` (a colour), and of
+            `picture_data`: of one picture here, or of several under `panels`.
+        pictures: an <svg> for each, in their order, with legends.
+    """
+    script = Path(__file__).with_name("animation.js").read_text(encoding="utf-8")
+    # "<" could close the script element
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    parts = [pictures, _controls(data), f'<script type="application/json">{text}</script>']
+    return f'<div class="animation">{"".join(parts)}</div><script>{script}</script>'
+
+
+def legend(shapes: Sequence[Mapping[str, Any]], contacts: Sequence[Contact]) -> str:
+    """The names of a picture's parts, and lamps for its contacts."""
+    parts = "".join(
+        f'<li><i style="background:{shape["colour"]}"></i>{escape(shape["name"])}</li>'
+        for shape in shapes
+        if shape["name"]
+    )
+    lamps = "".join(
+        f'<li class="lamp" style="--lamp:{contact.colour}">{escape(contact.name)}</li>' for contact in contacts
+    )
+    in_contact = f'<ul class="lamps"><li>active contacts:</li>{lamps}</ul>' if lamps else ""
+    return f'<div class="legend"><ul>{parts}</ul>{in_contact}</div>'
+
+
+def _shapes(scene: Scene) -> list[dict[str, Any]]:
+    """The shapes for the player: its own copy of `Shape`, with numbers, colours and a wheel's whole rim."""
+    moving = list(scene.columns)
+    colours = iter(COLOURS * len(scene.shapes))
+    struck_with = {shape.at for shape in scene.shapes if shape.kind == "striker" and isinstance(shape.at, str)}
+
+    def number(quantity: Quantity) -> float | list[int]:
+        if isinstance(quantity, str) and (name := quantity.removeprefix("-")) in moving:
+            return [moving.index(name), -1 if quantity.startswith("-") else 1]
+        return scene.at_start(quantity)
+
+    def shown(shape: Shape) -> dict[str, Any]:
+        at = shape.at if isinstance(shape.at, str) else list(map(number, shape.at))
+        numbers = {name: number(quantity) for name, quantity in shape.quantities.items() if name != "count"}
+        record: dict[str, Any] = {"kind": shape.kind, "name": shape.name, "at": at, **numbers}
+        if shape.kind == "bar":
+            record["pointed"] = shape.name in struck_with
+        if shape.kind == "wheel":
+            count = round(min(max(scene.at_start(shape.quantities["count"]), 1), _MOST_TEETH))
+            record["count"] = count
+            record["pitch"] = (-1 if shape.clockwise else 1) * 2 * math.pi / count
+            record["outline"] = [[scene.at_start(radius), scene.at_start(angle)] for radius, angle in shape.outline]
+        if shape.name:
+            record["colour"] = next(colours) if shape.kind == "bar" else _WHEEL
+        return record
+
+    return [shown(shape) for shape in scene.shapes]
+
+
+def _controls(data: Mapping[str, Any]) -> str:
+    speeds = "".join(
+        f'<option value="{speed!r}"{" selected" if speed == data["speed"] else ""}>{speed:g}×</option>'
+        for speed in data["speeds"]
+    )
+    next_impact = '<button type="button" class="next">Next impact</button>' if data["impacts"] else ""
+    return (
+        '<div class="timeline"><div class="marks" aria-hidden="true"></div>'
+        '<input type="range" min="0" max="1000" step="1" value="0" aria-label="Time"></div>'
+        f'<div class="controls"><button type="button" class="play">Play</button>{next_impact}'
+        f"<label>Speed <select>{speeds}</select></label>"
+        '<output class="time"></output><span class="struck"></span></div>'
+    )
+
+
+# The mechanism in motion: an animation that plays in the report, from the recorded outputs alone.
 
 #: Of the section.
 HEADING = "Mechanism"
@@ -41,7 +307,7 @@ def animation(run: Run, heading: str = HEADING, about: str = "") -> str:
 
 
 def animation_data(run: Run) -> dict[str, Any] | None:
-    """What the player needs (`player.player`), as JSON; None when there is nothing to draw."""
+    """What the player needs (`player`), as JSON; None when there is nothing to draw."""
     names = sorted(names_of(run.drawing.shapes))
     moving = [name for name in names if name in run.results]
     table = run.results[["time", *moving]].to_numpy(dtype=np.float64)

@@ -9,23 +9,17 @@ import numpy as np
 import plotly.graph_objects as go
 import pyarrow as pa
 
-from ..description import Description, Value
-from ..designs.history import History
-from ..designs.in_motion import InMotion
+from ..designs.by_fmu import InMotion
 from ..designs.optimum_file import Optimum
-from ..designs.search import Best
-from ..designs.sensitivity import Sensitivity
+from ..designs.search import Best, History, Sensitivity
 from ..designs.variation import Axis
 from ..fmu import Fmu
-from ..numbers import in_display_unit
-from ..results import write_text
-from ..versions import versions
-from .in_motion import animation_of_design
-from .inputs import inputs_section
-from .page import cards, chart, facts, page, section, table, versions_section
-from .parameters import parameters_of_designs
-from .style import COLOURS, layout
-from .sweep_report import Column, designs_table, limits, results_charts, run_rows, warnings_section
+from ..fmu.description import Description, Value
+from ..fmu.values import in_display_unit
+from ..run.results import versions, write_text
+from .page import COLOURS, cards, chart, facts, layout, page, section, table, versions_section
+from .parameters import inputs_section, parameters_of_designs
+from .sweep_report import Column, animation_of_design, designs_table, limits, results_charts, run_rows, warnings_section
 
 
 @dataclass(frozen=True)

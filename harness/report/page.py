@@ -1,4 +1,4 @@
-"""The HTML around the charts."""
+"""The look of the reports, and the HTML around the charts."""
 
 from __future__ import annotations
 
@@ -6,10 +6,152 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
-from ..checks import Check
-from .style import CSS
+from ..run.checks import Check
+
+# The look of the reports.
+
+#: Colours that stay apart for colour-blind eyes (Okabe and Ito, "Color Universal Design", 2008).
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#444444")
+
+#: Marks impacts in every chart.
+IMPACT_COLOUR = "#B3261E"
+
+FONT = "Inter, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
+
+CSS = f"""
+:root {{ color-scheme: light; --ink: #1c2733; --soft: #5b6875; --line: #dfe5ea; --ground: #f5f7f9; }}
+* {{ box-sizing: border-box; }}
+body {{ margin: 0; font: 15px/1.5 {FONT}; color: var(--ink); background: var(--ground); }}
+main {{ max-width: 1180px; margin: 0 auto; padding: 28px 24px 60px; }}
+header h1 {{ margin: 0; font-size: 28px; letter-spacing: -0.01em; }}
+header p {{ margin: 4px 0 0; color: var(--soft); overflow-wrap: anywhere; }}
+section {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 18px 20px;
+  margin-top: 18px; }}
+h2 {{ margin: 0 0 4px; font-size: 18px; }}
+section > p {{ margin: 0 0 10px; color: var(--soft); overflow-wrap: anywhere; }}
+.cards {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 14px; margin-top: 18px; }}
+.card {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 12px 16px; }}
+.card b {{ display: block; font-size: 22px; font-weight: 650; letter-spacing: -0.01em;
+  overflow-wrap: anywhere; }}
+.card span {{ color: var(--soft); font-size: 13px; overflow-wrap: anywhere; }}
+ul.points {{ margin: 0; padding-left: 20px; }}
+ul.points li {{ overflow-wrap: anywhere; padding: 2px 0; }}
+ul.checks {{ list-style: none; margin: 0; padding: 0; }}
+ul.checks li {{ padding: 5px 0 5px 30px; position: relative; }}
+ul.checks li::before {{ position: absolute; left: 0; width: 20px; height: 20px; border-radius: 50%; color: #fff;
+  font-size: 13px; line-height: 20px; text-align: center; top: 7px; }}
+ul.checks li.good::before {{ content: "✓"; background: #1b7f4b; }}
+ul.checks li.bad::before {{ content: "✕"; background: {IMPACT_COLOUR}; }}
+ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
+.scroll {{ overflow-x: auto; }}
+/* a shadow at the lower edge says that there is more; at the end, what moves with the rows covers it */
+.tall {{ max-height: min(70vh, 620px); overflow-y: auto; background:
+  linear-gradient(#fff0, #fff 60%) bottom / 100% 40px no-repeat local,
+  linear-gradient(#1c273300, #1c273338) bottom / 100% 16px no-repeat scroll; }}
+.tall th {{ position: sticky; top: 0; background: #fff; }}
+.charts {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 10px 24px; }}
+.wide {{ min-width: 640px; }}
+.charts > *, .chart, .plot {{ min-width: 0; }}
+table {{ border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }}
+th, td {{ padding: 6px 12px 6px 0; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }}
+td {{ white-space: nowrap; }}
+td.long {{ white-space: normal; min-width: min(24em, 72vw); }}
+th {{ color: var(--soft); font-weight: 600; border-bottom-width: 2px; }}
+td.number, th.number {{ text-align: right; padding-right: 14px; }}
+th.number {{ vertical-align: bottom; }}
+tr.changed td {{ background: #fff8e6; }}
+code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
+.banner {{ background: #fdecea; border-color: {IMPACT_COLOUR}; }}
+.animation svg {{ display: block; width: 100%; max-height: 560px; background: #fbfcfd; border-radius: 8px; }}
+.animation .panels {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 190px), 1fr));
+  gap: 14px; }}
+.animation figure {{ margin: 0; min-width: 0; }}
+.animation .panels svg, .animation .blank {{ height: 230px; }}
+.animation .panels svg.hit {{ box-shadow: inset 0 0 0 2px {IMPACT_COLOUR}; }}
+.animation .blank {{ background: #fbfcfd; border-radius: 8px; padding: 14px; color: var(--soft); font-size: 13px; }}
+.animation figcaption {{ font-weight: 600; margin-top: 6px; }}
+.animation .panels .legend {{ margin: 4px 0 6px; font-size: 12px; }}
+.animation ul {{ list-style: none; display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 0; padding: 0; }}
+.animation .legend {{ display: flex; flex-wrap: wrap; justify-content: space-between; gap: 6px 28px;
+  margin: 10px 0; font-size: 13px; color: var(--soft); }}
+.animation .legend i {{ display: inline-block; width: 12px; height: 12px; border-radius: 3px; margin-right: 6px;
+  vertical-align: -1px; }}
+.animation .lamp {{ padding: 0 9px; border: 1px solid var(--line); border-radius: 9px; color: #8793a0; }}
+.animation .lamp.lit {{ background: var(--lamp); border-color: var(--lamp); color: #fff; font-weight: 600; }}
+.animation .timeline {{ position: relative; }}
+.animation input[type=range] {{ width: 100%; margin: 14px 0 8px; }}
+.animation .marks {{ position: absolute; left: 8px; right: 8px; top: 0; height: 14px; pointer-events: none; }}
+.animation .marks i {{ position: absolute; width: 2px; height: 9px; margin-left: -1px; top: 4px; opacity: 0.75; }}
+.animation .marks i.now {{ width: 8px; height: 14px; margin-left: -4px; top: 0; border-radius: 3px; opacity: 1; }}
+.animation .controls {{ display: flex; flex-wrap: wrap; align-items: center; gap: 8px 14px; }}
+.animation button, .animation select {{ font: inherit; padding: 4px 12px; border: 1px solid #b6c0ca;
+  border-radius: 6px; background: #fff; color: inherit; cursor: pointer; }}
+.animation .play {{ min-width: 76px; }}
+.animation .time {{ font-weight: 650; font-variant-numeric: tabular-nums; min-width: 8em; }}
+.animation .struck {{ color: {IMPACT_COLOUR}; font-variant-numeric: tabular-nums; }}
+@media (max-width: 640px) {{
+  main {{ padding: 16px 10px 40px; }}
+  section {{ padding: 14px 12px; }}
+  .parameters table, .parameters tbody {{ display: block; }}
+  .parameters thead {{ display: none; }}
+  .parameters tr {{ display: grid; grid-template: "name value unit" "meaning meaning origin" / auto 1fr auto;
+    gap: 0 6px; padding: 6px 0; border-bottom: 1px solid var(--line); }}
+  .parameters tr.changed {{ background: #fff8e6; }}
+  .parameters td, .facts td {{ white-space: normal; overflow-wrap: anywhere; }}
+  .parameters td, .parameters td.number {{ border: 0; padding: 0; }}
+  .parameters td.long, .facts td.long {{ min-width: 0; }}
+  .facts td:first-child {{ width: 40%; }}
+  .parameters td:nth-child(3) {{ grid-area: unit; }}
+  .parameters td:nth-child(4) {{ grid-area: origin; text-align: right; }}
+  .parameters td:nth-child(5) {{ grid-area: meaning; }}
+  .parameters td:nth-child(n + 4) {{ font-size: 13px; color: var(--soft); }}
+  .animation .panels {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
+  .animation .panels svg, .animation .blank {{ height: 170px; }}
+  .cards {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
+  .card b {{ font-size: 18px; }}
+  ul.checks small {{ display: block; margin-left: 0; }}
+  .scroll .statechart {{ max-width: none !important; }}
+}}
+@media print {{ body {{ background: #fff; }} section, .card {{ break-inside: avoid; }}
+  .tall {{ max-height: none; }} }}
+"""
+
+
+#: Margins of a figure whose charts have titles: the tool buttons stand above them.
+WIDE_TOP = {"l": 70, "r": 20, "t": 64, "b": 50}
+
+_AXIS = {
+    "automargin": True,
+    "gridcolor": "#ebf0f8",
+    "linecolor": "#ebf0f8",
+    "zerolinecolor": "#dfe5ea",
+    "zerolinewidth": 2,
+    "title": {"standoff": 12, "font": {"size": 13}},
+}
+
+#: What plotly takes where a figure says nothing else.
+_TEMPLATE = {
+    "layout": {
+        "colorway": COLOURS,
+        "font": {"family": FONT, "size": 13, "color": "#1c2733"},
+        "hoverlabel": {"font": {"family": FONT}},
+        "paper_bgcolor": "#ffffff",
+        "plot_bgcolor": "#ffffff",
+        "xaxis": _AXIS,
+        "yaxis": _AXIS,
+    }
+}
+
+
+def layout(**more: Any) -> dict[str, Any]:
+    """Common layout of all figures."""
+    return {"template": _TEMPLATE, "margin": {"l": 62, "r": 16, "t": 40, "b": 46}} | more
+
+
+# The HTML around the charts.
 
 #: Texts in a cell that are longer than this may fold into lines.
 _LONG = 28
@@ -18,7 +160,7 @@ _LONG = 28
 def page(title: str, subtitle: str, body: Iterable[str]) -> str:
     """A whole HTML page that needs no network: the chart library is inside."""
     plotly = files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
-    charts = files("harness.report").joinpath("charts.js").read_text(encoding="utf-8")
+    charts = Path(__file__).with_name("charts.js").read_text(encoding="utf-8")
     return "\n".join(
         [
             "<!doctype html>",
@@ -97,7 +239,7 @@ def facts(heading: str, rows: Iterable[Sequence[str]]) -> str:
 
 
 def versions_section(versions: Mapping[str, str]) -> str:
-    """What made the result, as of `versions.versions`."""
+    """What made the result, as of `results.versions`."""
     return section("Versions", facts("version", versions.items()))
 
 
@@ -105,7 +247,7 @@ def chart(figure: Any, narrow: Mapping[str, Any] | None = None) -> str:
     """A figure of plotly, or a plain {data, layout}; the page brings what draws it.
 
     Args:
-        figure: as of `interactive.interactive`, or a `plotly.graph_objects.Figure`.
+        figure: as of `plot.interactive`, or a `plotly.graph_objects.Figure`.
         narrow: what is different in its layout on a phone's screen.
     """
     plain = figure if isinstance(figure, dict) else json.loads(figure.to_json())

@@ -1,4 +1,4 @@
-"""The table of parameters and inputs: their values, and where these come from."""
+"""The settings of a run: parameters and inputs, where their values come from, and the signals that drove inputs."""
 
 from __future__ import annotations
 
@@ -6,12 +6,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ..assignments import parse_value
-from ..description import Description, Value, Variable
 from ..designs.task import Task
 from ..errors import UsageError
-from ..numbers import in_display_unit
-from .page import section, table
+from ..fmu.description import Description, Value, Variable
+from ..fmu.values import in_display_unit, parse_value
+from ..run.inputs import InputSignals
+from .page import COLOURS, chart, charts, section, table
+from .plot import Curve, Plot, interactive
+
+# The table of parameters and inputs: their values, and where these come from.
 
 
 class Origin(StrEnum):
@@ -102,3 +105,37 @@ def _meaning(row: Row) -> str:
     if row.variable.causality != "input":
         return row.variable.description
     return f"{'Input' if row.origin == Origin.TABLE else 'Input, start value'}: {row.variable.description}"
+
+
+# The signals that drove inputs: where they come from, and how they look.
+
+
+def inputs_section(signals: InputSignals | None, description: Description) -> str:
+    """A section with a chart for each input; "" without signals."""
+    if signals is None:
+        return ""
+    drawn = [chart(interactive(plot, height=280)) for plot in input_plots(signals, description)]
+    return section("Inputs", charts(*drawn), note=table_told(signals))
+
+
+def table_told(signals: InputSignals) -> str:
+    """Which table it was: its name, how long it is, and its digest, in a sentence or two."""
+    times = signals.times
+    named = f"From the table {signals.file}" if signals.file else "From a table"
+    digest = f" SHA-256 of the file: {signals.digest}" if signals.digest else ""
+    return f"{named}: {len(times)} rows, from {times[0]:g} s to {times[-1]:g} s.{digest}"
+
+
+def input_plots(signals: InputSignals, description: Description) -> list[Plot]:
+    """A plot for each input, in its display unit; what is not Real keeps its value until the next row."""
+    plots = []
+    for place, variable in enumerate(signals.variables):
+        x, y = signals.times, signals.values[:, place]
+        known = description.units.displayed.get(variable.unit, {})
+        unit = variable.display_unit if variable.display_unit in known else variable.unit
+        factor, offset = known.get(unit, (1.0, 0.0))
+        if variable.type != "Real":
+            x, y = x.repeat(2)[1:], y.repeat(2)[:-1]
+        curve = Curve(variable.name, x, factor * y + offset, COLOURS[place % len(COLOURS)])
+        plots.append(Plot(variable.name, "time [s]", f"{variable.name} [{unit or '1'}]", [curve], legend=False))
+    return plots

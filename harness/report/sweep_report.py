@@ -1,4 +1,4 @@
-"""report.html of a sweep: what was varied, what came of it."""
+"""report.html of a sweep: what was varied, what came of it, and one design in motion."""
 
 from __future__ import annotations
 
@@ -14,23 +14,38 @@ import plotly.graph_objects as go
 import pyarrow as pa
 from plotly.subplots import make_subplots
 
-from ..clock import seconds
-from ..description import Description
-from ..designs.in_motion import InMotion
-from ..designs.ranges import range_cells
+from mechanism_fmu.stress import beam_theory_note
+
+from ..designs.by_fmu import InMotion
 from ..designs.store import failures, numbers_of
-from ..designs.sweep_file import Sweep
+from ..designs.sweep import Sweep, range_cells
 from ..designs.task import Quantity, Task
 from ..designs.variation import Axis
 from ..fmu import Fmu
-from ..numbers import in_display_unit
-from ..results import write_text
-from ..versions import versions
-from .in_motion import animation_of_design
-from .inputs import inputs_section
-from .page import cards, chart, facts, page, section, table, versions_section, wide
-from .parameters import Origin, parameters_of_designs
-from .style import COLOURS, WIDE_TOP, layout
+from ..fmu.description import Description
+from ..fmu.values import in_display_unit
+from ..run.master import seconds
+from ..run.results import versions, write_text
+from .animation import HEADING, animation
+from .page import COLOURS, WIDE_TOP, cards, chart, facts, layout, page, section, table, versions_section, wide
+from .parameters import Origin, inputs_section, parameters_of_designs
+
+# The section of a sweep's or an optimum's report that shows one design in motion.
+
+
+def animation_of_design(seen: InMotion | None) -> str:
+    """The section, with the reason when nothing can be seen; "" when the FMU has no drawing."""
+    if seen is None:
+        return ""
+    told = seen.told
+    if seen.run is not None and seen.run.beam is not None:
+        struck = seen.run.description.analysis.struck
+        told += f" Its {struck.name if struck else 'beam'}: {beam_theory_note(seen.run.beam)}"
+    drawn = "" if seen.run is None else animation(seen.run, about=told)
+    return drawn or section(HEADING, note=told)
+
+
+# report.html of a sweep: what was varied, what came of it.
 
 #: More rows make a page slow; the file has all.
 _MOST_ROWS = 500

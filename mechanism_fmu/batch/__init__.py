@@ -3,9 +3,7 @@
 The one way in which the harness may reach the engine (docs/batch.md, docs/decisions/018-batch.md).
 """
 
-from ..model import MechanismError
-from .batch import Batch
-from .origin import NoBatchError
-from .result import BatchResult
-
-__all__ = ["Batch", "BatchResult", "MechanismError", "NoBatchError"]
+from ..model import MechanismError as MechanismError
+from .batch import Batch as Batch
+from .numbers import BatchResult as BatchResult
+from .origin import NoBatchError as NoBatchError

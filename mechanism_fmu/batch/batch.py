@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from ctypes import CDLL
+from ctypes import CDLL, c_void_p
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -13,19 +13,38 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..fmu.native.libraries import library_here
-from ..fmu.native.objects import Report, silently
-from ..fmu.news import pulls
+from ..engine.run import load
+from ..fmu.instance.news import pulls
+from ..fmu.native.objects import Report, library_here, silently
 from ..model import MechanismError, Model
-from .asked import columns_of, outputs_of, points_of, signals_of
 from .job import Job
-from .library import load_many
-from .numbers import Array, Numbers
+from .numbers import Array, BatchResult, Numbers
 from .origin import NoBatchError, model_of_fmu
-from .prepared import Prepared, prepared
-from .refusals import Refusals, impossible, out_of_limits, said_of
-from .result import BatchResult
+from .prepared import (
+    Prepared,
+    Refusals,
+    columns_of,
+    impossible,
+    out_of_limits,
+    outputs_of,
+    points_of,
+    prepared,
+    said_of,
+    signals_of,
+)
 from .workers import Progress, nobody, run_job
+
+# The engine's shared library with the call that runs many designs.
+
+
+def load_many(path: Path | None) -> CDLL | None:
+    """The engine's library in a file; None where there is none, or one without this call, or none for this system."""
+    library = None if path is None else load(path)
+    if library is None or not hasattr(library, "engine_many"):
+        return None
+    library.engine_many.argtypes, library.engine_many.restype = (c_void_p, c_void_p), None
+    return library
+
 
 #: Designs whose tables are in memory at the same time.
 _CHUNK = 4096

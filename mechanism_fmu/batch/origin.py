@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 from ..engine.run import library_path
-from ..fmu.archive import read_entries
+from ..fmu.disk.archive import read_entries
 from ..fmu.start import import_checked, private_cache
 from ..model import Model
 

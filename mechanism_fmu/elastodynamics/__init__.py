@@ -8,116 +8,102 @@ the rigid motion and by loads, with stresses, reactions, input torque and power.
 their steady state; `lightest` looks for the lightest design.
 """
 
-from .configuration import Configurations, configurations
-from .consistent import consistent_load, consistent_mass
-from .cycle import Cycle, Power, quasi_static
-from .dynamics import MassModel, deflection_of, elastic_cycle, stress_of
-from .elastic_cycle import ElasticCycle
-from .elements import bent_coupler, cantilever, spatial_link, supported_beam, torsion_shaft, two_force_member
-from .errors import LinkageError
-from .feedback import Feedback, fed_back
-from .fluctuation import Fluctuation, Flywheel, flywheel, torque_fluctuation
-from .frequencies import InstantaneousModes, instantaneous_modes
-from .friction import with_friction
-from .gear_tooth import GearTooth
-from .judgement import Judgement, judge_quasi_static, judge_steady_state, member_mass, rigid_path
-from .linkage import Element, Linkage, linkage
-from .masses import inertia_forces, lumps, mass_matrix, system_forces
-from .peak import peak
-from .periodic import PeriodicResponse, periodic_response
-from .ports import ElasticPorts, elastic_ports
-from .reactions import JointForce, Reactions, joint_forces, power_of, reactions
-from .resized import Resized, resized_members
-from .shaking import Shaking, crank_hinge, momentum_shaking, shaking
-from .simulated import simulated_motion
-from .speeds import SpeedSweep, critical_speeds, speed_sweep
-from .stresses import largest_stress, section_forces
-from .stretch_rotation import deformed_links, planar_deformation, planar_operator, spatial_deformation, spatial_operator
-from .synthesis import Synthesis, lightest
-from .tapered import VaryingBeam, tapered_cantilever, tapered_end_moment
-from .transient import Transient, growth_per_period, transient
-from .turn import DRIVE, crank_of, turn
-from .unlike import unlike_bodies
-
-__all__ = [
-    "DRIVE",
-    "Configurations",
-    "Cycle",
-    "ElasticCycle",
-    "ElasticPorts",
-    "Element",
-    "Feedback",
-    "Fluctuation",
-    "Flywheel",
-    "GearTooth",
-    "InstantaneousModes",
-    "JointForce",
-    "Judgement",
-    "Linkage",
-    "LinkageError",
-    "MassModel",
-    "PeriodicResponse",
-    "Power",
-    "Reactions",
-    "Resized",
-    "Shaking",
-    "SpeedSweep",
-    "Synthesis",
-    "Transient",
-    "VaryingBeam",
-    "bent_coupler",
-    "cantilever",
-    "configurations",
-    "consistent_load",
-    "consistent_mass",
-    "crank_hinge",
-    "crank_of",
-    "critical_speeds",
-    "deflection_of",
-    "deformed_links",
-    "elastic_cycle",
-    "elastic_ports",
-    "fed_back",
-    "flywheel",
-    "growth_per_period",
-    "inertia_forces",
-    "instantaneous_modes",
-    "joint_forces",
-    "judge_quasi_static",
-    "judge_steady_state",
-    "largest_stress",
-    "lightest",
-    "linkage",
-    "lumps",
-    "mass_matrix",
-    "member_mass",
-    "momentum_shaking",
-    "peak",
-    "periodic_response",
-    "planar_deformation",
-    "planar_operator",
-    "power_of",
-    "quasi_static",
-    "reactions",
-    "resized_members",
-    "rigid_path",
-    "section_forces",
-    "shaking",
-    "simulated_motion",
-    "spatial_deformation",
-    "spatial_link",
-    "spatial_operator",
-    "speed_sweep",
-    "stress_of",
-    "supported_beam",
-    "system_forces",
-    "tapered_cantilever",
-    "tapered_end_moment",
-    "torque_fluctuation",
-    "torsion_shaft",
-    "transient",
-    "turn",
-    "two_force_member",
-    "unlike_bodies",
-    "with_friction",
-]
+from .cycle import (
+    Cycle as Cycle,
+    Fluctuation as Fluctuation,
+    Flywheel as Flywheel,
+    Power as Power,
+    Shaking as Shaking,
+    crank_hinge as crank_hinge,
+    flywheel as flywheel,
+    momentum_shaking as momentum_shaking,
+    quasi_static as quasi_static,
+    shaking as shaking,
+    torque_fluctuation as torque_fluctuation,
+)
+from .elastic_cycle import (
+    ElasticCycle as ElasticCycle,
+    InstantaneousModes as InstantaneousModes,
+    MassModel as MassModel,
+    deflection_of as deflection_of,
+    elastic_cycle as elastic_cycle,
+    instantaneous_modes as instantaneous_modes,
+    stress_of as stress_of,
+)
+from .elements import (
+    LinkageError as LinkageError,
+    VaryingBeam as VaryingBeam,
+    bent_coupler as bent_coupler,
+    cantilever as cantilever,
+    spatial_link as spatial_link,
+    supported_beam as supported_beam,
+    tapered_cantilever as tapered_cantilever,
+    tapered_end_moment as tapered_end_moment,
+    torsion_shaft as torsion_shaft,
+    two_force_member as two_force_member,
+)
+from .fourier import peak as peak
+from .gear_tooth import GearTooth as GearTooth
+from .reaction_forces import (
+    JointForce as JointForce,
+    Reactions as Reactions,
+    joint_forces as joint_forces,
+    power_of as power_of,
+    reactions as reactions,
+    with_friction as with_friction,
+)
+from .responses import (
+    Feedback as Feedback,
+    PeriodicResponse as PeriodicResponse,
+    SpeedSweep as SpeedSweep,
+    Transient as Transient,
+    critical_speeds as critical_speeds,
+    fed_back as fed_back,
+    growth_per_period as growth_per_period,
+    periodic_response as periodic_response,
+    speed_sweep as speed_sweep,
+    transient as transient,
+)
+from .stretch_rotation import (
+    deformed_links as deformed_links,
+    planar_deformation as planar_deformation,
+    planar_operator as planar_operator,
+    spatial_deformation as spatial_deformation,
+    spatial_operator as spatial_operator,
+)
+from .structure.configuration import Configurations as Configurations, configurations as configurations
+from .structure.linkage import (
+    Element as Element,
+    Linkage as Linkage,
+    Resized as Resized,
+    largest_stress as largest_stress,
+    linkage as linkage,
+    resized_members as resized_members,
+    section_forces as section_forces,
+    unlike_bodies as unlike_bodies,
+)
+from .structure.masses import (
+    consistent_load as consistent_load,
+    consistent_mass as consistent_mass,
+    inertia_forces as inertia_forces,
+    lumps as lumps,
+    mass_matrix as mass_matrix,
+    system_forces as system_forces,
+)
+from .synthesis import (
+    Judgement as Judgement,
+    Synthesis as Synthesis,
+    judge_quasi_static as judge_quasi_static,
+    judge_steady_state as judge_steady_state,
+    lightest as lightest,
+    member_mass as member_mass,
+    rigid_path as rigid_path,
+)
+from .turn import (
+    DRIVE as DRIVE,
+    ElasticPorts as ElasticPorts,
+    crank_of as crank_of,
+    elastic_ports as elastic_ports,
+    simulated_motion as simulated_motion,
+    turn as turn,
+)

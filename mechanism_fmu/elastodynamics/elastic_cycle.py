@@ -1,12 +1,21 @@
-"""The equations of a bending linkage over one turn: M u'' + C u' + K u = p, all periodic."""
+"""Case 3: the equations of a bending linkage over one turn, M u'' + C u' + K u = p, and its natural frequencies."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from enum import Enum
 
 import numpy as np
+import numpy.typing as npt
 
-from .fourier import FloatArray, resampled
+from .cycle import Cycle
+from .elements import FloatArray, LinkageError
+from .fourier import resampled
+from .structure.configuration import Configurations
+from .structure.linkage import largest_stress, section_forces
+from .structure.masses import consistent_load, consistent_mass, mass_matrix, system_forces
+
+# The equations of a bending linkage over one turn: M u'' + C u' + K u = p, all periodic.
 
 
 @dataclass(frozen=True)
@@ -88,3 +97,148 @@ class ElasticCycle:
     def static(self) -> FloatArray:
         """Quasi-static deviation K^-1 p, shape (T, n): Case 2."""
         return np.asarray(np.linalg.solve(self.stiffness, self.load[..., None])[..., 0])
+
+
+# Instantaneous natural frequencies and shapes, and the damping that has a given ratio in each of them.
+
+#: Of mu = 1 / omega^2, in parts of the largest, below which a mode has no mass: rounding makes no more.
+_MASSLESS = 1e-14
+
+
+@dataclass(frozen=True)
+class InstantaneousModes:
+    """Modes of the linkage frozen in each position: K shape = omega^2 M shape.
+
+    Attributes:
+        omega: shape (T, n), ascending [rad/s]; infinite where a mode has no mass.
+        shapes: shape (T, n, n), mode k in `shapes[:, :, k]`, with shape^T K shape = 1 and shape^T M shape = 1/omega^2.
+    """
+
+    omega: FloatArray
+    shapes: FloatArray
+
+    @property
+    def hertz(self) -> FloatArray:
+        """Natural frequencies [Hz], shape (T, n)."""
+        return self.omega / (2.0 * np.pi)
+
+    def damping(self, ratio: npt.ArrayLike) -> FloatArray:
+        """C, shape (T, n, n), with the damping `ratio` zeta [-] in every mode, one number or n of them.
+
+        C = K Z diag(2 zeta / omega) Z^T K with the shapes Z: Z^T C Z = 2 zeta / omega, which is 2 zeta omega in shapes
+        of unit mass. In another position the modes are others, and so is C. A mode without mass is not damped.
+
+        Raises:
+            ValueError: a ratio is negative or not below 1.
+        """
+        zeta = np.asarray(ratio, dtype=float)
+        if not np.all((zeta >= 0.0) & (zeta < 1.0)):
+            raise ValueError(f"the damping ratio is {zeta}, but must be 0 or more and below 1; 2 % is 0.02.")
+        # Z^T K Z = 1, so K Z is the inverse of Z^T.
+        left = np.linalg.inv(self.shapes).swapaxes(-1, -2)
+        return np.asarray((left * (2.0 * zeta / self.omega)[:, None, :]) @ left.swapaxes(-1, -2))
+
+
+def instantaneous_modes(stiffness: FloatArray, mass: FloatArray) -> InstantaneousModes:
+    """Natural frequencies and shapes in each position.
+
+    With K = L L^T the eigenvalues of L^-1 M L^-T are 1/omega^2: the low frequencies, which matter, come out best, and
+    M may be singular.
+
+    Args:
+        stiffness: K, shape (T, n, n), symmetric and positive.
+        mass: M, shape (n, n) or (T, n, n), symmetric, not negative.
+
+    Raises:
+        ValueError: K is not positive, or M negative, in some position.
+    """
+    try:
+        root = np.linalg.cholesky(stiffness)
+    except np.linalg.LinAlgError as error:
+        raise ValueError(
+            "the stiffness is not positive in every position: the linkage can move without bending, or is in a dead "
+            "centre there."
+        ) from error
+    inverse = np.linalg.inv(root)
+    mu, vectors = np.linalg.eigh(inverse @ mass @ inverse.swapaxes(-1, -2))
+    mu, vectors = mu[:, ::-1], vectors[:, :, ::-1]
+    least = _MASSLESS * np.abs(mu).max(axis=1, keepdims=True)
+    if np.any(mu < -least):
+        position = int(np.argmin(np.min(mu / least, axis=1)))
+        raise ValueError(f"the mass matrix is not one in position {position}: some motion has a negative mass there.")
+    with np.errstate(divide="ignore"):
+        omega = np.where(mu > least, 1.0 / np.sqrt(np.maximum(mu, 0.0)), np.inf)
+    return InstantaneousModes(omega, inverse.swapaxes(-1, -2) @ vectors)
+
+
+# Case 3: from the quasi-static cycle of a linkage to its equations of motion, and back to deflections and stresses.
+
+#: What the end of a period may differ from its beginning, in parts of the largest value.
+_CLOSED = 1e-6
+
+
+class MassModel(Enum):
+    """Where the mass of a member is.
+
+    LUMPED: half at each of its ends: the paper's Case 2 has masses at the joints, the halves are this project's. A
+        rotation without a disk has no inertia then.
+    CONSISTENT: along it, swinging with the cubics in which it bends.
+    """
+
+    LUMPED = "lumped"
+    CONSISTENT = "consistent"
+
+
+def elastic_cycle(cycle: Cycle, damping_ratio: npt.ArrayLike, mass_model: MassModel = MassModel.LUMPED) -> ElasticCycle:
+    """M u'' + C u' + K u = P over one period, with the loads, friction and inertia forces of the quasi-static cycle.
+
+    Args:
+        cycle: over one period, at even times, its end included: configurations and loads there are those of the start.
+        damping_ratio: zeta of every mode, or of each of the m modes in ascending order [-].
+        mass_model: of the members.
+
+    Raises:
+        LinkageError: the times are not even, or what the cycle ends with is not what it began with.
+        ValueError: as of `InstantaneousModes.damping`.
+    """
+    configurations = cycle.configurations
+    steps = np.diff(configurations.pose.time)
+    if len(steps) == 0 or np.ptp(steps) > 1e-9 * steps.max():
+        raise LinkageError("The times of a cycle must be even, e.g. numpy.linspace(0, period, 361).")
+    load = system_forces(configurations, cycle.forces)
+    if mass_model is MassModel.LUMPED:
+        mass = mass_matrix(configurations)
+    else:
+        mass = consistent_mass(configurations)
+        load = load + consistent_load(configurations)
+    for name, values in (("stiffness", configurations.stiffness), ("load", load)):
+        gap, most = np.abs(values[-1] - values[0]).max(), np.abs(values).max()
+        if gap > _CLOSED * most:
+            raise LinkageError(
+                f"The {name} at the end of the cycle differs from that at its beginning by {gap:.3g}, of {most:.3g} at "
+                "most: give one whole period, from its beginning to its end, of a motion that repeats."
+            )
+    stiffness = configurations.stiffness[:-1]
+    mass = np.broadcast_to(mass, configurations.stiffness.shape)[:-1]
+    damping = instantaneous_modes(stiffness, mass).damping(damping_ratio)
+    return ElasticCycle(float(steps.sum()), mass, damping, stiffness, load[:-1])
+
+
+def deflection_of(configurations: Configurations, displacement: FloatArray, place: str) -> FloatArray:
+    """(delta_x, delta_y, rotation) of a place, shape (times, 3) [m, m, rad], from u, shape (times, m).
+
+    Raises:
+        LinkageError: there is no such place.
+    """
+    return np.asarray((configurations.displacement(place) @ displacement[:, :, None])[:, :, 0])
+
+
+def stress_of(configurations: Configurations, displacement: FloatArray) -> FloatArray:
+    """Largest stress in each element, shape (times, elements) [Pa], from u, shape (times, m): f = F^-1 C u.
+
+    Inertia forces between the ends of a member bend it further; that part, of lumped masses none, is not in it.
+    """
+    linkage = configurations.linkage
+    deformation = (configurations.compatibility @ displacement[:, :, None])[:, :, 0]
+    element_forces = np.asarray(np.linalg.solve(linkage.flexibility, deformation.T).T)
+    return largest_stress(linkage, section_forces(linkage, element_forces))

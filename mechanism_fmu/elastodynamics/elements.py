@@ -1,18 +1,27 @@
-"""Flexibility matrices of the elements of Erdman, Sandor and Oakberg (1972): d = F f.
-
-Deformations d and forces f of an element stand in the order axial [m; N], transverse [m; N], rotation [rad; N m], as
-far as it has them: tension, the normal to the left of the element and counter-clockwise turns are positive. Numbers of
-equations are the paper's.
-"""
+"""Flexibility matrices of the elements of Erdman, Sandor and Oakberg (1972): d = F f; and of beams that taper."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import Any, Protocol
 
 import numpy as np
+from scipy.integrate import quad_vec
 
 from ..model import Section
+
+# What the room refuses.
+
+
+class LinkageError(ValueError):
+    """The mechanism cannot be analysed as a structure; the message names the part, and says why and what to do."""
+
+
+# Flexibility matrices of the elements of Erdman, Sandor and Oakberg (1972): d = F f.
+#
+# Deformations d and forces f of an element stand in the order axial [m; N], transverse [m; N], rotation [rad; N m], as
+# far as it has them: tension, the normal to the left of the element and counter-clockwise turns are positive. Numbers
+# of equations are the paper's.
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -99,3 +108,116 @@ def block_diagonal(matrices: Iterable[FloatArray]) -> FloatArray:
     for block, (row, column) in zip(blocks, ends, strict=False):
         found[row : row + block.shape[0], column : column + block.shape[1]] = block
     return found
+
+
+# Flexibility of beams whose cross section changes along the length, by integration.
+
+#: Relative error that is asked of the integrals, and the largest that is let pass.
+_ASKED, _LET_PASS = 1e-13, 1e-10
+#: Pieces into which an integral is divided at most.
+_MOST_PIECES = 500
+
+
+class VaryingBeam(Protocol):
+    """A straight beam from x = 0 to x = length; every beam of `mechanism_fmu.stress` is one.
+
+    Attributes:
+        length: l [m].
+        breaks: places between the ends where a formula of the cross section changes [m], ascending.
+    """
+
+    @property
+    def length(self) -> float:
+        """Length l [m]."""
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Places where the formulas of the cross section change [m]."""
+
+    def area(self, x: FloatArray, /) -> FloatArray:
+        """Area A of the cross section [m2] at the places `x` [m], in its shape."""
+
+    def second_moment(self, x: FloatArray, /) -> FloatArray:
+        """Second moment I of the cross section [m4] at the places `x` [m], in its shape."""
+
+
+def tapered_cantilever(beam: VaryingBeam, young: float) -> FloatArray:
+    """Flexibility, shape (3, 3), of a cantilever held at x = 0, for force along, force across and moment at its end.
+
+    F11 = int dx / EA [m/N], F22 = int (l - x)^2 / EI dx [m/N], F23 = int (l - x) / EI dx [1/N] and
+    F33 = int dx / EI [1/(N m)]: eq (2) of Erdman, Sandor and Oakberg, A and I being functions of x (unit load).
+
+    Args:
+        beam: its length, A(x) and I(x).
+        young: E [Pa].
+
+    Raises:
+        ValueError: E is not positive, or an integral does not exist: A or I vanish somewhere.
+    """
+
+    def integrand(x: float) -> FloatArray:
+        area, second_moment = _section(beam, x)
+        arm = beam.length - x
+        return np.array([1.0 / area, arm * arm / second_moment, arm / second_moment, 1.0 / second_moment])
+
+    axial, across, mixed, turn = integral(beam, integrand) / _positive(young)
+    return np.array([[axial, 0.0, 0.0], [0.0, across, mixed], [0.0, mixed, turn]])
+
+
+def tapered_end_moment(beam: VaryingBeam, young: float) -> FloatArray:
+    """Flexibility, shape (2, 2), of a beam on two simple supports, for force along it and a moment at its end x = 0.
+
+    F11 = int dx / EA [m/N] and F22 = int (1 - x/l)^2 / EI dx [1/(N m)]: the moment falls linearly to nothing at x = l;
+    eq (7) of Erdman, Sandor and Oakberg, with A and I as functions of x.
+
+    Arguments and errors are those of `tapered_cantilever`.
+    """
+
+    def integrand(x: float) -> FloatArray:
+        area, second_moment = _section(beam, x)
+        return np.array([1.0 / area, (1.0 - x / beam.length) ** 2 / second_moment])
+
+    return np.diag(integral(beam, integrand) / _positive(young))
+
+
+def integral(beam: VaryingBeam, integrand: Callable[[float], FloatArray]) -> FloatArray:
+    """Integrals over the length, shape (m,), of m functions of x that are positive in the middle of the beam.
+
+    Raises:
+        ValueError: one is not known to 1e-10 of itself, each counted by its value in the middle.
+    """
+    scale = np.abs(integrand(0.5 * beam.length)) * beam.length
+    values, error = quad_vec(
+        lambda x: integrand(x) / scale,
+        0.0,
+        beam.length,
+        epsabs=0.0,
+        epsrel=_ASKED,
+        norm="max",
+        limit=_MOST_PIECES,
+        points=beam.breaks,
+    )
+    if not error <= _LET_PASS * np.max(np.abs(values)):
+        raise ValueError(
+            f"the flexibility of the beam of {beam.length:g} m is known to {error / np.max(np.abs(values)):.1g} only, "
+            f"but must be to {_LET_PASS:g}: A(x) or I(x) vanish or jump somewhere; name the jumps in `breaks`."
+        )
+    return np.asarray(values * scale)
+
+
+def _section(beam: VaryingBeam, x: float) -> tuple[float, float]:
+    """A [m2] and I [m4] at one place."""
+    place = np.array([x])
+    area, second_moment = float(beam.area(place)[0]), float(beam.second_moment(place)[0])
+    if not (area > 0.0 and second_moment > 0.0):
+        raise ValueError(
+            f"A = {area:g} m2 and I = {second_moment:g} m4 at x = {x:g} m of a beam of {beam.length:g} m: both must be "
+            "positive all along, or the beam gives way without limit. End it before its tip."
+        )
+    return area, second_moment
+
+
+def _positive(modulus: float) -> float:
+    if not 0.0 < modulus < np.inf:
+        raise ValueError(f"the modulus is {modulus:g} Pa, but must be positive and finite: give E in pascal.")
+    return modulus

@@ -1,4 +1,4 @@
-"""Trigonometric series of periodic samples: values anywhere, derivatives, collocation."""
+"""Trigonometric series of periodic samples: values anywhere, derivatives, collocation, largest values."""
 
 from __future__ import annotations
 
@@ -6,9 +6,12 @@ import math
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import minimize_scalar
 
-#: Arrays of real and of complex numbers.
-FloatArray = npt.NDArray[np.float64]
+from .elements import FloatArray
+
+# Trigonometric series of periodic samples: values anywhere, derivatives, collocation.
+
 ComplexArray = npt.NDArray[np.complex128]
 
 
@@ -55,3 +58,33 @@ def differentiation(count: int) -> FloatArray:
     entries = np.zeros((count, count))
     entries[off] = 0.5 * (-1.0) ** lag[off] / np.sin(math.pi * lag[off] / count)
     return entries
+
+
+# The largest value of a periodic vector between its samples.
+
+#: Of the interval between two samples, to which the place of the maximum is found.
+_FINENESS = 1e-6
+
+
+def peak(samples: FloatArray) -> tuple[float, float]:
+    """Where a periodic vector is longest, in parts of its period from the first sample on, and how long it is there.
+
+    Args:
+        samples: shape (T, k) at T even times of one period; between them it is the trigonometric series through them.
+    """
+    series = coefficients(samples)
+    found = []
+    norms = np.linalg.norm(samples, axis=1)
+    step = 2 * math.pi / len(samples)
+    for sample in np.flatnonzero((norms >= np.roll(norms, 1)) & (norms >= np.roll(norms, -1))):
+        angle = even_angles(len(samples))[sample]
+        best = minimize_scalar(
+            lambda at: -_norm(series, at), bounds=(angle - step, angle + step), options={"xatol": _FINENESS * step}
+        )
+        found.append((-float(best.fun), float(best.x)))
+    largest, angle = max(found)
+    return angle / (2 * math.pi) % 1.0, largest
+
+
+def _norm(series: ComplexArray, angle: float) -> float:
+    return float(np.linalg.norm(evaluate(series, np.array([angle]))[0]))

@@ -7,8 +7,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .fourier import FloatArray
-from .tapered import integral, tapered_cantilever
+from .elements import FloatArray, integral, tapered_cantilever
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from .fourier import FloatArray
+from .elements import FloatArray
 
 
 def planar_operator(stretch: npt.ArrayLike, rotation: npt.ArrayLike) -> FloatArray:

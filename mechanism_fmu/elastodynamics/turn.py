@@ -1,19 +1,149 @@
-"""One turn of a mechanism at constant speed, whatever drives it in a simulation."""
+"""One turn of a mechanism at constant speed, whatever drives it in a simulation; and the engine's own motion."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..kinematics import KinematicMotion
-from ..model import GROUND, AngleDriver, Mechanism, polynomial_motion
-from .closure import closed_at
-from .configuration import Configurations, configurations
-from .errors import LinkageError
-from .fourier import FloatArray, coefficients, evaluate, even_angles
-from .linkage import linkage
+from ..model import (
+    GROUND,
+    AngleDriver,
+    CompliantShaft,
+    Distance,
+    Mechanism,
+    RevoluteTranslational,
+    Torque,
+    Translational,
+    polynomial_motion,
+)
+from ..simulation import Simulation
+from .elements import FloatArray, LinkageError
+from .fourier import coefficients, evaluate, even_angles
+from .structure.configuration import Configurations, configurations
+from .structure.linkage import linkage
+from .structure.places import held_coordinates
+from .structure.pose import Pose, dot, left, pose_of, rotation_rows, translation_rows
+
+# Phi_q of the rigid mechanism, in all configurations at once.
+
+
+def rigid_rows(mechanism: Mechanism, pose: Pose) -> tuple[FloatArray, tuple[str, ...]]:
+    """Phi_q of joints, drivers and held coordinates, shape (times, rows, 3 bodies), and whose each row is.
+
+    Raises:
+        LinkageError: as of `translation_rows`.
+    """
+    found: list[FloatArray] = []
+    owners: list[str] = []
+    for joint in mechanism.joints:
+        for row in (*translation_rows(joint, pose), *rotation_rows(joint, pose)):
+            wide = np.zeros((len(pose.time), len(pose.bodies), 3))
+            for body, point, part in (
+                (joint.body_i, getattr(joint, "point_i", (0.0, 0.0)), row[:, :3]),
+                (joint.body_j, getattr(joint, "point_j", (0.0, 0.0)), row[:, 3:]),
+            ):
+                arm = left(pose.turned(body, point))
+                k = pose.bodies.index(body)
+                wide[:, k, :2] += part[:, :2]
+                wide[:, k, 2] += part[:, 2] + np.einsum("tk,tk->t", part[:, :2], arm)
+            found.append(wide)
+            owners.append(joint.name)
+    for body, what in held_coordinates(mechanism):
+        wide = np.zeros((len(pose.time), len(pose.bodies), 3))
+        wide[:, pose.bodies.index(body), ("x", "y", "angle").index(what)] = 1.0
+        found.append(wide)
+        owners.append(f"{body}.{what}")
+    rows = np.stack(found, axis=1)[:, :, :-1]  # the ground does not move
+    return rows.reshape(*rows.shape[:2], -1), tuple(owners)
+
+
+# A mechanism at given angles of its crank: Phi(q) = 0 by Newton's method, without the compiled engine.
+
+#: Rows are closed to this [m, rad], of a mechanism of the size 1 m; more rounds than these are not going to help.
+_CLOSED, _ROUNDS = 1e-13, 12
+#: From one of these to the next [rad] the motion is followed one by one; all others are found from them at once.
+_STRIDE = math.radians(5)
+
+
+def closed_at(mechanism: Mechanism, angles: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Coordinates q and their derivatives q' by the crank's angle, both of shape (angles, 3 bodies).
+
+    Args:
+        mechanism: its last joint is the driver of the crank's angle; its start guess closes at the first angle.
+        angles: of the crank [rad], increasing.
+
+    Raises:
+        LinkageError: there is a position that the mechanism does not reach, or where it could go on in several ways.
+    """
+    count = max(2, math.ceil((angles[-1] - angles[0]) / _STRIDE) + 1)
+    stations = np.linspace(angles[0], angles[-1], count)
+    q = np.array([[x for body in mechanism.bodies for x in body.start]], dtype=float)
+    found, rate = [], np.zeros_like(q)
+    for angle, before in zip(stations, [stations[0], *stations[:-1]], strict=True):
+        q, rate = _closed(mechanism, q + (angle - before) * rate, np.array([angle]))
+        found.append(q[0])
+    guess = np.array([np.interp(angles, stations, column) for column in np.transpose(found)]).T
+    return _closed(mechanism, guess, angles)
+
+
+def _closed(mechanism: Mechanism, q: FloatArray, angles: FloatArray) -> tuple[FloatArray, FloatArray]:
+    size = max(1.0, float(np.abs(q[:, [k for k in range(q.shape[1]) if k % 3 != 2]]).max()))
+    for _ in range(_ROUNDS):
+        pose = _pose(mechanism, q)
+        rows, _owners = rigid_rows(mechanism, pose)
+        if rows.shape[1] != rows.shape[2]:
+            raise LinkageError(
+                f"{len(mechanism.joints)} joints, the crank's driver among them, give {rows.shape[1]} rows, but "
+                f"{len(mechanism.bodies)} bodies have {rows.shape[2]} coordinates; leave out joints that repeat each "
+                "other, or add those that are missing."
+            )
+        left_open = _residual(mechanism, pose, angles)
+        worst = int(np.argmax(np.abs(left_open).max(axis=1)))
+        try:
+            change = np.linalg.solve(rows, -left_open[:, :, None])[:, :, 0]
+            unit = np.zeros((rows.shape[1], 1))
+            unit[-1] = 1.0
+            rate = np.linalg.solve(rows, np.broadcast_to(unit, (len(q), *unit.shape)))[:, :, 0]
+        except np.linalg.LinAlgError:
+            break
+        if np.abs(left_open).max() <= _CLOSED * size:
+            return q, rate
+        q = q + change
+    raise LinkageError(
+        f"The crank cannot turn fully: near {math.degrees(angles[worst]):.6g} deg the joints cannot be "
+        "closed, or do not say how the mechanism goes on. Choose lengths with which it turns, or another crank."
+    )
+
+
+def _pose(mechanism: Mechanism, q: FloatArray) -> Pose:
+    names = tuple(f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle"))
+    rest = np.zeros_like(q)
+    return pose_of(mechanism, KinematicMotion(names, np.zeros(len(q)), q, rest, rest))
+
+
+def _residual(mechanism: Mechanism, pose: Pose, angles: FloatArray) -> FloatArray:
+    """Phi in the order and with the scale of `rigid_rows`, shape (angles, rows)."""
+    found = []
+    for joint in mechanism.joints[:-1]:
+        between = pose.place(joint.body_j, getattr(joint, "point_j", (0.0, 0.0))) - pose.place(
+            joint.body_i, getattr(joint, "point_i", (0.0, 0.0))
+        )
+        for row in translation_rows(joint, pose):
+            found.append(dot(row[:, 3:5], between))
+        if isinstance(joint, (Distance, RevoluteTranslational)):
+            found[-1] = found[-1] - joint.distance
+        if isinstance(joint, Translational):
+            along_i, along_j = pose.turned(joint.body_i, joint.axis_i), pose.turned(joint.body_j, joint.axis_j)
+            found.append(np.arctan(dot(left(along_i), along_j) / dot(along_i, along_j)))
+    crank = pose.bodies.index(mechanism.joints[-1].body_j)
+    return np.column_stack([*found, pose.position[:, crank, 2] - angles])
+
+
+# One turn of a mechanism at constant speed, whatever drives it in a simulation.
 
 #: What a turn may end beside its beginning [m, rad], for a mechanism of the size 1 m.
 _REPEATS = 1e-9
@@ -94,3 +224,73 @@ def _angular(mechanism: Mechanism) -> FloatArray:
 
 def _angle_drivers(mechanism: Mechanism) -> set[str]:
     return {j.name for j in mechanism.joints if isinstance(j, AngleDriver) and j.body_i == GROUND}
+
+
+# What of a mechanism's inputs and outputs turns its crank, and tells how its members bend.
+
+
+@dataclass(frozen=True)
+class ElasticPorts:
+    """Names of inputs and outputs; "" where there is none.
+
+    Attributes:
+        crank: the body that turns the mechanism.
+        torque: input of the torque on it.
+        shaft_speed, shaft_angle: inputs of the shaft that turns it, [rad/s] and [rad].
+        outputs: names of outputs that read members, by their sources, e.g. "arm.end.x_bent" or "arm.stress".
+    """
+
+    crank: str
+    torque: str
+    shaft_speed: str
+    shaft_angle: str
+    outputs: dict[str, str]
+
+    @property
+    def places(self) -> tuple[str, ...]:
+        """Ends of members, e.g. "arm.end", whose deviation is an output."""
+        return tuple(s.removesuffix(".deviation") for s in self.outputs if s.endswith(".deviation"))
+
+
+def elastic_ports(mechanism: Mechanism) -> ElasticPorts:
+    """The ports of a mechanism with members.
+
+    Raises:
+        LinkageError: as of `crank_of`.
+    """
+    crank = crank_of(mechanism)
+    turning = {f.name: f for f in mechanism.forces if getattr(f, "body", "") == crank and f.reaction == GROUND}
+    targets = {port.target: port.name for port in mechanism.inputs}
+
+    def of(kind: type, column: str) -> str:
+        found = (targets.get(f"{name}.{column}", "") for name, force in turning.items() if isinstance(force, kind))
+        return next(filter(None, found), "")
+
+    members = {member.name for member in mechanism.members}
+    outputs = {port.source: port.name for port in mechanism.outputs if port.source.partition(".")[0] in members}
+    return ElasticPorts(crank, of(Torque, "torque"), of(CompliantShaft, "speed"), of(CompliantShaft, "angle"), outputs)
+
+
+# The engine's own motion: what a simulated mechanism does, driven or not.
+
+
+def simulated_motion(
+    mechanism: Mechanism, simulation: Simulation, times: Sequence[float] | FloatArray
+) -> KinematicMotion:
+    """Positions, velocities and accelerations of a simulation of a mechanism at `times` [s], which increase.
+
+    The simulation goes on to the last of them, with its inputs held; in an impact, velocities are those behind it.
+
+    Raises:
+        SimulationError: the motion cannot go on, or the first of the times has passed.
+    """
+    count = 3 * len(mechanism.bodies)
+    rows = []
+    for time in times:
+        simulation.advance(float(time))
+        simulation.read_rates()  # leaves the state and its derivative in the work fields
+        state, rates = simulation.field("y_at"), simulation.field("dy_at")
+        rows.append(np.concatenate([state[: 2 * count], rates[count : 2 * count]]))
+    table = np.array(rows).reshape(-1, 3, count)
+    names = tuple(f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle"))
+    return KinematicMotion(names, np.asarray(times, dtype=float), table[:, 0], table[:, 1], table[:, 2])

@@ -25,8 +25,7 @@ from .dynamics.forces import (
     stored_power,
 )
 from .dynamics.inputs import feed
-from .elastic.beam import beam_reading
-from .elastic.readings import elastic_reading
+from .elastic.readings import beam_reading, elastic_reading
 from .elastic.structure import bend
 from .stepping.stepper import state_at_time
 

@@ -15,18 +15,15 @@ from pythonfmu.builder import FmuBuilder
 
 from ..model import MechanismError
 from ..model.baked import NOTHING_BAKED, Baked
-from .archive import content_hash, read_entries, with_guid, write_archive
-from .built import record_build
-from .closure import Closure, Home, closure
-from .contents import common_entries, file_in, model_of
-from .native.libraries import engine_libraries, library_of
-from .native.link import has_linker
-from .native.objects import Report, silently
-from .native.targets import WRAPPED
-from .project import dependencies
-from .reference_results import reference_results
-from .self_check import StartError
-from .temporary import temporary_folder
+from .disk.archive import content_hash, read_entries, with_guid, write_archive
+from .disk.folders import temporary_folder
+from .disk.user_cache import record_build
+from .instance.self_check import StartError
+from .native.link import WRAPPED, has_linker
+from .native.objects import Report, engine_libraries, library_of, silently
+from .parts.contents import Closure, Home, closure, common_entries, file_in, model_of
+from .parts.documentation import dependencies
+from .parts.reference_results import reference_results
 
 _LIBRARY = Path(__file__).parents[1]
 
@@ -96,7 +93,7 @@ def build_fmu(
     home = Home(module.__name__.rpartition(".")[0], folder, place, is_package=not origin.own)
     homes = (Home("mechanism_fmu", _LIBRARY, ""), home)
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
-    sources = closure(homes, ("fmu.slave", *(() if baked == NOTHING_BAKED else ("model.baked",)), main))
+    sources = closure(homes, ("fmu.instance.slave", *(() if baked == NOTHING_BAKED else ("model.baked",)), main))
     code = {name: text.encode() for name, text in sources.files.items()}
     compiled = engine_libraries(report) if has_linker() else {}
     code |= {f"engine/compiled/{name}": library for name, library in compiled.items()}

@@ -64,7 +64,7 @@ def slave_class(
         raise _refusal(f"it needs Python {needed} or later; this is {sys.version.split()[0]}.")
     try:
         _import_package(package, _cached(_RESOURCES / package))
-        slave = importlib.import_module(f"{package}.fmu.slave")
+        slave = importlib.import_module(f"{package}.fmu.instance.slave")
         described = importlib.import_module(f"{package}.{model}").MODEL
         if starts or inputs:
             baked = importlib.import_module(f"{package}.model.baked")

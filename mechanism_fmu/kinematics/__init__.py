@@ -4,22 +4,8 @@
 under its follower, and `profile_report` looks at a profile alone.
 """
 
-from .cams import CamReport, cam_report
-from .errors import KinematicsError, SingularConfigurationError
-from .mobility import Dependency, Mobility, mobility
-from .motion import KinematicMotion, analyse
-from .profiles import ProfileReport, profile_report
-
-__all__ = [
-    "CamReport",
-    "Dependency",
-    "KinematicMotion",
-    "KinematicsError",
-    "Mobility",
-    "ProfileReport",
-    "SingularConfigurationError",
-    "analyse",
-    "cam_report",
-    "mobility",
-    "profile_report",
-]
+from .cams import CamReport as CamReport, cam_report as cam_report
+from .equations import KinematicsError as KinematicsError, SingularConfigurationError as SingularConfigurationError
+from .mobility import Dependency as Dependency, Mobility as Mobility, mobility as mobility
+from .motion import KinematicMotion as KinematicMotion, analyse as analyse
+from .profiles import ProfileReport as ProfileReport, profile_report as profile_report

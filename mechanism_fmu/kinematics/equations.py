@@ -1,7 +1,8 @@
-"""The constraint equations of a mechanism with all coordinates, contact coordinates among them."""
+"""The constraint equations of a mechanism with all coordinates, and Newton's method for its positions."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,10 +13,21 @@ from ..engine.starting.assembly import CLOSED_WITHIN
 from ..engine.starting.begin import assemble_at
 from ..model import Contact, Mechanism, compile_mechanism
 from ..model.joints import Joint
-from ..tables.layout import field_of
-from ..tables.pack import pack
+from ..tables.layout import field_of, pack
 from ..tables.sizes import sizes_of
-from .errors import KinematicsError
+
+# What can go wrong in kinematic analysis.
+
+
+class KinematicsError(ValueError):
+    """The mechanism cannot be analysed as asked; the message says why and what to do."""
+
+
+class SingularConfigurationError(KinematicsError):
+    """The rank of the constraint rows drops: the motion may go on along more than one branch, or not at all."""
+
+
+# The constraint equations of a mechanism with all coordinates, contact coordinates among them.
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -135,3 +147,39 @@ class Equations:
         )
         jacobian = np.hstack([jacobian[:, :n], jacobian[:, n + 3 :]])
         return Rows(residual, jacobian @ rates - rate, gamma, jacobian)
+
+
+# Newton's method for the position rows.
+
+_STEPS = 40
+
+
+def close(equations: Equations, q: FloatArray, time: float) -> tuple[FloatArray, float]:
+    """Coordinates near q that close all rows at `time` [s], shape (coordinates,), and the largest row left open."""
+
+    def rows_at(q: FloatArray) -> tuple[FloatArray, FloatArray]:
+        rows = equations.at(q, time)
+        return rows.residual, rows.jacobian
+
+    return newton(rows_at, q)
+
+
+def newton(rows_at: Callable[[FloatArray], tuple[FloatArray, FloatArray]], q: FloatArray) -> tuple[FloatArray, float]:
+    """Where the rows vanish near q, by steps of least length, and the largest magnitude that is left of them.
+
+    `rows_at` gives them, shape (rows,), and their derivatives, shape (rows, coordinates). After they are closed one
+    more step is taken: it takes away what rounding allows.
+    """
+    best, least = q, np.inf
+    for _ in range(_STEPS):
+        residual, jacobian = rows_at(q)
+        left = float(np.abs(residual).max(initial=0.0))
+        if not left < np.inf:
+            break
+        settled = least <= CLOSED_WITHIN
+        if left < least:
+            best, least = q, left
+        if settled or left == 0.0:
+            break
+        q = q - np.linalg.lstsq(jacobian, residual, rcond=1e-8)[0]
+    return best, least

@@ -1,17 +1,122 @@
-"""Degrees of freedom, and the constraint rows that depend on others."""
+"""Degrees of freedom, and the constraint rows that depend on others: their rank here and around."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
+from ..engine.starting.assembly import CLOSED_WITHIN
 from ..model import Mechanism
-from .around import moving, rows_around
-from .equations import Equations
-from .errors import KinematicsError
-from .rank import independence
+from .equations import Equations, FloatArray, KinematicsError, newton
+
+# Rank of constraint rows: which of them depend on others, and what they leave free.
+
+#: A row depends on those before it when less than this part of its length is independent of them. Positions are closed
+#: to 1e-12 only, and next to a singular one they may be off by the root of that.
+DEPENDENT_BELOW = 1e-6
+
+
+class Independence(NamedTuple):
+    """Rows in their order, each against those before it.
+
+    `independent` are the numbers of the rows that add to the rank; `weights` says of each other row how it is combined
+    of these, shape (rows that depend, independent rows).
+    """
+
+    independent: list[int]
+    dependent: list[int]
+    weights: FloatArray
+
+
+def independence(rows: FloatArray) -> Independence:
+    """Sort rows of length 1, shape (rows, coordinates), into independent and dependent ones."""
+    independent: list[int] = []
+    dependent: list[int] = []
+    basis = np.zeros((0, rows.shape[1]))
+    for k, row in enumerate(rows):
+        left = row - basis.T @ (basis @ row)
+        left -= basis.T @ (basis @ left)  # once more: the first time leaves rounding of the basis
+        size = float(np.linalg.norm(left))
+        if size > DEPENDENT_BELOW:
+            basis = np.vstack([basis, left / size])
+            independent.append(k)
+        else:
+            dependent.append(k)
+    weights = np.linalg.lstsq(rows[independent].T, rows[dependent].T, rcond=None)[0].T
+    return Independence(independent, dependent, np.asarray(weights, dtype=np.float64))
+
+
+def free_directions(rows: FloatArray) -> FloatArray:
+    """Orthonormal directions in which no row changes, shape (coordinates, directions)."""
+    _, values, directions = np.linalg.svd(rows)
+    free: FloatArray = directions[int(np.sum(values > DEPENDENT_BELOW)) :].T
+    return free
+
+
+# The configurations around one: where the rank of the rows is what it usually is.
+
+#: How far away they are, relative to the size of the mechanism.
+_STEP = 0.02
+#: Between any two free directions, this many are tried: a branch of the motion may leave along any of them.
+_BETWEEN = 8
+#: A coordinate moves when its part of a free direction of length 1 is larger than this.
+_MOVES = 1e-6
+
+
+def rows_around(equations: Equations, q: FloatArray, time: float) -> list[FloatArray]:
+    """Balanced Phi_q in configurations a little away from q that joints and contacts allow, whatever drivers say.
+
+    Each is of shape (rows, coordinates); q has shape (coordinates,), `time` is in s.
+    """
+    free = free_directions(equations.balanced(equations.at(q, time).jacobian)[~equations.driving])
+    found = []
+    for direction in _directions(free.shape[1]):
+        for sign in (1.0, -1.0):
+            p, left = _go(equations, q, time, sign * (free @ direction))
+            if left <= CLOSED_WITHIN:
+                found.append(equations.balanced(equations.at(p, time).jacobian))
+    return found
+
+
+def _go(equations: Equations, q: FloatArray, time: float, way: FloatArray) -> tuple[FloatArray, float]:
+    """One step from q along the unit vector `way` (in lengths), and back to the rows without giving it up."""
+    still = ~equations.driving
+    step = _STEP * equations.size
+
+    def rows_at(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        rows = equations.at(p, time)
+        along = way @ equations.as_lengths(p - q) - step
+        return np.append(rows.residual[still], along), np.vstack([rows.jacobian[still], equations.as_lengths(way)])
+
+    return newton(rows_at, q + equations.from_lengths(step * way))
+
+
+def moving(equations: Equations, configurations: Sequence[FloatArray]) -> tuple[str, ...]:
+    """Names of the coordinates that can move in one of the configurations.
+
+    Each is given by its balanced Phi_q, of shape (rows, coordinates).
+    """
+    moves = np.zeros(len(equations.coordinates), dtype=bool)
+    for rows in configurations:
+        moves |= np.abs(free_directions(rows)).max(axis=1, initial=0.0) > _MOVES
+    return tuple(name for name, one in zip(equations.coordinates, moves, strict=True) if one)
+
+
+def _directions(count: int) -> list[FloatArray]:
+    """Unit vectors in a space of `count` free directions: along each of them, and between any two."""
+    axes = np.eye(count)
+    if count < 2:
+        return list(axes)
+    turns = [math.pi * k / _BETWEEN for k in range(_BETWEEN)]
+    return [math.cos(t) * axes[a] + math.sin(t) * axes[b] for a, b in combinations(range(count), 2) for t in turns]
+
+
+# Degrees of freedom, and the constraint rows that depend on others.
 
 #: A row belongs to a dependency when its share is larger than this part of the largest one.
 _SHARE = 1e-6

@@ -4,14 +4,153 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
+from ..engine.starting.assembly import CLOSED_WITHIN
 from ..model import Mechanism
-from .equations import Equations, FloatArray
-from .errors import KinematicsError
-from .follow import follow
-from .state import state_at
+from .equations import Equations, FloatArray, KinematicsError, SingularConfigurationError, close
+from .mobility import independence, moving, rows_around
+
+# Rates and accelerations in one position, where the rows determine them.
+
+#: The configuration is singular when the least singular value of the balanced rows is below this: positions are then
+#: right to about 1e-11 only, and velocities to about 1e-6.
+SINGULAR_BELOW = 1e-5
+#: The driver is at the end of its range when more than this part of nu points where the rows cannot follow.
+_OUT_OF_REACH = 1e-3
+
+
+class State(NamedTuple):
+    """Time [s], q, qd, qdd of shape (coordinates,), the balanced Phi_q, and its least singular value."""
+
+    time: float
+    q: FloatArray
+    qd: FloatArray
+    qdd: FloatArray
+    jacobian: FloatArray
+    least: float
+
+
+def least_singular_value(rows: FloatArray) -> float:
+    """Of balanced rows; 0 when they are too few to determine all coordinates."""
+    if rows.shape[0] < rows.shape[1]:
+        return 0.0
+    return float(np.linalg.svd(rows, compute_uv=False)[-1])
+
+
+def state_at(equations: Equations, q: FloatArray, time: float) -> State:
+    """The state at `time` [s] in a position q, shape (coordinates,), that closes the rows.
+
+    Raises:
+        KinematicsError: something is free, drivers contradict each other, or one is at the end of its range.
+        SingularConfigurationError: the rank of the rows drops here.
+    """
+    rows = equations.at(q, time)
+    balanced = equations.balanced(rows.jacobian)
+    least = least_singular_value(balanced)
+    if least < SINGULAR_BELOW:
+        raise _undetermined(equations, q, time, balanced)
+    qd = _solve(equations, rows.jacobian, rows.nu, time, "velocity")
+    gamma = equations.at(q, time, qd).gamma
+    return State(time, q, qd, _solve(equations, rows.jacobian, gamma, time, "acceleration"), balanced, least)
+
+
+def _solve(equations: Equations, jacobian: FloatArray, right: FloatArray, time: float, what: str) -> FloatArray:
+    solution: FloatArray = np.asarray(np.linalg.lstsq(jacobian, right, rcond=1e-12)[0], dtype=np.float64)
+    left = np.abs(jacobian @ solution - right)
+    if left.max(initial=0.0) > 1e-8 * max(1.0, float(np.abs(right).max(initial=0.0))):
+        worst = ", ".join(equations.rows[k] for k in np.argsort(-left)[:4] if left[k] > 1e-3 * left.max())
+        raise KinematicsError(
+            f"At t = {time:.9g} s no {what} agrees with all rows: {worst} differ by {left.max():.3g}. Drivers "
+            "contradict each other; take one out, or let their motions agree at all times."
+        )
+    return solution
+
+
+def _undetermined(equations: Equations, q: FloatArray, time: float, rows: FloatArray) -> KinematicsError:
+    """Why the rows do not determine the motion: drivers are missing, one is at its limit, or the rank drops here."""
+    around = [rows, *rows_around(equations, q, time)]
+    ranks = [len(independence(one).independent) for one in around]
+    free = rows.shape[1] - max(ranks)
+    if free > 0:
+        usual = [one for one, rank in zip(around, ranks, strict=True) if rank == max(ranks)]
+        return KinematicsError(
+            f"{free} degree{'' if free == 1 else 's'} of freedom {'is' if free == 1 else 'are'} not driven: "
+            f"{', '.join(moving(equations, usual))} can move. Add {free} driver{'' if free == 1 else 's'}, or see with "
+            "`mobility` which rows say the same."
+        )
+    nu = equations.at(q, time).nu
+    last = np.linalg.svd(rows)[0][:, rows.shape[1] - 1]
+    if abs(last @ nu) > _OUT_OF_REACH * np.linalg.norm(nu):
+        names = ", ".join(name for name, drives in zip(equations.rows, equations.driving, strict=True) if drives)
+        return KinematicsError(
+            f"At t = {time:.6g} s a driver ({names}) comes to the end of its range: what follows is out of reach, and "
+            "velocities grow without limit towards it. Let the driver turn back before, or drive another body."
+        )
+    return SingularConfigurationError(
+        f"At t = {time:.6g} s the configuration is singular: the rank of the constraint rows drops from "
+        f"{rows.shape[1]}, and the motion may go on along more than one branch, as that of a parallelogram that lies "
+        "flat. Change lengths, add a joint that decides (as a third crank out of line does), or analyse the motion "
+        "before and behind it apart."
+    )
+
+
+# From one position of a driven mechanism to the next one of the same motion.
+
+#: A step is right when Phi_q changes by less than this part of its least singular value: no singular configuration can
+#: lie between, nor can the step end on another branch.
+_MOST_CHANGE = 0.5
+#: Or when the position changes by less than this part of it: what jumps then is the curvature of a profile.
+_LEAST_MOVE = 0.01
+#: In one step, no angle changes by more than this [rad]: after a whole turn Phi_q is the same again.
+_MOST_TURN = 0.5
+#: Steps are halved at most down to this part of the way.
+_SHORTEST = 1e-14
+
+
+def follow(equations: Equations, here: State, time: float) -> State:
+    """The state at `time` [s], later than `here`.
+
+    Raises:
+        KinematicsError: as of `state_at`, or the rows cannot be closed.
+        SingularConfigurationError: the motion comes to a singular configuration on the way.
+    """
+    shortest = _SHORTEST * (time - here.time)
+    step = time - here.time
+    while here.time < time:
+        target = time if here.time + step >= time else here.time + step
+        h = target - here.time
+        q, left = close(equations, here.q + h * here.qd + 0.5 * h * h * here.qdd, target)
+        if left <= CLOSED_WITHIN and _is_same_motion(equations, here, q, target):
+            here = state_at(equations, q, target)
+            step *= 2.0
+        elif step > shortest:
+            step *= 0.5
+        else:
+            raise _lost(equations, here, q, target)
+    return here
+
+
+def _is_same_motion(equations: Equations, here: State, q: FloatArray, time: float) -> bool:
+    if np.abs((q - here.q)[equations.angular]).max(initial=0.0) > _MOST_TURN:
+        return False
+    rows = equations.balanced(equations.at(q, time).jacobian)
+    least = min(here.least, least_singular_value(rows))
+    if np.linalg.norm(rows - here.jacobian, 2) <= _MOST_CHANGE * here.least:
+        return True
+    return float(np.linalg.norm(equations.as_lengths(q - here.q))) <= _LEAST_MOVE * least * equations.size
+
+
+def _lost(equations: Equations, here: State, q: FloatArray, time: float) -> KinematicsError:
+    residual = np.abs(equations.at(q, time).residual)
+    worst = [equations.rows[k] for k in np.argsort(-residual)[:4] if residual[k] > CLOSED_WITHIN]
+    what = f"{', '.join(worst)} stay open by {residual.max():.3g} (m, or rad)" if worst else "the next one is far away"
+    return KinematicsError(
+        f"Behind t = {here.time:.9g} s no position is found that goes on from there: {what}. A profile has an edge, "
+        "or drivers ask for a position out of reach."
+    )
 
 
 @dataclass(frozen=True)

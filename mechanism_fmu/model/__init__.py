@@ -46,8 +46,17 @@ from .logic import LogicalFunction
 from .mechanism import Mechanism, Settings
 from .members import Disk, LumpedBody, Member, Section, lumped_body
 from .model import Model
-from .motion_laws import Law, Move, cycloidal, dwell, modified_sine, polynomial_345
-from .motions import harmonic_motion, polynomial_motion, table_motion
+from .motions import (
+    Law,
+    Move,
+    cycloidal,
+    dwell,
+    harmonic_motion,
+    modified_sine,
+    polynomial_345,
+    polynomial_motion,
+    table_motion,
+)
 from .patterns import CircularPattern
 from .port_builders import (
     active_output,

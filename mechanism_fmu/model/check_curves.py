@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from ..codes import AMPLITUDE
-from .conditions import finite, not_negative, plain, positive, size
 from .curves import Curve, Piece
-from .findings import Finding, first, literal, refuse_unless
+from .findings import Finding, finite, first, literal, not_negative, plain, positive, refuse_unless, size
 from .functions import Number, cos, is_plain, sin, where_positive
 
 #: Rounding is allowed this much, of 1 and the value at a join, or of the period.

@@ -7,8 +7,18 @@ from typing import ClassVar
 
 from .. import codes
 from .body import Point
-from .conditions import both, finite_not_negative, is_zero, length, size, true_or_false, within
-from .findings import Finding, literal, refuse_unless
+from .findings import (
+    Finding,
+    both,
+    finite_not_negative,
+    is_zero,
+    length,
+    literal,
+    refuse_unless,
+    size,
+    true_or_false,
+    within,
+)
 from .functions import Number
 
 #: A normal must have unit length to this accuracy.

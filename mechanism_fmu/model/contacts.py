@@ -16,10 +16,9 @@ from typing import ClassVar
 
 from .. import codes
 from .body import Point
-from .conditions import positive
 from .contact_facts import ContactFacts, no_unit_length
 from .curves import Curve
-from .findings import Finding, refuse_unless
+from .findings import Finding, positive, refuse_unless
 from .functions import Number
 from .joints import HigherPair
 

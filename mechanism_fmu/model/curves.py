@@ -1,16 +1,23 @@
-"""Functions of one variable: the profiles of cams and slots, and the motions of drivers.
-
-A curve consists of pieces, each of which begins at a value of the variable; a piece is a sum of terms, and a term is a
-polynomial of at most the fifth degree plus one harmonic. So the engine knows three derivatives of all of them. How to
-make them: `profiles` and `motions` beside this file.
-"""
+"""Functions of one variable in pieces, that parts of a mechanism follow; and splines through given points."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from .functions import Number
+import numpy as np
+
+from .errors import MechanismError
+from .findings import plain
+from .functions import Number, is_plain
+
+# Functions of one variable: the profiles of cams and slots, and the motions of drivers.
+#
+# A curve consists of pieces, each of which begins at a value of the variable; a piece is a sum of terms, and a term is
+# a polynomial of at most the fifth degree plus one harmonic. So the engine knows three derivatives of all of them. How
+# to make them: `profiles` and `motions` beside this file.
 
 
 @dataclass(frozen=True)
@@ -74,3 +81,112 @@ def cosine(amplitude: Number, frequency: Number) -> Term:
 def sine(amplitude: Number, frequency: Number, phase: Number = 0.0) -> Term:
     """The term amplitude sin(frequency xi + phase): as of `cosine`, phase in rad."""
     return Term((), amplitude, frequency, phase)
+
+
+# Splines through points, of third or fifth degree: C2 or C4, periodic or clamped.
+
+Matrix = np.ndarray[Any, np.dtype[np.float64]]
+
+
+def spline_pieces(knots: Sequence[float], values: Sequence[Number], degree: int, periodic: bool) -> tuple[Piece, ...]:
+    """The pieces of the spline through (knots, values).
+
+    The coefficients are linear in the values, which may be symbolic; the knots are plain numbers.
+
+    Args:
+        knots: increasing; of a periodic spline the last one is where the first value comes again.
+        values: at the knots, without the repeated one of a periodic spline.
+        degree: 3 (two continuous derivatives) or 5 (four).
+        periodic: else clamped: the derivatives (of degree 5, and the second ones) are zero at both ends.
+
+    Raises:
+        MechanismError: another degree, too few points, a place without a value, or knots that do not increase.
+    """
+    if degree not in (3, 5):
+        raise MechanismError(f"A spline of degree {degree} is not made here; take 3 (C2) or 5 (C4).")
+    points = len(knots) - periodic
+    if len(values) != points:
+        raise MechanismError(f"A spline has {points} places for {len(values)} values; give as many of each.")
+    widths = np.diff(np.asarray(knots, dtype=float))
+    if points < 3 or not np.all(np.isfinite(widths)) or not np.all(widths > 0.0):
+        where = ", ".join(f"{float(knot):g}" for knot in knots)
+        again = "; the last one is where it repeats itself" if periodic else ""
+        raise MechanismError(f"A spline needs at least 3 points at increasing places, but they are at {where}{again}.")
+    coefficients = _coefficients(widths, degree, periodic)
+    pieces = []
+    for k, start in enumerate(knots[:-1]):
+        terms = [_combine(row, values) for row in coefficients[k]]
+        pieces.append(Piece(float(start), (Term(tuple(terms)),)))
+    return tuple(pieces)
+
+
+def plain_places(places: Sequence[Number], what: str) -> list[float]:
+    """The places of a spline's points, which `what` names (an angle, a time), as plain numbers.
+
+    Raises:
+        MechanismError: one of them depends on a parameter.
+    """
+    for number, place in enumerate(places, start=1):
+        if not is_plain(place):
+            raise MechanismError(
+                f"The {what} of point {number} of a spline depends on a parameter, but its points must stand at plain "
+                "numbers: what each of them contributes is solved for once, for all values of the parameters. Let only "
+                "the values there depend on parameters, or make a Curve of Pieces, which may begin anywhere."
+            )
+    return [float(place) for place in places]
+
+
+def _combine(weights: Matrix, values: Sequence[Number]) -> Number:
+    """The weighted sum, of plain numbers by the same operations as of symbols."""
+    total: Number = 0.0
+    for weight, value in zip(weights, values, strict=True):
+        if weight != 0.0:
+            total = total + float(weight) * plain(value)
+    return total
+
+
+def _coefficients(widths: Matrix, degree: int, periodic: bool) -> Matrix:
+    """The polynomial coefficients of all pieces as linear functions of the values, shape (pieces, degree + 1, values).
+
+    Unknown are the lower derivatives at the knots; the higher ones must be continuous.
+    """
+    pieces = len(widths)
+    orders = (degree + 1) // 2  # given at each end of a piece: the value and the derivatives below this order
+    knots = pieces if periodic else pieces + 1
+    # every quantity is a row over (values, then the unknown derivatives of each order) at all knots
+    unit = np.eye(orders * knots)
+    ends = [unit[order * knots : (order + 1) * knots] for order in range(orders)]
+    rows = np.empty((pieces, degree + 1, orders * knots))
+    for k, h in enumerate(widths):
+        after = (k + 1) % knots
+        given = [ends[order][at] * h**order for at in (k, after) for order in range(orders)]
+        scales = np.array([h**-power for power in range(degree + 1)])
+        rows[k] = scales[:, None] * (_hermite(degree) @ np.array(given))
+    joins = range(pieces) if periodic else range(1, pieces)
+    conditions = [
+        _derivative(rows[k - 1], order, widths[k - 1]) - _derivative(rows[k], order, 0.0)
+        for k in joins
+        for order in range(orders, degree)
+    ]
+    if not periodic:
+        conditions += [ends[order][at] for order in range(1, orders) for at in (0, knots - 1)]
+    system = np.array(conditions)
+    unknown = -np.linalg.solve(system[:, knots:], system[:, :knots])
+    solution = np.vstack([np.eye(knots), unknown])
+    result: Matrix = rows @ solution
+    return result
+
+
+def _hermite(degree: int) -> Matrix:
+    """From the value and derivatives at 0, then at 1, to the coefficients of the polynomial on 0..1."""
+    orders = (degree + 1) // 2
+    powers = np.eye(degree + 1)
+    return np.linalg.inv(np.array([_derivative(powers, order, at) for at in (0.0, 1.0) for order in range(orders)]))
+
+
+def _derivative(rows: Matrix, order: int, at: float) -> Matrix:
+    """A derivative at a place of the polynomial whose coefficients are `rows`, constant first."""
+    total = np.zeros(rows.shape[1])
+    for power in range(order, len(rows)):
+        total += math.perm(power, order) * at ** (power - order) * rows[power]
+    return total

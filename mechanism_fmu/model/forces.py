@@ -11,8 +11,7 @@ from typing import Any, ClassVar, Literal, NamedTuple
 
 from ..tables.kinds import FORCES
 from .body import GROUND, Point
-from .conditions import finite_positive, not_negative
-from .findings import Finding, literal, refuse_unless
+from .findings import Finding, finite_positive, literal, not_negative, refuse_unless
 from .functions import Number
 
 __all__ = ["CompliantShaft", "DCMotor", "Damper", "Force", "SlipClutch", "SpringDamper", "Torque", "TorsionSpring"]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from .body import Point
-from .conditions import length
+from .findings import length
 from .functions import Number, is_plain
 
 

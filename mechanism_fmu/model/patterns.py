@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .body import Point
-from .conditions import both, finite, not_zero, true_or_false
 from .contact_facts import no_unit_length
-from .findings import Finding, literal, refuse_unless
+from .findings import Finding, both, finite, literal, not_zero, refuse_unless, true_or_false
 from .functions import Number
 
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from .body import GROUND, Point
-from .conditions import length
 from .errors import MechanismError
+from .findings import length
 from .functions import Number, is_plain, where_positive
 from .joints import AngleDriver, Revolute
 from .mechanism import Mechanism

@@ -3,22 +3,19 @@
 It knows neither the model room, which derives it, nor the FMU and the harness, which carry and show it.
 """
 
-from .follow import taken
-from .records import ANY, Definition, Logic, Region, Transition
-from .svg import diagram
-from .table import definition_rows, definitions_table, kept_parts, markdown, rows
-
-__all__ = [
-    "ANY",
-    "Definition",
-    "Logic",
-    "Region",
-    "Transition",
-    "definition_rows",
-    "definitions_table",
-    "diagram",
-    "kept_parts",
-    "markdown",
-    "rows",
-    "taken",
-]
+from .pictures import (
+    definition_rows as definition_rows,
+    definitions_table as definitions_table,
+    diagram as diagram,
+    kept_parts as kept_parts,
+    markdown as markdown,
+    rows as rows,
+)
+from .records import (
+    ANY as ANY,
+    Definition as Definition,
+    Logic as Logic,
+    Region as Region,
+    Transition as Transition,
+    taken as taken,
+)

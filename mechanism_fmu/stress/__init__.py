@@ -7,73 +7,66 @@ way, has `natural_modes`. What a whole sequence of impacts does, while the tooth
 is slender enough for all this.
 """
 
-from .beam import Beam
-from .cards import CARDS, STEEL_CARD, MaterialCard, material_card
-from .converged import converged_modes
-from .ends import End
-from .exact_wedge import exact_wedge_frequencies
-from .fatigue import Cycle, MeanStress, Strength, miner_damage, rainflow_cycles
-from .general_beam import SectionBeam, TableBeam
-from .material import STEEL, Material
-from .maximum import MaximumStress, maximum_stress
-from .modes import BeamMode, ritz_modes
-from .natural_mode import Mode, NaturalMode
-from .recovery import bending_moment, bending_stress
-from .response import damped_response
-from .ringing import Ringing, Swing
-from .ritz import natural_modes
-from .scaling import ModeScaling
-from .sequence import SequenceDamage, sequence_damage
-from .shear import shear_force, shear_stress
-from .slenderness import LEAST_SLENDERNESS, beam_theory_note, slenderness
-from .tip import LineContact, axial_stress, hertz_line_contact, peak_force, shortest_contact
-from .tooth import RectangularTooth, TrapezoidTooth, WedgeTooth, wedge_of_sawtooth
-
-__all__ = [
-    "CARDS",
-    "LEAST_SLENDERNESS",
-    "STEEL",
-    "STEEL_CARD",
-    "Beam",
-    "BeamMode",
-    "Cycle",
-    "End",
-    "LineContact",
-    "Material",
-    "MaterialCard",
-    "MaximumStress",
-    "MeanStress",
-    "Mode",
-    "ModeScaling",
-    "NaturalMode",
-    "RectangularTooth",
-    "Ringing",
-    "SectionBeam",
-    "SequenceDamage",
-    "Strength",
-    "Swing",
-    "TableBeam",
-    "TrapezoidTooth",
-    "WedgeTooth",
-    "axial_stress",
-    "beam_theory_note",
-    "bending_moment",
-    "bending_stress",
-    "converged_modes",
-    "damped_response",
-    "exact_wedge_frequencies",
-    "hertz_line_contact",
-    "material_card",
-    "maximum_stress",
-    "miner_damage",
-    "natural_modes",
-    "peak_force",
-    "rainflow_cycles",
-    "ritz_modes",
-    "sequence_damage",
-    "shear_force",
-    "shear_stress",
-    "shortest_contact",
-    "slenderness",
-    "wedge_of_sawtooth",
-]
+from .beam import (
+    LEAST_SLENDERNESS as LEAST_SLENDERNESS,
+    Beam as Beam,
+    beam_theory_note as beam_theory_note,
+    slenderness as slenderness,
+)
+from .fatigue import (
+    Cycle as Cycle,
+    MeanStress as MeanStress,
+    Strength as Strength,
+    miner_damage as miner_damage,
+    rainflow_cycles as rainflow_cycles,
+)
+from .material import (
+    CARDS as CARDS,
+    STEEL as STEEL,
+    STEEL_CARD as STEEL_CARD,
+    Material as Material,
+    MaterialCard as MaterialCard,
+    material_card as material_card,
+)
+from .maximum import MaximumStress as MaximumStress, maximum_stress as maximum_stress
+from .modes import (
+    BeamMode as BeamMode,
+    converged_modes as converged_modes,
+    exact_wedge_frequencies as exact_wedge_frequencies,
+    ritz_modes as ritz_modes,
+)
+from .recovery import (
+    bending_moment as bending_moment,
+    bending_stress as bending_stress,
+    damped_response as damped_response,
+    shear_force as shear_force,
+    shear_stress as shear_stress,
+)
+from .ringing import (
+    Ringing as Ringing,
+    SequenceDamage as SequenceDamage,
+    Swing as Swing,
+    sequence_damage as sequence_damage,
+)
+from .ritz import (
+    End as End,
+    Mode as Mode,
+    ModeScaling as ModeScaling,
+    NaturalMode as NaturalMode,
+    natural_modes as natural_modes,
+)
+from .tip import (
+    LineContact as LineContact,
+    axial_stress as axial_stress,
+    hertz_line_contact as hertz_line_contact,
+    peak_force as peak_force,
+    shortest_contact as shortest_contact,
+)
+from .tooth import (
+    RectangularTooth as RectangularTooth,
+    SectionBeam as SectionBeam,
+    TableBeam as TableBeam,
+    TrapezoidTooth as TrapezoidTooth,
+    WedgeTooth as WedgeTooth,
+    wedge_of_sawtooth as wedge_of_sawtooth,
+)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-from .checks import require_within
+from .beam import require_within
 
 #: Largest number of anything here; it only keeps out what is not finite.
 _MOST = 1e300

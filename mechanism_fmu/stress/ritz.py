@@ -3,18 +3,219 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from enum import Enum
+from functools import lru_cache
+from typing import Protocol
 
 import numpy as np
 from numpy.polynomial import legendre
 from scipy.linalg import eigh
 
-from .beam import Beam
-from .checks import FloatArray, require_within
-from .ends import End, admissible, norms, rigid_motions
+from .beam import Beam, FloatArray, gauss_points, require_within
 from .material import Material
-from .natural_mode import NaturalMode
-from .quadrature import gauss_points
-from .scaling import ModeScaling, scaled
+
+# How a beam is held at its ends, and the polynomials that respect it.
+
+
+class End(Enum):
+    """What is held at one end of a beam.
+
+    What is not held follows by itself from the stationary energy: no moment where the slope is free, no shear force
+    where the deflection is.
+    """
+
+    FREE = "free"
+    PINNED = "pinned"
+    GUIDED = "guided"
+    CLAMPED = "clamped"
+
+    @property
+    def vanishing(self) -> tuple[int, ...]:
+        """Orders of the derivatives of the deflection that are 0 there."""
+        return _VANISHING[self]
+
+
+# Not the values themselves: Python 3.11.2, which is Debian 12's, makes something else of an empty tuple.
+_VANISHING = {End.FREE: (), End.PINNED: (0,), End.GUIDED: (1,), End.CLAMPED: (0, 1)}
+
+
+def held(degree: int, root: End, tip: End) -> FloatArray:
+    """Vanishing derivatives as rows over the Legendre polynomials up to `degree`, of shape (held, degree + 1).
+
+    The polynomials are those of s = 2 xi - 1, normalised so that the integral of their square over xi is 1. Rows are
+    scaled to length 1, because derivatives grow fast with the degree.
+    """
+    unit = np.diag(norms(degree))
+    rows = [
+        legendre.legval(at, legendre.legder(unit, order))
+        for end, at in ((root, -1.0), (tip, 1.0))
+        for order in end.vanishing
+    ]
+    return np.asarray(np.reshape([row / np.linalg.norm(row) for row in rows], (len(rows), degree + 1)))
+
+
+def norms(degree: int) -> FloatArray:
+    """Factors that give the Legendre polynomials in s = 2 xi - 1 a unit integral of their square over xi."""
+    return np.asarray(np.sqrt(2.0 * np.arange(degree + 1) + 1))
+
+
+@lru_cache
+def admissible(terms: int, root: End, tip: End) -> FloatArray:
+    """`terms` orthonormal polynomials that fulfil the geometric end conditions, of shape (degree + 1, terms).
+
+    Columns are coefficients of the normalised Legendre polynomials of `held`; the n-th is of the lowest degree that has
+    room for n of them. Because the columns are orthonormal, so are the polynomials over xi: this basis is as well
+    conditioned as can be, where powers of xi end with twelve. Not to be written to: it is remembered.
+
+    Source: J. Shen, Efficient spectral-Galerkin method I, SIAM J. Sci. Comput. 15 (1994): neighbouring Legendre
+    polynomials recombined to fulfil the end conditions; here made orthonormal, too.
+    """
+    count = len(root.vanishing) + len(tip.vanishing)
+    degree = terms - 1 + count
+    rows = held(degree, root, tip)
+    columns = np.zeros((degree + 1, terms))
+    for n in range(terms):
+        neighbours = slice(n, n + count + 1)
+        columns[neighbours, n] = np.linalg.svd(rows[:, neighbours])[2][-1] if count else 1.0
+    # Each column of Q is a combination of those up to it, so the degrees still ascend.
+    return np.asarray(np.linalg.qr(columns)[0])
+
+
+def rigid_motions(root: End, tip: End) -> dict[str, tuple[float, float]]:
+    """Motions without bending, c_0 + c_1 xi, that the ends allow: (c_0, c_1) by name."""
+    held_by_both = root.vanishing + tip.vanishing
+    motions = {}
+    if 0 not in held_by_both:
+        motions["rigid translation"] = (1.0, 0.0)
+    if 1 not in held_by_both and held_by_both.count(0) < 2:
+        motions["rigid rotation"] = (-1.0, 1.0) if 0 in tip.vanishing else (0.0, 1.0)
+    return motions
+
+
+# What a mode of a beam is, and one from orthogonal polynomials.
+
+
+class Mode(Protocol):
+    """One bending mode of a beam: its shape, and what it weighs and resists.
+
+    Attributes:
+        mass: modal mass m of eq (9) [kg].
+        stiffness: modal stiffness k of eq (9) [N/m].
+        natural_frequency: Lambda = sqrt(k / m) [rad/s].
+    """
+
+    @property
+    def mass(self) -> float:
+        """Modal mass m [kg]."""
+
+    @property
+    def stiffness(self) -> float:
+        """Modal stiffness k [N/m]."""
+
+    @property
+    def natural_frequency(self) -> float:
+        """Undamped natural frequency Lambda [rad/s]."""
+
+    def legendre_series(self) -> FloatArray:
+        """Coefficients of the shape over the Legendre polynomials of s = 2 xi - 1 [-]."""
+
+    def shape(self, xi: FloatArray, derivative: int = 0) -> FloatArray:
+        """Mode shape u, or its `derivative`-th derivative with respect to xi, at `xi` (0 root, 1 tip) [-]."""
+
+
+@dataclass(frozen=True)
+class NaturalMode:
+    """One mode of `natural_modes`: u as a Legendre series in s = 2 xi - 1, with xi = x / length.
+
+    Attributes:
+        series: coefficients of the Legendre polynomials P_0, P_1, ... [-]; their scale fixes what eta of eq (8) means.
+        mass: modal mass m of eq (9) [kg], for these coefficients.
+        stiffness: modal stiffness k of eq (9) [N/m], for these coefficients; 0 of a rigid mode.
+        name: "bending 1", "bending 2", ..., "rigid translation" or "rigid rotation".
+    """
+
+    series: tuple[float, ...]
+    mass: float
+    stiffness: float
+    name: str
+
+    @property
+    def natural_frequency(self) -> float:
+        """Undamped natural frequency Lambda = sqrt(k / m) [rad/s]."""
+        return math.sqrt(self.stiffness / self.mass)
+
+    def legendre_series(self) -> FloatArray:
+        """Coefficients of the shape over the Legendre polynomials of s = 2 xi - 1 [-]."""
+        return np.array(self.series)
+
+    def shape(self, xi: FloatArray, derivative: int = 0) -> FloatArray:
+        """Mode shape u, or its `derivative`-th derivative with respect to xi, at `xi` (0 root, 1 tip) [-]."""
+        series = legendre.legder(self.legendre_series(), derivative, scl=2)
+        return np.asarray(legendre.legval(2 * np.asarray(xi, dtype=np.float64) - 1, series))
+
+    def scaled(self, factor: float) -> NaturalMode:
+        """The same mode with `factor` times the deflection."""
+        series = tuple(factor * c for c in self.series)
+        return NaturalMode(series, factor**2 * self.mass, factor**2 * self.stiffness, self.name)
+
+
+# How large a mode shape is taken: it has no scale of its own, but the stress depends on it.
+
+#: A mode of which this part or less takes part in a motion takes no part in it.
+_NO_SHARE = 1e-9
+
+
+class ModeScaling(Enum):
+    """The scale of mode shapes that all start with eta'(0) = v_I; see docs/decisions/003-mode-scaling.md.
+
+    Attributes:
+        FIRST_COEFFICIENT: the lowest power of xi that the root allows has the coefficient 1; for a clamped root a_1 = 1
+            of u = a_1 xi^2 + a_2 xi^3 + ..., which gives the paper's "40 % of the length".
+        PROJECTION: the shapes add up to xi, the rigid rotation about the root, so that the tooth starts with the
+            velocity v_I xi all along. The stress then depends on no scale.
+    """
+
+    FIRST_COEFFICIENT = "a1 = 1"
+    PROJECTION = "projection of the rigid rotation"
+
+
+def scaled(mode: NaturalMode, beam: Beam, material: Material, root: End, scaling: ModeScaling) -> NaturalMode:
+    """The bending mode `mode`, scaled.
+
+    Raises:
+        ValueError: the mode has no such scale.
+    """
+    if scaling is ModeScaling.PROJECTION:
+        return mode.scaled(_share_in_rotation(mode, beam, material))
+    return mode.scaled(1 / _first_coefficient(mode, root))
+
+
+def _first_coefficient(mode: NaturalMode, root: End) -> float:
+    """Coefficient of the lowest power of xi that the root allows [-]: 2 for a clamped root, 1 for a pinned, else 0."""
+    power = next(power for power in range(3) if power not in root.vanishing)
+    derivatives = mode.shape(np.array([0.0]), derivative=power)
+    return float(derivatives[0]) / math.factorial(power)
+
+
+def _share_in_rotation(mode: NaturalMode, beam: Beam, material: Material) -> float:
+    """Coefficient of the mode when the rotation xi is written as a sum of modes: integral of rho A u xi over m [-].
+
+    Raises:
+        ValueError: the mode takes no part in it.
+    """
+    x, dx = gauss_points(beam, len(mode.series))
+    xi = x / beam.length
+    weight = material.density * dx * beam.area(x)
+    share = float(weight @ (xi * mode.shape(xi))) / mode.mass
+    largest = math.sqrt(float(weight @ xi**2) / mode.mass)
+    if abs(share) <= _NO_SHARE * largest:
+        raise ValueError(
+            f"{mode.name} takes no part in a rotation about the root, so the projection gives it no scale: choose "
+            "ModeScaling.FIRST_COEFFICIENT, or hold the root."
+        )
+    return share
+
 
 #: Beyond this many terms the frequencies gain nothing and the highest modes are noise.
 _MOST_TERMS = 60

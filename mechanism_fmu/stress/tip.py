@@ -13,8 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from .beam import Beam
-from .checks import FloatArray, require_all_within, require_within
+from .beam import Beam, FloatArray, require_all_within, require_within
 from .material import Material
 
 _LARGEST_FORCE, _LARGEST_IMPULSE = 1e12, 1e9

@@ -1,17 +1,19 @@
-"""What stands where in an instance's block: header, tables, state, work.
-
-The tables describe the mechanism and change only with its parameters (an input's value is written into `force_data`);
-the state is everything that a saved state must restore, in one piece; work is scratch that no result depends on.
-"""
+"""What stands where in an instance's block: header, tables, state, work; and how tables are written into one."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 
 from . import members, motion, parts
 from .declare import Array, Field, Table
-from .sizes import SIZES, sizes_of
-from .sizes import complete as completed
+from .sizes import GIVEN_SIZES, SIZES, complete as completed, sizes_of
+
+# What stands where in an instance's block: header, tables, state, work.
+#
+# The tables describe the mechanism and change only with its parameters (an input's value is written into `force_data`);
+# the state is everything that a saved state must restore, in one piece; work is scratch that no result depends on.
 
 #: Every table, in the order of its module: whatever is imported first, the order is this one.
 TABLES: tuple[type[Table], ...] = tuple(
@@ -86,3 +88,35 @@ def state_of(block: Array) -> Array:
 def shape_of(field: Field, sizes: dict[str, int]) -> tuple[int, ...]:
     """The shape of a field for given sizes."""
     return tuple(sizes[n] if isinstance(n, str) else n for n in field.shape)
+
+
+# From a mechanism's tables to an instance's block.
+
+
+def pack(tables: Any) -> Array:
+    """A block for the tables of a mechanism (any object with the table fields of `layout` as attributes).
+
+    Returns:
+        float64 of shape (words,), with inputs at their start values and no motion begun.
+
+    """
+    block = allocate({size: _number(size, tables) for size in GIVEN_SIZES})
+    write_tables(block, tables)
+    field_of(block, "inputs")[:] = tables.input_start
+    return block
+
+
+def write_tables(block: Array, tables: Any) -> None:
+    """Write tables of the same structure into a block, leaving its state as it is."""
+    for field in FIELDS:
+        if field.room == "tables":
+            field_of(block, field.name)[...] = getattr(tables, field.name)
+
+
+def _number(size: str, tables: Any) -> int:
+    """The length of the tables with so many rows, or the number of that name."""
+    for field in FIELDS:
+        if field.room == "tables" and field.shape[0] == size:
+            return len(getattr(tables, field.name))
+    number: int = getattr(tables, size)
+    return number

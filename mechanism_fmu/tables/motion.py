@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from .. import codes
-from .contents import ANY, COUNT, FINITE, FLAG, MOST, NOT_NEGATIVE, WHOLE, index_of, whole
-from .declare import Table, integer, real
+from .declare import ANY, COUNT, FINITE, FLAG, MOST, NOT_NEGATIVE, WHOLE, Table, index_of, integer, real, whole
 from .method import METHOD
 
 #: Subject of a guard: a contact, pattern or logical function, or the status of a failure; the guard says which.

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from .. import codes
-from .contents import ANY, COUNT, FINITE, FLAG, NOT_NAN, WHOLE, whole
-from .declare import Table, integer, real
+from .declare import ANY, COUNT, FINITE, FLAG, NOT_NAN, WHOLE, Table, integer, real, whole
 from .kinds import FORCES, JOINTS
 
 

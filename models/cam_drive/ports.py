@@ -1,4 +1,4 @@
-"""Inputs, outputs and parameters of the cam drive."""
+"""Inputs, outputs and parameters of the cam drive, and how it is drawn from them."""
 
 from __future__ import annotations
 
@@ -6,9 +6,14 @@ import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
+    Bar,
     Calculated,
+    Disc,
+    Hinge,
     Output,
     Parameter,
+    Striker,
+    Wheel,
     active_output,
     angle_output,
     angle_parameter,
@@ -36,8 +41,46 @@ from mechanism_fmu.model import (
     whole_output,
 )
 
-from .geometry import timing
-from .shapes import form
+from .geometry import radius_at, timing
+
+# How the cam drive is drawn from its variables: cam, follower arm, roller, hinges.
+#
+# The cam's outline takes radii that follow from the parameters, `outline_cam_<degrees>`.
+
+#: Angles of the profile at which the outline is drawn [deg].
+_DEGREES = tuple(range(0, 360, 10))
+
+_CAM_HINGE, _FOLLOWER_HINGE = (0.0, 0.0), ("-hinge_distance", 0.0)
+
+
+def _name(degrees: int) -> str:
+    return f"outline_cam_{degrees:03d}"
+
+
+SHAPES = (
+    Wheel("cam", _CAM_HINGE, "cam_angle", 1, tuple((_name(d), math.radians(d)) for d in _DEGREES)),
+    Bar("follower", _FOLLOWER_HINGE, "follower_angle", "follower_length"),
+    Disc("roller", "follower", "roller_radius"),
+    Hinge(_CAM_HINGE),
+    Hinge(_FOLLOWER_HINGE),
+    Striker("follower"),
+)
+
+
+def form(values: SimpleNamespace) -> tuple[Calculated, ...]:
+    """The radii of the outline."""
+    return tuple(
+        Calculated(
+            _name(degrees),
+            radius_at(values, math.radians(degrees)),
+            f"Drawing: radius of the cam at {degrees} deg of its profile",
+            "m",
+        )
+        for degrees in _DEGREES
+    )
+
+
+# Inputs, outputs and parameters of the cam drive.
 
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),

@@ -1,19 +1,213 @@
-"""A four-bar linkage whose coupler carries a path point, with links that bend.
-
-Frame: the crank's hinge at the origin, the rocker's hinge at (d, 0). The coupler is two beams, welded at the crank pin:
-one to the rocker pin, and the arm to the path point P. Equations and sources: README.md beside this file.
-"""
+"""A four-bar linkage whose coupler carries a path point, with links that bend."""
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
 from types import SimpleNamespace
 
-from mechanism_fmu.model import GROUND, CompliantShaft, Mechanism, Model, Revolute, Settings, Torque
-from mechanism_fmu.model.four_bar_checks import objections, warnings
+from mechanism_fmu.model import (
+    GROUND,
+    Bar,
+    Body,
+    Calculated,
+    CompliantShaft,
+    Disc,
+    Disk,
+    Hinge,
+    LumpedBody,
+    Mechanism,
+    Member,
+    Model,
+    Parameter,
+    Revolute,
+    Section,
+    Settings,
+    Torque,
+    Wheel,
+    angle_parameter,
+    bent_point_outputs,
+    body_angle_output,
+    body_speed_output,
+    energy_outputs,
+    flag_parameter,
+    length_parameter,
+    lumped_body,
+    member_outputs,
+    settings_parameters,
+    shaft_inputs,
+    shaft_parameters,
+    shaft_torque_output,
+    speed_parameter,
+    torque_input,
+)
+from mechanism_fmu.model.body import MovingPoint
+from mechanism_fmu.model.four_bar import form, objections, start, warnings
+from mechanism_fmu.model.functions import Number, cos, sin
 
-from .links import links
-from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
-from .shapes import SHAPES
+# The bodies of the path generator, made of elastic members and disks.
+
+
+@dataclass(frozen=True)
+class Link:
+    """A body at the start of the motion, and its members and disks in its own frame."""
+
+    body: Body
+    parts: LumpedBody
+
+
+def links(values: SimpleNamespace) -> tuple[Link, Link, Link]:
+    """Crank, coupler (its members: arm, bar) and rocker; half of each member's mass is at each of its ends."""
+    at, theta, speed = start(values), values.crank_angle_start, values.crank_speed_start
+    origin, hinge = MovingPoint(0.0, 0.0), MovingPoint(values.ground_length, 0.0)
+    pin = origin.along(values.crank_length, theta, speed)
+    path = values.arm_length * cos(values.arm_angle), values.arm_length * sin(values.arm_angle)
+    crank_pin, rocker_pin = (0.0, 0.0), (values.coupler_length, 0.0)
+    disks = (
+        Disk("path_disk", "coupler", path, values.path_disk_mass, values.path_disk_inertia),
+        Disk("crank_pin_disk", "coupler", crank_pin, values.crank_pin_disk_mass, values.crank_pin_disk_inertia),
+        Disk("rocker_pin_disk", "coupler", rocker_pin, values.rocker_pin_disk_mass),
+    )
+    coupler = _member(values, "arm", "coupler", path), _member(values, "coupler_bar", "coupler", rocker_pin)
+    crank = _member(values, "crank_bar", "crank", (values.crank_length, 0.0))
+    rocker = _member(values, "rocker_bar", "rocker", (values.rocker_length, 0.0))
+    return (
+        _link("crank", lumped_body((crank,)), origin, theta, speed),
+        _link("coupler", lumped_body(coupler, disks), pin, at.coupler_angle, at.coupler_speed),
+        _link("rocker", lumped_body((rocker,)), hinge, at.rocker_angle, at.rocker_speed),
+    )
+
+
+def _member(values: SimpleNamespace, name: str, body: str, end: tuple[Number, Number]) -> Member:
+    link = name.removesuffix("_bar")
+    section = Section.rectangle(getattr(values, f"{link}_width"), getattr(values, f"{link}_depth"))
+    return Member(name, body, (0.0, 0.0), end, section, values.elastic_modulus, values.density)
+
+
+def _link(name: str, parts: LumpedBody, begin: MovingPoint, angle: Number, speed: Number) -> Link:
+    x, y = parts.centre
+    c, s = cos(angle), sin(angle)
+    across, up = c * x - s * y, s * x + c * y
+    place = begin.x + across, begin.y + up, angle
+    rate = begin.x_rate - up * speed, begin.y_rate + across * speed, speed
+    return Link(Body(name, parts.mass, parts.inertia, place, rate), parts)
+
+
+# How the path generator is drawn from its variables: links, hinges and the path point, all as if they were rigid.
+
+_CRANK_HINGE, _ROCKER_HINGE = (0.0, 0.0), ("ground_length", 0.0)
+
+#: Pin, pin and path point, in polar coordinates of the coupler.
+_PLATE = ((0.0, 0.0), ("coupler_length", 0.0), ("arm_length", "arm_angle"))
+
+SHAPES = (
+    Bar("crank", _CRANK_HINGE, "crank_angle", "crank_length"),
+    Wheel("coupler with arm", "crank", "coupler_angle", 1, _PLATE),
+    Bar("coupler", "crank", "coupler_angle", "coupler_length"),
+    Bar("rocker", _ROCKER_HINGE, "rocker_angle", "rocker_length"),
+    Hinge(_CRANK_HINGE),
+    Hinge(_ROCKER_HINGE),
+    Hinge("crank"),
+    Hinge("coupler"),
+    Disc("path point", ("path_x", "path_y"), "outline_path_radius"),
+)
+
+
+# Inputs, outputs and parameters of the path generator.
+#
+# The defaults are an example of this project, in round numbers of inches and pounds: Erdman, Sandor and Oakberg (1972)
+# draw the linkage (Fig. 3), but the pages at hand give no dimensions of it.
+
+#: Inch [m], pound [kg], and pound of force [N].
+_INCH, _POUND = 0.0254, 0.45359237
+_POUND_FORCE = _POUND * 9.80665
+#: 500 rpm [rad/s].
+_SPEED = 500 * math.pi / 30
+
+INPUTS = (*shaft_inputs(speed=_SPEED), torque_input("drive", "crank"))
+
+OUTPUTS = (
+    body_angle_output("crank", "theta"),
+    body_angle_output("coupler", "phi"),
+    body_angle_output("rocker", "psi"),
+    body_speed_output("crank"),
+    body_speed_output("coupler"),
+    body_speed_output("rocker"),
+    shaft_torque_output("crank", nominal=5.0),
+    *bent_point_outputs("path", "arm.end", "path point", INPUTS, nominal=0.2),
+    *(
+        output
+        for member in ("arm", "crank_bar", "coupler_bar", "rocker_bar")
+        for output in member_outputs(member, INPUTS, force=100.0, moment=5.0, stress=5e7)
+    ),
+    *energy_outputs(
+        kinetic="Kinetic energy of crank, coupler and rocker",
+        spring="Energy of springs: there are none",
+        work="Work done by drive shaft and drive torque since the start",
+        lost="Energy lost: there is no friction",
+        nominal=10.0,
+    ),
+)
+
+
+def _section(link: str) -> tuple[Parameter, Parameter]:
+    return (
+        length_parameter(f"{link}_width", 0.25 * _INCH, f"Width of the {link}'s section, normal to the plane (b)"),
+        length_parameter(f"{link}_depth", 0.5 * _INCH, f"Depth of the {link}'s section, in the plane (h)"),
+    )
+
+
+def _disk(name: str, place: str, weight: float, radius: float = 0.0) -> tuple[Parameter, ...]:
+    """A disk of the coupler; `weight` in pounds, `radius` in inches."""
+    mass = weight * _POUND
+    found = Parameter(f"{name}_mass", mass, f"Mass of the disk at the {place}", "kg", 0.0, 1e6)
+    if not radius:
+        return (found,)
+    inertia = mass * (radius * _INCH) ** 2 / 2
+    what = f"Moment of inertia of the disk at the {place}; it turns with the coupler"
+    return found, Parameter(f"{name}_inertia", inertia, what, "kg.m2", 0.0, 1e6)
+
+
+PARAMETERS = (
+    length_parameter("ground_length", 10 * _INCH, "Distance between the fixed hinges of crank and rocker (d)"),
+    length_parameter("crank_length", 4 * _INCH, "Length of the crank (a)"),
+    length_parameter("coupler_length", 10 * _INCH, "Length of the coupler, from pin to pin (b)"),
+    length_parameter("rocker_length", 8 * _INCH, "Length of the rocker (c)"),
+    length_parameter("arm_length", 6 * _INCH, "Length of the coupler's arm, from the crank pin to the path point (p)"),
+    angle_parameter("arm_angle", math.radians(30), "Angle of the arm against the coupler (alpha)"),
+    *(parameter for link in ("crank", "coupler", "rocker", "arm") for parameter in _section(link)),
+    Parameter("elastic_modulus", 30e6 * _POUND_FORCE / _INCH**2, "Modulus of elasticity (E)", "Pa", 1.0, 1e15),
+    Parameter("density", 0.283 * _POUND / _INCH**3, "Density of the links", "kg/m3", 1e-3, 1e6),
+    *_disk("path_disk", "path point", 0.5, 0.75),
+    *_disk("crank_pin_disk", "crank pin", 0.1, 0.5),
+    *_disk("rocker_pin_disk", "rocker pin", 0.1),
+    flag_parameter(
+        "crossed",
+        False,
+        "Whether coupler and rocker are assembled on the other side of the line from crank pin to rocker hinge",
+    ),
+    angle_parameter("crank_angle_start", math.radians(30), "Crank angle at the start (theta)"),
+    speed_parameter("crank_speed_start", _SPEED, "Crank speed at the start; those of coupler and rocker follow"),
+    *shaft_parameters(damping=100.0),
+    *settings_parameters(),
+)
+
+
+def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
+    """The extreme transmission angles, and how large the path point is drawn."""
+    known = form(values)
+    between = "Transmission angle, between coupler and rocker, with the crank pointing"
+    return (
+        Calculated("folded_transmission_angle", known.folded, f"{between} to the rocker's hinge", "rad", "deg"),
+        Calculated("stretched_transmission_angle", known.stretched, f"{between} away from it", "rad", "deg"),
+        Calculated("outline_path_radius", values.arm_length / 15, "Drawing: radius of the path point", "m"),
+    )
+
+
+# A four-bar linkage whose coupler carries a path point, with links that bend.
+#
+# Frame: the crank's hinge at the origin, the rocker's hinge at (d, 0). The coupler is two beams, welded at the crank
+# pin: one to the rocker pin, and the arm to the path point P. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

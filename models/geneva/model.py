@@ -1,8 +1,4 @@
-"""The external Geneva drive: a pin in a slot while it is in there, a locking arc while it is not.
-
-Frame: the wheel's hinge at the origin, the driver's hinge at (c, 0). The driver's x axis passes through its pin, the
-wheel's through slot 0; slots are counted counter-clockwise. Equations and sources: README.md beside this file.
-"""
+"""The external Geneva drive: a pin in a slot while it is in there, a locking arc while it is not."""
 
 from __future__ import annotations
 
@@ -17,6 +13,7 @@ from mechanism_fmu.model import (
     CompliantShaft,
     Contact,
     Damper,
+    Finding,
     LogicalFunction,
     Mechanism,
     Model,
@@ -25,14 +22,38 @@ from mechanism_fmu.model import (
     Settings,
     Torque,
 )
+from mechanism_fmu.model.body import rotor_body
+from mechanism_fmu.model.findings import at_most
 from mechanism_fmu.model.functions import cos, sin
-from mechanism_fmu.model.part_bodies import rotor_body
 
-from .checks import objections
-from .geometry import geneva
-from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
-from .shapes import SHAPES
-from .start import wheel_angle, wheel_speed
+from .geometry import geneva, wheel_angle, wheel_speed
+from .ports import INPUTS, OUTPUTS, PARAMETERS, SHAPES, calculated
+
+# What is wrong with parameter values that are each within their limits.
+
+
+def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
+    """Why the drive cannot be built: value, limit and way out."""
+    geometry = geneva(values)
+    limits = {
+        "no locking disc is left beside it": geometry.slot_depth,
+        "the slots run into each other where they end": geometry.slot_spacing,
+    }
+    return tuple(
+        Finding(
+            at_most(most, values.pin_diameter),
+            "pin_diameter = {:.6g} m is too thick for slot_count = {:g} and centre_distance = {:.6g} m: "
+            f"{reason}. Give less than {{:.6g}} m, or a larger centre_distance.",
+            (values.pin_diameter, values.slot_count, values.centre_distance, most),
+        )
+        for reason, most in limits.items()
+    )
+
+
+# The external Geneva drive: a pin in a slot while it is in there, a locking arc while it is not.
+#
+# Frame: the wheel's hinge at the origin, the driver's hinge at (c, 0). The driver's x axis passes through its pin, the
+# wheel's through slot 0; slots are counted counter-clockwise. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

@@ -1,18 +1,162 @@
-"""The motor: a rotor on a fixed hinge, its armature circuit, and a PI controller of its speed.
-
-Frame: the rotor's hinge at the origin. Equations and source: README.md beside this file.
-"""
+"""The motor: a rotor on a fixed hinge, its armature circuit, and a PI controller of its speed."""
 
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 
-from mechanism_fmu.model import GROUND, Damper, DCMotor, Mechanism, Model, Revolute, Settings, Torque
-from mechanism_fmu.model.part_bodies import rotor_body
+from mechanism_fmu.model import (
+    GROUND,
+    Calculated,
+    Damper,
+    DCMotor,
+    Disc,
+    Finding,
+    Hinge,
+    Input,
+    Mechanism,
+    Model,
+    Output,
+    Parameter,
+    Revolute,
+    Settings,
+    Torque,
+    Wheel,
+    angle_parameter,
+    body_angle_output,
+    body_speed_output,
+    damping_parameter,
+    energy_outputs,
+    load_torque_input,
+    rotor_parameters,
+    settings_parameters,
+    speed_parameter,
+)
+from mechanism_fmu.model.body import rotor_body
 
-from .checks import objections
-from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
-from .shapes import SHAPES
+# How the motor is drawn from its variables: housing, and a rotor whose poles show how it turns.
+
+#: Radii as drawn [m]; the motor's equations know none.
+HOUSING, POLE, CORE = 0.05, 0.042, 0.018
+POLES = 4
+
+_HALF, _GAP = 0.55 * math.pi / POLES, math.pi / POLES
+#: One pole, about the x axis, from the middle of the gap before it to that behind it: radius [m], angle [rad].
+OUTLINE = ((CORE, -_GAP), (CORE, -_HALF), (POLE, -_HALF), (POLE, _HALF), (CORE, _HALF), (CORE, _GAP))
+
+SHAPES = (
+    Disc("housing", (0.0, 0.0), "outline_housing_radius"),
+    Wheel("rotor", (0.0, 0.0), "rotor_angle", POLES, OUTLINE),
+    Hinge((0.0, 0.0)),
+)
+
+
+def form() -> tuple[Calculated, ...]:
+    """The radius of the housing."""
+    return (Calculated("outline_housing_radius", HOUSING, "Drawing: radius of the housing", "m"),)
+
+
+# What is wrong with parameter values that are each within their limits.
+
+#: An armature or a controller that is so fast [s] costs millions of steps a second and shows nothing.
+FASTEST = 1e-6
+
+
+def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
+    """Why the motor cannot be run: value, limit and way out."""
+    electrical = values.inductance / values.resistance
+    rate = values.anti_windup * values.integral_gain
+    return (
+        Finding(
+            FASTEST - electrical,
+            "The armature's time constant inductance / resistance = {:.3g} s is shorter than "
+            f"{FASTEST:g} s, and steps would be as small. Give a larger inductance = {{:.3g}} H: as long as the time "
+            "constant stays far below the rotor's, it changes little.",
+            (electrical, values.inductance),
+        ),
+        Finding(
+            rate * FASTEST - 1.0,
+            "anti_windup * integral_gain = {:.3g} 1/s is more than "
+            f"{1 / FASTEST:g} 1/s, and steps would be too small. Give a smaller anti_windup.",
+            (rate,),
+        ),
+    )
+
+
+# Inputs, outputs and parameters of the motor.
+
+INPUTS = (
+    Input("speed_reference", "motor.speed", 50.0, "Speed that the controller keeps", "rad/s", -1e6, 1e6, "rpm"),
+    load_torque_input("rotor"),
+)
+
+OUTPUTS = (
+    body_angle_output("rotor", "phi"),
+    body_speed_output("rotor", "omega", nominal=10.0),
+    Output("motor_torque", "motor.torque", "Torque of the motor on its rotor (K i)", "N.m", nominal=1.0),
+    Output("current", "motor.current", "Current of the armature (i)", "A", nominal=1.0),
+    Output(
+        "voltage",
+        "motor.voltage",
+        "Voltage that the controller gives to the armature (u)",
+        "V",
+        nominal=10.0,
+        feedthrough=("speed_reference",),
+    ),
+    *energy_outputs(
+        kinetic="Kinetic energy of the rotor",
+        spring="Magnetic energy of the armature",
+        work="Work done by the electric supply and load_torque since the start",
+        lost="Energy lost in the armature's resistance and the rotor's damping since the start",
+    ),
+)
+
+PARAMETERS = (
+    Parameter("motor_constant", 0.25, "Torque per current, and voltage per speed (K)", "N.m/A", 1e-9, 1e6),
+    Parameter("resistance", 2.0, "Resistance of the armature (R)", "ohm", 1e-9, 1e9),
+    Parameter("inductance", 4e-3, "Inductance of the armature (L)", "H", 1e-9, 1e6),
+    *rotor_parameters("rotor", 1.0, 1e-3),
+    damping_parameter("rotor", 1e-4),
+    Parameter("voltage_limit", 24.0, "Most that the controller gives, either way (U)", "V", 0.0, 1e6),
+    Parameter("speed_gain", 0.5, "Proportional gain of the controller (kp)", "V.s/rad", 0.0, 1e6),
+    Parameter("integral_gain", 10.0, "Integral gain of the controller (ki)", "V/rad", 0.0, 1e9),
+    Parameter(
+        "anti_windup",
+        20.0,
+        "By how much the integral gives way where the voltage is at its limit (g); 0: not at all",
+        "rad/(V.s)",
+        0.0,
+        1e6,
+    ),
+    angle_parameter("rotor_angle_start", 0.0, "Rotor angle at the start (phi)"),
+    speed_parameter("rotor_speed_start", 0.0, "Rotor speed at the start (omega); current and integral begin at 0"),
+    *settings_parameters(),
+)
+
+
+def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
+    """Time constants and limits of the motor, and what drawings need."""
+    K, R = values.motor_constant, values.resistance
+    return (
+        Calculated("electrical_time", values.inductance / R, "Time constant of the armature (L/R)", "s", "ms"),
+        Calculated(
+            "mechanical_time", values.rotor_inertia * R / (K * K), "Time constant of the rotor (J R/K2)", "s", "ms"
+        ),
+        Calculated("stall_torque", K * values.voltage_limit / R, "Torque at rest and voltage_limit (K U/R)", "N.m"),
+        Calculated(
+            "idle_speed",
+            K * values.voltage_limit / (K * K + R * values.rotor_damping),
+            "Speed at voltage_limit without load",
+            "rad/s",
+            "rpm",
+        ),
+        *form(),
+    )
+
+
+# The motor: a rotor on a fixed hinge, its armature circuit, and a PI controller of its speed.
+#
+# Frame: the rotor's hinge at the origin. Equations and source: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

@@ -1,8 +1,4 @@
-"""The ratchet of Pennestrì, Valentini and Vita: guided along the slope of one tooth, or free on the whole wheel.
-
-Frame: the wheel's hinge at the origin, the crank's hinge at (d, 0). The wheel's x axis passes through the
-root of the tooth that is struck, so that its angle is psi. Equations and sources: README.md beside this file.
-"""
+"""The ratchet of Pennestrì, Valentini and Vita: guided along the slope of one tooth, or free on the whole wheel."""
 
 from __future__ import annotations
 
@@ -12,32 +8,103 @@ from types import SimpleNamespace
 from mechanism_fmu.model import (
     GROUND,
     AngleStop,
+    Arm,
+    Bar,
     Body,
     CircularPattern,
     CompliantShaft,
     Contact,
     Damper,
+    Hinge,
+    ImpactStress,
     Mechanism,
     Member,
     Model,
     PointLineContact,
     Revolute,
+    SawtoothWheel,
     Section,
+    SeriesCompliance,
     Settings,
+    Striker,
+    Strut,
     Torque,
     TorsionSpring,
+    WedgeTooth,
+    Wheel,
 )
-from mechanism_fmu.model.body import Point
+from mechanism_fmu.model.body import Point, rotor_body
 from mechanism_fmu.model.functions import cos, sin
-from mechanism_fmu.model.part_bodies import rotor_body
 
-from .analysis import ANALYSIS
-from .checks import objections, warnings
-from .inputs import INPUTS
-from .outputs import OUTPUTS
-from .parameters import PARAMETERS, calculated
-from .shapes import SHAPES
-from .start import crank_pin, pawl_angle, starts_on_slope, tooth
+from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
+from .start import crank_pin, objections, pawl_angle, starts_on_slope, tooth, warnings
+
+# How the ratchet is drawn from its variables: wheel, crank, pawl, hinges.
+
+_WHEEL_HINGE, _CRANK_HINGE = (0.0, 0.0), ("hinge_distance", 0.0)
+
+#: The wheel's x axis passes through the root that is struck; from a root the slope runs clockwise to its apex.
+SHAPES = (
+    Wheel(
+        "wheel",
+        _WHEEL_HINGE,
+        "wheel_angle",
+        "tooth_count",
+        (("wheel_inner_radius", 0.0), ("tooth_apex_radius", "tooth_apex_offset")),
+        clockwise=True,
+    ),
+    Bar("crank", _CRANK_HINGE, "crank_angle", "crank_length"),
+    Bar("pawl", "crank", "pawl_angle", "pawl_length"),
+    Hinge(_WHEEL_HINGE),
+    Hinge(_CRANK_HINGE),
+    Hinge("crank"),
+    Striker("pawl"),
+)
+
+
+# What can be analysed of the ratchet: the stress in its teeth, and how far crank and pawl give way.
+
+ANALYSIS = (
+    ImpactStress(
+        "face",
+        WedgeTooth("tooth_length", "tooth_apex_angle"),
+        "tooth",
+        "teeth",
+        slenderness="tooth_slenderness",
+        strokes="clicks",
+    ),
+    SeriesCompliance(
+        "face",
+        Arm("crank", "crank_length", "crank_width", "crank_depth", "crank_stiffness", angle="crank_angle"),
+        Strut(
+            *("pawl", "pawl_length", "pawl_width", "pawl_depth", "pawl_stiffness"),
+            angle="pawl_angle",
+            deflection="pawl_tip_deflection",
+            stress="pawl_bending_stress",
+        ),
+        SawtoothWheel(
+            "wheel",
+            "tooth",
+            radius="wheel_inner_radius",
+            pitch="tooth_pitch",
+            slope_angle="tooth_slope_angle",
+            apex_angle="tooth_apex_angle",
+            angle="wheel_angle",
+            index="tooth_index",
+            struck="tooth",
+            slope_force="slope_force",
+            face_force="contact_force",
+        ),
+        restitution="restitution",
+        source="models/ratchet/README.md",
+    ),
+)
+
+
+# The ratchet of Pennestrì, Valentini and Vita: guided along the slope of one tooth, or free on the whole wheel.
+#
+# Frame: the wheel's hinge at the origin, the crank's hinge at (d, 0). The wheel's x axis passes through the
+# root of the tooth that is struck, so that its angle is psi. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

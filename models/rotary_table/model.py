@@ -1,28 +1,136 @@
-"""The rotary table: a disc on a fixed hinge, a brake that holds it up to a torque, and the shaft that turns it.
-
-Frame: the table's hinge at the origin. Equations and source: README.md beside this file.
-"""
+"""The rotary table: a disc on a fixed hinge, a brake that holds it up to a torque, and the shaft that turns it."""
 
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
+    Calculated,
     CompliantShaft,
     Damper,
+    Disc,
+    Finding,
+    Hinge,
+    Input,
     Mechanism,
     Model,
+    Parameter,
     Revolute,
     Settings,
     SlipClutch,
     Torque,
+    Wheel,
+    angle_parameter,
+    body_angle_output,
+    body_speed_output,
+    damping_parameter,
+    energy_outputs,
+    load_torque_input,
+    rotor_parameters,
+    settings_parameters,
+    shaft_inputs,
+    shaft_torque_output,
+    speed_parameter,
+    torque_output,
 )
-from mechanism_fmu.model.part_bodies import rotor_body
+from mechanism_fmu.model.body import rotor_body
 
-from .checks import objections
-from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
-from .shapes import SHAPES
+# How the rotary table is drawn from its variables: the table with its stations, and the brake's disc.
+
+#: Radii as drawn [m]; the table's equations know none.
+RIM, STATION, BRAKE = 0.13, 0.115, 0.05
+STATIONS = 10
+
+_HALF, _GAP = 0.6 * math.pi / STATIONS, math.pi / STATIONS
+#: One station, about the x axis, from the middle of the gap before it to that behind it: radius [m], angle [rad].
+OUTLINE = ((RIM, -_GAP), (RIM, -_HALF), (STATION, -_HALF), (STATION, _HALF), (RIM, _HALF), (RIM, _GAP))
+
+SHAPES = (
+    Wheel("table", (0.0, 0.0), "table_angle", STATIONS, OUTLINE),
+    Disc("brake", (0.0, 0.0), "outline_brake_radius"),
+    Hinge((0.0, 0.0)),
+)
+
+
+def form() -> tuple[Calculated, ...]:
+    """The radius of the brake's disc."""
+    return (Calculated("outline_brake_radius", BRAKE, "Drawing: radius of the brake's disc", "m"),)
+
+
+# What is wrong with parameter values that are each within their limits.
+
+#: A brake that gives way so fast [s] costs millions of steps a second and shows nothing.
+FASTEST = 1e-6
+
+
+def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
+    """Why the table cannot be run: value, limit and way out."""
+    time = values.brake_damping / values.brake_stiffness
+    return (
+        Finding(
+            FASTEST - time,
+            "brake_damping / brake_stiffness = {:.3g} s is shorter than "
+            f"{FASTEST:g} s, and steps would be as small. Give less brake_stiffness = {{:.3g}} N.m/rad, or more "
+            "brake_damping = {:.3g} N.m.s/rad.",
+            (time, values.brake_stiffness, values.brake_damping),
+        ),
+    )
+
+
+# Inputs, outputs and parameters of the rotary table.
+
+INPUTS = (
+    *shaft_inputs(speed=0.0, angle=0.3),
+    load_torque_input("table"),
+    Input("brake_torque", "brake.limit", 0.2, "Torque up to which the brake holds the table", "N.m", 0.0, 1e6),
+)
+
+OUTPUTS = (
+    body_angle_output("table", "theta"),
+    body_speed_output("table", nominal=0.1),
+    shaft_torque_output("table"),
+    torque_output(
+        "friction_torque",
+        "brake.torque",
+        "Torque of the brake on the table; at most brake_torque either way, and less while it holds",
+        [INPUTS[3]],
+    ),
+    *energy_outputs(
+        kinetic="Kinetic energy of the table",
+        spring="Energy in the compliance of the brake",
+        work="Work done by drive shaft and load_torque since the start",
+        lost="Energy lost in brake and damper since the start",
+        nominal=1e-2,
+    ),
+)
+
+PARAMETERS = (
+    *rotor_parameters("table", 2.0, 0.02),
+    damping_parameter("table"),
+    Parameter("brake_stiffness", 200.0, "Stiffness of the brake while it holds", "N.m/rad", 1e-6, 1e9),
+    Parameter("brake_damping", 1.0, "Damping of the brake while it holds", "N.m.s/rad", 1e-6, 1e9),
+    Parameter("drive_stiffness", 2.0, "Stiffness of the drive shaft", "N.m/rad", 0.0, 1e9),
+    Parameter("drive_damping", 0.02, "Damping of the drive shaft: torque per lag of speed", "N.m.s/rad", 0.0, 1e9),
+    angle_parameter("table_angle_start", 0.0, "Table angle at the start (theta)"),
+    speed_parameter("table_speed_start", 0.0, "Table speed at the start"),
+    *settings_parameters(),
+)
+
+
+def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
+    """What drawings need, and how far the brake gives before it slips."""
+    time = values.brake_damping / values.brake_stiffness
+    return (
+        Calculated("brake_time", time, "Within this the brake gives way or holds again", "s", "ms"),
+        *form(),
+    )
+
+
+# The rotary table: a disc on a fixed hinge, a brake that holds it up to a torque, and the shaft that turns it.
+#
+# Frame: the table's hinge at the origin. Equations and source: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

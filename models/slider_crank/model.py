@@ -1,11 +1,8 @@
-"""The slider-crank: crank, connecting rod and slider, with an offset if wanted.
-
-Frame: the crank's hinge at the origin, the slider's line parallel to the x axis at the height e. The x axis of a link
-runs along it, from its hinge or the crank pin on. Equations and sources: README.md beside this file.
-"""
+"""The slider-crank: crank, connecting rod and slider, with an offset if wanted."""
 
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
@@ -13,6 +10,7 @@ from mechanism_fmu.model import (
     Body,
     CompliantShaft,
     Damper,
+    Finding,
     Force,
     Mechanism,
     Model,
@@ -21,12 +19,71 @@ from mechanism_fmu.model import (
     Torque,
     Translational,
 )
-from mechanism_fmu.model.part_bodies import MovingPoint, link_body
+from mechanism_fmu.model.body import MovingPoint, link_body
+from mechanism_fmu.model.findings import at_most, first, size
 
-from .checks import objections, warnings
-from .geometry import start
-from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
-from .shapes import SHAPES
+from .ports import INPUTS, OUTPUTS, PARAMETERS, SHAPES, calculated, rise, start
+
+# What is wrong, or odd, with parameter values that are each within their limits.
+
+#: A rod that is at a right angle to the slider's line to this fraction of its length cannot say where the slider goes.
+_UPRIGHT = 1e-9
+#: Lengths are those of a change point when they are off by less than this fraction of their sum.
+_CHANGES_WITHIN = 1e-6
+
+
+def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
+    """Why the linkage cannot be assembled at the start: value, limit and way out."""
+    distance = size(rise(values))
+    return (
+        Finding(
+            at_most(values.rod_length * (1 - _UPRIGHT), distance),
+            "rod_length = {:.6g} m does not reach the slider's line: at crank_angle_start = {:.6g} deg, with "
+            "crank_length = {:.6g} m and offset = {:.6g} m, the crank pin is {:.6g} m away from it. Give more than "
+            "{:.6g} m, or change crank_angle_start.",
+            (
+                values.rod_length,
+                values.crank_angle_start * (180 / math.pi),
+                values.crank_length,
+                values.offset,
+                distance,
+                distance,
+            ),
+        ),
+    )
+
+
+def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
+    """What the crank cannot do; it means something only where nothing is objected to."""
+    crank, rod, offset = values.crank_length, values.rod_length, size(values.offset)
+    needed = crank + offset
+    flat = _CHANGES_WITHIN * (rod + needed)
+    return first(
+        *(
+            Finding(
+                flat - size(excess),
+                "Change point: with rod_length = {:.6g} m, crank_length = {:.6g} m and |offset| = {:.6g} m, crank and "
+                "rod can both stand at a right angle to the slider's line. There the constraints lose a rank, and "
+                f"whether crank and slider go on together or apart is undetermined. Give a rod {way} by more than "
+                "{:.3g} m, or keep the motion away from there.",
+                (rod, crank, offset, flat),
+            )
+            for excess, way in ((rod - needed, "longer"), (crank - offset - rod, "longer or shorter"))
+        ),
+        Finding(
+            needed - rod,
+            "The crank cannot turn fully: rod_length = {:.6g} m is shorter than crank_length + |offset| = {:.6g} m. It "
+            "swings between positions where the rod is at a right angle to the slider's line. For full turns give "
+            "a rod_length of more than {:.6g} m.",
+            (rod, needed, needed),
+        ),
+    )
+
+
+# The slider-crank: crank, connecting rod and slider, with an offset if wanted.
+#
+# Frame: the crank's hinge at the origin, the slider's line parallel to the x axis at the height e. The x axis of a link
+# runs along it, from its hinge or the crank pin on. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

@@ -3,8 +3,7 @@
 import math
 
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 from mechanism_fmu import codes
 from mechanism_fmu.model import GROUND, Body, Force, Mechanism, Output, PointLineContact, Settings

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from mechanism_fmu.elastodynamics import LinkageError, configurations, linkage
 from mechanism_fmu.kinematics import KinematicMotion

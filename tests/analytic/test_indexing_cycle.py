@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 from cycle import DRIVES, PERIOD, Drive, free_ratchet, strokes, swing
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from mechanism_fmu import codes
 from mechanism_fmu.simulation import Simulation

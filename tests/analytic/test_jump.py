@@ -6,8 +6,7 @@ from itertools import groupby
 import numpy as np
 import pytest
 from cycle import DRIVES, free_ratchet, swing
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from mechanism_fmu import codes
 from mechanism_fmu.model import (

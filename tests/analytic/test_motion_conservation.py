@@ -4,8 +4,7 @@ import math
 from itertools import product
 
 import numpy as np
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from mechanism_fmu.model import (
     GROUND,

@@ -15,8 +15,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from mechanism_fmu.kinematics.equations import Equations
 from tests.slide_cam import cam_mechanism

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from mechanism_fmu.model import GROUND, Body, Input, Mechanism, MechanismError, Output, Settings, SpringDamper
 from mechanism_fmu.simulation import Simulation

@@ -29,9 +29,9 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tables.layout import pack
 from mechanism_fmu.tables.method import METHOD
 from mechanism_fmu.tables.motion import Stages
-from mechanism_fmu.tables.pack import pack
 
 MASS, INERTIA, RADIUS = 2.0, 0.3, 0.5
 FREQUENCY, AMPLITUDE = 1.5, 1.2
@@ -118,7 +118,8 @@ def test_order_of_the_dense_output_is_four(start, cause):
     np.testing.assert_allclose(orders(errors), METHOD.dense_order + 1, atol=0.1)
 
 
-#: Above the first range of tolerances every step drifts by more than `drift.MOST_DRIFT` and is put back on the joints;
+#: Above the first range of tolerances every step drifts by more than `acceleration.MOST_DRIFT` and is put back on the
+#: joints;
 #: below the second none does. Each way of stepping has an error constant of its own, so each has a line of its own.
 REGIMES = {"mended": 10.0 ** np.arange(-5, -8.01, -0.125), "not mended": 10.0 ** np.arange(-10, -12.01, -0.125)}
 

@@ -18,8 +18,8 @@ from benchmarks.plane_teeth import (
     shape,
 )
 from benchmarks.plane_tooth import solve, wedge_plate
-from harness.paper import SLOPE_ANGLES_DEG, TOOTH_COUNTS
-from harness.plane_teeth import FILE, plane_teeth
+from harness.papers.study.accuracy import FILE, plane_teeth
+from harness.papers.study.wheels import SLOPE_ANGLES_DEG, TOOTH_COUNTS
 from mechanism_fmu.stress import STEEL, Material, WedgeTooth, exact_wedge_frequencies
 
 UNIT = Material(1.0, 1.0, 0.03)

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from harness.description import read_description
 from harness.designs.optimum_file import read_optimum
-from harness.designs.plan import Source, source
-from harness.designs.sweep_file import read_sweep
+from harness.designs.sweep import read_sweep
+from harness.designs.variation import Source, source
+from harness.fmu.description import read_description
 from harness.toml_file import TomlFile
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"

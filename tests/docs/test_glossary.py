@@ -8,7 +8,7 @@ import pytest
 import typer
 
 import models
-from harness import cli
+from harness.app import cli
 from mechanism_fmu import elastodynamics, kinematics
 
 PAGE = Path(__file__).parents[2] / "docs" / "glossary.md"

@@ -38,7 +38,7 @@ def test_the_page_shows_its_options_at_work():
 @pytest.mark.parametrize(("command", "expected"), EXAMPLES, ids=[command.split()[-1] for command, _ in EXAMPLES])
 def test_the_command_prints_what_the_page_says(command: str, expected: str, tmp_path: Path) -> None:
     run = subprocess.run(
-        [sys.executable, "-c", "from harness.cli import main; main()", *command.split()[1:]],
+        [sys.executable, "-c", "from harness.app.cli import main; main()", *command.split()[1:]],
         cwd=tmp_path,
         env={**os.environ, "COLUMNS": "150", "PYTHONPATH": str(PAGE.parents[1])},
         capture_output=True,

@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
-from harness.machine.file.plan import Scheme
-from harness.machine.file.read import TABLES
+from harness.app.cli import main
+from harness.machine.file.machine_plan import Scheme
+from harness.machine.file.read_file import TABLES
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "machines.md").read_text(encoding="utf-8")

@@ -14,7 +14,7 @@ from pathlib import Path
 from tests.faults.commands import Command, Recorded
 
 ROOT = Path(__file__).parents[2]
-_PROGRAM = "from harness.cli import main; main()"
+_PROGRAM = "from harness.app.cli import main; main()"
 #: Nothing here takes so long [s], though the machine is busy otherwise: even the engine is compiled in less.
 _PATIENCE = 1200.0
 _GLANCE = 0.05

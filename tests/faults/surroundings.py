@@ -17,8 +17,8 @@ from tests.faults.running import ROOT, Place
 from tests.faults.trials import Trial
 
 _IMPORTS = """
-import build_fmu, harness.commands, harness.designs_command.optimise, harness.designs_command.sweep
-import harness.machine_command.run, harness.report.study_report, harness.report.sweep_report
+import build_fmu, harness.app.commands.one_run, harness.app.commands.designs_run, harness.app.commands.designs_run
+import harness.app.commands.machine_run, harness.papers.study.study_report, harness.report.sweep_report
 import mechanism_fmu.fmu.package, scipy.optimize, scipy.stats
 print(open("/proc/self/status").read().partition("VmPeak:")[2].split()[0])
 """

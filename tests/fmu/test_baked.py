@@ -16,8 +16,7 @@ from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
 from mechanism_fmu.model import MechanismError, compile_mechanism
 from mechanism_fmu.model.baked import NOTHING_BAKED, Baked, Seen, baked_model
-from mechanism_fmu.tables.layout import field_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import field_of, pack
 
 #: Starts of a parameter of each type and of a free input, and a connected input that comes in degrees, turned round.
 STARTS = {"drive_stiffness": 5.0, "unilateral": True, "cam_speed_start": 0.5, "drive_damping": 0.2}

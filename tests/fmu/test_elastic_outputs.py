@@ -8,7 +8,7 @@ import pytest
 from fmpy.validation import validate_fmu
 from typer.testing import CliRunner
 
-from harness.cli import main
+from harness.app.cli import main
 from tests import path_generator
 from tests.path_generator import DEFLECTIONS, MEMBERS, SI
 

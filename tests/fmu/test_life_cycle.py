@@ -120,7 +120,7 @@ def test_two_builds_in_one_process_keep_apart(ratchet, tmp_path):
         shutil.copytree(root / folder, changed / folder, ignore=shutil.ignore_patterns("__pycache__"))
     for file in ("build_fmu.py", "pyproject.toml", "LICENSE"):
         shutil.copy(root / file, changed)
-    parameters = changed / "models" / "ratchet" / "parameters.py"
+    parameters = changed / "models" / "ratchet" / "ports.py"
     text = parameters.read_text(encoding="utf-8")
     assert text.count("0.110") == 1
     parameters.write_text(text.replace("0.110", "0.115"), encoding="utf-8")

@@ -11,7 +11,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from mechanism_fmu.batch import Batch, NoBatchError
-from mechanism_fmu.fmu.archive import read_entries, write_archive
+from mechanism_fmu.fmu.disk.archive import read_entries, write_archive
 from mechanism_fmu.model import MechanismError
 from tests.analytic.cycle import DRIVES, PERIOD
 from tests.fmu.conformance.host import Fmu, Instance
@@ -287,7 +287,7 @@ def test_an_fmu_of_another_engine_has_no_fast_path(ratchet_fmu, tmp_path):
 def rewritten(ratchet_fmu: Path, folder: Path, name: str, old: bytes, new: bytes) -> Path:
     """A ratchet with a change in a file of its model."""
     entries = read_entries(ratchet_fmu)
-    package = next(name for name in entries if name.endswith("/models/ratchet/parameters.py")).split("/")[1]
+    package = next(name for name in entries if name.endswith("/models/ratchet/ports.py")).split("/")[1]
     other = f"mechanism_fmu_{zlib.crc32(new):012x}"
     changed = {
         name.replace(package, other): data.replace(package.encode(), other.encode()) for name, data in entries.items()
@@ -301,7 +301,7 @@ def rewritten(ratchet_fmu: Path, folder: Path, name: str, old: bytes, new: bytes
 
 def test_the_model_is_the_one_in_the_fmu(ratchet_fmu, ratchets, tmp_path):
     """Not the one of the same name that lies here."""
-    other = Batch.of_fmu(rewritten(ratchet_fmu, tmp_path, "parameters.py", b"5.6264", b"9.0"))
+    other = Batch.of_fmu(rewritten(ratchet_fmu, tmp_path, "ports.py", b"5.6264", b"9.0"))
     found = other.run({"friction": [0.0]}, [0.0, 1.0], ["impact_time"])
     assert found.compiled == "ahead of time"
     heavier = ratchets.run({"wheel_mass": [9.0]}, [0.0, 1.0], ["impact_time"])

@@ -14,8 +14,8 @@ from fmpy.validation import validate_fmu
 from typer.testing import CliRunner
 
 import mechanism_fmu.model
-from harness.cli import main
-from mechanism_fmu.fmu.own.new import write_new
+from harness.app.cli import main
+from mechanism_fmu.fmu.own.find import write_new
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "your-own-mechanism.md").read_text(encoding="utf-8")

@@ -10,8 +10,8 @@ import pytest
 from typer.testing import CliRunner
 
 import models
-from harness.cli import main
-from mechanism_fmu.fmu.own.new import write_new
+from harness.app.cli import main
+from mechanism_fmu.fmu.own.find import write_new
 from mechanism_fmu.stress import STEEL, STEEL_CARD, RectangularTooth, maximum_stress, sequence_damage
 
 FLAVOURS = {"pythonfmu": (), "native": ("--flavour", "native"), "native3": ("--flavour", "native", "--fmi", "3")}

@@ -14,7 +14,7 @@ from pythonfmu import builder
 
 import build_fmu as command
 import models
-from mechanism_fmu.fmu.archive import read_entries, with_guid
+from mechanism_fmu.fmu.disk.archive import read_entries, with_guid
 from mechanism_fmu.fmu.package import build_fmu
 from mechanism_fmu.model import MechanismError
 from tests.fmu.of_every_flavour import OF_EVERY_FLAVOUR
@@ -75,11 +75,11 @@ def test_the_package_holds_what_runs_and_no_more(entries: dict[str, bytes], dige
     prefix = f"resources/mechanism_fmu_{digest}/"
     package = {name.removeprefix(prefix) for name in entries if name.startswith(prefix)}
     assert {name.partition("/")[0] for name in package} == {
-        *("__init__.py", "admissible.py", "codes.py", "simulation.py", "tolerances.py"),
+        *("__init__.py", "codes.py", "simulation.py", "tolerances.py"),
         *("engine", "fmu", "model", "models"),
     }
-    assert {"fmu/slave.py", "engine/stepping/stepper.py", "models/ratchet/model.py"} <= package
-    assert not {"fmu/package.py", "fmu/start.py", "fmu/documentation.py", "models/ratchet/drawing.py"} & package
+    assert {"fmu/instance/slave.py", "engine/stepping/stepper.py", "models/ratchet/model.py"} <= package
+    assert not {"fmu/package.py", "fmu/start.py", "fmu/parts/documentation.py", "fmu/parts/contents.py"} & package
     imports = re.compile(rf"^\s*(from|import) ({'|'.join(NOT_NEEDED)})\b", re.MULTILINE)
     sources = [name for name in package if name.endswith(".py")]
     assert not [name for name in sources if imports.search(entries[prefix + name].decode())]
@@ -195,7 +195,7 @@ def test_a_clock_before_the_first_year_of_zip_archives_is_told(tmp_path: Path, m
 
 
 def test_all_that_is_temporary_lies_in_one_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """So that it goes with the next one if the process is killed (mechanism_fmu.fmu.temporary)."""
+    """So that it goes with the next one if the process is killed (mechanism_fmu.fmu.disk.folders)."""
     seen: list[list[str]] = []
     usual = builder.get_model_description
 

@@ -11,8 +11,7 @@ from fmpy.fmi1 import FMICallException
 
 import models
 from mechanism_fmu.model import compile_mechanism
-from mechanism_fmu.tables.layout import FIELDS, shape_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import FIELDS, pack, shape_of
 from mechanism_fmu.tables.sizes import sizes_of
 from tests.fuzz.forged import forged_words
 

@@ -7,9 +7,9 @@ import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
-from mechanism_fmu.admissible import rules
+from mechanism_fmu.fmu.instance.saved_state import rules
 from mechanism_fmu.model import Model, compile_mechanism
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import pack
 from mechanism_fmu.tables.sizes import sizes_of
 
 #: Words of the head of a native state, as in instance_data.h.

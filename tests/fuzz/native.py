@@ -28,10 +28,10 @@ from mechanism_fmu.fmu.native.formulas import formulas
 from mechanism_fmu.fmu.native.model_data import model_source
 from mechanism_fmu.fmu.native.objects import compiled_engine
 from mechanism_fmu.fmu.native.package import SURFACE
-from mechanism_fmu.fmu.variables import variables_of
+from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.model import compile_mechanism
 from mechanism_fmu.model.trace import trace
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import pack
 
 _FLAGS = (
     "-std=gnu11",

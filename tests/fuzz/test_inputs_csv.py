@@ -5,10 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.inputs import InputSignals, read_inputs
+from harness.run.inputs import InputSignals, read_inputs
 from tests.fuzz.input_bytes import CORPUS, NASTY, damaged, fuzzed, nasty, read_or_refused
 from tests.harness.fake_slave import fake_description
 

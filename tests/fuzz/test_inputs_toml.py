@@ -4,15 +4,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from harness.designs.optimum_file import read_optimum
-from harness.designs.plan import source
-from harness.designs.sweep_file import read_sweep
+from harness.designs.sweep import read_sweep
+from harness.designs.variation import source
 from harness.errors import UsageError
-from harness.machine.file.components import components
-from harness.machine.file.read import read_plan
+from harness.machine.file.read_file import components, read_plan
 from harness.toml_file import TomlFile
 from tests.fuzz.input_bytes import CORPUS, damaged, fuzzed, nasty, read_or_refused
 from tests.harness.fake_slave import fake_description

@@ -6,25 +6,21 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.assignments import start_values
-from harness.clock import TimeGrid
-from harness.description import Description, read_description
+from harness.analysis.impacts import ImpactCollector
 from harness.errors import UsageError
-from harness.events import EventCollector
-from harness.experiment import default_times
-from harness.impacts import ImpactCollector
-from harness.logic import default_parameters
+from harness.fmu.description import Description, read_description
+from harness.fmu.values import shown, start_values
 from harness.machine.connection import Connection
-from harness.machine.file.plan import ComponentPlan, Plan, Policy, Source
-from harness.machine.ssp.export import write_ssp
-from harness.machine.ssp.importing import import_ssp
-from harness.numbers import shown
-from harness.recorder import recorded_variables
-from harness.validate import conformance_grid
-from mechanism_fmu.fmu.archive import read_entries, write_archive
+from harness.machine.file.machine_plan import ComponentPlan, Plan, Policy, Source
+from harness.machine.formats.ssp_export import write_ssp
+from harness.machine.formats.ssp_import import import_ssp
+from harness.run.experiment import default_times
+from harness.run.logic import EventCollector, default_parameters
+from harness.run.master import TimeGrid, recorded_variables
+from harness.run.validate import conformance_grid
+from mechanism_fmu.fmu.disk.archive import read_entries, write_archive
 from tests.fuzz.input_bytes import damaged, fuzzed, nasty, read_or_refused
 from tests.harness.damaged import LIBRARIES, sound
 

@@ -6,13 +6,12 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.description import read_description
 from harness.errors import UsageError
 from harness.fmu import open_fmu
-from mechanism_fmu.fmu.archive import read_entries
+from harness.fmu.description import read_description
+from mechanism_fmu.fmu.disk.archive import read_entries
 from tests.fuzz.input_bytes import CORPUS, damaged, fuzzed, read_or_refused
 from tests.harness.damaged import DAMAGES, DESCRIPTION, sound
 

@@ -11,16 +11,12 @@ from pathlib import Path
 
 from fake_slave import fake_description
 
-from harness.clock import TimeGrid
-from harness.designs.identity import identity
-from harness.designs.sampling import sampled
-from harness.designs.store import Store
-from harness.designs.sweep import Progress, perform_sweep
-from harness.designs.sweep_file import Sweep
+from harness.designs.store import Store, identity
+from harness.designs.sweep import Progress, Sweep, perform_sweep, sampled
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.variation import Axis
-from harness.designs.ways import Way
-from harness.designs.workers import Work, here
+from harness.designs.workers import Way, Work, here
+from harness.run.master import TimeGrid
 
 SQUARE = Quantity(When.END, "square", "Real", "m2")
 #: Designs with these numbers fail, and crash the process.

@@ -4,11 +4,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from harness.description import Description, Value, Variable
-from harness.errors import FmuError
-from harness.messages import LogMessage, Status
-from harness.si import BASE_UNITS, Measure
-from harness.units import Units
+from harness.errors import FmuError, LogMessage, Status
+from harness.fmu.description import Description, Value, Variable
+from harness.fmu.units import BASE_UNITS, Measure, Units
 
 _SLOTS = 8
 _FIELDS = ("time", "velocity")

@@ -15,8 +15,8 @@ from typing import NamedTuple
 #: It has no threads, which copies would not have: numpy's libraries are told so.
 _PROGRAM = """
 import json, os, sys
-from harness.cli import main
-import harness.commands, harness.report.run_report
+from harness.app.cli import main
+import harness.app.commands.one_run, harness.report.run_report
 
 for line in sys.stdin:
     asked = json.loads(line)
@@ -49,7 +49,7 @@ class Nursery:
     def run(self, arguments: Sequence[str], **environment: str) -> Ended:
         """Run the command with arguments, and variables of its environment."""
         if not hasattr(os, "fork"):
-            command = [sys.executable, "-c", "from harness.cli import main; main()", *arguments]
+            command = [sys.executable, "-c", "from harness.app.cli import main; main()", *arguments]
             done = subprocess.run(command, env=self._variables | environment, capture_output=True, text=True)
             return Ended(done.returncode, done.stdout, done.stderr)
         assert self._process.stdin is not None

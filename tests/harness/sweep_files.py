@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 from fake_slave import fake_description
 
-from harness.description import Description
-from harness.designs.plan import source
-from harness.designs.sweep_file import Sweep, read_sweep
+from harness.designs.sweep import Sweep, read_sweep
+from harness.designs.variation import source
 from harness.errors import UsageError
+from harness.fmu.description import Description
 from harness.toml_file import TomlFile
 
 GOOD = """\

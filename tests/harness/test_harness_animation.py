@@ -5,16 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_slave import FakeFmu, FakeSlave
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.description import Variable
-from harness.drawing import Drawing, Shape
 from harness.errors import FmuError
-from harness.experiment import Experiment, Run, perform
-from harness.report.animation import animation, animation_data
-from harness.report.player import playing_speeds
+from harness.fmu.description import Variable
+from harness.report.animation import animation, animation_data, playing_speeds
 from harness.report.run_report import run_report
+from harness.run.drawing import Drawing, Shape
+from harness.run.experiment import Experiment, Run, perform
 
 SHAPES = (
     Shape("wheel", (0.0, 0.0), "wheel", {"angle": "wheel_angle", "count": "tooth_count"}, ((1.0, 0.0),), True),

@@ -2,11 +2,10 @@ import math
 
 import pytest
 from fake_slave import fake_description
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.assignments import start_values
 from harness.errors import UsageError
+from harness.fmu.values import start_values
 
 
 @pytest.mark.parametrize(

@@ -9,15 +9,13 @@ from pathlib import Path
 import pytest
 from chromium import PROGRAM, Browser, Page, chromium, opened
 
-from harness.designs_command.optimise import run_optimise
-from harness.designs_command.sweep import run_sweep
-from harness.experiment import Experiment, perform
+from harness.app.commands.designs_run import run_optimise, run_sweep
+from harness.app.commands.machine_run import run_file
 from harness.fmu import open_fmu
-from harness.machine_command.run import run_file
-from harness.report.paper_figures import paper_figures
+from harness.papers.study.study import ratchet_study
+from harness.papers.study.study_report import paper_figures, write_study_report
 from harness.report.run_report import write_report
-from harness.report.study_report import write_study_report
-from harness.study import ratchet_study
+from harness.run.experiment import Experiment, perform
 
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no chromium is installed (on Debian: apt install chromium)")
 

@@ -6,10 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from harness.checks import energy_residual, run_checks
-from harness.master import Ending, Outcome
-from harness.paper import SLOPE_ANGLES_DEG, TOOTH_COUNTS, base_case_checks, study_checks
-from harness.wheels import Wheel
+from harness.papers.study.wheels import SLOPE_ANGLES_DEG, TOOTH_COUNTS, Wheel, base_case_checks, study_checks
+from harness.run.checks import energy_residual, run_checks
+from harness.run.master import Ending, Outcome
 
 #: sigma_max [Pa] as 1e6 * (1 / nt) * (beta_0 / 90 deg): falls with the first, rises with the second.
 WHEELS = [

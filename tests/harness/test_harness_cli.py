@@ -8,7 +8,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from harness.cli import main
+from harness.app.cli import main
 
 
 def invoke(*arguments: str | Path) -> tuple[int, str]:
@@ -151,7 +151,7 @@ def test_help_does_not_wait_for_the_libraries() -> None:
     script = f"""
 import sys
 from typer.testing import CliRunner
-from harness.cli import main
+from harness.app.cli import main
 for command in {COMMANDS}:
     assert CliRunner().invoke(main, [*command, "--help"]).exit_code == 0
 print(sorted({heavy} & set(sys.modules)))

@@ -2,11 +2,10 @@ import itertools
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.clock import SECOND, TimeGrid, begin_and_size, seconds
 from harness.errors import UsageError
+from harness.run.master import SECOND, TimeGrid, begin_and_size, seconds
 
 
 @given(st.integers(1, 10**12), st.integers(1, 10**9), st.integers(0, 10**12))

@@ -8,12 +8,13 @@ from typing import Any
 
 import pytest
 
-from harness import commands, cycle
-from harness.checks import Check
+from harness.app.commands import one_run
+from harness.app.terminal import FAILED
 from harness.errors import FmuError
-from harness.experiment import Experiment, Run, perform
-from harness.master import Ending, Outcome
-from harness.terminal import FAILED
+from harness.papers.study import indexing
+from harness.run.checks import Check
+from harness.run.experiment import Experiment, Run, perform
+from harness.run.master import Ending, Outcome
 from tests.replayed import EXPERIMENT, ReplayedFmu
 
 
@@ -27,29 +28,29 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[Experiment]:
         then(perform(ReplayedFmu(), EXPERIMENT))  # type: ignore[arg-type]
         return 7
 
-    monkeypatch.setattr(commands, "_built_ratchet", lambda folder, purpose: folder / "Ratchet.fmu")
-    monkeypatch.setattr(commands, "open_fmu", lambda path: nullcontext(ReplayedFmu()))
-    monkeypatch.setattr(commands, "_performed", performed)
+    monkeypatch.setattr(one_run, "_built_ratchet", lambda folder, purpose: folder / "Ratchet.fmu")
+    monkeypatch.setattr(one_run, "open_fmu", lambda path: nullcontext(ReplayedFmu()))
+    monkeypatch.setattr(one_run, "_performed", performed)
     return seen
 
 
 def test_the_demo_is_the_papers_base_case(asked: list[Experiment], tmp_path: Path) -> None:
     """The FMU's defaults to 6 s; its exit code is that of the run."""
-    assert commands.run_demo(tmp_path) == 7
+    assert one_run.run_demo(tmp_path) == 7
     assert asked == [Experiment(6.0, 1e-3)]
     assert (tmp_path / "report.html").is_file()
 
 
 def test_the_full_demo_is_the_indexing_cycle(asked: list[Experiment], tmp_path: Path) -> None:
-    assert commands.run_cycle(tmp_path) == 7
-    assert asked == [Experiment(34.0, 5e-3, cycle.VALUES, tmp_path / "drive.csv")]
+    assert one_run.run_cycle(tmp_path) == 7
+    assert asked == [Experiment(34.0, 5e-3, indexing.VALUES, tmp_path / "drive.csv")]
     assert (tmp_path / "drive.csv").is_file()
 
 
 def test_a_run_takes_the_fmus_default_experiment_unless_told(asked: list[Experiment], tmp_path: Path) -> None:
     path = Path("Ratchet.fmu")
-    assert commands.run_fmu(path, [], None, None, None, "steel", tmp_path) == 7
-    assert commands.run_fmu(path, ["restitution=0.3"], 1.2, 0.02, None, "steel", tmp_path) == 7
+    assert one_run.run_fmu(path, [], None, None, None, "steel", tmp_path) == 7
+    assert one_run.run_fmu(path, ["restitution=0.3"], 1.2, 0.02, None, "steel", tmp_path) == 7
     told = ReplayedFmu().description
     assert [(one.stop_time, one.step, one.start_values) for one in asked] == [
         (told.stop_time, told.step, {}),
@@ -61,13 +62,13 @@ def test_a_run_takes_the_fmus_default_experiment_unless_told(asked: list[Experim
 def test_the_exit_code_of_a_run_is_that_of_its_verdicts(checks: list[Check], code: int, tmp_path: Path) -> None:
     whole = perform(ReplayedFmu(), EXPERIMENT)  # type: ignore[arg-type]
     assert all(check.passed for check in whole.checks)
-    assert commands._written(whole, tmp_path, checks) == code
+    assert one_run._written(whole, tmp_path, checks) == code
     assert {"report.html", "results.csv", "impacts.csv"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def test_a_run_that_never_began_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     whole = perform(ReplayedFmu(), EXPERIMENT)  # type: ignore[arg-type]
     outcome = Outcome(Ending.FAILED, 0.0, 0, FmuError("it cannot be assembled"))
-    assert commands._written(replace(whole, outcome=outcome, results=whole.results.head(0)), tmp_path) == FAILED
+    assert one_run._written(replace(whole, outcome=outcome, results=whole.results.head(0)), tmp_path) == FAILED
     assert not list(tmp_path.iterdir())
     assert "it cannot be assembled" in capsys.readouterr().err

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from harness.compliance import compliance_of, compliance_units, compliance_values
-from harness.report.compliance import compliance_section
+from harness.analysis.compliance import compliance_of, compliance_units, compliance_values
+from harness.report.impact_sections import compliance_section
 from mechanism_fmu.elastodynamics import configurations, linkage
 from mechanism_fmu.kinematics import KinematicMotion
 from mechanism_fmu.model import GROUND, Body, Mechanism, Member, Revolute, Section

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from harness.cycle import CLICKS, PERIOD, STOP_TIME, VALUES, cycle_checks, write_drive
+from harness.papers.study.indexing import CLICKS, PERIOD, STOP_TIME, VALUES, cycle_checks, write_drive
 
 
 def test_the_cycle_is_the_one_of_the_docs() -> None:

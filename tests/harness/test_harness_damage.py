@@ -12,19 +12,18 @@ import numpy as np
 import pandas as pd
 import pytest
 from fake_slave import FakeFmu, FakeSlave
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from typer.testing import CliRunner
 
-from harness.cli import main
-from harness.description import Variable
-from harness.ending import show_ending
+from harness.analysis.stress import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row, stress_history
+from harness.app.cli import main
+from harness.app.commands.one_run import show_ending
 from harness.errors import UsageError
-from harness.experiment import Experiment, Run, perform
 from harness.fmu import open_fmu
+from harness.fmu.description import Variable
 from harness.report.run_report import run_report
-from harness.results import write_run
-from harness.tooth_damage import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row, stress_history
+from harness.run.experiment import Experiment, Run, perform
+from harness.run.results import write_run
 from mechanism_fmu.stress import (
     CARDS,
     STEEL,

@@ -6,10 +6,10 @@ import pytest
 from damaged import DAMAGES, DESCRIPTION, sound
 from typer.testing import CliRunner, Result
 
-from harness.cli import main
-from harness.description import read_description
+from harness.app.cli import main
 from harness.errors import UsageError
 from harness.fmu import open_fmu
+from harness.fmu.description import read_description
 
 
 def invoked(*arguments: str | Path) -> Result:

@@ -12,12 +12,12 @@ import pytest
 from fake_slave import FakeFmu, FakeSlave
 
 import models
-from harness.analyses import Damage, Seen, Stress, Yielding, analysed, analyses_of
-from harness.declared import FILE, NOTHING, Declared, read_declared
-from harness.experiment import Experiment, perform
+from harness.analysis.analyses import Damage, Seen, Stress, Yielding, analysed, analyses_of
+from harness.fmu.declared import FILE, NOTHING, Declared, read_declared
 from harness.report.run_report import run_report
-from mechanism_fmu.fmu.analysis import analysis
-from mechanism_fmu.fmu.variables import variables_of
+from harness.run.experiment import Experiment, perform
+from mechanism_fmu.fmu.parts.resources import analysis
+from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.stress import STEEL_CARD
 from tests.declared import RATCHET, STRUCK
 

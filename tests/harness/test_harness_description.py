@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from damaged import DESCRIPTION, sound
 
-from harness.description import Description, read_description
 from harness.errors import UsageError
-from harness.validate import conformance_grid
+from harness.fmu.description import Description, read_description
+from harness.run.validate import conformance_grid
 
 #: By name, the attribute of CoSimulation that says so in FMI 2.0, with what it says.
 ABILITIES = {

@@ -8,14 +8,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from harness.clock import TimeGrid
-from harness.description import Variable
 from harness.designs import by_batch, by_fmu
-from harness.designs.quantities import column
-from harness.designs.task import Design, Task
+from harness.designs.task import Design, Task, column
 from harness.errors import FmuError, UsageError
 from harness.fmu import Fmu, open_fmu
-from harness.inputs import InputSignals
+from harness.fmu.description import Variable
+from harness.run.inputs import InputSignals
+from harness.run.master import TimeGrid
 
 COLUMNS = (
     "end.wheel_angle",

@@ -8,15 +8,12 @@ import pandas as pd
 import pytest
 from fake_slave import FakeFmu, FakeSlave
 
-from harness.clock import TimeGrid
 from harness.designs.by_fmu import run_designs
-from harness.designs.of_impacts import of_impacts
-from harness.designs.quantities import column
-from harness.designs.task import Design, Quantity, Result, Task, When
-from harness.errors import FmuError
-from harness.experiment import Experiment, perform
+from harness.designs.task import Design, Quantity, Result, Task, When, column, of_impacts
+from harness.errors import FmuError, Status
 from harness.fmu import open_fmu
-from harness.messages import Status
+from harness.run.experiment import Experiment, perform
+from harness.run.master import TimeGrid
 from mechanism_fmu.stress import material_card
 
 WHEEL = Quantity(When.END, "wheel_angle", "Real", "rad")

@@ -10,10 +10,10 @@ pytest.importorskip("distributed", reason="the extra 'cluster' is not installed"
 from cheap_designs import SQUARE
 from distributed import KilledWorker
 
-from harness.clock import TimeGrid
 from harness.designs import cluster
 from harness.designs.task import Design, Result, Task
-from harness.designs.ways import Way
+from harness.designs.workers import Way
+from harness.run.master import TimeGrid
 
 TASK = Task(TimeGrid.of(1.0, 0.1), {}, None, (SQUARE,))
 DESIGN = Design(7, {})

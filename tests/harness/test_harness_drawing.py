@@ -3,10 +3,9 @@ from pathlib import Path
 
 import pytest
 from fake_slave import fake_description
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.drawing import Drawing, Shape, read_drawing
+from harness.run.drawing import Drawing, Shape, read_drawing
 
 ARM = {"kind": "bar", "name": "arm", "at": [0, "-tooth_pitch"], "angle": "wheel_angle", "length": 2}
 WHEEL = {"kind": "wheel", "name": "wheel", "at": [0, 0], "angle": 0, "count": "tooth_count", "outline": [[1, 0]]}

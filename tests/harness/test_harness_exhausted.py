@@ -12,8 +12,8 @@ import typer
 from damaged import sound
 from typer.testing import CliRunner
 
-from harness.cli import main
-from harness.cli_group import Group
+from harness.app.cli import main
+from harness.app.cli_group import Group
 from harness.errors import UsageError
 from harness.fmu import open_fmu
 
@@ -64,7 +64,7 @@ def test_other_errors_are_mistakes_of_the_program_and_pass(error: Exception) -> 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
 def test_a_console_that_takes_nothing_more(tmp_path: Path) -> None:
     fmu = sound(tmp_path / "Sound.fmu")
-    command = [sys.executable, "-c", "from harness.cli import main; main()", "validate", str(fmu)]
+    command = [sys.executable, "-c", "from harness.app.cli import main; main()", "validate", str(fmu)]
     with open("/dev/full", "w") as full:
         ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert ended.returncode == 1

@@ -9,17 +9,13 @@ from pathlib import Path
 import numpy as np
 import plotly.graph_objects as go
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from PIL import Image
 
 from harness.errors import UsageError
-from harness.report.axes import draw_plot, tick_labels, ticks
-from harness.report.canvas import Png, Svg
-from harness.report.interactive import interactive
 from harness.report.page import chart
-from harness.report.plot import Curve, Plot
-from harness.report.static import write_static
+from harness.report.plot import Curve, Plot, interactive
+from harness.report.static import Png, Svg, draw_plot, tick_labels, ticks, write_static
 
 BLUE = "#0072B2"
 NAMESPACE = "{http://www.w3.org/2000/svg}"

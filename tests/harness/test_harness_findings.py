@@ -5,10 +5,9 @@ from dataclasses import replace
 
 import pytest
 
-from harness.accuracy import accuracy_findings
-from harness.findings import Verdict, verdict_of
-from harness.plane_teeth import PlaneTooth, plane_teeth
-from harness.wheels import Wheel
+from harness.papers.study.accuracy import PlaneTooth, accuracy_findings, plane_teeth
+from harness.papers.study.wheels import Wheel
+from harness.run.checks import Verdict, verdict_of
 from mechanism_fmu.stress import STEEL, maximum_stress, ritz_modes
 
 TEETH = plane_teeth()
@@ -90,6 +89,7 @@ def test_what_a_beam_costs_is_no_verdict_on_a_claim_that_nobody_makes() -> None:
 
 def test_the_study_needs_no_finite_elements() -> None:
     program = (
-        "import harness.commands, harness.study, harness.report.study_report, sys; assert 'skfem' not in sys.modules"
+        "import harness.app.commands.one_run, harness.papers.study.study, harness.papers.study.study_report, sys; "
+        "assert 'skfem' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", program], check=True)

@@ -10,18 +10,18 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from harness.assignments import start_values
-from harness.cli import main
-from harness.clock import TimeGrid
-from harness.description import Value, read_description
+from harness.app.cli import main
 from harness.errors import FmuError, UsageError
 from harness.fmu import Fmu, open_fmu
-from harness.machine.algorithms.jacobi import Jacobi
+from harness.fmu.description import Value, read_description
+from harness.fmu.remote import in_own_process
+from harness.fmu.values import start_values
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine
-from harness.machine.remote import in_own_process
-from harness.machine.run import run_machine
-from harness.validate import validate
+from harness.machine.running import run_machine
+from harness.machine.stepping import Jacobi
+from harness.run.master import TimeGrid
+from harness.run.validate import validate
 from tests.harness.machine.foreign import in_c
 from tests.once import once
 
@@ -169,7 +169,7 @@ int64_in = 9007199254740991
 
 
 def test_columns_have_the_types_of_the_variables(fmu: Fmu) -> None:
-    from harness.experiment import Experiment, perform
+    from harness.run.experiment import Experiment, perform
 
     run = perform(fmu, Experiment(0.1, 0.1, {"uint64_in": 2**64 - 1, "int64_in": -(2**63)}))
     assert run.results["uint64_out"].dtype == np.uint64

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
+from harness.app.cli import main
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 

@@ -11,16 +11,16 @@ import pandas as pd
 import pytest
 from nursery import Ended, Nursery, nursery
 
-from harness import isolation
-from harness.commands import run_study
+from harness.app import execution
+from harness.app.commands.one_run import run_study
 from harness.fmu import Fmu
-from harness.machine.file.components import components
-from harness.machine.file.plan import ComponentPlan, Source
-from harness.machine.remote import RemoteFmu
-from harness.machine.ssp.own import read_component, write_component
-from harness.slave import Instances
+from harness.fmu.interface import Instances
+from harness.fmu.remote import RemoteFmu
+from harness.machine.file.machine_plan import ComponentPlan, Source
+from harness.machine.file.read_file import components
+from harness.machine.formats.ssp_xml import read_component, write_component
 from harness.toml_file import TomlFile
-from mechanism_fmu.fmu.built import record_build
+from mechanism_fmu.fmu.disk.user_cache import record_build
 from tests.harness.damaged import sound
 from tests.harness.hostile.build import Harm, hostile
 from tests.once import once
@@ -144,9 +144,9 @@ def test_the_study_runs_an_fmu_of_others_apart(
         watched.append(foreign)
         return work()  # type: ignore[operator, no-any-return]
 
-    monkeypatch.setattr("harness.commands._studied", studied)
-    monkeypatch.setattr("harness.commands._study_written", lambda _study, _folder: 0)
-    monkeypatch.setattr(isolation, "watched", note)
+    monkeypatch.setattr("harness.app.commands.one_run._studied", studied)
+    monkeypatch.setattr("harness.app.commands.one_run._study_written", lambda _study, _folder: 0)
+    monkeypatch.setattr(execution, "watched", note)
     own, other = own_and_other
     assert run_study(tmp_path / "a", own) == 0
     assert "process of its own" not in capsys.readouterr().out

@@ -12,12 +12,11 @@ from typing import Any
 
 import pytest
 from cheap_designs import FORGED, cheap_sweep, forging, work_of
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from harness.designs.task import Design, Quantity, Task, When
-from harness.designs.worker_processes import Processes, read_results
-from harness.wire import BrokenFrameError
+from harness.designs.workers import Processes, read_results
+from harness.fmu.processes import BrokenFrameError
 
 
 @dataclass(frozen=True)
@@ -38,9 +37,7 @@ def frame(data: Any, tail: bytes = b"") -> bytes:
 @pytest.fixture(scope="module", autouse=True)
 def _processes_begin_with_what_they_need() -> None:
     """All are copies of one that has imported most of it; else each would take seconds for that."""
-    multiprocessing.get_context("forkserver").set_forkserver_preload(
-        ["harness.designs.sweep_file", "harness.designs.store"]
-    )
+    multiprocessing.get_context("forkserver").set_forkserver_preload(["harness.designs.sweep", "harness.designs.store"])
     forkserver.ensure_running()
 
 

@@ -11,15 +11,13 @@ import pytest
 from cheap_designs import SQUARE, axis, cheap_sweep, run_cheap, store_of
 from fake_slave import FakeFmu, FakeSlave, fake_description
 
-from harness.clock import TimeGrid
-from harness.designs.in_motion import InMotion, design_with_largest, in_motion
+from harness.designs.by_fmu import InMotion, design_with_largest, in_motion
 from harness.designs.task import Design, Task
-from harness.errors import FmuError
-from harness.inputs import InputSignals, read_inputs
-from harness.messages import Status
-from harness.report.in_motion import animation_of_design
-from harness.report.inputs import input_plots
-from harness.report.sweep_report import sweep_report
+from harness.errors import FmuError, Status
+from harness.report.parameters import input_plots
+from harness.report.sweep_report import animation_of_design, sweep_report
+from harness.run.inputs import InputSignals, read_inputs
+from harness.run.master import TimeGrid
 
 TASK = Task(TimeGrid.of(1.0, 0.1), {"tooth_count": 20}, None, (SQUARE,))
 DESIGN = Design(3, {"tooth_slope_angle": np.pi / 2})

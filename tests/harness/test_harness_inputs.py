@@ -3,11 +3,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fake_slave import fake_description
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from harness.errors import UsageError
-from harness.inputs import InputSignals, check_no_overlap, read_inputs
+from harness.run.inputs import InputSignals, check_no_overlap, read_inputs
 
 
 def table(folder: Path, text: str) -> InputSignals:

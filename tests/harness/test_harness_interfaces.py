@@ -5,23 +5,19 @@ import inspect
 import pytest
 from fake_slave import FakeSlave
 
-from harness.events import EventCollector
-from harness.fmu.element_reals import ElementReals
-from harness.fmu.fmi2 import Fmi2Slave
-from harness.fmu.fmi3 import Fmi3Slave
-from harness.fmu.raw_reals import RawReals
-from harness.impacts import ImpactCollector
-from harness.machine import record
-from harness.machine.bonds import Bonds
-from harness.machine.component import Component, Reals
-from harness.machine.impacts import Impacts
-from harness.machine.remote.component import RemoteComponent
-from harness.machine.remote.reals import RemoteReals
-from harness.machine.watched import Watched
-from harness.observers import Observer
-from harness.recorder import Recorder
-from harness.slave import Slave
-from harness.terminal import RunDisplay
+from harness.analysis.impacts import ImpactCollector
+from harness.app.terminal import RunDisplay
+from harness.fmu.instances.fmi2 import Fmi2Slave
+from harness.fmu.instances.fmi3 import Fmi3Slave
+from harness.fmu.instances.reals import ElementReals, RawReals
+from harness.fmu.interface import Component, Reals, Slave
+from harness.fmu.remote.near_side import RemoteComponent, RemoteReals
+from harness.machine.observers import record
+from harness.machine.observers.bonds import Bonds
+from harness.machine.observers.component_impacts import Impacts
+from harness.machine.observers.watched import Watched
+from harness.run.logic import EventCollector
+from harness.run.master import Observer, Recorder
 from tests.harness.machine.fakes import Wheel, WheelReals
 from tests.harness.machine.mass import Mass, MassReals
 

@@ -13,13 +13,12 @@ from chromium import PROGRAM, chromium, opened
 from typer.testing import CliRunner
 
 import build_fmu
-from harness.cli import main
+from harness.app.cli import main
 from harness.fmu import open_fmu
-from harness.ked.agreement import agreement
-from harness.ked.files import Result, write_result
-from harness.ked.solve import prepared, solved, swept
-from harness.ked.tables import cycle_rows, narrow_columns
-from harness.report.ked_report import write_ked_report
+from harness.papers.ked.files import Result, agreement, write_result
+from harness.papers.ked.ked_report import write_ked_report
+from harness.papers.ked.solve import prepared, solved, swept
+from harness.papers.ked.tables import cycle_rows, narrow_columns
 
 INCH, POUND_FORCE = 0.0254, 0.45359237 * 9.80665
 SPEED = 500 * math.pi / 30

@@ -11,17 +11,17 @@ import pytest
 from typer.testing import CliRunner
 
 import build_fmu
-from harness.cli import main
+from harness.app.cli import main
 from harness.errors import UsageError
 from harness.fmu import open_fmu
-from harness.ked.agreement import agreement
-from harness.ked.files import Result, write_result
-from harness.ked.judged_by import JudgedBy
-from harness.ked.options import Limits, asked
-from harness.ked.solution import solution_checks
-from harness.ked.solve import prepared, solved, swept
-from harness.ked.synthesis import bounds_of, synthesised
-from harness.ked.tables import (
+from harness.papers.ked.files import Result, agreement, write_result
+from harness.papers.ked.judged_by import JudgedBy
+from harness.papers.ked.ked_report import ked_report
+from harness.papers.ked.options import Limits, asked
+from harness.papers.ked.solution import solution_checks
+from harness.papers.ked.solve import prepared, solved, swept
+from harness.papers.ked.synthesis import bounds_of, synthesised
+from harness.papers.ked.tables import (
     cycle_rows,
     flywheel_sentence,
     frame_sentence,
@@ -29,7 +29,6 @@ from harness.ked.tables import (
     joint_rows,
     synthesis_rows,
 )
-from harness.report.ked_report import ked_report
 from mechanism_fmu.elastodynamics import with_friction
 
 MODEL, SPEED = "four_bar_path_generator", 500 * math.pi / 30

@@ -13,20 +13,20 @@ import pytest
 from damaged import sound
 from typer.testing import CliRunner
 
-from harness import study
-from harness.cli import main
+from harness.app.cli import main
+from harness.app.execution import alone_in
 from harness.errors import UsageError
 from harness.fmu import Fmu
-from harness.occupied import alone_in
-from harness.results import sweep_up, write_text
-from mechanism_fmu.fmu.temporary import remove_abandoned
+from harness.papers.study import study
+from harness.run.results import sweep_up, write_text
+from mechanism_fmu.fmu.disk.folders import remove_abandoned
 
 #: Opens an FMU and waits in it, as a command does while it builds, validates or draws.
 _OPEN = """
 import sys, time
 from pathlib import Path
 import typer
-from harness.cli_group import Group
+from harness.app.cli_group import Group
 from harness.fmu import open_fmu
 main = typer.Typer(cls=Group)
 @main.command()
@@ -42,9 +42,9 @@ main(["wait"])
 _PROCESS = """
 import tempfile, time
 from pathlib import Path
-from harness.processes import starting_from
-work = "import tempfile; from harness.processes import serve_only; serve_only(None); print(tempfile.mkdtemp(), flush=1)"
-context = starting_from("harness.processes")
+from harness.fmu.processes import starting_from
+work = "import tempfile as t; from harness.fmu.processes import serve_only as f; f(None); print(t.mkdtemp(), flush=1)"
+context = starting_from("harness.fmu.processes")
 process = context.Process(target=exec, args=(work,), daemon=True)
 process.start()
 process.join()
@@ -55,7 +55,7 @@ time.sleep(60)
 _WRITE = """
 import os, signal, sys
 from pathlib import Path
-from harness.results import write_text
+from harness.run.results import write_text
 def write(file):
     file.write("<html>")
     file.flush()

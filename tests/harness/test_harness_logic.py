@@ -8,17 +8,15 @@ from typing import Any
 import pandas as pd
 import pytest
 from fake_slave import FakeFmu, FakeSlave, fake_description
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.description import Value, Variable
-from harness.events import EventCollector, counts_of
-from harness.experiment import Experiment, perform
-from harness.logic import LogicFile, default_parameters, read_logic
-from harness.report.logic import events_section, modes_section
-from harness.results import write_run
+from harness.fmu.description import Value, Variable
+from harness.report.motion import events_section, modes_section
+from harness.run.experiment import Experiment, perform
+from harness.run.logic import EventCollector, LogicFile, counts_of, default_parameters, read_logic
+from harness.run.results import write_run
 from mechanism_fmu.statechart import Definition, Logic, Region, Transition
-from mechanism_fmu.statechart.codec import decode, encode
+from mechanism_fmu.statechart.records import decode, encode
 
 LOGIC = Logic(
     (Definition("face.touches", "gap s <= 0", "m", "1e-9 m", "face.gap"),),

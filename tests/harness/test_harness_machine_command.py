@@ -10,15 +10,15 @@ import pytest
 from typer.testing import CliRunner
 
 import build_fmu
-from harness.cli import main
-from harness.description import read_description
+from harness.app.cli import main
+from harness.app.commands import machine_exchange, machine_ready, machine_run
+from harness.app.execution import alone_in
+from harness.app.terminal import RunDisplay
 from harness.errors import UsageError
-from harness.machine import growing_table, record
-from harness.machine_command import exchange, files, prepare
-from harness.occupied import alone_in
-from harness.slave import Observable
-from harness.terminal import RunDisplay
-from mechanism_fmu.fmu.archive import read_entries, write_archive
+from harness.fmu.description import read_description
+from harness.fmu.interface import Observable
+from harness.machine.observers import record
+from mechanism_fmu.fmu.disk.archive import read_entries, write_archive
 from tests.harness.machine.machines import BACK, geared_cam
 
 
@@ -112,7 +112,7 @@ def test_mistakes_are_told_all_at_once_before_anything_is_built(machine, tmp_pat
 
 def test_a_machine_that_is_not_there(tmp_path, monkeypatch):
     ready = {"indexing_table": tmp_path / "indexing_table.toml"}
-    monkeypatch.setattr(prepare.build_fmu, "machines", lambda: ready)
+    monkeypatch.setattr(machine_ready.build_fmu, "machines", lambda: ready)
     code, text = invoke("run", "indexing_tabel")
     assert code == 2
     assert "There is no machine 'indexing_tabel'. Did you mean indexing_table?" in text
@@ -120,7 +120,7 @@ def test_a_machine_that_is_not_there(tmp_path, monkeypatch):
 
 
 def test_a_ready_machine_by_its_name(machine, tmp_path, monkeypatch):
-    monkeypatch.setattr(prepare.build_fmu, "machines", lambda: {"ready": machine})
+    monkeypatch.setattr(machine_ready.build_fmu, "machines", lambda: {"ready": machine})
     code, text = invoke("run", "ready", "-o", tmp_path / "result")
     assert code == 0
     assert "Geared cam: gears, cam" in text
@@ -128,8 +128,8 @@ def test_a_ready_machine_by_its_name(machine, tmp_path, monkeypatch):
 
 def test_ready_machines_have_no_mistakes_that_can_be_found_without_building():
     for path in build_fmu.machines().values():
-        file = prepare.TomlFile.read(path)
-        prepare.components(file, build_fmu.model_names())
+        file = machine_ready.TomlFile.read(path)
+        machine_ready.components(file, build_fmu.model_names())
         file.check()
 
 
@@ -165,7 +165,7 @@ def test_a_full_disk_ends_the_run_and_leaves_what_can_be_written(machine, tmp_pa
     """Files of an earlier run are named, so that nobody takes them for this one's."""
     folder = tmp_path / "result"
     assert invoke("run", machine, "-o", folder)[0] == 0
-    usual, written = growing_table.write_binary, []
+    usual, written = record.write_binary, []
 
     def until_full(path, write):
         written.append(path)
@@ -173,7 +173,7 @@ def test_a_full_disk_ends_the_run_and_leaves_what_can_be_written(machine, tmp_pa
             raise UsageError(f"'{path}' cannot be written: no space left.")
         return usual(path, write)
 
-    monkeypatch.setattr(growing_table, "write_binary", until_full)
+    monkeypatch.setattr(record, "write_binary", until_full)
     monkeypatch.setattr(record, "_PATIENCE", 0.0)
     code, said = invoke("run", machine, "-o", folder)
     assert code == 1
@@ -189,7 +189,7 @@ def test_a_full_disk_ends_the_run_and_leaves_what_can_be_written(machine, tmp_pa
     def refuse(path, data):
         raise UsageError(f"'{path}' cannot be written: no space left.")
 
-    monkeypatch.setattr(files, "write_json", refuse)
+    monkeypatch.setattr(machine_run, "write_json", refuse)
     machine.write_text(machine.read_text().replace("every = 2", 'every = 2\nformat = "csv"'))
     code, said = invoke("run", machine, "-o", folder)
     assert code == 1
@@ -279,7 +279,7 @@ def test_container(machine, tmp_path, monkeypatch):
     assert (tmp_path / "_2_geared_cam.fmu").is_file()
     other.rename(machine)
     with monkeypatch.context() as patch:
-        patch.setattr(exchange, "prepared", lambda _: pytest.fail("a model was built"))
+        patch.setattr(machine_exchange, "prepared", lambda _: pytest.fail("a model was built"))
         code, said = invoke("container", machine, "-o", "geared-cam.fmu")
     assert code == 2
     assert "'geared-cam.fmu' is no name for an FMU" in said

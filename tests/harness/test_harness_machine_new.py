@@ -6,8 +6,8 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
-from harness.machine.file.read import TABLES
+from harness.app.cli import main
+from harness.machine.file.read_file import TABLES
 
 
 def invoke(*arguments: str) -> tuple[int, str]:

@@ -12,23 +12,22 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from harness.app.commands import machine_performed
+from harness.app.commands.machine_run import summary
 from harness.errors import FmuError
 from harness.fmu import Fmu
-from harness.fmu.slave import MessageHandler
-from harness.machine import frames
+from harness.fmu.instances.common import MessageHandler
+from harness.machine import running
 from harness.machine.connection import Connection
-from harness.machine.cycles import cycles_of
-from harness.machine.extrapolation import Extrapolation
-from harness.machine.file.plan import BondPlan, ComponentPlan, Plan, Policy, Recording, Scheme, Source
-from harness.machine.performed import MachineRun
-from harness.machine.prepared import Prepared
+from harness.machine.file.machine_plan import BondPlan, ComponentPlan, Plan, Policy, Recording, Scheme, Source
+from harness.machine.observers.component_impacts import cycles_of
+from harness.machine.part import Extrapolation
+from harness.machine.running import MachineRun, Prepared
 from harness.machine.structure import structure_of
-from harness.machine_command import performed
-from harness.machine_command.files import summary
-from harness.master import Ending
 from harness.report import machine_signals
-from harness.report.machine_animation import in_power_flow
 from harness.report.machine_report import machine_report
+from harness.report.machine_signals import in_power_flow
+from harness.run.master import Ending
 from tests.harness.machine.fakes import Trouble, Wheel, description
 
 DRAWING = {
@@ -68,7 +67,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
                 wheel.on_message = on_message
             yield parts
 
-        monkeypatch.setattr(performed, "instantiated", instantiated)
+        monkeypatch.setattr(machine_performed, "instantiated", instantiated)
         plan = Plan(
             "Two <wheels>",
             tuple(ComponentPlan(name, Source(Path(f"{name}.fmu")), values={"torque": 0.5}) for name in parts),
@@ -86,7 +85,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
                 (folder / "resources" / "drawing.json").write_text(json.dumps(DRAWING))
             fmus[name] = Fmu(Path(f"{name}.fmu"), description(restores=True), folder)
         whole = structure_of({name: fmu.description for name, fmu in fmus.items()}, plan.connections).description
-        return performed.perform(Prepared(plan, fmus, whole, None), tmp_path)
+        return machine_performed.perform(Prepared(plan, fmus, whole, None), tmp_path)
 
     return perform
 
@@ -228,7 +227,7 @@ def test_a_run_that_fails_has_its_report_up_to_there(run: Any, monkeypatch: pyte
 
 
 def test_frames_are_few_whatever_the_number_of_steps_and_impacts(run: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(frames, "FRAMES", 5)
+    monkeypatch.setattr(running, "FRAMES", 5)
     hits = tuple(k / 100 + 0.003 for k in range(42, 57))
     time = [round(t, 9) for t in run(Wheel("one", hits)).seen.table["time"]]
     assert time == [0.0, 0.2, 0.4, 0.43, 0.44, 0.45, 0.46, 0.47, 0.6, 0.8, 1.0]

@@ -2,15 +2,12 @@ import numpy as np
 import pytest
 from fake_slave import FakeSlave, fake_description
 
-from harness.clock import TimeGrid
-from harness.description import Value
-from harness.errors import FmuError
-from harness.impacts import ImpactCollector
-from harness.inputs import InputSignals
-from harness.master import Ending, run_fixed_step
-from harness.messages import Status
-from harness.recorder import Recorder, recorded_variables
-from harness.slave import Observable
+from harness.analysis.impacts import ImpactCollector
+from harness.errors import FmuError, Status
+from harness.fmu.description import Value
+from harness.fmu.interface import Observable
+from harness.run.inputs import InputSignals
+from harness.run.master import Ending, Recorder, TimeGrid, recorded_variables, run_fixed_step
 
 GRID = TimeGrid.of(stop_time=1.0, step=0.3)
 

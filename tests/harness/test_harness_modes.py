@@ -4,13 +4,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_slave import FakeFmu, FakeSlave
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.description import Variable
-from harness.experiment import Experiment, Run, perform
-from harness.report.modes import contacts, intervals, joined
-from harness.report.motion import motion_chart
+from harness.fmu.description import Variable
+from harness.report.motion import contacts, intervals, joined, motion_chart
+from harness.run.experiment import Experiment, Run, perform
 
 TIME = np.arange(6.0)
 

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
+from harness.app.cli import main
 
 CRANKS = """\
 title = "The shortest crank"
@@ -104,7 +104,17 @@ def test_ctrl_c_and_sigterm_keep_the_designs_there_are(
     path.write_text(path.read_text().replace("count = 40", "count = 4000"))
     temporary.mkdir()
     with subprocess.Popen(
-        [sys.executable, "-c", "from harness.cli import main; main()", "optimise", path, "-o", out, "--workers", "1"],
+        [
+            sys.executable,
+            "-c",
+            "from harness.app.cli import main; main()",
+            "optimise",
+            path,
+            "-o",
+            out,
+            "--workers",
+            "1",
+        ],
         stdout=subprocess.PIPE,
         text=True,
         env=os.environ | {"TMPDIR": str(temporary)},

@@ -12,21 +12,15 @@ import pytest
 from cheap_designs import VALLEY, Place, axis
 from fake_slave import FakeFmu, FakeSlave
 
-from harness.clock import TimeGrid
-from harness.designs.goal import Constraint, Goal
-from harness.designs.history import History, InterruptedSearchError
-from harness.designs.identity import identity
-from harness.designs.optimum_file import CONTINUOUS, MIXED, Around, Optimum
-from harness.designs.search import Best, search
-from harness.designs.sensitivity import NoIndicesError, sensitivity
-from harness.designs.store import Store
+from harness.designs.optimum_file import CONTINUOUS, MIXED, Around, Constraint, Goal, Optimum
+from harness.designs.search import Best, History, InterruptedSearchError, NoIndicesError, search, sensitivity
+from harness.designs.store import Store, identity
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.variation import Axis
-from harness.designs.ways import Way
-from harness.designs.workers import Work, here
+from harness.designs.workers import Way, Work, here
 from harness.errors import UsageError
-from harness.master import never
 from harness.report.optimum_report import Found, optimum_report
+from harness.run.master import TimeGrid, never
 
 FAR, SUM = Quantity(When.END, "far", "Real", "m2"), Quantity(When.END, "sum", "Real", "")
 TASK = Task(TimeGrid.of(1.0, 0.1), {}, None, (FAR, SUM))

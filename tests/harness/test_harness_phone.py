@@ -1,9 +1,9 @@
 import pytest
 from fake_slave import FakeFmu, FakeSlave
 
-from harness.experiment import Experiment, perform
 from harness.report.motion import motion_chart
-from harness.report.phone import stacked
+from harness.report.run_report import stacked
+from harness.run.experiment import Experiment, perform
 
 
 def test_on_a_phone_the_charts_keep_their_heights_and_the_legends_stand_above_them() -> None:

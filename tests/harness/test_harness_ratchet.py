@@ -10,15 +10,15 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
-from harness.drawing import Drawing
+from harness.app.cli import main
 from harness.errors import UsageError
-from harness.experiment import Experiment, Run, perform
 from harness.fmu import Fmu, open_fmu
-from harness.master import Ending
+from harness.papers.study.study import Study, ratchet_study
 from harness.report.animation import animation, animation_data
-from harness.study import Study, ratchet_study
-from harness.validate import validate
+from harness.run.drawing import Drawing
+from harness.run.experiment import Experiment, Run, perform
+from harness.run.master import Ending
+from harness.run.validate import validate
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -199,7 +199,7 @@ def test_a_warning_is_told_once_for_all_wheels(study: Study) -> None:
 
 
 def test_an_fmu_without_a_drawn_wheel_is_no_ratchet(fmu: Fmu, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("harness.study.read_drawing", lambda *_: Drawing())
+    monkeypatch.setattr("harness.papers.study.study.read_drawing", lambda *_: Drawing())
     with pytest.raises(UsageError, match="its drawing has no wheel"):
         ratchet_study(fmu, lambda *_: None)
 

@@ -5,12 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from harness.description import read_description
 from harness.errors import FmuError
 from harness.fmu import open_fmu
-from harness.reference_results import ReferenceResults, farthest, read_reference
-from harness.validate import validate
-from mechanism_fmu.fmu.archive import read_entries, write_archive
+from harness.fmu.description import read_description
+from harness.run.validate import ReferenceResults, farthest, read_reference, validate
+from mechanism_fmu.fmu.disk.archive import read_entries, write_archive
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 

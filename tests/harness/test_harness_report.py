@@ -5,12 +5,11 @@ from pathlib import Path
 import pytest
 from fake_slave import FakeFmu, FakeSlave
 
-from harness.checks import Check
-from harness.errors import FmuError
-from harness.experiment import Experiment, Run, perform
-from harness.messages import LogMessage, Status
+from harness.errors import FmuError, LogMessage, Status
 from harness.report.motion import motion_chart
 from harness.report.run_report import run_report, write_report
+from harness.run.checks import Check
+from harness.run.experiment import Experiment, Run, perform
 
 
 def run_of(slave: FakeSlave) -> Run:

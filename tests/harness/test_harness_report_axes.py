@@ -8,10 +8,8 @@ import numpy.typing as npt
 import pytest
 from PIL import Image
 
-from harness.report.axes import draw_plot, tick_labels, ticks
-from harness.report.canvas import Png, Svg
 from harness.report.plot import Curve, Plot
-from harness.report.static import svg_text, write_static
+from harness.report.static import Png, Svg, draw_plot, svg_text, tick_labels, ticks, write_static
 from tests.kept import same_as_kept
 
 RED, BLUE = "#d00000", "#0072B2"

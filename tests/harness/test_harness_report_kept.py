@@ -6,18 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.checks import Check
-from harness.experiment import Experiment, Run, perform
-from harness.findings import Finding, Verdict
-from harness.inputs import InputSignals
-from harness.report.paper_figures import paper_figures
+from harness.papers.study.study import Study, rim_of
+from harness.papers.study.study_report import paper_figures, study_report
+from harness.papers.study.wheels import Wheel
 from harness.report.run_report import run_report
 from harness.report.static import svg_text
-from harness.report.study_report import study_report
-from harness.results import settings
-from harness.rim import rim_of
-from harness.study import Study
-from harness.wheels import Wheel
+from harness.run.checks import Check, Finding, Verdict
+from harness.run.experiment import Experiment, Run, perform
+from harness.run.inputs import InputSignals
+from harness.run.results import settings
 from tests.kept import plain_data, plain_page, same_as_kept
 from tests.replayed import EXPERIMENT, ReplayedFmu
 

@@ -8,17 +8,14 @@ import pytest
 from cheap_designs import SQUARE, axis, cheap_sweep
 from fake_slave import FakeFmu, FakeSlave, fake_description
 
-from harness.clock import TimeGrid
-from harness.designs.goal import Constraint, Goal
-from harness.designs.history import History
-from harness.designs.in_motion import InMotion
-from harness.designs.optimum_file import Optimum
-from harness.designs.search import Best
-from harness.designs.sensitivity import Sensitivity
+from harness.designs.by_fmu import InMotion
+from harness.designs.optimum_file import Constraint, Goal, Optimum
+from harness.designs.search import Best, History, Sensitivity
 from harness.designs.task import Design, Quantity, Result, Task, When
-from harness.inputs import InputSignals
 from harness.report.optimum_report import Found, optimum_report
 from harness.report.sweep_report import sweep_report
+from harness.run.inputs import InputSignals
+from harness.run.master import TimeGrid
 from tests.kept import plain_page, same_as_kept
 
 TORQUES = InputSignals(

@@ -10,16 +10,15 @@ import numpy as np
 import pytest
 
 import build_fmu
-from harness.description import Description, Variable
-from harness.ked.agreement import Agreement
-from harness.ked.files import Result, summary
-from harness.ked.judged_by import JudgedBy
-from harness.ked.options import Limits
-from harness.ked.solution import Solution
-from harness.ked.solve import prepared, solved
-from harness.ked.synthesis import Bounds, Synthesised
-from harness.ked.tables import cycle_table
-from harness.report.ked_report import ked_report
+from harness.fmu.description import Description, Variable
+from harness.papers.ked.files import Agreement, Result, summary
+from harness.papers.ked.judged_by import JudgedBy
+from harness.papers.ked.ked_report import ked_report
+from harness.papers.ked.options import Limits
+from harness.papers.ked.solution import Solution
+from harness.papers.ked.solve import prepared, solved
+from harness.papers.ked.synthesis import Bounds, Synthesised
+from harness.papers.ked.tables import cycle_table
 from mechanism_fmu.elastodynamics import Judgement, SpeedSweep, with_friction
 from tests.harness.fake_slave import UNITS
 from tests.kept import plain_data, plain_page, same_as_kept

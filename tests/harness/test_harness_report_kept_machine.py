@@ -6,11 +6,10 @@ from typing import Any
 import pytest
 from test_harness_machine_report import BACK, run
 
-from harness.errors import FmuError
-from harness.machine.bonds import BondEnergy
+from harness.errors import FmuError, LogMessage, Status
 from harness.machine.connection import Connection
-from harness.machine.file.plan import BondPlan
-from harness.messages import LogMessage, Status
+from harness.machine.file.machine_plan import BondPlan
+from harness.machine.observers.bonds import BondEnergy
 from harness.report.machine_report import machine_report
 from tests.harness.machine.fakes import Wheel
 from tests.kept import plain_page, same_as_kept

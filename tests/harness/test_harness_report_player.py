@@ -7,10 +7,21 @@ import re
 import numpy as np
 import pytest
 
-from harness.drawing import Shape
-from harness.report.modes import Contact
-from harness.report.player import decimals, flags, legend, picture_data, player, playing_speeds, rounded, times_data
-from harness.report.scene import Scene, bounds, names_of
+from harness.report.animation import (
+    Scene,
+    bounds,
+    decimals,
+    flags,
+    legend,
+    names_of,
+    picture_data,
+    player,
+    playing_speeds,
+    rounded,
+    times_data,
+)
+from harness.report.motion import Contact
+from harness.run.drawing import Shape
 
 SHAPES = (
     Shape("disc", (0.0, 0.0), "eye", {"radius": "size"}),

@@ -11,19 +11,17 @@ import pandas as pd
 import pytest
 import typer
 
-from harness.cli import main
+from harness.app.cli import main
+from harness.app.commands.papers_run import run_reproduce
 from harness.errors import UsageError
-from harness.reproduce.bench import Bench
-from harness.reproduce.differences import joint_deviations
-from harness.reproduce.figures import FIGURES
-from harness.reproduce.geometry import alpha_star, gamma_on_slope, slope_gap, solid_wheel
-from harness.reproduce.me451_by_hand import PLACED
-from harness.reproduce.me451_joints import PARTS, phi_by_hand, two_bodies
-from harness.reproduce.page import markdown
-from harness.reproduce.perform import ASSUMPTIONS, CHOICES, MISPRINTS, ROWS, chosen, perform
-from harness.reproduce.row import Document, Found, Verdict, judged, within
-from harness.reproduce.wedge_by_hand import LAMBDAS, RATIOS, frequencies, largest
-from harness.reproduce_command import run_reproduce
+from harness.papers.reproduce.bench import Bench, alpha_star, gamma_on_slope, joint_deviations, slope_gap, solid_wheel
+from harness.papers.reproduce.figures.all_figures import FIGURES
+from harness.papers.reproduce.me451.joint_rows import PARTS, PLACED, phi_by_hand, two_bodies
+from harness.papers.reproduce.papers_page import markdown
+from harness.papers.reproduce.pennestri.stress_rows import LAMBDAS, RATIOS, frequencies, largest
+from harness.papers.reproduce.perform import ASSUMPTIONS, CHOICES, MISPRINTS, ROWS, chosen, perform
+from harness.papers.reproduce.row import Document, Found, judged, within
+from harness.run.checks import Verdict
 from mechanism_fmu.kinematics.equations import Equations
 
 ROOT = Path(__file__).parents[2]
@@ -217,7 +215,7 @@ def test_an_id_that_is_none_is_refused_with_what_there_is(tmp_path):
 
 
 def test_a_failed_row_is_a_failed_command(tmp_path, monkeypatch):
-    from harness import reproduce_command
+    from harness.app.commands import papers_run
 
     def perform_wrongly(asked, bench, on_row):
         made = perform(asked, bench, on_row)
@@ -225,7 +223,7 @@ def test_a_failed_row_is_a_failed_command(tmp_path, monkeypatch):
         wrong = type(result)(result.row, judged(False, "off"))
         return type(made)((), (), (), (wrong,), {}, False)
 
-    monkeypatch.setattr(reproduce_command, "perform", perform_wrongly)
+    monkeypatch.setattr(papers_run, "perform", perform_wrongly)
     assert run_reproduce(["C-steel"], tmp_path) == 1
 
 

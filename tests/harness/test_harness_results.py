@@ -8,11 +8,10 @@ import pandas as pd
 import pytest
 from fake_slave import FakeFmu, FakeSlave
 
-from harness.description import Variable
-from harness.errors import UsageError
-from harness.experiment import Experiment, Run, default_times, perform
-from harness.messages import Status
-from harness.results import prepare_folder, write_run, write_text
+from harness.errors import Status, UsageError
+from harness.fmu.description import Variable
+from harness.run.experiment import Experiment, Run, default_times, perform
+from harness.run.results import prepare_folder, write_run, write_text
 from tests.declared import TEETH
 
 

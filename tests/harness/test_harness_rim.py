@@ -2,11 +2,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.drawing import Drawing, Shape
-from harness.rim import Rim, rim_of
+from harness.papers.study.study import Rim, rim_of
+from harness.run.drawing import Drawing, Shape
 
 ROOT_TWO = math.sqrt(2.0)
 

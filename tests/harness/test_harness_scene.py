@@ -4,12 +4,11 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.drawing import Shape
-from harness.report.scene import Scene, bounds, names_of
-from harness.report.thin import frame_rows, strongest
+from harness.report.animation import Scene, bounds, names_of
+from harness.report.plot import frame_rows, strongest
+from harness.run.drawing import Shape
 
 CRANK = Shape("bar", (1.0, 0.0), "crank", {"angle": "phi", "length": "a"})
 PAWL = Shape("bar", "crank", "pawl", {"angle": "-phi", "length": 1.0})

@@ -6,15 +6,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from harness.clock import TimeGrid
-from harness.description import Description
-from harness.designs.of_impacts import of_impacts, struck_in
-from harness.designs.task import Quantity, Task, When
-from harness.impacts import body_held, one_of_each_instant
-from harness.numbers import engineering
-from harness.report.severity import severity_section
-from harness.report.stress import stress_section
-from harness.tooth_stress import STRESS_COLUMNS, with_stress, worst_impact
+from harness.analysis.impacts import body_held, one_of_each_instant
+from harness.analysis.stress import STRESS_COLUMNS, with_stress, worst_impact
+from harness.designs.task import Quantity, Task, When, of_impacts, struck_in
+from harness.fmu.description import Description
+from harness.fmu.values import engineering
+from harness.report.impact_sections import severity_section, stress_section
+from harness.run.master import TimeGrid
 from mechanism_fmu.stress import STEEL, STEEL_CARD, WedgeTooth, maximum_stress
 from tests.declared import STRUCK, TEETH
 

@@ -5,14 +5,13 @@ import threading
 import numpy as np
 import pytest
 from fake_slave import FakeSlave, fake_description
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.interrupt import interruption
-from harness.numbers import engineering, shown
-from harness.report.thin import thin
-from harness.terminal import RunDisplay, console
-from harness.termination import terminable
+from harness.app.cli_group import terminable
+from harness.app.execution import interruption
+from harness.app.terminal import RunDisplay, console
+from harness.fmu.values import engineering, shown
+from harness.report.plot import thin
 
 
 @pytest.mark.parametrize(

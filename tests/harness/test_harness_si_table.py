@@ -8,8 +8,8 @@ import math
 import pytest
 from scipy import constants
 
-from harness import si
-from harness.si import BASE_UNITS, Measure, parse_unit
+from harness.fmu import units
+from harness.fmu.units import BASE_UNITS, Measure, parse_unit
 
 #: By symbol: value of one in coherent units, and the brochure's expression in base units.
 SYMBOLS = {
@@ -68,9 +68,9 @@ def exponents(expression: str) -> tuple[int, ...]:
 
 
 def test_the_table_has_these_rows_and_no_others() -> None:
-    assert {*si._PREFIXABLE, *si._WHOLE} == set(SYMBOLS)
-    assert set(si._WHOLE) == set(WITHOUT_PREFIX)
-    assert set(si._PREFIXES) == set(PREFIXES)
+    assert {*units._PREFIXABLE, *units._WHOLE} == set(SYMBOLS)
+    assert set(units._WHOLE) == set(WITHOUT_PREFIX)
+    assert set(units._PREFIXES) == set(PREFIXES)
     assert BASE_UNITS == ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 
 

@@ -2,9 +2,8 @@
 
 import math
 
-from harness.description import Description, Variable
-from harness.designs.quantities import with_slenderness
-from harness.designs.task import Quantity, When
+from harness.designs.task import Quantity, When, with_slenderness
+from harness.fmu.description import Description, Variable
 from tests.declared import TEETH
 
 STRESS = Quantity(When.FIRST_IMPACT, "stress_max", "Real", "Pa")
@@ -31,8 +30,8 @@ def test_it_is_not_where_no_stress_is_asked_for_or_the_fmu_has_none():
 
 
 def test_the_ratchet_s_is_that_of_the_beam(native_ratchet_fmu):
-    from harness.experiment import Experiment, perform
     from harness.fmu import open_fmu
+    from harness.run.experiment import Experiment, perform
     from mechanism_fmu.stress import slenderness
 
     with open_fmu(native_ratchet_fmu) as fmu:

@@ -29,39 +29,30 @@ from cheap_designs import (
     work_of,
 )
 from fake_slave import fake_description
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from scipy.stats import qmc
 
-from harness.clock import TimeGrid
-from harness.designs import identity as identities
-from harness.designs import sampling
-from harness.designs import store as stores
-from harness.designs.identity import code_of, contents, identity
-from harness.designs.ranges import range_cells
-from harness.designs.store import Store, failures
-from harness.designs.sweep import Progress, perform_sweep
+from harness.designs import store as identities, store as stores, sweep
+from harness.designs.store import Store, code_of, contents, failures, identity
+from harness.designs.sweep import Progress, perform_sweep, range_cells
 from harness.designs.task import Design, Quantity, Result, Task, When
-from harness.designs.ways import Way
-from harness.designs.worker_processes import Processes
-from harness.designs.workers import Work, here
+from harness.designs.workers import Processes, Way, Work, here
 from harness.errors import UsageError
+from harness.run.master import TimeGrid
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _processes_begin_with_what_they_need() -> None:
     """All are copies of one that has imported most of it; else each would take seconds for that."""
-    multiprocessing.get_context("forkserver").set_forkserver_preload(
-        ["harness.designs.sweep_file", "harness.designs.store"]
-    )
+    multiprocessing.get_context("forkserver").set_forkserver_preload(["harness.designs.sweep", "harness.designs.store"])
     forkserver.ensure_running()
 
 
-@given(st.sampled_from(sorted(sampling.METHODS)), st.integers(1, 40), st.integers(0, 10))
+@given(st.sampled_from(sorted(sweep.METHODS)), st.integers(1, 40), st.integers(0, 10))
 def test_a_list_of_designs_is_the_same_each_time_and_within_its_limits(method: str, count: int, seed: int) -> None:
     axes = [axis(), axis("tooth_count", 10, 25), axis("tooth_slope_angle", 85, 105, "deg")]
-    designs = sampling.sampled(axes, method, count, seed)
-    assert designs == sampling.sampled(axes, method, count, seed)
+    designs = sweep.sampled(axes, method, count, seed)
+    assert designs == sweep.sampled(axes, method, count, seed)
     assert [design.number for design in designs] == list(range(1, count + 1))
     for design in designs:
         assert 0.0 <= design.values["restitution"] < 1.0
@@ -70,20 +61,20 @@ def test_a_list_of_designs_is_the_same_each_time_and_within_its_limits(method: s
 
 
 def test_a_latin_hypercube_has_one_design_in_each_row_and_column() -> None:
-    designs = sampling.sampled([axis(), axis("tooth_count", 10, 25)], "latin_hypercube", 16, 5)
+    designs = sweep.sampled([axis(), axis("tooth_count", 10, 25)], "latin_hypercube", 16, 5)
     assert sorted(int(16 * design.values["restitution"]) for design in designs) == list(range(16))
     assert sorted(design.values["tooth_count"] for design in designs) == list(range(10, 26))
 
 
 def test_sobol_points_are_more_even_than_random_ones() -> None:
     def unevenness(method: str) -> float:
-        return qmc.discrepancy(sampling.METHODS[method](256, 2, 1))
+        return qmc.discrepancy(sweep.METHODS[method](256, 2, 1))
 
     assert unevenness("sobol") < 0.1 * unevenness("random")
 
 
 def test_whole_numbers_are_all_equally_likely() -> None:
-    designs = sampling.sampled([axis("tooth_count", 10, 25)], "sobol", 1024, 3)
+    designs = sweep.sampled([axis("tooth_count", 10, 25)], "sobol", 1024, 3)
     counts = np.bincount([int(design.values["tooth_count"]) for design in designs])
     assert list(counts[10:]) == [64] * 16
 

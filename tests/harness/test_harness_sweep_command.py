@@ -16,9 +16,9 @@ import pyarrow.parquet as pq
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
+from harness.app.cli import main
 
-COMMAND = [sys.executable, "-c", "from harness.cli import main; main()", "sweep"]
+COMMAND = [sys.executable, "-c", "from harness.app.cli import main; main()", "sweep"]
 
 CRANKS = """\
 title = "Cranks"

@@ -7,9 +7,9 @@ import pytest
 from fake_slave import fake_description
 from sweep_files import GOOD, mistakes, read
 
-from harness.description import Description, Variable
-from harness.designs.plan import Source, source
 from harness.designs.task import Quantity, When
+from harness.designs.variation import Source, source
+from harness.fmu.description import Description, Variable
 from harness.toml_file import TomlFile
 from tests.declared import TEETH
 

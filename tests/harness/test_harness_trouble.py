@@ -13,7 +13,7 @@ from nursery import Ended, nursery
 
 Run = Callable[..., Ended]
 
-_RUN = "from harness.cli import main; main()"
+_RUN = "from harness.app.cli import main; main()"
 
 
 @pytest.fixture(scope="module")

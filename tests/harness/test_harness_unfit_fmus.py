@@ -7,9 +7,9 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from harness.description import read_description
 from harness.errors import FmuError, UsageError
 from harness.fmu import open_fmu
+from harness.fmu.description import read_description
 from tests.harness.machine.foreign import in_c
 from tests.once import once
 

@@ -2,11 +2,9 @@ import math
 
 import pytest
 from fake_slave import UNITS, measure
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.si import parse_unit
-from harness.units import UnitMismatchError, Units
+from harness.fmu.units import UnitMismatchError, Units, parse_unit
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,8 @@ from pathlib import Path
 
 from fake_slave import fake_description
 
-from harness.numbers import in_display_unit
-from harness.versions import versions
+from harness.fmu.values import in_display_unit
+from harness.run.results import versions
 from mechanism_fmu import __version__
 
 

@@ -8,7 +8,7 @@ from types import ModuleType
 import pandas as pd
 import pytest
 
-from harness.machine.bonds import BondEnergy
+from harness.machine.observers.bonds import BondEnergy
 
 pytestmark = pytest.mark.slow
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import models
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
-from mechanism_fmu.fmu.variables import variables_of
+from mechanism_fmu.fmu.parts.variables import variables_of
 
 
 @dataclass(frozen=True)

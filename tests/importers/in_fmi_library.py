@@ -13,8 +13,7 @@ import subprocess
 from pathlib import Path
 
 from tests.importers.asked import Asked
-from tests.importers.in_c import BY_PYTHONFMU, libpython
-from tests.importers.in_c import missing as compiler_missing
+from tests.importers.in_c import BY_PYTHONFMU, libpython, missing as compiler_missing
 from tests.importers.tool import Tool, Values
 
 _INSTALL = (

@@ -121,8 +121,8 @@ def _references(ssp: Path, signals: Sequence[str]) -> list[tuple[str, int]]:
     """Value references by the names of signals."""
     from xml.etree import ElementTree
 
-    from harness.description import read_description
-    from harness.machine.ssp.xml import tag
+    from harness.fmu.description import read_description
+    from harness.machine.formats.ssp_xml import tag
 
     place = ssp.with_suffix(".files")
     with zipfile.ZipFile(ssp) as archive:

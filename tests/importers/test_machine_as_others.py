@@ -13,26 +13,22 @@ import numpy as np
 import pytest
 
 import build_fmu
-from harness.clock import TimeGrid
-from harness.description import read_description
+from harness.app.commands.machine_exchange import baked_machine
 from harness.errors import UsageError
 from harness.fmu import Fmu, open_fmu
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.baking import GAINS, baking
+from harness.fmu.description import read_description
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
-from harness.machine.file.components import components
-from harness.machine.file.plan import ComponentPlan, Plan, Policy, Source
-from harness.machine.file.read import read_plan
+from harness.machine.file.machine_plan import ComponentPlan, Plan, Policy, Source
+from harness.machine.file.read_file import components, read_plan
+from harness.machine.formats.baking import GAINS, baking
+from harness.machine.formats.ssp_export import identifier, write_ssp
+from harness.machine.formats.ssp_import import import_ssp
 from harness.machine.machine import Machine
-from harness.machine.prepared import Prepared
-from harness.machine.run import run_machine
-from harness.machine.ssp.export import identifier, write_ssp
-from harness.machine.ssp.importing import import_ssp
+from harness.machine.part import Extrapolation
+from harness.machine.running import Prepared, run_machine
+from harness.machine.stepping import Jacobi
 from harness.machine.structure import structure_of
-from harness.machine_command.baking import baked_machine
-from harness.master import Ending
-from harness.recorder import Recorder
+from harness.run.master import Ending, Recorder, TimeGrid
 from harness.toml_file import TomlFile
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu as build_python_fmu

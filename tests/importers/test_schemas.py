@@ -16,10 +16,9 @@ from lxml import etree
 
 import build_fmu
 import models
-from harness.description import read_description
-from harness.machine.file.components import components
-from harness.machine.file.read import read_plan
-from harness.machine.ssp.export import write_ssp
+from harness.fmu.description import read_description
+from harness.machine.file.read_file import components, read_plan
+from harness.machine.formats.ssp_export import write_ssp
 from harness.toml_file import TomlFile
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.importers.forms import FORMS, Form

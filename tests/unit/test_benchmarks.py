@@ -16,8 +16,7 @@ from benchmarks.table import as_json, table, this_machine
 from benchmarks.timing import Comparison, DisagreementError, in_turns, require_agreement
 from mechanism_fmu import codes
 from mechanism_fmu.model.compile import compile_mechanism
-from mechanism_fmu.tables.layout import field_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import field_of, pack
 
 
 @pytest.mark.parametrize(

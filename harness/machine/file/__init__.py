@@ -1,7 +1,7 @@
 """The file of a machine: read as a whole, checked against its components, and written.
 
-Internal. `components`, then `read` (all of it: `connections`, `running`) make a `plan`; `notes` says what is no
-mistake, `write` makes a file of a plan, `new` one to begin with; `changes` are those of a command.
+Internal. `read_file` and `connect_tables` make a `machine_plan`; `notes` says what is no mistake; `write_file` makes a
+file of a plan, and one to begin with.
 """
 
 __all__: list[str] = []

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ...description import Description, Variable
-from ...numbers import shown
-from ..bonds import Bond, pushes
-from ..connection import Connection
-from ..extrapolation import Extrapolation
-from ..names import own_of, part_of
+from ...fmu.description import Description, Variable
+from ...fmu.values import shown
+from ..connection import Connection, own_of, part_of
+from ..observers.bonds import Bond, pushes
+from ..part import Extrapolation
 from ..structure import structure_of
-from .plan import BondPlan, Plan, Scheme
+from .machine_plan import BondPlan, Plan, Scheme
 
 
 def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[str] = ()) -> list[str]:

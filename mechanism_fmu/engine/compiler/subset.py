@@ -15,8 +15,7 @@ from numba import types
 from numba.extending import lower_builtin, type_callable
 
 from . import views as views  # teaches the compiler the tables
-from .kept_code import check_files
-from .whole_program import InnerCompiler, refuse_python_calls
+from .machine_code import InnerCompiler, check_files, refuse_python_calls
 
 #: Numba does not notice a change in a callee, so a compilation is kept on disk only for the copy of the library that
 #: an FMU unpacks into a folder named after its contents; that copy has another package name.

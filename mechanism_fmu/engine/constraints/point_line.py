@@ -1,10 +1,26 @@
-"""A point of one body against a line fixed in another: the gap s, one row (Pennestrì et al., Fig. 1)."""
+"""Rows of a point against a line, and of an angle."""
 
 from __future__ import annotations
 
 from ...tables.declare import Array
 from ...tables.motion import Pose, Rows
 from ..compiler.subset import jit, keep_small
+
+# The relative angle of two bodies against a given one: one row.
+
+
+@jit
+def angle_row(at: Pose, rows: Rows, row: int, i: int, j: int, angle: Array) -> None:
+    """Write the row s = phi_i - phi_j - angle[0]: s_q = [.., 1, .., -1], s' = phi_i' - phi_j', gamma = 0."""
+    keep_small()
+    rows.residual[row] = at.phi[i] - at.phi[j] - angle[0]
+    rows.residual_rate[row] = at.phi_rate[i] - at.phi_rate[j]
+    rows.gamma[row] = 0.0
+    rows.jacobian[row, 3 * i + 2] = 1.0
+    rows.jacobian[row, 3 * j + 2] = -1.0
+
+
+# A point of one body against a line fixed in another: the gap s, one row (Pennestrì et al., Fig. 1).
 
 
 @jit

@@ -13,19 +13,10 @@ from ..compiler.subset import jit, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
 from ..vectors import clear
-from .angle_row import angle_row
-from .joints.angle_driver import angle_driver
-from .joints.distance import distance
-from .joints.distance_driver import distance_driver
-from .joints.gears import gears, internal_gears
-from .joints.rack_and_pinion import rack_and_pinion
-from .joints.revolute import revolute
-from .joints.revolute_translational import revolute_translational
-from .joints.translational import translational
-from .joints.translational_driver import translational_driver
-from .joints.x_driver import x_driver
-from .joints.y_driver import y_driver
-from .point_line import point_line
+from .joints.drivers import angle_driver, distance_driver, translational_driver, x_driver, y_driver
+from .joints.gears import gears, internal_gears, rack_and_pinion
+from .joints.pins_and_slides import distance, revolute, revolute_translational, translational
+from .point_line import angle_row, point_line
 from .profile_row import profile_row
 
 #: The rows of every joint, by the name of its kind; those of the first two, which are frequent, are compiled for speed.

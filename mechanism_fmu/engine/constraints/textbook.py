@@ -13,9 +13,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import entry, jit, keep_small
 from ..profiles.curves import curve
 from ..vectors import clear
-from .joints.cam_flat_follower import cam_flat_follower
-from .joints.cam_follower import cam_follower
-from .joints.point_follower import point_follower
+from .joints.cams import cam_flat_follower, cam_follower, point_follower
 from .kinematics import place_bodies
 from .rows import contact_row, joint_rows
 

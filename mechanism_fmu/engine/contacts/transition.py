@@ -1,8 +1,4 @@
-"""What happens at an event: x- becomes x+, and the mechanism's mode changes.
-
-In this order: the guard's own effect (the next tooth, a click, a logical function); impacts, until nothing approaches;
-mending of drift; the choice, among the contacts at rest, of those that push. All of it takes no time.
-"""
+"""What happens at an event, and which contacts no longer touch behind a step."""
 
 from __future__ import annotations
 
@@ -15,13 +11,36 @@ from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TO
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
-from ..dynamics.drift import LEAST_DRIFT, mend
+from ..dynamics.acceleration import LEAST_DRIFT, mend
 from ..dynamics.forces import kinetic_energy
 from .complementarity import COUNT, push_forces
-from .copies import place_contact, place_pattern
-from .guards import can_open, gap
+from .guards import can_open, gap, place_contact, place_pattern
 from .impact import MOST_ROUNDS, strike
 from .records import complete_impacts, keep_event, mode_number
+
+# Contacts that no longer touch.
+
+
+@jit
+def release(block: Array, struck: int) -> None:
+    """Contacts that touched at the step's start have come off by y_end, but for the one that strikes there.
+
+    One that is open and comes back has been off, however low the hop: it strikes where its gap closes, not before.
+    """
+    keep_small()
+    table = Contacts(block)
+    at = place_bodies(block, Course(block).y_end)
+    for c in range(table.mode.shape[0]):
+        if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
+            distance, rate = gap(block, at, c)
+            if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
+                table.touching[c] = 0
+
+
+# What happens at an event: x- becomes x+, and the mechanism's mode changes.
+#
+# In this order: the guard's own effect (the next tooth, a click, a logical function); impacts, until nothing
+# approaches; mending of drift; the choice, among the contacts at rest, of those that push. All of it takes no time.
 
 #: So many events within `PILE_TIME` [s] are no motion any more.
 MOST_PILED = 2000

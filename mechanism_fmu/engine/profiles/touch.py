@@ -1,4 +1,4 @@
-"""Where two profiles touch: the geometry of a pair of curves, one in each body.
+"""Where two profiles touch: points of a profile, and the geometry of a pair of curves, one in each body.
 
 The pair's contact coordinates say which point of each curve is looked at: C_i = r_i + a on body i, C_j = r_j + b on
 body j, a = A_i (s_i + rho_i e(alpha_i)) and b likewise. One of the two curves may be a mere point, or curve j a line.
@@ -17,7 +17,44 @@ from ...tables.motion import Pose
 from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from .curves import curve
-from .profile import profile_point
+
+# A point that moves along the profile of a body, in the global frame.
+
+#: rho and its first three derivatives at a contact coordinate.
+Profile = tuple[float, float, float, float]
+
+
+@jit
+def profile_point(
+    at: Pose, body: int, centre_x: float, centre_y: float, alpha: float, profile: Profile
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """P = A (s + rho e) from the body's origin, and its derivatives with respect to alpha, as (p, g, h, k).
+
+    With e = (cos alpha, sin alpha): g = A (rho' e + rho R e) along the profile, h = A ((rho'' - rho) e + 2 rho' R e),
+    k = A ((rho''' - 3 rho') e + (3 rho'' - rho) R e).
+    """
+    keep_small()
+    c, s = at.cosine[body], at.sine[body]
+    ex, ey = math.cos(alpha), math.sin(alpha)
+    ex, ey = c * ex - s * ey, s * ex + c * ey  # A e
+    rho, rho1, rho2, rho3 = profile
+    px = c * centre_x - s * centre_y + rho * ex
+    py = s * centre_x + c * centre_y + rho * ey
+    gx = rho1 * ex - rho * ey
+    gy = rho1 * ey + rho * ex
+    hx = (rho2 - rho) * ex - 2.0 * rho1 * ey
+    hy = (rho2 - rho) * ey + 2.0 * rho1 * ex
+    kx = (rho3 - 3.0 * rho1) * ex - (3.0 * rho2 - rho) * ey
+    ky = (rho3 - 3.0 * rho1) * ey + (3.0 * rho2 - rho) * ex
+    return px, py, gx, gy, hx, hy, kx, ky
+
+
+# Where two profiles touch: the geometry of a pair of curves, one in each body.
+#
+# The pair's contact coordinates say which point of each curve is looked at: C_i = r_i + a on body i, C_j = r_j + b on
+# body j, a = A_i (s_i + rho_i e(alpha_i)) and b likewise. One of the two curves may be a mere point, or curve j a line.
+# Profiles run counter-clockwise around their body's material, so that with the unit tangent t of curve j the normal
+# n = -R t points out of it.
 
 
 class Touch(NamedTuple):

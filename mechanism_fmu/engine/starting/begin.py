@@ -1,15 +1,146 @@
-"""The beginning: from the start guess to a mechanism that is assembled and ready to move."""
+"""The beginning: from the start guess to a mechanism that is assembled, checked and ready to move."""
 
 from __future__ import annotations
 
+import math
+
+from ... import codes
 from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows
+from ...tables.parts import Contacts, Options, Ports
+from ...tables.sizes import Sizes
+from ...tolerances import STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import entry, jit, keep_small
-from ..dynamics.inputs import set_time
+from ..constraints.kinematics import place_bodies
+from ..constraints.rows import active_rows, spare_row
+from ..contacts.guards import gap
+from ..contacts.records import clear_impact, clear_records
+from ..dynamics.inputs import set_time, take_inputs
+from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
-from .assembly import assemble
-from .guess import find_copies, is_inside, start_guess
-from .start import start
+from ..vectors import clear
+from .assembly import assemble, find_copies, is_inside, newton_direction, start_guess, worst_of
+
+# The start of the motion: the assembled position is checked, and all that counts begins at zero.
+
+#: Start rates agree with the joints within this [m/s, rad/s].
+RATES_WITHIN = 1e-9
+#: Rates of coordinates that are not held give way down to this.
+_RATES_CLOSED = 1e-14
+
+
+@jit
+def start(block: Array, time: float) -> int:
+    """Make ready to begin at `time` [s] from the assembled position, with all counters at zero; return a status.
+
+    The first `stepper.advance`, to `time` itself, chooses the contacts that push.
+    """
+    keep_small()
+    _begin_at_zero(block, time)
+    at = place_bodies(block, Course(block).y_end)
+    if _profiles_overlap(block, at):
+        return status.OVERLAP
+    if not _close_rates(block, at):
+        return status.START_RATES
+    if not _contacts_begin(block, at):
+        return status.START_INSIDE
+    return status.OK
+
+
+@jit
+def _begin_at_zero(block: Array, time: float) -> None:
+    """The clock stands at `time` [s], nothing has happened, and the inputs are those that are set."""
+    keep_small()
+    now = Course(block)
+    now.clock[codes.TIME] = time
+    now.clock[codes.STEP_END] = time
+    now.clock[codes.LAST_EVENT] = time
+    now.clock[codes.STEP_START] = time
+    now.clock[codes.STEP_SIZE] = 0.0
+    clear(Ports(block).input_slopes)  # a slope belongs to a step
+    take_inputs(block)
+    for k in range(codes.COUNTERS_LENGTH):
+        now.counters[k] = 0
+    now.counters[codes.COUNT_IN_STEP] = codes.IMPACT_BUFFER_LENGTH  # all that may be there is cleared
+    now.counters[codes.EVENTS_IN_STEP] = codes.EVENT_BUFFER_LENGTH
+    clear_records(block)
+    clear_impact(now.last_impact)
+    now.counters[codes.PENDING_GUARD] = codes.GUARD_BEGIN
+    now.counters[codes.PENDING_SUBJECT] = codes.NONE
+    now.ledger[codes.LEDGER_LOST] = 0.0
+    now.y_end[Sizes(block).y_work] = 0.0
+    now.y_end[Sizes(block).y_loss] = 0.0
+    first = Sizes(block).y_own
+    for k in range(Sizes(block).own):
+        now.y_end[first + k] = 0.0
+
+
+@jit
+def _profiles_overlap(block: Array, at: Pose) -> bool:
+    """Whether two profiles that touch cut into each other elsewhere; `_blame` says which."""
+    keep_small()
+    table = Contacts(block)
+    for c in range(table.mode.shape[0]):
+        if table.alpha[c] != codes.NONE and table.value[c, codes.ENABLED] > 0.5:
+            depth = overlap(block, at, c)
+            if depth > 0.0 and table.mode[c] == codes.CLOSED:
+                _blame(block, c, -depth)
+                return True
+    return False
+
+
+@jit
+def _contacts_begin(block: Array, at: Pose) -> bool:
+    """Close the contacts that touch and rest; False when one is inside (`_blame` says which)."""
+    keep_small()
+    table = Contacts(block)
+    for c in range(table.mode.shape[0]):
+        table.pull_time[c] = math.inf
+        table.touching[c] = 0
+        exists = table.value[c, codes.ENABLED] > 0.5 and table.function[c] == codes.NONE
+        if table.mode[c] == codes.OPEN and exists:
+            distance, rate = gap(block, at, c)
+            if not distance >= -TOUCHES_WITHIN:
+                _blame(block, c, distance)
+                return False
+            if distance <= TOUCHES_WITHIN and abs(rate) < STICK_SPEED:
+                table.mode[c] = codes.CLOSED
+            elif distance <= TOUCHES_WITHIN:
+                table.touching[c] = 1
+    return True
+
+
+@jit
+def _blame(block: Array, contact: int, distance: float) -> None:
+    """Tell which contact is inside, and its gap [m or rad]: PENDING_SUBJECT and the spare row's residual."""
+    Course(block).counters[codes.PENDING_SUBJECT] = contact
+    Rows(block).residual[spare_row(block)] = distance
+
+
+@jit
+def _close_rates(block: Array, at: Pose) -> bool:
+    """Whether the start rates agree with the active rows, after those of coordinates that are not held have given way.
+
+    Without held coordinates nothing tells which rates are meant, and all stay as they are given.
+    """
+    keep_small()
+    n = Sizes(block).coordinates
+    y = Course(block).y_end
+    count = active_rows(block, at)
+    worst = worst_of(Rows(block).residual_rate, count)
+    if Options(block).held.shape[0] == 0 or worst <= _RATES_CLOSED:
+        return worst <= RATES_WITHIN
+    for _ in range(2):  # once more, for what rounding has left
+        newton_direction(block, count, Rows(block).residual_rate)
+        for k in range(n):
+            y[n + k] += Loads(block).weight[k] * LinearSystem(block).solution[k]
+        at = place_bodies(block, y)
+        active_rows(block, at)
+    return worst_of(Rows(block).residual_rate, count) <= RATES_WITHIN
+
+
+# The beginning: from the start guess to a mechanism that is assembled and ready to move.
 
 #: Copies of a pattern that are tried: the one where the point is, and four on either side.
 _MOST_ASSEMBLIES = 9

@@ -17,16 +17,14 @@ from ...tables.parts import Contacts, Options, Ports
 from .. import status
 from ..compiler.subset import entry, jit, keep_small
 from ..contacts.records import clear_records
-from ..contacts.release import release
-from ..contacts.transition import transit
+from ..contacts.transition import release, transit
 from ..dynamics.acceleration import derivative
 from ..dynamics.inputs import feed, inputs_changed, set_time, show_reached, take_inputs
 from ..vectors import copy
 from .interpolation import interpolate
-from .pulling import watch_at
 from .runge_kutta import initial_step_size, try_step
 from .singular import keep_independence, note_rank
-from .step import take_step
+from .step import take_step, watch_at
 from .step_size import note_stiffest
 
 #: When this part of the internal steps is spent, that part of the communication step must be covered.

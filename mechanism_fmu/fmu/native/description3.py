@@ -16,8 +16,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ... import __version__
 from ...model import MechanismError, Model
-from ..arrays import array_name, common_description, numbered, stride
-from ..model_description import (
+from ..parts.model_description import (
     CommonType,
     common_types,
     default_experiment,
@@ -26,7 +25,7 @@ from ..model_description import (
     unit_definitions,
     value_attributes,
 )
-from ..variables import FIRST_REFERENCE, Variable, variables_of
+from ..parts.variables import FIRST_REFERENCE, Variable, array_name, common_description, numbered, stride, variables_of
 
 _IMPACT_FLAG = "impact.any"
 #: Fields of the last impact; counters are not among them.

@@ -16,8 +16,8 @@ from pathlib import Path
 import llvmlite.binding as llvm
 
 from ...engine.library import EXPORTS, intermediate_code
-from ..kept import keep
-from .targets import TARGETS, Target
+from ..disk.user_cache import keep
+from .link import TARGETS, Target
 
 
 def object_file(codes: list[str], target: Target) -> bytes:

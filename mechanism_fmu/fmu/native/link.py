@@ -1,18 +1,76 @@
-"""From objects and C files to a shared library, with the C compiler and linker of the `ziglang` wheel."""
+"""From objects and C files to shared libraries for all platforms, with the tools of the `ziglang` wheel."""
 
 from __future__ import annotations
 
 import importlib.metadata
 import importlib.util
 import os
+import struct
 import subprocess
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from ...model import MechanismError
 from ..start import cache_directory
-from .targets import Target
+
+# The platforms that a native FMU has a binary for.
+
+
+@dataclass(frozen=True)
+class Target:
+    """A platform.
+
+    Attributes:
+        name: of the folder in an FMI 3.0 FMU (specification 3.0, section 2.5.1.4.1).
+        fmi2: of the folder in an FMI 2.0 FMU; two for one folder become a universal binary. FMI 2.0 has no name for
+            Linux on ARM: the folder named as in 3.0 is for importers that look there, and for hands.
+        triple: what LLVM calls it.
+        zig: what `zig cc -target` calls it: the oldest system library that the binary runs with is part of it.
+        suffix: of shared libraries.
+    """
+
+    name: str
+    fmi2: str
+    triple: str
+    zig: str
+    suffix: str
+
+
+#: The platforms that pythonfmu's wheel has a wrapper for.
+WRAPPED = ("linux64", "win64")
+
+TARGETS = (
+    Target("x86_64-linux", "linux64", "x86_64-unknown-linux-gnu", "x86_64-linux-gnu.2.17", ".so"),
+    Target("x86_64-windows", "win64", "x86_64-pc-windows-msvc", "x86_64-windows-gnu", ".dll"),
+    Target("x86_64-darwin", "darwin64", "x86_64-apple-macosx11.0.0", "x86_64-macos.11.0", ".dylib"),
+    Target("aarch64-linux", "aarch64-linux", "aarch64-unknown-linux-gnu", "aarch64-linux-gnu.2.17", ".so"),
+    Target("aarch64-darwin", "darwin64", "arm64-apple-macosx11.0.0", "aarch64-macos.11.0", ".dylib"),
+)
+
+
+# Universal binaries of macOS: FMI 2.0 has one folder for both of its processors.
+
+_MAGIC = 0xCAFEBABE
+#: Each library begins at a multiple of 2^14 bytes, the page of Apple's own processors.
+_ALIGNMENT = 14
+_HEAD, _ENTRY = struct.Struct(">II"), struct.Struct(">5I")
+
+
+def universal(libraries: Sequence[bytes]) -> bytes:
+    """One file of Mach-O libraries for different processors (`fat_header` and `fat_arch` of mach-o/fat.h)."""
+    entries, body = [], b""
+    place = _HEAD.size + len(libraries) * _ENTRY.size
+    for library in libraries:
+        body += bytes(-(place + len(body)) % 2**_ALIGNMENT)
+        processor, kind = struct.unpack_from("<II", library, 4)
+        entries.append(_ENTRY.pack(processor, kind, place + len(body), len(library), _ALIGNMENT))
+        body += library
+    return _HEAD.pack(_MAGIC, len(libraries)) + b"".join(entries) + body
+
+
+# From objects and C files to a shared library, with the C compiler and linker of the `ziglang` wheel.
 
 _SURFACE = Path(__file__).with_name("c")
 

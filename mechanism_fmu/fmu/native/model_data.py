@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from ...admissible import Rule, rules
 from ...model import Mechanism, Model, compile_mechanism
-from ...model.unknowns import unknown_names
-from ...tables.layout import FIELDS, slot
-from ...tables.pack import pack
+from ...model.compile import unknown_names
+from ...tables.layout import FIELDS, pack, slot
 from ...tables.sizes import sizes_of
-from ..variables import FIRST_REFERENCE, Variable, variables_of
+from ..instance.saved_state import Rule, rules
+from ..parts.variables import FIRST_REFERENCE, Variable, variables_of
 from .description3 import Again, outputs_again
 from .formulas import Formulas, c_number
-from .headers import advice_table, c_text
+from .objects import advice_table, c_text
 
 _CAUSALITIES = {"input": "INPUT", "output": "OUTPUT", "parameter": "PARAMETER", "calculatedParameter": "CALCULATED"}
 

@@ -1,4 +1,4 @@
-"""The engine's object files: compiled once for each state of its sources, and kept in the user's cache directory."""
+"""The engine's object files and libraries: compiled once for each state of its sources, kept in the user's cache."""
 
 from __future__ import annotations
 
@@ -8,16 +8,75 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
+from ctypes import CDLL
 from dataclasses import dataclass
 from pathlib import Path
 
+from ... import codes
+from ...engine import status
+from ...engine.run import library_path, load
 from ...model import MechanismError
-from ..archive import content_hash
-from ..kept import is_whole, keep
+from ...tables.layout import FIELDS, size_slot, slot
+from ...tables.sizes import SIZES
+from ..disk.archive import content_hash
+from ..disk.folders import temporary_folder
+from ..disk.user_cache import alone, is_whole, keep
+from ..instance import protocol
+from ..parts.model_description import LOG_CATEGORIES
 from ..start import private_cache
-from .alone import alone
-from .headers import engine_header
-from .targets import TARGETS
+from .link import TARGETS, WRAPPED, Target, has_linker, link, linked_with, surface
+
+# engine.h: what the C surface knows of the engine and shares with the slave, written from the Python declarations.
+
+_PROTOTYPES = """\
+int64_t mechanism_begin(double *block, int64_t words, double time);
+int64_t mechanism_begin_step(double *block, int64_t words);
+int64_t mechanism_go_on(double *block, int64_t words, double target, int64_t rule);
+void mechanism_read_outputs(double *block, int64_t words);
+void mechanism_read_output_rates(double *block, int64_t words);
+"""
+
+
+def engine_header() -> str:
+    """The text of engine.h: codes, header words of a block, statuses, limits of the protocol, prototypes."""
+    rooms = [field.room for field in FIELDS]
+    edges = {"FIRST_OF_STATE": rooms.index("state"), "END_OF_STATE": rooms.index("work")}
+    enums = {
+        "CODE": {name: value for name, value in vars(codes).items() if name.isupper()},
+        "SIZE": {name: size_slot(name) for name in SIZES},
+        "SLOT": {
+            **{field.name: slot(field.name) for field in FIELDS},
+            **{edge: slot(FIELDS[index].name) for edge, index in edges.items()},
+        },
+        "STATUS": {name: value for name, value in vars(status).items() if isinstance(value, int) and name.isupper()},
+    }
+    limits = ("LATEST_START", "SAME_TIME", "SAME_TIME_OF_STEP", "ROUNDINGS", "TIGHTEST")
+    lines = ["/* The engine for C: written by objects.py from the Python sources. */"]
+    lines += ["#ifndef ENGINE_H", "#define ENGINE_H", "#include <stdint.h>"]
+    for prefix, entries in enums.items():
+        lines += ["enum {", *(f"    {prefix}_{name} = {value}," for name, value in entries.items()), "};"]
+    lines += [f"#define {name} {getattr(protocol, name)!r} /* as in protocol.py */" for name in limits]
+    lines += [f"#define EVENT_FAILURES {{{', '.join(map(str, status.EVENT_FAILURES))}}}"]
+    lines += [f"#define LOG_CATEGORIES {{{', '.join(map(c_text, LOG_CATEGORIES))}}}"]
+    return "\n".join([*lines, _PROTOTYPES, "extern const char *const ADVICE[];", "#endif", ""])
+
+
+def advice_table() -> str:
+    """The definition of ADVICE: what each status means and what to do."""
+    entries = ", ".join(f"[{outcome}] = {c_text(advice)}" for outcome, advice in status.ADVICE.items())
+    return f"const char *const ADVICE[] = {{{entries}}};\n"
+
+
+def c_text(text: str) -> str:
+    """A C string literal of ASCII characters only."""
+    escaped = "".join(
+        f"\\{char}" if char in '"\\' else char if " " <= char <= "~" else "".join(f"\\{b:03o}" for b in char.encode())
+        for char in text
+    )
+    return f'"{escaped}"'
+
+
+# The engine's object files: compiled once for each state of its sources, and kept in the user's cache directory.
 
 _LIBRARY = Path(__file__).parents[2]
 
@@ -27,7 +86,7 @@ _GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_DISABL
 
 def _digest() -> str:
     """Fingerprint of the engine's sources, of its header and targets, and of what compiles them."""
-    own = [Path(__file__).with_name(name) for name in ("emit.py", "targets.py", "objects.py")]
+    own = [Path(__file__).with_name(name) for name in ("emit.py", "link.py", "objects.py")]
     folders = [path for name in ("engine", "tables") for path in (_LIBRARY / name).rglob("*.py")]
     sources = [*folders, _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
     contents = {str(path.relative_to(_LIBRARY)): path.read_bytes() for path in sources}
@@ -126,3 +185,64 @@ def _emit(folder: Path, report: Report) -> None:
         if process.wait() != 0:
             complaints.seek(0)
             raise MechanismError(f"The engine could not be compiled ahead of time:\n{complaints.read().strip()}")
+
+
+# The engine alone as shared libraries: with them FMUs start without numba, and many designs run in one call.
+
+_SOURCES = ("library.c", "many.c")
+
+
+def engine_libraries(report: Report = silently) -> dict[str, bytes]:
+    """The library of each platform of pythonfmu, by the file name under which `mechanism_fmu.engine.run` looks for it.
+
+    Args:
+        report: see `compiled_engine`.
+
+    Raises:
+        MechanismError: there is no linker, or the engine cannot be compiled.
+    """
+    engine = compiled_engine(report)
+    paths = [_linked(engine, target) for target in TARGETS if target.fmi2 in WRAPPED]
+    return {path.name: path.read_bytes() for path in paths}
+
+
+def library_here(report: Report = silently) -> Path | None:
+    """The library for this platform, in the user's cache; None where there is no linker, or no such platform.
+
+    Args:
+        report: see `compiled_engine`.
+
+    Raises:
+        MechanismError: the engine cannot be compiled.
+    """
+    place = library_path(Path())
+    target = next((t for t in TARGETS if place is not None and f"{t.name}{t.suffix}" == place.name), None)
+    if target is None or not has_linker():
+        return None
+    return _linked(compiled_engine(report), target)
+
+
+def library_of(report: Report = silently) -> CDLL | None:
+    """That library, loaded; None where there is none, or the system cannot load it.
+
+    Args:
+        report: see `compiled_engine`.
+
+    Raises:
+        MechanismError: the engine cannot be compiled.
+    """
+    path = library_here(report)
+    return None if path is None else load(path)
+
+
+def _linked(engine: Engine, target: Target) -> Path:
+    """The library of a platform, linked now if there is none, or none that is as it was made."""
+    made_from = content_hash(linked_with(*_SOURCES))[:8]
+    path = engine.headers / made_from / f"{target.name}{target.suffix}"
+    if not is_whole(path):
+        path.parent.mkdir(exist_ok=True)
+        with temporary_folder(path.parent) as temporary:
+            made = temporary / path.name
+            link(target, [*surface(*_SOURCES), engine.objects[target.name]], [engine.headers], made)
+            keep(path, made.read_bytes(), program=True)
+    return path

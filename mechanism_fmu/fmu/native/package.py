@@ -1,36 +1,99 @@
-"""From a model to a native FMU: no Python on the target."""
+"""From a model to a native FMU, started once where it is built: no Python on the target."""
 
 from __future__ import annotations
 
 import uuid
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import fmpy
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
-from ...model import Model, compile_mechanism
+from ...engine.run import library_path
+from ...model import MechanismError, Model, compile_mechanism
 from ...model.baked import NOTHING_BAKED, Baked
 from ...model.trace import trace
-from ...tables.pack import pack
-from ..archive import DESCRIPTION, content_hash, write_archive
-from ..built import record_build
-from ..contents import common_entries, file_in, model_of
-from ..model_description import model_description, to_bytes
-from ..reference_results import reference_results
-from ..temporary import temporary_folder
+from ...tables.layout import pack
+from ..disk.archive import DESCRIPTION, content_hash, write_archive
+from ..disk.folders import temporary_folder
+from ..disk.user_cache import record_build
+from ..instance.self_check import require_numbers, start_explained
+from ..parts.contents import common_entries, file_in, model_of
+from ..parts.model_description import model_description, to_bytes
+from ..parts.reference_results import reference_results
+from ..parts.variables import variables_of
 from .description3 import model_description3
 from .formulas import Formulas, formulas
-from .libraries import library_of
-from .link import link, linked_with, need_linker, surface
+from .link import TARGETS, Target, link, linked_with, need_linker, surface, universal
 from .model_data import model_source
-from .objects import Engine, Report, compiled_engine, silently
-from .start_check import check_start
-from .targets import TARGETS, Target
-from .universal import universal
+from .objects import Engine, Report, compiled_engine, library_of, silently
+
+# A native FMU is started once where it is built, so that a mechanism that cannot start is found there.
+
+
+def check_start(model: Model, guid: str, libraries: Mapping[Target, bytes]) -> None:
+    """Start the library for this platform with the default values, and take its outputs.
+
+    Where there is none for this platform, nothing is checked.
+
+    Args:
+        model: the model.
+        guid: of the FMU.
+        libraries: of each platform; each speaks FMI 2.0, whatever the FMU does.
+
+    Raises:
+        StartError: the mechanism cannot start.
+    """
+    with temporary_folder() as folder:
+        path = library_path(folder)
+        by_name = {target.name + target.suffix: binary for target, binary in libraries.items()}
+        if path is None or path.name not in by_name:
+            return
+        path.write_bytes(by_name[path.name])
+        slave = FMU2Slave(
+            guid=guid, modelIdentifier=model.name, unzipDirectory=str(folder), instanceName="", libraryPath=str(path)
+        )
+        outputs = [
+            v for v in variables_of(model) if v.type == "Real" and v.causality in ("output", "calculatedParameter")
+        ]
+        with start_explained(), _instance(slave):
+            slave.setupExperiment()
+            slave.enterInitializationMode()
+            slave.exitInitializationMode()
+            values = slave.getReal([v.value_reference for v in outputs])
+            require_numbers(dict(zip((v.name for v in outputs), values, strict=True)))
+
+
+@contextmanager
+def _instance(slave: Any) -> Iterator[None]:
+    """An instance that is freed in the end; what it says of a refused call becomes the error."""
+    said: list[str] = []
+
+    def log(_environment: object, _name: bytes, status: int, _category: bytes, text: bytes) -> None:
+        if status > 1:
+            said.append(text.decode("utf-8", errors="replace").replace("%%", "%").removeprefix(": "))
+
+    callbacks = fmi2CallbackFunctions()
+    callbacks.logger = fmi2CallbackLoggerTYPE(log)
+    callbacks.allocateMemory = defaultCallbacks.allocateMemory
+    callbacks.freeMemory = defaultCallbacks.freeMemory
+    slave.instantiate(callbacks=callbacks, loggingOn=True)
+    try:
+        yield
+    except FMICallException as error:
+        raise MechanismError(" ".join(said) or str(error)) from error
+    finally:
+        slave.freeInstance()  # and unloads the library
+
+
+# From a model to a native FMU: no Python on the target.
 
 #: The files of the C surface, each using those before it; both versions of FMI stand in one library.
 SURFACE = ("log.c", "instance.c", "values.c", "saved_check.c", "saved.c", "fmi2.c", "fmi3.c")

@@ -13,8 +13,8 @@ from types import SimpleNamespace
 
 from ... import model as public
 from ...model import MechanismError
-from ..contents import OWN
-from ..self_check import StartError
+from ..instance.self_check import StartError
+from ..parts.contents import OWN
 
 #: Functions that make ports from the name of a part.
 _BUILDER = re.compile(r"_(input|output|parameter)s?$")

@@ -15,21 +15,10 @@ gamma = -(Phi_q q')_q q' - 2 Phi_qt q' - Phi_tt, so that Phi_q q' = nu and Phi_q
   which direction positive. They are multipliers lambda, with M q'' = F + Phi_q^T lambda, times a factor (`efforts`).
 """
 
-from .angle_driver import AngleDriver
-from .cam_flat_follower import CamFlatFollower
-from .cam_follower import CamFollower
-from .distance import Distance
-from .distance_driver import DistanceDriver
-from .gears import Gears
-from .internal_gears import InternalGears
-from .point_follower import PointFollower
-from .rack_and_pinion import RackAndPinion
-from .revolute import Revolute
-from .revolute_translational import RevoluteTranslational
-from .translational import Translational
-from .translational_driver import TranslationalDriver
-from .x_driver import XDriver
-from .y_driver import YDriver
+from .cams import CamFlatFollower, CamFollower, PointFollower
+from .drivers import AngleDriver, DistanceDriver, TranslationalDriver, XDriver, YDriver
+from .gears import Gears, InternalGears, RackAndPinion
+from .pins_and_slides import Distance, Revolute, RevoluteTranslational, Translational
 
 #: Any driver.
 Driver = XDriver | YDriver | AngleDriver | DistanceDriver | TranslationalDriver

@@ -7,9 +7,17 @@ from typing import ClassVar, NamedTuple
 
 from ...tables.kinds import JOINTS
 from ..body import Point
-from ..conditions import finite_positive, length
-from ..findings import Finding, literal, refuse_unless
-from ..functions import Number
+from ..findings import Finding, finite_positive, length, literal, refuse_unless
+from ..functions import Number, where_positive
+
+# Directions are given as vectors of any length > 0.
+
+
+def unit_vector(axis: Point) -> Point:
+    """The unit vector along `axis`; a vector of no length, which `check_joint_numbers` refuses, stays as it is."""
+    long = length(axis)
+    size = where_positive(long, long, 1.0)
+    return axis[0] / size, axis[1] / size
 
 
 class Effort(NamedTuple):

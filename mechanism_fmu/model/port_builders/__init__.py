@@ -6,46 +6,46 @@ Builders that are given a part ("crank") form the names of its ports from it ("c
 `mechanism_fmu.model`, like the parts.
 """
 
-from .elastic import bent_point_outputs, hinged_beam_outputs, member_outputs
-from .impacts import (
+from .outputs import (
+    active_output,
+    angle_output,
+    bent_point_outputs,
+    body_angle_output,
+    body_speed_output,
+    energy_outputs,
     event_buffer_outputs,
+    flag_output,
+    force_output,
+    hinged_beam_outputs,
     impact_buffer_outputs,
     impact_outputs,
     impact_speed_fields,
     last_impact_outputs,
-)
-from .inputs import load_torque_input, shaft_inputs, torque_input
-from .outputs import (
-    active_output,
-    angle_output,
-    body_angle_output,
-    body_speed_output,
-    energy_outputs,
-    flag_output,
-    force_output,
+    member_outputs,
     shaft_torque_output,
     speed_output,
     torque_output,
     whole_output,
 )
-from .part_parameters import (
+from .parameters import (
+    angle_parameter,
     body_parameters,
     damping_parameter,
-    joint_friction_parameter,
-    link_parameters,
-    rotor_parameters,
-    settings_parameters,
-    shaft_parameters,
-)
-from .quantity_parameters import (
-    angle_parameter,
     flag_parameter,
     fraction_parameter,
     inertia_parameter,
+    joint_friction_parameter,
     length_parameter,
+    link_parameters,
+    load_torque_input,
     mass_parameter,
+    rotor_parameters,
+    settings_parameters,
+    shaft_inputs,
+    shaft_parameters,
     speed_parameter,
     stiffness_parameter,
+    torque_input,
     torque_parameter,
 )
 

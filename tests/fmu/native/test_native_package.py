@@ -9,8 +9,8 @@ from fmpy.validation import validate_fmu
 from typer.testing import CliRunner
 
 import models
-from harness.cli import main
-from mechanism_fmu.fmu.archive import read_entries
+from harness.app.cli import main
+from mechanism_fmu.fmu.disk.archive import read_entries
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.fmu.of_every_flavour import OF_EVERY_FLAVOUR
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from mechanism_fmu.fmu.native.targets import TARGETS
+from mechanism_fmu.fmu.native.link import TARGETS
 from tests.fmu.c_host import Host, Script, cross_compile_host
 from tests.fmu.conformance.host import Instance
 from tests.fmu.native.scenes import LASTING, samples

@@ -8,8 +8,8 @@ from numba import carray, cfunc, types
 
 from mechanism_fmu.engine.library import EXPORTS
 from mechanism_fmu.fmu.native.emit import object_file
+from mechanism_fmu.fmu.native.link import TARGETS
 from mechanism_fmu.fmu.native.objects import compiled_engine
-from mechanism_fmu.fmu.native.targets import TARGETS
 from tests.fmu.native.symbols import undefined_symbols
 
 #: Functions of double precision that any platform's C library has (C99, 7.12), and what LLVM makes of them.

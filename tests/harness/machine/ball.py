@@ -4,7 +4,7 @@ import copy
 import math
 from collections.abc import Mapping, MutableSequence, Sequence
 
-from harness.description import Description, Value, Variable
+from harness.fmu.description import Description, Value, Variable
 from tests.harness.fake_slave import UNITS
 
 G = 9.81

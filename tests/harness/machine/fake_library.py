@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from harness.description import Description, Variable
-from harness.fmu.fmi2 import Fmi2Slave
-from harness.fmu.slave import discard_message
+from harness.fmu.description import Description, Variable
+from harness.fmu.instances.common import discard_message
+from harness.fmu.instances.fmi2 import Fmi2Slave
 
 VARIABLES = {name: Variable(name, k, "Real", "output", fmi_type="Real") for k, name in enumerate(("a", "b"))}
 

@@ -12,10 +12,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from harness.description import Description, Value, Variable
-from harness.errors import FmuError
-from harness.fmu.slave import MessageHandler
-from harness.messages import LogMessage, Status
+from harness.errors import FmuError, LogMessage, Status
+from harness.fmu.description import Description, Value, Variable
+from harness.fmu.instances.common import MessageHandler
 from tests.declared import TEETH
 from tests.harness.fake_slave import UNITS
 

@@ -8,7 +8,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from harness.machine.file.plan import Plan
+from harness.machine.file.machine_plan import Plan
 from tests.harness.machine.machines import SIGNALS, references
 
 

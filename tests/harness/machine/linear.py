@@ -6,8 +6,8 @@ from collections.abc import Mapping, MutableSequence, Sequence
 import numpy as np
 from scipy.linalg import expm
 
-from harness.description import Description, Value, Variable
 from harness.errors import FmuError
+from harness.fmu.description import Description, Value, Variable
 from tests.harness.fake_slave import UNITS
 
 

@@ -7,17 +7,14 @@ from pathlib import Path
 
 import pandas as pd
 
-from harness.clock import TimeGrid
 from harness.fmu import open_fmu
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.extrapolation import Extrapolation
-from harness.machine.file.components import components
-from harness.machine.file.plan import Plan
-from harness.machine.file.read import read_plan
+from harness.machine.file.machine_plan import Plan
+from harness.machine.file.read_file import components, read_plan
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.recorder import Recorder
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Jacobi
+from harness.run.master import Ending, Recorder, TimeGrid
 from harness.toml_file import TomlFile
 
 #: A motor turns gears, and their wheel a cam, by a shaft. Nothing is known of their past: they start at rest, at 0.

@@ -3,9 +3,9 @@
 import math
 from collections.abc import Mapping, MutableSequence, Sequence
 
-from harness.description import Description, Value, Variable
 from harness.errors import FmuError
-from harness.units import Units
+from harness.fmu.description import Description, Value, Variable
+from harness.fmu.units import Units
 from tests.harness.fake_slave import UNITS
 
 

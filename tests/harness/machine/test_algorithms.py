@@ -6,18 +6,13 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from harness.clock import SECOND, TimeGrid
 from harness.errors import UsageError
-from harness.machine.algorithms.adaptive import Adaptive
-from harness.machine.algorithms.base import Algorithm
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.master import Ending
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Adaptive, Algorithm, EventAware, GaussSeidel, Jacobi
+from harness.run.master import SECOND, Ending, TimeGrid
 from tests.harness.machine.linear import Linear, mass, mass_and_spring
 
 #: Coupling of a displacement one way and a force back.

@@ -7,20 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from harness.clock import TimeGrid
 from harness.errors import FmuError, UsageError
-from harness.machine.algorithms.adaptive import Adaptive
-from harness.machine.algorithms.base import Algorithm
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.bonds import HEADINGS, Bond, BondEnergy, Bonds, bond_rows, bond_summary, pushes
-from harness.machine.cautions import bond_cautions
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.master import Ending
+from harness.machine.observers.bonds import HEADINGS, Bond, BondEnergy, Bonds, bond_rows, bond_summary, pushes
+from harness.machine.part import Extrapolation
+from harness.machine.running import bond_cautions, run_machine
+from harness.machine.stepping import Adaptive, Algorithm, EventAware, GaussSeidel, Jacobi
+from harness.run.master import Ending, TimeGrid
 from tests.harness.machine.fakes import Wheel
 from tests.harness.machine.linear import Linear, mass, mass_and_spring
 

@@ -8,18 +8,16 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from harness.clock import TimeGrid
-from harness.description import Description, read_description
 from harness.errors import UsageError
 from harness.fmu import open_fmu
+from harness.fmu.description import Description, read_description
 from harness.machine.connection import Link
-from harness.machine.container import gains
-from harness.machine.container.write import Part, left_out, write_container
-from harness.machine.file.plan import Plan
-from harness.machine.loops import in_order
-from harness.master import Ending, run_fixed_step
-from harness.recorder import Recorder
-from mechanism_fmu.fmu.archive import read_entries
+from harness.machine.file.machine_plan import Plan
+from harness.machine.formats import gains
+from harness.machine.formats.container import Part, left_out, write_container
+from harness.machine.structure import in_order
+from harness.run.master import Ending, Recorder, TimeGrid, run_fixed_step
+from mechanism_fmu.fmu.disk.archive import read_entries
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.harness.machine.machines import SIGNALS, geared_cam, plan_of, run
 from tests.harness.machine.test_machine_file import real

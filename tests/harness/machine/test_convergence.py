@@ -12,16 +12,13 @@ from functools import partial
 import numpy as np
 import pytest
 
-from harness.clock import TimeGrid
 from harness.fmu import open_fmu
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.master import Ending
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import EventAware, GaussSeidel, Jacobi
+from harness.run.master import Ending, TimeGrid
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.simulation import Simulation
 from models.ratchet.model import MODEL as RATCHET

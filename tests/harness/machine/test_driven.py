@@ -6,19 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from harness.clock import TimeGrid
-from harness.description import Value, Variable
-from harness.inputs import InputSignals
-from harness.machine.algorithms.adaptive import Adaptive
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
+from harness.fmu.description import Value, Variable
+from harness.fmu.interface import Observable
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.slave import Observable
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Adaptive, EventAware, GaussSeidel, Jacobi
+from harness.run.inputs import InputSignals
+from harness.run.master import Ending, TimeGrid
 from tests.harness.machine.fakes import Wheel
 from tests.harness.machine.linear import mass
 

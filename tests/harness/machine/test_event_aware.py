@@ -5,14 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from harness.clock import TimeGrid
-from harness.machine.algorithms.base import Algorithm
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.jacobi import Jacobi
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Algorithm, EventAware, Jacobi
+from harness.run.master import TimeGrid
 from tests.harness.machine.ball import Ball, G
 from tests.harness.machine.linear import Linear, mass, mass_and_spring
 

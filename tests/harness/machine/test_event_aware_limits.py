@@ -2,12 +2,12 @@
 
 import pytest
 
-from harness.clock import SECOND
-from harness.machine.algorithms import event_aware
-from harness.machine.algorithms.event_aware import EventAware
+from harness.machine import stepping
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
+from harness.machine.part import Extrapolation
+from harness.machine.stepping import EventAware
+from harness.run.master import SECOND
 from tests.harness.machine.fakes import Wheel
 
 STEP = SECOND // 10
@@ -75,7 +75,7 @@ def test_a_step_that_is_never_agreed_on_ends_after_twenty_repeats() -> None:
     one, other = Hasty("one", 2.0, 0.9), Hasty("other", 3.0, 0.8)
     machine, algorithm = of(one, other)
     end = algorithm.advance(machine, 0, STEP)
-    assert event_aware._MOST_REPEATS == 20
+    assert stepping._MOST_REPEATS == 20
     assert end == pytest.approx(STEP * (0.9 * 0.8) ** 10, abs=20)
     assert [part.statistics.rollbacks for part in machine.parts.values()] == [10, 10]
     # both are at the end, whoever returned early on the way

@@ -10,23 +10,18 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
-from harness.clock import TimeGrid
+from harness.app.cli import main
 from harness.errors import FmuError, UsageError
 from harness.fmu import Fmu, open_fmu
-from harness.machine.algorithms.adaptive import Adaptive
-from harness.machine.algorithms.base import Algorithm
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.component import Component
+from harness.fmu.interface import Component
+from harness.fmu.remote import in_own_process
 from harness.machine.connection import Connection
-from harness.machine.events import event_mode_of
-from harness.machine.extrapolation import Extrapolation
+from harness.machine.event_iteration import event_mode_of
 from harness.machine.machine import Machine
-from harness.machine.remote import in_own_process
-from harness.machine.run import run_machine
-from harness.recorder import Recorder
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Adaptive, Algorithm, EventAware, GaussSeidel, Jacobi
+from harness.run.master import Recorder, TimeGrid
 from tests.harness.machine.foreign import build, in_c
 from tests.once import once
 

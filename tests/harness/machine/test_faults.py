@@ -11,22 +11,17 @@ from typing import Any
 import pandas as pd
 import pytest
 
-from harness.clock import TimeGrid
-from harness.errors import FmuError, UsageError
-from harness.machine import record
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.cautions import cautions
+from harness.errors import FmuError, Status, UsageError
+from harness.fmu.interface import Observable
+from harness.fmu.remote import remote
 from harness.machine.connection import Connection
-from harness.machine.impacts import Impacts
 from harness.machine.machine import Machine
-from harness.machine.record import Recorder
-from harness.machine.remote import remote
-from harness.machine.run import run_machine
-from harness.master import Ending, Outcome
-from harness.messages import Status
-from harness.slave import Observable
+from harness.machine.observers import record
+from harness.machine.observers.component_impacts import Impacts
+from harness.machine.observers.record import Recorder
+from harness.machine.running import cautions, run_machine
+from harness.machine.stepping import EventAware, GaussSeidel, Jacobi
+from harness.run.master import Ending, Outcome, TimeGrid
 from tests.harness.machine.fakes import Trouble, Wheel, WheelOpener
 
 resource = pytest.importorskip("resource", reason="a full disk is imitated by what POSIX offers")

@@ -7,11 +7,10 @@ from typing import Any
 
 import pytest
 
-from harness.errors import FmuError, UsageError
+from harness.errors import FmuError, LogMessage, Status, UsageError
 from harness.fmu import open_fmu
-from harness.fmu.slave import FmuSlave
-from harness.messages import LogMessage, Status
-from harness.slave import whole_step
+from harness.fmu.instances.common import FmuSlave
+from harness.fmu.interface import whole_step
 from tests.harness.machine.fake_library import Fake2
 
 DISCARD = int(Status.DISCARD)

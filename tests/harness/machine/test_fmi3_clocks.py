@@ -9,22 +9,20 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
-from harness.clock import TimeGrid
-from harness.description import read_description
-from harness.designs.quantities import UnknownQuantityError, When, quantity
+from harness.app.cli import main
+from harness.designs.task import UnknownQuantityError, When, quantity
 from harness.errors import FmuError
-from harness.experiment import Experiment, perform
 from harness.fmu import Fmu, open_fmu
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.jacobi import Jacobi
+from harness.fmu.description import read_description
+from harness.fmu.remote import in_own_process
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine
-from harness.machine.recorded import chosen
-from harness.machine.remote import in_own_process
-from harness.machine.run import run_machine
-from harness.recorder import Recorder
-from harness.validate import validate
+from harness.machine.observers.record import chosen
+from harness.machine.running import run_machine
+from harness.machine.stepping import EventAware, Jacobi
+from harness.run.experiment import Experiment, perform
+from harness.run.master import Recorder, TimeGrid
+from harness.run.validate import validate
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.fmu.native.scenes3 import ROUGH
 from tests.harness.machine.foreign import in_c

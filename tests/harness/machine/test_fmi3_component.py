@@ -5,17 +5,17 @@ from pathlib import Path
 
 import pytest
 
-from harness.clock import SECOND, TimeGrid
-from harness.description import read_description
 from harness.errors import FmuError
-from harness.experiment import Experiment, perform
 from harness.fmu import Fmu, open_fmu
-from harness.fmu.slave import FmuSlave
-from harness.machine.algorithms.event_aware import EventAware
+from harness.fmu.description import read_description
+from harness.fmu.instances.common import FmuSlave
+from harness.fmu.interface import Observable
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.slave import Observable
-from harness.validate import validate
+from harness.machine.running import run_machine
+from harness.machine.stepping import EventAware
+from harness.run.experiment import Experiment, perform
+from harness.run.master import SECOND, TimeGrid
+from harness.run.validate import validate
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.fmu.native.scenes3 import ROUGH
 

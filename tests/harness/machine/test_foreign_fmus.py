@@ -13,22 +13,16 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from harness.clock import TimeGrid
+from harness.app.commands.machine_ready import instantiated, prepared
 from harness.errors import FmuError
 from harness.fmu import open_fmu
-from harness.fmu.slave import FmuSlave, discard_message
-from harness.machine.algorithm import algorithm_of
-from harness.machine.algorithms.base import Algorithm
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
+from harness.fmu.instances.common import FmuSlave, discard_message
+from harness.fmu.interface import Observable
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.machine_command.parts import instantiated
-from harness.machine_command.prepare import prepared
-from harness.recorder import Recorder
-from harness.slave import Observable
+from harness.machine.running import run_machine
+from harness.machine.stepping import Algorithm, EventAware, GaussSeidel, Jacobi, algorithm_of
+from harness.run.master import Recorder, TimeGrid
 from tests.harness.machine.foreign import build
 from tests.once import once
 
@@ -86,7 +80,7 @@ def together() -> Iterator[Callable[..., dict[str, FmuSlave]]]:
 
 def run_alone(fmu: Path, folder: Path, *more: str) -> pd.DataFrame:
     """`mechanism-fmu run` in a process of its own: results."""
-    command = [sys.executable, "-c", "from harness.cli import main; main()", "run", str(fmu), "-o", str(folder)]
+    command = [sys.executable, "-c", "from harness.app.cli import main; main()", "run", str(fmu), "-o", str(folder)]
     done = subprocess.run([*command, *more], capture_output=True, text=True, check=False, env=os.environ)
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
     assert json.loads((folder / "summary.json").read_text(encoding="utf-8"))["ending"] == "completed"

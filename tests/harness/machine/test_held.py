@@ -5,19 +5,15 @@ from dataclasses import replace
 
 import pytest
 
-from harness.clock import TimeGrid
-from harness.description import Description, Value, Variable
 from harness.errors import UsageError
-from harness.machine.algorithms.base import Algorithm
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
+from harness.fmu.description import Description, Value, Variable
+from harness.fmu.interface import whole_step
 from harness.machine.connection import Connection, linked
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.slave import whole_step
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Algorithm, EventAware, GaussSeidel, Jacobi
+from harness.run.master import Ending, TimeGrid
 from tests.harness.machine.fakes import WheelReals
 
 _KINDS = {"on": "Boolean", "count": "Integer", "mode": "Integer", "note": "String", "level": "Real"}

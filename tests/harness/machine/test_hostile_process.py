@@ -15,16 +15,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.description import Description, Variable
 from harness.errors import FmuError, HarnessError
-from harness.fmu.slave import MessageHandler
-from harness.machine.remote import remote
-from harness.machine.remote.plain import Numbers, Types, read_error, read_messages
-from harness.machine.remote.questions import Question, packed_answer, question
-from harness.wire import MOST_BYTES, BrokenFrameError, LateFrameError, Wire
+from harness.fmu.description import Description, Variable
+from harness.fmu.instances.common import MessageHandler
+from harness.fmu.processes import MOST_BYTES, BrokenFrameError, LateFrameError, Wire
+from harness.fmu.remote import remote
+from harness.fmu.remote.protocol import Numbers, Question, Types, packed_answer, question, read_error, read_messages
 from tests.harness.machine.fakes import Wheel, description
 
 

@@ -5,18 +5,14 @@ from typing import Any
 
 import pytest
 
-from harness.clock import TimeGrid
+from harness.analysis.stress import damage_of_impacts
 from harness.errors import UsageError
-from harness.machine.algorithms.adaptive import Adaptive
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.gauss_seidel import GaussSeidel
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.impacts import Impacts
+from harness.fmu.interface import Observable
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.slave import Observable
-from harness.tooth_damage import damage_of_impacts
+from harness.machine.observers.component_impacts import Impacts
+from harness.machine.running import run_machine
+from harness.machine.stepping import Adaptive, EventAware, GaussSeidel, Jacobi
+from harness.run.master import Ending, TimeGrid
 from mechanism_fmu.stress import STEEL, STEEL_CARD, maximum_stress
 from tests.declared import STRUCK
 from tests.harness.machine.fakes import Trouble, Wheel

@@ -12,8 +12,8 @@ import pytest
 from typer.testing import CliRunner
 
 import models
-from harness.cli import main
-from harness.machine_command.prepare import prepared
+from harness.app.cli import main
+from harness.app.commands.machine_ready import prepared
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.fmu.package import build_fmu
 from mechanism_fmu.simulation import Simulation

@@ -2,13 +2,12 @@
 
 import pytest
 
-from harness.clock import TimeGrid
-from harness.description import Variable
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.cautions import loop_cautions
+from harness.fmu.description import Variable
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
+from harness.machine.running import loop_cautions, run_machine
+from harness.machine.stepping import Jacobi
+from harness.run.master import TimeGrid
 from tests.harness.machine.fakes import Wheel
 
 

@@ -6,24 +6,18 @@ from dataclasses import replace
 from itertools import permutations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from harness.clock import SECOND, TimeGrid
-from harness.description import Description, Value, Variable
-from harness.errors import FmuError, UsageError
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.connection import Connection, linked
-from harness.machine.extrapolation import Extrapolation
+from harness.errors import FmuError, Status, UsageError
+from harness.fmu.description import Description, Value, Variable
+from harness.fmu.units import Measure, Units
+from harness.machine.connection import Connection, linked, units_of_parts
 from harness.machine.machine import Machine
-from harness.machine.order import dependency_order
-from harness.machine.part_units import units_of_parts
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.messages import Status
-from harness.recorder import recorded_variables
-from harness.si import Measure
-from harness.units import Units
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Jacobi
+from harness.machine.structure import dependency_order
+from harness.run.master import SECOND, Ending, TimeGrid, recorded_variables
 from tests.harness.fake_slave import UNITS, measure
 from tests.harness.machine.mass import Mass
 

@@ -7,15 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from harness.description import Description, Variable
 from harness.errors import UsageError
+from harness.fmu.description import Description, Variable
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
-from harness.machine.file.components import components
+from harness.machine.file.machine_plan import Plan, Scheme, Source
 from harness.machine.file.notes import notes
-from harness.machine.file.plan import Plan, Scheme, Source
-from harness.machine.file.read import read_plan
-from harness.machine.file.write import machine_toml
+from harness.machine.file.read_file import components, read_plan
+from harness.machine.file.write_file import machine_toml
+from harness.machine.part import Extrapolation
 from harness.toml_file import TomlFile
 from tests.harness.fake_slave import UNITS
 

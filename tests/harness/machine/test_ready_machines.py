@@ -8,16 +8,13 @@ import numpy as np
 import pytest
 
 import build_fmu
-from harness.clock import TimeGrid
-from harness.description import read_description
 from harness.fmu import open_fmu
-from harness.machine.container.write import Part, write_container
-from harness.machine.file.components import components
-from harness.machine.file.plan import Plan, Source
-from harness.machine.file.read import read_plan
-from harness.machine.ssp.export import write_ssp
-from harness.master import Ending, run_fixed_step
-from harness.recorder import Recorder
+from harness.fmu.description import read_description
+from harness.machine.file.machine_plan import Plan, Source
+from harness.machine.file.read_file import components, read_plan
+from harness.machine.formats.container import Part, write_container
+from harness.machine.formats.ssp_export import write_ssp
+from harness.run.master import Ending, Recorder, TimeGrid, run_fixed_step
 from harness.toml_file import TomlFile
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.harness.machine.in_other_tools import in_fmpy, in_libcosim

@@ -13,21 +13,16 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from harness.clock import TimeGrid
 from harness.errors import UsageError
-from harness.machine import record
-from harness.machine.algorithms.adaptive import Adaptive
-from harness.machine.algorithms.base import Algorithm
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.jacobi import Jacobi
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
-from harness.machine.impacts import Impacts
 from harness.machine.machine import Machine
-from harness.machine.record import Recorder
-from harness.machine.run import run_machine
-from harness.recorder import Recorder as RecorderInMemory
-from harness.recorder import recorded_variables
+from harness.machine.observers import record
+from harness.machine.observers.component_impacts import Impacts
+from harness.machine.observers.record import Recorder
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Adaptive, Algorithm, EventAware, Jacobi
+from harness.run.master import Recorder as RecorderInMemory, TimeGrid, recorded_variables
 from tests.harness.machine.fakes import Wheel
 from tests.harness.machine.linear import mass, mass_and_spring
 
@@ -168,11 +163,11 @@ def test_a_table_of_an_earlier_run_stays_until_the_new_one_is_there(tmp_path: Pa
 ENDLESS = """
 import sys
 from pathlib import Path
-from harness.clock import TimeGrid
-from harness.machine import record
-from harness.machine.algorithms.jacobi import Jacobi
+from harness.run.master import TimeGrid
+from harness.machine.observers import record
+from harness.machine.stepping import Jacobi
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
+from harness.machine.running import run_machine
 from tests.harness.machine.fakes import Wheel
 
 record._CHUNK = 2000

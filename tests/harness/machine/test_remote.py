@@ -13,24 +13,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from harness.clock import TimeGrid
-from harness.description import Value, Variable
-from harness.errors import FmuError, UsageError
-from harness.machine.algorithms.adaptive import Adaptive
-from harness.machine.algorithms.base import Algorithm
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.component import Component
+from harness.errors import FmuError, LogMessage, Status, UsageError
+from harness.fmu.description import Value, Variable
+from harness.fmu.interface import Component, Observable
+from harness.fmu.remote import remote
+from harness.fmu.remote.far_side import Request
+from harness.fmu.remote.near_side import RemoteComponent
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
-from harness.machine.remote import remote
-from harness.machine.remote.component import RemoteComponent
-from harness.machine.remote.far_side import Request
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.messages import LogMessage, Status
-from harness.slave import Observable
+from harness.machine.part import Extrapolation
+from harness.machine.running import run_machine
+from harness.machine.stepping import Adaptive, Algorithm, EventAware, Jacobi
+from harness.run.master import Ending, TimeGrid
 from tests.harness.machine.fakes import Trouble, Wheel, WheelOpener
 
 CONNECTIONS = [Connection("one.drag", "two.torque", gain=-0.5), Connection("two.brake", "one.torque", offset=0.1)]
@@ -224,7 +218,7 @@ def test_a_process_killed_by_somebody_else_is_missed_at_the_next_step() -> None:
 
 LEADER = """
 import sys, time
-from harness.machine.remote import remote
+from harness.fmu.remote import remote
 from pathlib import Path
 from tests.harness.machine.fakes import Trouble, WheelOpener
 

@@ -11,19 +11,16 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from harness.clock import TimeGrid
-from harness.errors import FmuError
+from harness.errors import FmuError, LogMessage
 from harness.fmu import open_fmu
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.component import Component
-from harness.machine.impacts import Impacts
+from harness.fmu.interface import Component
+from harness.fmu.remote import in_own_process
 from harness.machine.machine import Machine
-from harness.machine.record import Recorder
-from harness.machine.remote import in_own_process
-from harness.machine.run import run_machine
-from harness.master import Ending
-from harness.messages import LogMessage
+from harness.machine.observers.component_impacts import Impacts
+from harness.machine.observers.record import Recorder
+from harness.machine.running import run_machine
+from harness.machine.stepping import EventAware, Jacobi
+from harness.run.master import Ending, TimeGrid
 
 GAUGE = """
 from pythonfmu import Fmi2Causality, Fmi2Slave, Real

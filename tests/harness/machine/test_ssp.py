@@ -10,14 +10,14 @@ import pytest
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv
 
-from harness.description import Description, read_description
 from harness.errors import UsageError
+from harness.fmu.description import Description, read_description
 from harness.machine.connection import Connection
-from harness.machine.file.plan import Plan, Source
-from harness.machine.ssp.export import write_ssp
-from harness.machine.ssp.importing import import_ssp
-from harness.machine.ssp.xml import tag
-from mechanism_fmu.fmu.archive import read_entries, write_archive
+from harness.machine.file.machine_plan import Plan, Source
+from harness.machine.formats.ssp_export import write_ssp
+from harness.machine.formats.ssp_import import import_ssp
+from harness.machine.formats.ssp_xml import tag
+from mechanism_fmu.fmu.disk.archive import read_entries, write_archive
 from tests.harness.machine.in_other_tools import in_fmpy, in_libcosim
 from tests.harness.machine.machines import SIGNALS, ReadOnce, geared_cam, plan_of, run
 

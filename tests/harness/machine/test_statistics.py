@@ -6,21 +6,20 @@ from collections.abc import Sequence
 
 import pytest
 
-from harness.clock import TimeGrid
-from harness.description import Value
-from harness.machine import part, watched
-from harness.machine.algorithms.adaptive import Adaptive
-from harness.machine.algorithms.event_aware import EventAware
-from harness.machine.algorithms.jacobi import Jacobi
-from harness.machine.bonds import BondEnergy
-from harness.machine.cautions import bond_cautions, cautions
+from harness.app.terminal import console, show_table
+from harness.errors import Status
+from harness.fmu.description import Value
+from harness.fmu.values import real_time_factor
+from harness.machine import part
 from harness.machine.connection import Connection
-from harness.machine.impacts import Impacts
 from harness.machine.machine import Machine
-from harness.machine.run import run_machine
-from harness.machine.statistics import HEADINGS, REST, STATISTICS_UNITS, statistics, statistics_rows
-from harness.messages import Status
-from harness.terminal import console, real_time_factor, show_table
+from harness.machine.observers import watched
+from harness.machine.observers.bonds import BondEnergy
+from harness.machine.observers.component_impacts import Impacts
+from harness.machine.observers.watched import HEADINGS, REST, STATISTICS_UNITS, statistics, statistics_rows
+from harness.machine.running import bond_cautions, cautions, run_machine
+from harness.machine.stepping import Adaptive, EventAware, Jacobi
+from harness.run.master import TimeGrid
 from tests.harness.machine.fakes import Wheel
 
 

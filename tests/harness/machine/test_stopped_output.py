@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 import pytest
 
-from harness.clock import SECOND
-from harness.description import Value
-from harness.machine.algorithms.jacobi import Jacobi
+from harness.fmu.description import Value
 from harness.machine.connection import Connection
-from harness.machine.extrapolation import Extrapolation
 from harness.machine.machine import Machine
+from harness.machine.part import Extrapolation
+from harness.machine.stepping import Jacobi
+from harness.run.master import SECOND
 from tests.harness.machine.fakes import Wheel
 
 

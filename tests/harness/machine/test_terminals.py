@@ -6,12 +6,11 @@ from pathlib import Path
 import pytest
 
 import models
-from harness.description import read_description
 from harness.errors import UsageError
+from harness.fmu.description import FILE, Member, read_description, read_terminals
 from harness.machine.connection import Connection
-from harness.machine.file.plan import Plan
-from harness.terminals import FILE, Member, read_terminals
-from mechanism_fmu.fmu.archive import read_entries, write_archive
+from harness.machine.file.machine_plan import Plan
+from mechanism_fmu.fmu.disk.archive import read_entries, write_archive
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from mechanism_fmu.model.baked import Baked, Seen
 from tests.harness.machine.machines import BACK, geared_cam, plan_of

@@ -4,15 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import models
 from mechanism_fmu.batch.numbers import Numbers
-from mechanism_fmu.batch.prepared import Prepared, prepared
-from mechanism_fmu.batch.refusals import impossible, out_of_limits
+from mechanism_fmu.batch.prepared import Prepared, impossible, out_of_limits, prepared
 from mechanism_fmu.model import MechanismError, compile_mechanism
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import pack
 from tests.parameter_sets import near_defaults, within_limits
 
 READY: dict[str, Prepared] = {name: prepared(models.load(name).MODEL) for name in ("ratchet", "cam_drive")}

@@ -2,13 +2,12 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from benchmarks.path_generator import PathGenerator
 from mechanism_fmu.elastodynamics import configurations, inertia_forces, linkage, mass_matrix, system_forces
-from mechanism_fmu.elastodynamics.consistent import beam_mass, consistent_load, consistent_mass
-from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
+from mechanism_fmu.elastodynamics.elastic_cycle import instantaneous_modes
+from mechanism_fmu.elastodynamics.structure.masses import beam_mass, consistent_load, consistent_mass
 from mechanism_fmu.kinematics import analyse
 from mechanism_fmu.model import GROUND, AngleDriver, Body, Mechanism, Member, Revolute, Section
 from mechanism_fmu.model.motions import polynomial_motion

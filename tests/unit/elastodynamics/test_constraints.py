@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from mechanism_fmu.elastodynamics.constraints import _rigid_rows
+from mechanism_fmu.elastodynamics.structure.compatibility import _rigid_rows
 
 ANGLE = 0.7
 POINTS = ((0.0, 0.0), (0.4, -0.1), (-0.2, 0.3))

@@ -6,10 +6,15 @@ import pytest
 
 from benchmarks.path_generator import INCH, PathGenerator
 from mechanism_fmu.elastodynamics import LinkageError, configurations, linkage, quasi_static
-from mechanism_fmu.elastodynamics.dynamics import MassModel, deflection_of, elastic_cycle, stress_of
-from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
-from mechanism_fmu.elastodynamics.judgement import judge_quasi_static, judge_steady_state, rigid_path
-from mechanism_fmu.elastodynamics.periodic import periodic_response
+from mechanism_fmu.elastodynamics.elastic_cycle import (
+    MassModel,
+    deflection_of,
+    elastic_cycle,
+    instantaneous_modes,
+    stress_of,
+)
+from mechanism_fmu.elastodynamics.responses import periodic_response
+from mechanism_fmu.elastodynamics.synthesis import judge_quasi_static, judge_steady_state, rigid_path
 from mechanism_fmu.kinematics import analyse
 
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
-from mechanism_fmu.elastodynamics.feedback import fed_back
-from mechanism_fmu.elastodynamics.periodic import periodic_response
+from mechanism_fmu.elastodynamics.responses import fed_back, periodic_response
 from tests import bending_four_bar as four_bar
 
 

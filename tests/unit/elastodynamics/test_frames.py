@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 from frames import random_assembly, random_sections
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from mechanism_fmu.elastodynamics import configurations, linkage, quasi_static
-from mechanism_fmu.elastodynamics.freedoms import RELEASED
+from mechanism_fmu.elastodynamics.structure.places import RELEASED
 
 KINDS = {
     "four-bar": ["dyad"],

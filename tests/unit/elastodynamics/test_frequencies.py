@@ -2,10 +2,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
+from mechanism_fmu.elastodynamics.elastic_cycle import instantaneous_modes
 from tests import bending_four_bar as four_bar
 from tests.elastodynamics_oracle import oracle
 

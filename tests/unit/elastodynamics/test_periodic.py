@@ -2,11 +2,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
-from mechanism_fmu.elastodynamics.periodic import TOLERANCE, periodic_response
+from mechanism_fmu.elastodynamics.responses import TOLERANCE, periodic_response
 from tests import bending_four_bar as four_bar
 from tests.elastodynamics_oracle import oracle
 

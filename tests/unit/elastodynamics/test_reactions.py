@@ -15,7 +15,7 @@ from mechanism_fmu.elastodynamics import (
     simulated_motion,
     torque_fluctuation,
 )
-from mechanism_fmu.elastodynamics.places import named_place
+from mechanism_fmu.elastodynamics.structure.places import named_place
 from mechanism_fmu.kinematics import analyse
 from mechanism_fmu.model import (
     GROUND,

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mechanism_fmu.elastodynamics import friction
-from mechanism_fmu.elastodynamics.friction import Rubbing, rubbing_joints
+from mechanism_fmu.elastodynamics import reaction_forces
+from mechanism_fmu.elastodynamics.reaction_forces import Rubbing, rubbing_joints
 from mechanism_fmu.model import Translational
 
 SLIP = np.array([-2.0, -1e-12, -0.0, 0.0, 1e-12, 0.5])
@@ -59,8 +59,8 @@ class Turning:
 def test_on_a_guide_that_turns_slip_is_what_the_slider_goes_along_it(
     speed: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(friction, "rubbing_pins", lambda mechanism: ())
-    monkeypatch.setattr(friction, "attachments", lambda mechanism, places, joint: (0, 1))
+    monkeypatch.setattr(reaction_forces, "rubbing_pins", lambda mechanism: ())
+    monkeypatch.setattr(reaction_forces, "attachments", lambda mechanism, places, joint: (0, 1))
     guide = Translational("guide", "link", (0.3, 0.1), (2.0, 0.0), "slider", (0.0, 0.0), (1.0, 0.0), 0.1)
     freedoms = SimpleNamespace(places=())
     linkage = SimpleNamespace(mechanism=SimpleNamespace(joints=(guide,)), freedoms=freedoms)

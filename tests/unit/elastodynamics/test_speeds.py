@@ -3,9 +3,8 @@ import math
 import numpy as np
 import pytest
 
-from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
-from mechanism_fmu.elastodynamics.frequencies import instantaneous_modes
-from mechanism_fmu.elastodynamics.speeds import critical_speeds, speed_sweep
+from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle, instantaneous_modes
+from mechanism_fmu.elastodynamics.responses import critical_speeds, speed_sweep
 from tests import bending_four_bar as four_bar
 
 

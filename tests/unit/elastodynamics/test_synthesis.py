@@ -7,8 +7,7 @@ import pytest
 
 from benchmarks.path_generator import INCH, PathGenerator
 from mechanism_fmu.elastodynamics import LinkageError, configurations, linkage, quasi_static
-from mechanism_fmu.elastodynamics.judgement import Judgement, judge_quasi_static, rigid_path
-from mechanism_fmu.elastodynamics.synthesis import lightest
+from mechanism_fmu.elastodynamics.synthesis import Judgement, judge_quasi_static, lightest, rigid_path
 from mechanism_fmu.kinematics import analyse
 from mechanism_fmu.model import Section
 

@@ -2,10 +2,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from mechanism_fmu.elastodynamics.tapered import tapered_cantilever, tapered_end_moment
+from mechanism_fmu.elastodynamics.elements import tapered_cantilever, tapered_end_moment
 from mechanism_fmu.stress import RectangularTooth, SectionBeam, TableBeam, TrapezoidTooth, WedgeTooth
 
 E = 210e9

@@ -5,12 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from benchmarks.four_bar import FourBar
 from mechanism_fmu.elastodynamics import LinkageError, crank_of, elastic_ports, peak, turn
-from mechanism_fmu.elastodynamics.closure import closed_at
+from mechanism_fmu.elastodynamics.turn import closed_at
 from mechanism_fmu.model import AngleDriver, Distance, Revolute, XDriver, polynomial_motion
 from models.four_bar.model import MODEL as RIGID
 from models.four_bar_path_generator.model import MODEL

@@ -5,18 +5,16 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 import models
 from mechanism_fmu import codes
-from mechanism_fmu.admissible import SUBJECTS, Admissible, rules
 from mechanism_fmu.engine import status
+from mechanism_fmu.fmu.instance.saved_state import SUBJECTS, Admissible, rules
 from mechanism_fmu.model import compile_mechanism
 from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tables.declare import Field
-from mechanism_fmu.tables.layout import FIELDS, state_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import FIELDS, pack, state_of
 from mechanism_fmu.tables.sizes import sizes_of
 from tests.fuzz.forged import forged_words
 
@@ -43,7 +41,7 @@ def test_every_field_of_the_state_declares_what_it_holds(field):
 
 
 def test_a_field_without_a_declaration_fails(monkeypatch):
-    monkeypatch.setattr("mechanism_fmu.admissible.FIELDS", (*FIELDS, Field("state", "forgotten", (1,))))
+    monkeypatch.setattr("mechanism_fmu.fmu.instance.saved_state.FIELDS", (*FIELDS, Field("state", "forgotten", (1,))))
     with pytest.raises(TypeError, match="forgotten"):
         rules(sizes_of(block_of("ratchet")))
 

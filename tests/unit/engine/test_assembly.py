@@ -5,8 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from rotor import Stop, rotor
 
 from mechanism_fmu.engine.starting.assembly import CLOSED_WITHIN

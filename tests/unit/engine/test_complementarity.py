@@ -4,8 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 from touching import touching
 
 from mechanism_fmu.engine.contacts.complementarity import MOST_COMBINED

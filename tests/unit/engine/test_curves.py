@@ -4,14 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.profiles.curves import curve as value_and_derivatives
 from mechanism_fmu.model import AngleDriver, Body, Curve, Mechanism, Piece, Term
 from mechanism_fmu.model.compile import compile_tables
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import pack
 from tests.curve_values import value
 
 

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from minimum_norm_solver import BLOCK, solve
 
 from mechanism_fmu.engine.dynamics.minimum_norm import RANK_TOLERANCE

@@ -36,7 +36,7 @@ from mechanism_fmu.model import (
     YDriver,
 )
 from mechanism_fmu.model.compile import compile_mechanism
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import pack
 
 ORACLE = Path(os.environ.get("JOINT_ORACLE", Path(__file__).parents[2] / "data" / "joints.json"))
 

@@ -4,8 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given, settings, strategies as st
 from hypothesis.extra.numpy import arrays
 from stated_joints import DRIVERS, JOINTS, PAIRS, STATEMENTS, State, differentiated_rows
 from textbook import evaluated_rows, written_rows
@@ -38,9 +37,8 @@ from mechanism_fmu.model import (
     YDriver,
 )
 from mechanism_fmu.model.compile import compile_mechanism
-from mechanism_fmu.tables.layout import field_of
+from mechanism_fmu.tables.layout import field_of, pack
 from mechanism_fmu.tables.motion import Pose, Strikes
-from mechanism_fmu.tables.pack import pack
 
 NAMES = ("a", "b", GROUND)
 ORIGIN = (0.0, 0.0)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from mechanism_fmu.engine.compiler.kept_code import CheckedFiles
+from mechanism_fmu.engine.compiler.machine_code import CheckedFiles
 
 
 @dataclass(frozen=True)

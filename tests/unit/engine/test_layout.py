@@ -5,8 +5,7 @@ from rotor import Stop, rotor
 
 from mechanism_fmu import codes
 from mechanism_fmu.model.compile import compile_mechanism
-from mechanism_fmu.tables.layout import FIELDS, allocate, field_of, state_of
-from mechanism_fmu.tables.pack import pack, write_tables
+from mechanism_fmu.tables.layout import FIELDS, allocate, field_of, pack, state_of, write_tables
 from mechanism_fmu.tables.sizes import SIZES, sizes_of
 
 GIVEN = {

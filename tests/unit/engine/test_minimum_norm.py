@@ -3,8 +3,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 from exact_pseudoinverse import exact_minimum_norm
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from hypothesis.extra.numpy import arrays
 from minimum_norm_solver import solve
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from exact_pseudoinverse import exact_minimum_norm
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from minimum_norm_solver import solve
 
 SEEDS = st.integers(0, 2**32 - 1)

@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 from carried import FREQUENCY, LARGEST, carried, seat_force
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy.optimize import brentq
 
 from mechanism_fmu import codes

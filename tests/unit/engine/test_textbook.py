@@ -22,7 +22,7 @@ from mechanism_fmu.model import (
     Term,
 )
 from mechanism_fmu.model.compile import compile_mechanism
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import pack
 
 EGG = Curve((Piece(0.0, (Term((1.0,), 0.2, 2.0),)),))
 ROUND = Curve((Piece(0.0, (Term((0.25,)),)),))

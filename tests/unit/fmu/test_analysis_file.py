@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 import models
-from mechanism_fmu.fmu.analysis import ANALYSIS, analysis
+from mechanism_fmu.fmu.parts.resources import ANALYSIS, analysis
 from mechanism_fmu.model import (
     GROUND,
     AngleStop,

@@ -6,10 +6,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from mechanism_fmu.fmu.archive_names import unsafe_name
+from mechanism_fmu.fmu.disk.folders import unsafe_name
 
 
 def entry(name: str, kind: int = 0) -> zipfile.ZipInfo:

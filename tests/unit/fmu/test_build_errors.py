@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 import build_fmu as command
 import models
-from mechanism_fmu.fmu.archive import content_hash, write_archive
+from mechanism_fmu.fmu.disk.archive import content_hash, write_archive
 from mechanism_fmu.fmu.package import build_fmu
 from mechanism_fmu.model import MechanismError
 

@@ -9,10 +9,9 @@ from threading import Event
 
 import pytest
 
-from mechanism_fmu.fmu.kept import keep
+from mechanism_fmu.fmu.disk.user_cache import alone, keep
 from mechanism_fmu.fmu.native import objects
-from mechanism_fmu.fmu.native.alone import alone
-from mechanism_fmu.fmu.native.targets import TARGETS
+from mechanism_fmu.fmu.native.link import TARGETS
 
 
 def unasked() -> None:
@@ -44,7 +43,7 @@ def test_a_process_that_dies_keeps_nobody_waiting(tmp_path: Path) -> None:
     program = f"""
 import time
 from pathlib import Path
-from mechanism_fmu.fmu.native.alone import alone
+from mechanism_fmu.fmu.disk.user_cache import alone
 with alone(Path({str(tmp_path)!r}), print):
     print("inside", flush=True)
     time.sleep(600)

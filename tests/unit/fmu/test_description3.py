@@ -9,9 +9,9 @@ from fmpy.validation import validate_fmu
 from pendulum import MODEL
 
 import models
-from mechanism_fmu.fmu.model_description import to_bytes
 from mechanism_fmu.fmu.native.description3 import model_description3, outputs_again, tells_impacts, variables3
-from mechanism_fmu.fmu.variables import variables_of
+from mechanism_fmu.fmu.parts.model_description import to_bytes
+from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.model import Mechanism, MechanismError, Model, Output, Parameter
 
 TOKEN = "{01234567-89ab-cdef-0123-456789abcdef}"

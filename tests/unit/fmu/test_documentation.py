@@ -6,7 +6,7 @@ import pytest
 from pendulum import MODEL
 
 import models
-from mechanism_fmu.fmu.documentation import documentation, page
+from mechanism_fmu.fmu.parts.documentation import documentation, page
 
 
 class Reader(HTMLParser):

@@ -5,7 +5,7 @@ import pendulum
 import pytest
 
 import models
-from mechanism_fmu.fmu.drawing import DRAWING, drawing
+from mechanism_fmu.fmu.parts.resources import DRAWING, drawing
 from mechanism_fmu.model import Bar, Hinge, MechanismError, Wheel
 
 ARM = Bar("arm", (0.0, 0.0), "angle", "length")

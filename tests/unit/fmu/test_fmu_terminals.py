@@ -9,8 +9,8 @@ import pytest
 from lxml import etree
 
 import models
-from mechanism_fmu.fmu.terminals import SHAFT, TERMINALS, shafts, terminals
-from mechanism_fmu.fmu.variables import variables_of
+from mechanism_fmu.fmu.parts.resources import SHAFT, TERMINALS, shafts, terminals
+from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.model import Body, CompliantShaft, Input, Mechanism, Model, Output, Torque
 from mechanism_fmu.simulation import Simulation
 

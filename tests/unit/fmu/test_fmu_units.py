@@ -1,10 +1,16 @@
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from mechanism_fmu.fmu.units import BASE_UNITS, OFFERED_DISPLAY_UNITS, Unit, UnitError, display_factor, parse_unit
+from mechanism_fmu.fmu.parts.fmi_units import (
+    BASE_UNITS,
+    OFFERED_DISPLAY_UNITS,
+    Unit,
+    UnitError,
+    display_factor,
+    parse_unit,
+)
 
 
 def exponents(**powers: int) -> tuple[int, ...]:

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 from pendulum import MODEL
 
-from mechanism_fmu.fmu.variables import Variable, variables_of
+from mechanism_fmu.fmu.parts.variables import Variable, variables_of
 from mechanism_fmu.model import Body, Mechanism, Model, Output, Parameter
 
 BY_NAME = {v.name: v for v in variables_of(MODEL)}

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from mechanism_fmu.fmu.closure import Closure, Home, closure
+from mechanism_fmu.fmu.parts.contents import Closure, Home, closure
 from mechanism_fmu.model import MechanismError
 
 

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from mechanism_fmu.fmu import built, start
-from mechanism_fmu.fmu.kept import is_whole, keep
-from mechanism_fmu.fmu.native import libraries, objects
-from mechanism_fmu.fmu.native.targets import TARGETS
+from mechanism_fmu.fmu import start
+from mechanism_fmu.fmu.disk import user_cache
+from mechanism_fmu.fmu.disk.user_cache import is_whole, keep
+from mechanism_fmu.fmu.native import objects
+from mechanism_fmu.fmu.native.link import TARGETS
 from mechanism_fmu.model import MechanismError
 
 #: What can become of a file.
@@ -81,13 +82,13 @@ def test_a_library_is_linked_again(damage: str, cache: Path, monkeypatch: pytest
         path.write_bytes(b"library")
 
     engine = objects.Engine({target.name: cache / "x.o" for target in TARGETS}, cache)
-    monkeypatch.setattr(libraries, "link", link)
-    monkeypatch.setattr(libraries, "linked_with", lambda *_: {"": b""})
-    path = libraries._linked(engine, TARGETS[0])
-    assert libraries._linked(engine, TARGETS[0]) == path
+    monkeypatch.setattr(objects, "link", link)
+    monkeypatch.setattr(objects, "linked_with", lambda *_: {"": b""})
+    path = objects._linked(engine, TARGETS[0])
+    assert objects._linked(engine, TARGETS[0]) == path
     assert len(linked) == 1
     DAMAGES[damage](path)
-    assert libraries._linked(engine, TARGETS[0]).read_bytes() == b"library"
+    assert objects._linked(engine, TARGETS[0]).read_bytes() == b"library"
     assert len(linked) == 2
 
 
@@ -125,7 +126,7 @@ def test_a_cache_that_others_can_write_is_refused_with_the_way_out(mode: int, ca
     with pytest.raises(MechanismError, match=r"The cache directory cannot be used: .*can be written by others"):
         objects.compiled_engine()
     (tmp_path / "a.fmu").touch()
-    assert not built.was_built_here(built.record_build(tmp_path / "a.fmu"))
+    assert not user_cache.was_built_here(user_cache.record_build(tmp_path / "a.fmu"))
     cache.chmod(0o755)
     assert start.private_cache() == cache
 
@@ -149,11 +150,11 @@ def test_a_new_cache_is_private_whatever_the_umask(tmp_path: Path) -> None:
 def test_a_build_is_known_by_its_bytes_alone(cache: Path, tmp_path: Path) -> None:
     path = tmp_path / "a.fmu"
     path.write_bytes(b"an FMU")
-    assert not built.was_built_here(path)
-    assert built.record_build(path) == path
-    assert built.was_built_here(path)
+    assert not user_cache.was_built_here(path)
+    assert user_cache.record_build(path) == path
+    assert user_cache.was_built_here(path)
     path.rename(tmp_path / "b.fmu")
-    assert built.was_built_here(tmp_path / "b.fmu")
+    assert user_cache.was_built_here(tmp_path / "b.fmu")
     (tmp_path / "b.fmu").write_bytes(b"an FMU.")
-    assert not built.was_built_here(tmp_path / "b.fmu")
-    assert not built.was_built_here(tmp_path / "none.fmu")
+    assert not user_cache.was_built_here(tmp_path / "b.fmu")
+    assert not user_cache.was_built_here(tmp_path / "none.fmu")

@@ -4,10 +4,10 @@ from dataclasses import replace
 import pendulum
 
 import models
-from mechanism_fmu.fmu.documentation import page
-from mechanism_fmu.fmu.logic import LOGIC, logic, switches_of
+from mechanism_fmu.fmu.parts.documentation import page
+from mechanism_fmu.fmu.parts.resources import LOGIC, logic, switches_of
 from mechanism_fmu.model.transitions import logic_of
-from mechanism_fmu.statechart.codec import decode
+from mechanism_fmu.statechart.records import decode
 
 RATCHET = models.load("ratchet").MODEL
 

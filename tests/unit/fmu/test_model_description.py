@@ -9,8 +9,8 @@ import pytest
 from fmpy.validation import validate_fmu
 from pendulum import MODEL
 
-from mechanism_fmu.fmu.model_description import model_description, to_bytes
-from mechanism_fmu.fmu.variables import variables_of
+from mechanism_fmu.fmu.parts.model_description import model_description, to_bytes
+from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.model import Mechanism, MechanismError, Parameter
 
 GUID = "{01234567-89ab-cdef-0123-456789abcdef}"

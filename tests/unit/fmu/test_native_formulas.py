@@ -6,8 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, assume, given, settings, strategies as st
 
 import models
 from mechanism_fmu.fmu.native.formulas import c_number, formulas, printf_text
@@ -15,8 +14,7 @@ from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model,
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan, where_positive
 from mechanism_fmu.model.trace import trace
-from mechanism_fmu.tables.layout import FIELDS, field_of
-from mechanism_fmu.tables.pack import pack
+from mechanism_fmu.tables.layout import FIELDS, field_of, pack
 from models.geneva.model import MODEL as GENEVA
 from models.ratchet.model import MODEL as RATCHET
 from tests.parameter_sets import near_defaults, within_limits

@@ -3,19 +3,19 @@ from pathlib import Path
 
 import pytest
 
-from mechanism_fmu.fmu import project
+from mechanism_fmu.fmu.parts import documentation
 
 
 def test_a_checkout_answers_for_itself() -> None:
-    assert "numba<0.69,>=0.68" in project.dependencies()
-    assert project.licence_text("mechanism_fmu").startswith("MIT License")
+    assert "numba<0.69,>=0.68" in documentation.dependencies()
+    assert documentation.licence_text("mechanism_fmu").startswith("MIT License")
 
 
 def test_an_installed_library_answers_from_its_metadata(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(project, "_PROJECT", Path("no such file"))
+    monkeypatch.setattr(documentation, "_PROJECT", Path("no such file"))
     monkeypatch.setattr(metadata, "requires", lambda _: ["numba>=0.68,<0.69", "pytest>=8; extra == 'test'", "rich"])
-    assert project.dependencies() == ["numba<0.69,>=0.68", "rich"]  # in the same order as from a checkout
+    assert documentation.dependencies() == ["numba<0.69,>=0.68", "rich"]  # in the same order as from a checkout
 
 
 def test_the_licence_of_another_distribution_is_read() -> None:
-    assert "NTNU" in project.licence_text("pythonfmu")
+    assert "NTNU" in documentation.licence_text("pythonfmu")

@@ -12,7 +12,7 @@ import pytest
 from pendulum import MODEL
 
 import models
-from mechanism_fmu.fmu.reference_results import FOLDER, reference_results, result_points
+from mechanism_fmu.fmu.parts.reference_results import FOLDER, reference_results, result_points
 from mechanism_fmu.model import Body, Mechanism, Model, Output, Settings, TorsionSpring
 
 RATCHET = models.load("ratchet").MODEL

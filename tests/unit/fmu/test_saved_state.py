@@ -1,11 +1,10 @@
 import struct
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from mechanism_fmu.fmu.protocol import Experiment, Phase
-from mechanism_fmu.fmu.saved_state import SavedState, SavedStateError, check, decode, encode, fingerprint
+from mechanism_fmu.fmu.instance.protocol import Experiment, Phase
+from mechanism_fmu.fmu.instance.saved_state import SavedState, SavedStateError, check, decode, encode, fingerprint
 
 MARK = fingerprint(["Ratchet", "a", "b"])
 numbers = st.lists(st.floats(allow_nan=False), max_size=6).map(tuple)

@@ -2,13 +2,12 @@ import math
 from dataclasses import replace
 
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
+from hypothesis import assume, given, strategies as st
 from pendulum import MODEL as DESCRIBED
 
-from mechanism_fmu.fmu.protocol import Experiment, FmiError, Phase, experiment, require, step_target
-from mechanism_fmu.fmu.saved_state import SavedStateError
-from mechanism_fmu.fmu.slave import make_slave_class
+from mechanism_fmu.fmu.instance.protocol import Experiment, FmiError, Phase, experiment, require, step_target
+from mechanism_fmu.fmu.instance.saved_state import SavedStateError
+from mechanism_fmu.fmu.instance.slave import make_slave_class
 from mechanism_fmu.model import MechanismError, Parameter, Torque
 
 

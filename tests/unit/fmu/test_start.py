@@ -22,7 +22,7 @@ START = Path(original.__file__)
 SOURCES = {
     "__init__.py": "",
     "fmu/__init__.py": "",
-    "fmu/slave.py": "def make_slave_class(model):\n    return type(model, (), {'made_in': __file__})\n",
+    "fmu/instance/slave.py": "def make_slave_class(model):\n    return type(model, (), {'made_in': __file__})\n",
     "models/tiny.py": "MODEL = 'Tiny'\n",
 }
 
@@ -80,7 +80,7 @@ def contents(folder: Path) -> dict[str, str]:
 def test_the_package_is_imported_from_the_cache(tmp_path: Path, cache: Path, load: Load) -> None:
     slave = load(write_resources(tmp_path / "unzipped", "aaa"), "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
     assert slave.__name__ == "Tiny"
-    assert Path(slave.made_in) == cache / "mechanism_fmu_aaa" / "fmu" / "slave.py"
+    assert Path(slave.made_in) == cache / "mechanism_fmu_aaa" / "fmu" / "instance" / "slave.py"
     assert contents(cache / "mechanism_fmu_aaa") == SOURCES
 
 
@@ -263,7 +263,7 @@ def test_two_fmus_in_one_process_each_run_their_own_code(tmp_path: Path, cache: 
 def test_a_missing_package_is_named_with_what_to_install(
     tmp_path: Path, cache: Path, load: Load, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    broken = SOURCES | {"fmu/slave.py": "import no_such_numba\n"}
+    broken = SOURCES | {"fmu/instance/slave.py": "import no_such_numba\n"}
     start = load(write_resources(tmp_path, "aaa", broken), "aaa")
     with pytest.raises(ImportError, match="there is no no_such_numba") as caught:
         start.slave_class("mechanism_fmu_aaa", "models.tiny")

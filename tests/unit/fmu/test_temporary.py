@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from mechanism_fmu.fmu import temporary
-from mechanism_fmu.fmu.temporary import remove_abandoned, temporary_folder
+from mechanism_fmu.fmu.disk import folders
+from mechanism_fmu.fmu.disk.folders import remove_abandoned, temporary_folder
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="folders cannot be locked there")
 
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="folders cannot 
 _WAITING = """
 import sys, time
 from pathlib import Path
-from mechanism_fmu.fmu.temporary import temporary_folder
+from mechanism_fmu.fmu.disk.folders import temporary_folder
 with temporary_folder(Path(sys.argv[1])) as folder:
     (folder / "inside").mkdir()
     (folder / "inside" / "file").touch()
@@ -102,7 +102,7 @@ def test_without_locks_nothing_is_removed_that_may_be_in_use(tmp_path: Path, mon
     def refuse(_handle: int, _how: int) -> None:
         raise OSError("no locks available")
 
-    monkeypatch.setattr(temporary.fcntl, "flock", refuse)
+    monkeypatch.setattr(folders.fcntl, "flock", refuse)
     with temporary_folder(tmp_path) as one, temporary_folder(tmp_path) as two:
         assert sorted(tmp_path.iterdir()) == sorted([one, two])
     assert list(tmp_path.iterdir()) == []
@@ -110,7 +110,7 @@ def test_without_locks_nothing_is_removed_that_may_be_in_use(tmp_path: Path, mon
 
 def test_one_that_was_taken_for_abandoned_is_made_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Between its making and its locking, another process may come by, lock it and remove it: in either order."""
-    usual, made = temporary.tempfile.mkdtemp, []
+    usual, made = folders.tempfile.mkdtemp, []
 
     def raced(**how: object) -> str:
         folder = usual(**how)
@@ -118,11 +118,11 @@ def test_one_that_was_taken_for_abandoned_is_made_again(tmp_path: Path, monkeypa
         if len(made) == 1:
             os.rmdir(folder)
         if len(made) == 2:
-            held.append(temporary._lock(folder))
+            held.append(folders._lock(folder))
         return folder
 
     held: list[int | None] = []
-    monkeypatch.setattr(temporary.tempfile, "mkdtemp", raced)
+    monkeypatch.setattr(folders.tempfile, "mkdtemp", raced)
     with temporary_folder(tmp_path) as folder:
         assert [str(folder)] == made[2:]
         assert folder.is_dir()

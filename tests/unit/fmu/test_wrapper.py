@@ -2,7 +2,7 @@ import sys
 
 import pytest
 
-from mechanism_fmu.fmu.wrapper import Told, fmi_call, survive_release
+from mechanism_fmu.fmu.instance.protocol import Told, fmi_call, survive_release
 
 
 class Slave:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mechanism_fmu.kinematics import KinematicsError, cam_report, profile_report
-from mechanism_fmu.kinematics.profile_values import radius_of
+from mechanism_fmu.kinematics.profiles import radius_of
 from mechanism_fmu.model import AngleDriver
 from mechanism_fmu.model.curves import Curve, Piece, Term, constant
 from mechanism_fmu.model.motions import harmonic_motion

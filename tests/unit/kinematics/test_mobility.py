@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mechanism_fmu.kinematics import Dependency, KinematicsError, mobility
-from mechanism_fmu.kinematics.rank import free_directions, independence
+from mechanism_fmu.kinematics.mobility import free_directions, independence
 from mechanism_fmu.model import GROUND, Body, CamFollower, Mechanism, Revolute, Translational
 from tests.parallel_cranks import parallel_cranks, turning
 from tests.slide_cam import cam_mechanism

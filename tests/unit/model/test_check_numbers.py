@@ -3,12 +3,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given, settings, strategies as st
 from recorded import said
 
-from mechanism_fmu.model import Finding, MechanismError, Parameter
-from mechanism_fmu.model import conditions as c
+from mechanism_fmu.model import Finding, MechanismError, Parameter, findings as c
 from mechanism_fmu.model.check_numbers import number_findings
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.findings import literal, messages

@@ -4,8 +4,7 @@ import math
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
+from hypothesis import assume, given, strategies as st
 from recorded import said
 
 from mechanism_fmu.model import (

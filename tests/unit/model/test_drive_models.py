@@ -10,7 +10,7 @@ from derivatives import assert_derivatives_agree
 from mechanism_fmu.model import MechanismError
 from mechanism_fmu.simulation import Simulation
 from models.cam_drive.model import MODEL as CAM_DRIVE
-from models.cam_drive.shapes import SHAPES
+from models.cam_drive.ports import SHAPES
 from models.gear_train.model import MODEL as GEAR_TRAIN
 from models.motor.model import MODEL as MOTOR
 from models.rotary_table.model import MODEL as ROTARY_TABLE

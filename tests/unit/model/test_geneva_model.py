@@ -8,7 +8,7 @@ from derivatives import assert_derivatives_agree
 from mechanism_fmu.model import MechanismError
 from mechanism_fmu.model.compile import compile_mechanism
 from models.geneva.model import MODEL
-from models.geneva.shapes import SHAPES
+from models.geneva.ports import SHAPES
 
 PARAMETERS = [p.name for p in MODEL.parameters if p.type != "Boolean"]
 POINTS = {

@@ -7,7 +7,7 @@ from mechanism_fmu.model import Bar, Disc, Hinge, MechanismError, Striker, Wheel
 from mechanism_fmu.model.drawing import check_drawing, quantities
 from mechanism_fmu.model.sawtooth import wheel_outline
 from models.ratchet.model import MODEL
-from models.ratchet.parameters import calculated
+from models.ratchet.ports import calculated
 from models.ratchet.start import tooth
 
 VARIABLES = {"phi", "length", "teeth", "radius"}

@@ -3,8 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from mechanism_fmu.model import MechanismError, harmonic_motion, polynomial_motion, table_motion
 from tests.curve_values import jumps, value

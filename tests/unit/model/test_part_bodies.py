@@ -4,11 +4,10 @@ import math
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from mechanism_fmu.model import Body
-from mechanism_fmu.model.part_bodies import MovingPoint, link_body, rotor_body
+from mechanism_fmu.model.body import MovingPoint, link_body, rotor_body
 
 VALUES = SimpleNamespace(wheel_mass=2.0, wheel_inertia=0.3, rod_mass=0.5, rod_inertia=0.01, rod_centre=0.25)
 

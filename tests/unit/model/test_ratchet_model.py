@@ -4,14 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from ratchet_cases import PAPER, gap, paper_values, refused
 
+from docs.drawings import ratchet_drawing
 from mechanism_fmu.model import MechanismError
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.sawtooth import sawtooth
-from models.ratchet import drawing
 from models.ratchet.model import MODEL
 from models.ratchet.start import crank_pin, pawl_angle, tip_distance, tooth
 
@@ -208,13 +207,13 @@ def test_defaults_are_within_their_limits_and_are_those_of_the_paper():
 
 
 def test_drawing_is_that_of_the_defaults():
-    written = (Path(drawing.__file__).parent / "drawing.svg").read_text(encoding="utf-8")
-    assert written == drawing.drawing(MODEL.values()), "run python -m models.ratchet.drawing"
+    written = (Path(ratchet_drawing.__file__).parents[2] / "models/ratchet/drawing.svg").read_text(encoding="utf-8")
+    assert written == ratchet_drawing.drawing(MODEL.values()), "run python -m docs.drawings.ratchet_drawing"
     ElementTree.fromstring(written)
 
 
 @pytest.mark.parametrize(("teeth", "angle"), PAPER)
 def test_every_case_of_the_paper_can_be_drawn(teeth, angle):
-    text = drawing.drawing(paper_values(teeth, angle))
+    text = ratchet_drawing.drawing(paper_values(teeth, angle))
     ElementTree.fromstring(text)
     assert "nan" not in text

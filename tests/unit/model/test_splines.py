@@ -4,12 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy.interpolate import CubicSpline, make_interp_spline
 
 from mechanism_fmu.model import Curve, MechanismError, spline_profile
-from mechanism_fmu.model.splines import spline_pieces
+from mechanism_fmu.model.curves import spline_pieces
 from tests.curve_values import jumps, value
 
 WIDTH = st.floats(0.5, 1.5)

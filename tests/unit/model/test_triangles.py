@@ -3,10 +3,9 @@
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from mechanism_fmu.model.triangles import angle_between, root
+from mechanism_fmu.model.four_bar import angle_between, root
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from mechanism_fmu.stress import (
     STEEL,
@@ -19,7 +18,7 @@ from mechanism_fmu.stress import (
     natural_modes,
     ritz_modes,
 )
-from mechanism_fmu.stress.ends import admissible
+from mechanism_fmu.stress.ritz import admissible
 
 TOOTH = WedgeTooth(length=0.05, apex_angle=0.5)
 ALL_ENDS = list(itertools.product(End, End))

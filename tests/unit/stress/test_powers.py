@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import legendre, polynomial
 
-from mechanism_fmu.stress.powers import legendre_of_powers, powers_of_legendre
+from mechanism_fmu.stress.modes import legendre_of_powers, powers_of_legendre
 
 XI = np.linspace(0.0, 1.0, 11)
 

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from mechanism_fmu.fmu.own.new import write_new
+from mechanism_fmu.fmu.own.find import write_new
 
 
 @pytest.fixture(autouse=True)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from typer.testing import CliRunner
 
-from harness.cli import main
+from harness.app.cli import main
 
 
 def change(folder: Path, old: str, new: str) -> int:

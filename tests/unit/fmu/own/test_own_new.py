@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from harness.cli import main
+from harness.app.cli import main
 
 
 @pytest.mark.parametrize("name", ["my-lever", "2nd", "class", "größe", "a/b", ""])

@@ -5,7 +5,7 @@ from pathlib import Path
 from own_file import wrong_use
 from typer.testing import CliRunner
 
-from harness.cli import main
+from harness.app.cli import main
 
 
 def test_a_file_that_does_not_exist_is_wrong_use_and_a_near_name_is_offered() -> None:

@@ -1,0 +1,218 @@
+"""The command `mechanism-fmu`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from build_fmu import build
+
+from . import designs_cli, machine_cli, papers_cli
+from .cli_group import Group
+
+# Everything else is imported inside the commands: --help must not wait for pandas and fmpy.
+main = typer.Typer(
+    name="mechanism-fmu",
+    cls=Group,
+    help="Build planar mechanisms with impacts as FMUs, run them, and see the stress that every impact leaves.",
+    epilog="Start with: mechanism-fmu demo",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="markdown",
+    pretty_exceptions_enable=False,
+)
+
+FmuPath = Annotated[Path, typer.Argument(metavar="FMU", help="FMU file, e.g. build/Ratchet.fmu", show_default=False)]
+
+InProcess = Annotated[
+    bool,
+    typer.Option(
+        "--in-process",
+        help="Run an FMU that no build of yours has made without a process of its own: faster by the time of a round "
+        "trip a step, but what it breaks is lost with it.",
+    ),
+]
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from mechanism_fmu import __version__
+
+        typer.echo(f"mechanism-fmu {__version__}")
+        raise typer.Exit
+
+
+@main.callback()
+def common(
+    version: Annotated[
+        bool, typer.Option("--version", help="Show the version and exit.", callback=_show_version, is_eager=True)
+    ] = False,
+) -> None:
+    """Options of all commands."""
+
+
+@main.command()
+def demo(
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for FMU, results and report.")] = Path("demo"),
+    full: Annotated[
+        bool, typer.Option("--full", help="The free ratchet through four whole strokes instead of the base case.")
+    ] = False,
+) -> None:
+    """Build the ratchet of the paper, run its base case, and write results and a report.
+
+    The closing lines compare the first impact with reference values. With --full, the pawl is free on all teeth and the
+    wheel indexes one tooth a stroke; the closing lines say whether it did. The first run compiles the engine and takes
+    some seconds longer.
+    """
+    from .commands.one_run import run_cycle, run_demo
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_cycle(output) if full else run_demo(output))
+
+
+@main.command()
+def new(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Of the file and of its FMU.", show_default=False)],
+) -> None:
+    """Write NAME.py, a mechanism of your own to begin with: a lever that falls on a stop.
+
+    It builds and runs as it is, and its comments say what to change. See docs/your-own-mechanism.md.
+
+    Exit code: 0 all well, 2 a name that cannot be, or a file that is there already.
+    """
+    from .commands.one_run import new_mechanism
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(new_mechanism(name))
+
+
+@main.command()
+def run(
+    fmu: FmuPath,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE[UNIT]",
+            help="Set an input or parameter, with a unit if you like; repeat it for more.",
+        ),
+    ] = None,
+    stop_time: Annotated[
+        float | None, typer.Option(metavar="S", help="End of the run [s].", show_default="the FMU's default")
+    ] = None,
+    step: Annotated[
+        float | None, typer.Option(metavar="S", help="Communication step [s].", show_default="the FMU's default")
+    ] = None,
+    input_file: Annotated[
+        Path | None,
+        typer.Option(
+            "--input",
+            metavar="FILE.csv",
+            help="Input signals: a column `time [s]`, then one for each input, e.g. `drive_torque [N.mm]`; "
+            "interpolated linearly, constant within a step. Also joined by semicolons, with decimal commas.",
+        ),
+    ] = None,
+    material: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME", help="Steel of what is struck: steel, S355, C45E, 42CrMo4, SAE1015, SAE4142 or AISI4340."
+        ),
+    ] = "steel",
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.")] = Path(
+        "result"
+    ),
+    in_process: InProcess = False,
+) -> None:
+    """Run an FMU and write results.csv, impacts.csv, events.csv, summary.json and report.html.
+
+    Try:
+
+        mechanism-fmu run build/Ratchet.fmu -o result
+
+        mechanism-fmu run build/Ratchet.fmu --set tooth_slope_angle=95deg --set tooth_count=20
+
+        mechanism-fmu run build/Ratchet.fmu --set "drive_torque=2 N.mm" --stop-time 3 --step 1e-4
+
+        mechanism-fmu run build/Ratchet.fmu --input torque.csv
+
+        mechanism-fmu run build/Ratchet.fmu --material 42CrMo4
+
+    Ctrl-C or SIGTERM ends the run early and keeps what was recorded. An FMU that no build of yours has made runs in a
+    process of its own.
+
+    Exit code: 0 all well, 1 the run or a verdict failed, 2 wrong use, 130 interrupted.
+    """
+    from .commands.one_run import run_fmu
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_fmu(fmu, settings or [], stop_time, step, input_file, material, output, in_process))
+
+
+@main.command()
+def modes(
+    fmu: FmuPath,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="NAME=VALUE[UNIT]", help="Set a parameter: some of them choose among mechanisms."
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE.svg",
+            help="File for the diagram.",
+            show_default="<FMU>_modes.svg",
+            dir_okay=False,
+        ),
+    ] = None,
+) -> None:
+    """Print the modes and transitions of an FMU's mechanism as a table, and draw them as a state chart.
+
+    Try:
+
+        mechanism-fmu modes build/Ratchet.fmu
+
+        mechanism-fmu modes build/Ratchet.fmu --set guided=false -o modes.svg
+
+    Exit code: 0 all well, 2 wrong use, or an FMU that tells none.
+    """
+    from .commands.one_run import show_modes
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(show_modes(fmu, settings or [], output))
+
+
+main.command()(designs_cli.sweep)
+main.command()(designs_cli.optimise)
+main.command()(papers_cli.ked)
+main.command()(papers_cli.reproduce)
+
+
+@main.command()
+def validate(fmu: FmuPath, in_process: InProcess = False) -> None:
+    """Check an FMU: the file, its default values, a run, saving and restoring of its state, reset.
+
+    An FMU that no build of yours has made runs in processes of its own.
+
+    Exit code: 0 all well, 1 problems found, 2 wrong use.
+    """
+    from .commands.one_run import validate_fmu
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(validate_fmu(fmu, in_process))
+
+
+main.add_typer(papers_cli.study, name="study")
+main.add_typer(machine_cli.machine, name="machine")
+
+main.command()(build)

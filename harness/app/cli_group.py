@@ -1,0 +1,58 @@
+"""Groups of commands whose --help comes at once, and which end in order when the system asks them to."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
+
+from typer.core import TyperGroup
+
+from ..errors import exhaustion_told
+
+# SIGTERM as Ctrl-C: what is on the way ends in order, and nothing temporary is left behind.
+
+
+@contextmanager
+def terminable() -> Iterator[None]:
+    """Turn SIGTERM, which a system sends at its end, into what Ctrl-C is: `KeyboardInterrupt`.
+
+    Its usual action ends the process on the spot, with its temporary folders. Where somebody else handles the signal
+    or has it ignored, and outside the main thread, nothing changes. Runs turn it into a request
+    (`execution.interruption`).
+    """
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
+        yield
+        return
+
+    def end(_signal: int, _frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+class Group(TyperGroup):
+    """Commands whose --help comes at once.
+
+    When a command is named, the group's own --help was not given; typer imports pydantic (0.2 s) to find that None is
+    no Boolean, and does not when it is one.
+    """
+
+    def main(self, *arguments: Any, **options: Any) -> Any:
+        """Run the command; SIGTERM ends it as Ctrl-C does, and what is full is told in a line."""
+        with terminable(), exhaustion_told():
+            return super().main(*arguments, **options)
+
+    def get_help_option(self, ctx: Any) -> Any:
+        """The option --help, False unless it is given."""
+        option = super().get_help_option(ctx)
+        if option is not None:
+            option.default = False
+        return option

@@ -1,0 +1,363 @@
+"""What the commands of one FMU do, and what is said at the end of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
+import typer
+from rich.markup import escape
+
+from ...analysis.impacts import UNITS_OF_STOPS, contact_name
+from ...analysis.stress import BY_TWO_MODES, HEADINGS, card_of, damage_note, damage_row
+from ...errors import FmuError, Status, UsageError
+from ...fmu import open_fmu
+from ...fmu.declared import NO_BEAM
+from ...fmu.interface import Instances
+from ...fmu.values import shown, start_values
+from ...papers.study.wheels import base_case_checks
+from ...run.checks import Check, all_passed
+from ...run.experiment import Experiment, Run, default_times, performing
+from ...run.logic import default_parameters, read_logic
+from ...run.master import Ending
+from ...run.results import final_values, prepare_folder, write_run, write_text
+from ..execution import alone_in, interruption, with_instances
+from ..terminal import (
+    FAILED,
+    INTERRUPTED,
+    RunDisplay,
+    console,
+    show_checks,
+    show_error,
+    show_files,
+    show_findings,
+    show_note,
+    show_progress,
+    show_table,
+    show_warning,
+    show_wide_table,
+    tell_of_earlier_files,
+)
+
+if TYPE_CHECKING:
+    from ...papers.study.study import Study
+
+
+# What is said at the end of a run.
+
+#: Columns of the impacts that fit a terminal, with their headings; the file has all.
+_IMPACT_COLUMNS = {
+    "time": "t",
+    "contact": "contact",
+    "closing_speed": "closing\nspeed",
+    "impulse": "impulse",
+    "energy_lost": "energy\nlost",
+    "velocity": "v_I",
+    "stress_max": "sigma_max",
+}
+_MOST_IMPACTS = 20
+_LARGE = 1e4
+
+
+def show_ending(run: Run, files: Sequence[Path], more_checks: Sequence[Check] = ()) -> int:
+    """Show how a run ended, and return the exit code."""
+    _show_final_values(run)
+    _show_impacts(run)
+    _show_damage(run)
+    checks = [*run.checks, *more_checks]
+    show_checks(checks)
+    show_files(files)
+    reached = f"{run.outcome.final_time:.9g} s of {run.experiment.stop_time:.9g} s"
+    if run.outcome.ending is Ending.FAILED:
+        show_error(f"{run.outcome.error} The files hold what was recorded up to {reached}.")
+        return FAILED
+    if run.outcome.ending is Ending.INTERRUPTED:
+        console.print(f"[yellow]Interrupted[/]: the files hold what was recorded up to {reached}.")
+        return INTERRUPTED
+    for message in run.messages:
+        if message.needs_attention and message.status is not Status.WARNING:  # warnings were shown when they came
+            show_error(f"{message.instance} said so, but went on at t = {message.time:.6g} s: {message.text}")
+    return 0 if all_passed(checks) else FAILED
+
+
+def _show_final_values(run: Run) -> None:
+    values = {name: v for name, v in final_values(run).items() if name != "time" and not name.startswith("impact")}
+    if values:
+        rows = [(name, shown(value, name, run.description)) for name, value in values.items()]
+        show_table(f"Values at t = {run.outcome.final_time:.9g} s", ["variable", "value"], rows)
+
+
+def _show_impacts(run: Run) -> None:
+    if run.impacts.empty:
+        console.print("No impacts." if len(run.impacts.columns) else "The FMU does not tell of impacts.")
+        return
+    columns = [name for name in _IMPACT_COLUMNS if name in run.impacts.columns]
+    rows = [[_cell(name, row, run.logic.contacts) for name in columns] for row in _records(run.impacts)]
+    title = f"Impacts: {len(run.impacts)}" + (
+        f", the first {_MOST_IMPACTS}" if len(run.impacts) > _MOST_IMPACTS else ""
+    )
+    headings = [_heading(name, run.units["impacts"][name]) for name in columns]
+    numbers = [place for place, name in enumerate(columns) if name != "contact"]
+    show_table(title, headings, rows, numeric=numbers)
+    if "contact" in columns:
+        console.print(f"[dim]{escape(UNITS_OF_STOPS)}[/]", soft_wrap=True)
+    declared = run.description.analysis
+    if declared.struck is None and not declared.objection:
+        console.print(f"[dim]No stress: {escape(NO_BEAM)}[/]", soft_wrap=True)
+    elif run.beam is None:
+        console.print("[dim]No stress: see the verdicts.[/]")
+    else:
+        console.print(f"[dim]sigma_max of an impact: {escape(BY_TWO_MODES)}[/]", soft_wrap=True)
+
+
+def _records(impacts: pd.DataFrame) -> list[dict[str, Any]]:
+    """The first impacts."""
+    return [{str(name): value for name, value in row.items()} for row in impacts.head(_MOST_IMPACTS).to_dict("records")]
+
+
+def _heading(name: str, unit: str) -> str:
+    return _IMPACT_COLUMNS[name] + (f" [{unit}]" if name != "contact" else "")
+
+
+def _cell(name: str, row: Mapping[str, Any], contacts: Sequence[str]) -> str:
+    """Times to nine digits, others to four, but a stress of more has no power of ten."""
+    value = row[name]
+    if name == "contact":
+        return contact_name(int(value), contacts)
+    if name == "stress_max" and row.get("remark"):
+        return str(row["remark"])
+    if name == "time":
+        return f"{value:.9g}"
+    return f"{value:.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
+
+
+def _show_damage(run: Run) -> None:
+    struck = run.description.analysis.struck
+    if run.damage is None or run.beam is None or struck is None:
+        return
+    row = damage_row(run.damage, run.experiment.material)
+    show_table(f"Fatigue of the {struck.name}", HEADINGS, [row], numeric=range(1, len(HEADINGS)))
+    console.print(f"[dim]{escape(damage_note(run.damage, struck, run.beam))}[/]", soft_wrap=True)
+
+
+# What the commands do; each returns its exit code.
+
+#: The base case of the paper is the FMU's default; the pawl strikes at 0.94 s and swings back at 4.9 s.
+_DEMO = Experiment(stop_time=6.0, step=1e-3)
+_CYCLE_STEP = 5e-3
+
+
+def run_demo(folder: Path) -> int:
+    """Build the ratchet, run the paper's base case, compare it with reference values, write everything."""
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, f"run its base case for {_DEMO.stop_time:g} s")
+        with open_fmu(path) as fmu:
+            return _performed(fmu, _DEMO, lambda run: _written(run, folder, base_case_checks(run.impacts)))
+
+
+def run_cycle(folder: Path) -> int:
+    """Build the ratchet, run a whole indexing cycle of its free pawl, check it, write everything."""
+    from ...papers.study import indexing
+
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, f"run it through four strokes in {indexing.STOP_TIME:g} s")
+        drive = indexing.write_drive(folder / "drive.csv")
+        experiment = Experiment(indexing.STOP_TIME, _CYCLE_STEP, indexing.VALUES, drive)
+        with open_fmu(path) as fmu:
+            return _performed(fmu, experiment, lambda run: _written(run, folder, indexing.cycle_checks(run.results)))
+
+
+def new_mechanism(name: str) -> int:
+    """Write a mechanism to begin with, and say how to go on."""
+    from mechanism_fmu.fmu.own.find import WrongUseError, write_new
+
+    try:
+        path = write_new(name, Path())
+    except (WrongUseError, OSError) as error:
+        raise UsageError(str(error)) from error
+    console.print(
+        f"Written: {path}, a lever that falls on a stop. Build its FMU, and run it:\n\n"
+        f"mechanism-fmu build {path}\nmechanism-fmu run build/{path.stem}.fmu\n\n"
+        "Then change the file; docs/your-own-mechanism.md explains its parts, and how to begin with a ready model.",
+        soft_wrap=True,
+        markup=False,
+    )
+    return 0
+
+
+def run_fmu(
+    path: Path,
+    settings: Sequence[str],
+    stop_time: float | None,
+    step: float | None,
+    input_file: Path | None,
+    material: str,
+    folder: Path,
+    in_process: bool = False,
+) -> int:
+    """Run an FMU and write what comes of it.
+
+    The files are written before the instance is freed, to a folder that stays the same whatever the FMU does to the
+    working folder.
+    """
+    card, folder = card_of(material), folder.absolute()
+    with open_fmu(path) as fmu:
+        values = start_values(settings, fmu.description)
+        times = default_times(fmu.description, stop_time, step)
+        if step is None and fmu.description.step is None:
+            show_note(f"{path.name} says no step size; {times[1]:g} s is taken. --step sets another one.")
+        experiment = Experiment(*times, values, input_file, card)
+
+        def work(instances: Instances) -> int:
+            try:
+                return _performed(instances, experiment, lambda run: _written(run, folder))
+            except FmuError:
+                tell_of_earlier_files(folder)
+                raise
+
+        with alone_in(folder, waits=False):
+            return with_instances(fmu, in_process, work)
+
+
+def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:
+    """Show the modes and transitions of an FMU's mechanism for parameter values, and draw them."""
+    from mechanism_fmu.statechart import definition_rows, diagram, kept_parts, rows
+    from mechanism_fmu.statechart.pictures import DEFINITION_HEADINGS, HEADINGS
+
+    with open_fmu(path) as fmu:
+        values = start_values(settings, fmu.description)
+        file = read_logic(fmu.folder)
+    logic = file.chosen(default_parameters(fmu.description, values))
+    if file.objection or logic is None:
+        why = "for these parameter values" if file.variants else "in this FMU"
+        raise UsageError(file.objection or f"{path.name} tells no modes and transitions {why}.")
+    show_wide_table("Transitions", HEADINGS, rows(logic))
+    for name in kept_parts(logic):
+        console.print(f"[bold]{escape(name)}[/] is closed throughout.")
+    show_wide_table("Logical functions", DEFINITION_HEADINGS, definition_rows(logic))
+    output = Path(f"{path.stem}_modes.svg") if output is None else output
+    prepare_folder(output.parent)
+    show_files([write_text(output, lambda file: file.write(diagram(logic)))])
+    return 0
+
+
+def validate_fmu(path: Path, in_process: bool = False) -> int:
+    """Show one verdict after the other."""
+    from ...run.validate import validate
+
+    def work(instances: Instances) -> int:
+        passed = True
+        for check in validate(instances):
+            show_checks([check])
+            passed = passed and check.passed
+        console.print(
+            "The FMU keeps what it promises." if passed else "[bold red]The FMU has the problems marked above.[/]"
+        )
+        return 0 if passed else FAILED
+
+    with open_fmu(path) as fmu:
+        return with_instances(fmu, in_process, work)
+
+
+def run_study(folder: Path, path: Path | None, in_process: bool = False) -> int:
+    """Run the paper's study and write it, wherever an FMU moves the working folder."""
+    folder = folder.absolute()
+    with alone_in(folder, waits=False):
+        path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
+        with open_fmu(path) as fmu:
+            return with_instances(fmu, in_process, lambda instances: _study_written(_studied(instances), folder))
+
+
+def _studied(fmu: Instances) -> Study:
+    """The study, under the eyes of the user."""
+    from ...papers.study.study import ratchet_study
+
+    with (
+        show_progress(f"Loading {fmu.path.name} ...") as progress,
+        interruption(lambda: console.print("Ending after this wheel; Ctrl-C again to break off.")) as stop_requested,
+    ):
+
+        def on_wheel(number: int, of: int) -> None:
+            progress(f"{number} of {of} wheels", number / of)
+            if stop_requested():
+                console.print("[yellow]Interrupted[/]: nothing was written; the same command begins anew.")
+                raise typer.Exit(INTERRUPTED)
+
+        return ratchet_study(fmu, on_wheel)
+
+
+def _study_written(study: Study, folder: Path) -> int:
+    """Show and write a study, and return the exit code."""
+    from mechanism_fmu.stress import LEAST_SLENDERNESS
+
+    from ...papers.study.accuracy import ACCURACY
+    from ...papers.study.study import write_study
+    from ...papers.study.study_report import paper_figures, write_study_report
+    from ...report.static import write_static
+
+    rows = [wheel.cells() for wheel in study.wheels]
+    headings = ["nt", "beta_0 [deg]", "t_I [s]", "omega(t_I+) [rad/s]", "v_I [m/s]", "sigma_max [Pa]", "l/h [1]"]
+    show_table("First impact of each wheel", headings, rows, numeric=range(len(headings)))
+    slender = [wheel.slenderness for wheel in study.wheels]
+    outside = sum(ratio < LEAST_SLENDERNESS for ratio in slender)
+    console.print(
+        f"[dim]l/h, length over root height of a tooth, is {min(slender):.2f} to {max(slender):.2f}: {outside} of "
+        f"{len(slender)} are outside beam theory ({LEAST_SLENDERNESS:g} or more). sigma_max: the paper's two modes.[/]",
+        soft_wrap=True,
+    )
+    for warning in study.warnings:
+        console.print(f"[yellow]Warning[/]: {escape(warning)}", soft_wrap=True)
+    show_checks(study.checks)
+    show_findings(ACCURACY, study.findings)
+    figures = paper_figures(study)
+    files = write_study(study, folder)
+    for figure in figures:
+        files += write_static(figure.plots, folder / figure.name)
+    show_files([*files, write_study_report(study, figures, folder / "study.html")])
+    return 0 if all_passed(study.checks) else FAILED
+
+
+def _built_ratchet(folder: Path, purpose: str) -> Path:
+    """Build the ratchet into `folder`, after saying so and what for."""
+    import build_fmu
+
+    path = folder / "Ratchet.fmu"
+    console.print(f"Building the paper's ratchet, {escape(str(path))}, to {purpose}.", soft_wrap=True)
+    build_fmu.build("ratchet", folder)
+    return path
+
+
+def _performed(fmu: Instances, experiment: Experiment, then: Callable[[Run], int]) -> int:
+    """Perform an experiment under the eyes of the user; the exit code of what is done `then`.
+
+    The instance is freed after that only: what has been recorded is written by then.
+
+    Raises:
+        FmuError: as of `performing`.
+    """
+    loading = f"Loading {fmu.path.name}; a first start may take a while ..."
+    with ExitStack() as instance:
+        with (
+            RunDisplay(experiment.stop_time, loading) as display,
+            interruption(lambda: console.print("Ending at the next step; Ctrl-C again to break off.")) as stop,
+        ):
+            performance = performing(fmu, experiment, on_message=show_warning, observers=[display], stop_requested=stop)
+            run = instance.enter_context(performance)
+        return then(run)
+
+
+def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
+    """Write the files of a run, unless it never began, and show in the terminal how it ended."""
+    from ...report.run_report import write_report
+
+    if run.outcome.error is not None and run.results.empty:
+        tell_of_earlier_files(folder)
+        show_error(str(run.outcome.error))
+        return FAILED
+    if run.inputs is not None and run.inputs.note:
+        show_note(run.inputs.note)
+    files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]
+    return show_ending(run, files, more_checks)

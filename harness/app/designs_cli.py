@@ -1,0 +1,124 @@
+"""The commands `mechanism-fmu sweep` and `optimise`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+#: What commands with many designs share.
+DesignsFolder = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        metavar="N",
+        min=1,
+        help="Processes on this machine (threads with --fast).",
+        show_default="one for each processor",
+    ),
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(metavar="tcp://HOST:PORT", help="Run on the Dask cluster of this scheduler.", show_default=False),
+]
+Fast = Annotated[
+    bool,
+    typer.Option(
+        "--fast",
+        help="Hundreds of designs in one compiled call, in threads, without FMI calls; the numbers are the FMU's. "
+        "This runs the Python sources of the FMU's model in this process.",
+    ),
+]
+Trust = Annotated[
+    bool,
+    typer.Option("--trust", help="Let --fast run the Python sources of an FMU that no build of yours has made."),
+]
+
+
+def sweep(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE.toml", help="What to vary and what to keep.", show_default=False)
+    ],
+    output: DesignsFolder = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    fast: Fast = False,
+    trust: Trust = False,
+) -> None:
+    """Run many designs: a grid, random ones, a Latin hypercube or Sobol points.
+
+    A small FILE.toml:
+
+        [fmu]
+        model = "ratchet"
+
+        [run]
+        stop_time = "1.2 s"
+
+        [sweep]
+        method = "grid"
+
+        [vary.tooth_count]
+        values = [10, 15, 20, 25]
+
+        [record]
+        first_impact = ["time", "stress_max"]
+
+    Results are kept as they come: whenever the command ends, by Ctrl-C, SIGTERM or killed by somebody, the same command
+    goes on where it stopped. The table results.parquet is for pandas, report.html for people. See docs/sweeps.md.
+
+    Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.
+    """
+    from .commands.designs_run import run_sweep
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_sweep(file, output, workers, scheduler, fast, trust))
+
+
+def optimise(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE.toml", help="What is free and what is sought.", show_default=False)
+    ],
+    output: DesignsFolder = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    fast: Fast = False,
+    trust: Trust = False,
+) -> None:
+    """Find the best design: variables with bounds, an objective, constraints.
+
+    A small FILE.toml:
+
+        [fmu]
+        model = "ratchet"
+
+        [run]
+        stop_time = "1.2 s"
+
+        [optimise]
+        minimise = "first_impact.stress_max"
+        count = 120
+
+        [vary.tooth_count]
+        from = 10
+        to = 25
+
+        [constraint."parameter.tooth_length"]
+        at_least = 6
+        unit = "mm"
+
+    The same file finds the same design on every machine, and the same command goes on after an interruption. The files
+    are those of a sweep, and optimum.json. See docs/optimum-design.md.
+
+    Exit code: 0 all well, 1 no design keeps all constraints, 2 wrong use, 130 interrupted.
+    """
+    from .commands.designs_run import run_optimise
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(run_optimise(file, output, workers, scheduler, fast, trust))

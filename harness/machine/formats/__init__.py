@@ -1,0 +1,1 @@
+"""Machines for other tools, and from them: SSP 1.0, containers, and FMUs with numbers baked in."""

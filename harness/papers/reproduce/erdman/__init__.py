@@ -1,0 +1,1 @@
+"""Erdman, Sandor and Oakberg: linkages that bend, equation by equation."""

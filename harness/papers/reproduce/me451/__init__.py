@@ -1,0 +1,1 @@
+"""The ME451 slides: joints, gears and cams."""

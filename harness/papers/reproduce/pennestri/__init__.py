@@ -1,0 +1,1 @@
+"""Pennestrì, Valentini, Vita: the ratchet and its tooth, section by section."""

@@ -1,0 +1,164 @@
+"""How an FMU's mechanism is drawn: `resources/drawing.json`, when the FMU has one."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..fmu.description import Description
+from .master import recorded_variables
+
+#: A number, or the name of a variable, with a leading "-" for its negative.
+Quantity = float | str
+
+#: A point (x, y) [m], or the name of the bar whose far end it is.
+Place = tuple[Quantity, Quantity] | str
+
+#: The format of drawing.json that is understood.
+_FORMAT = 1
+
+#: What each kind of shape needs besides its place: lengths in m, angles in rad.
+_QUANTITIES = {
+    "bar": ("angle", "length"),
+    "wheel": ("angle", "count"),
+    "disc": ("radius",),
+    "hinge": (),
+    "striker": (),
+}
+
+_NAMED = ("bar", "wheel", "disc")
+
+
+@dataclass(frozen=True)
+class Shape:
+    """One part of a drawing.
+
+    Attributes:
+        kind: "bar", "wheel", "disc", "hinge" (fixed to the ground at a point, moving at a bar's far end) or
+            "striker" (the point where an impact shows).
+        at: where it starts, or its centre.
+        name: of a bar, wheel or disc; "" for the others.
+        quantities: by name: `angle` [rad] and `length` [m] of a bar, `angle` and `count` of a wheel, `radius` [m] of a
+            disc.
+        outline: of a wheel, over one pitch: (radius [m], angle from the wheel's x axis [rad]).
+        clockwise: whether the outline of a wheel continues clockwise.
+    """
+
+    kind: str
+    at: Place
+    name: str = ""
+    quantities: Mapping[str, Quantity] = field(default_factory=dict)
+    outline: tuple[tuple[Quantity, Quantity], ...] = ()
+    clockwise: bool = False
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """All shapes of an FMU, in the order in which they are drawn.
+
+    Attributes:
+        shapes: () when the FMU has no drawing, or none that can be used.
+        objection: why it cannot be used, for the user; "" when nothing is wrong.
+    """
+
+    shapes: tuple[Shape, ...] = ()
+    objection: str = ""
+
+
+def read_drawing(folder: Path, description: Description) -> Drawing:
+    """The drawing in the extracted FMU `folder`; one that cannot be used is an objection and never an error."""
+    path = folder / "resources" / "drawing.json"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return Drawing()
+    except (OSError, UnicodeDecodeError) as error:
+        return _objection(f"it cannot be read ({error})")
+    try:
+        return Drawing(tuple(_shapes(json.loads(text), description)))
+    except _DrawingError as error:
+        return _objection(str(error))
+    except (ValueError, RecursionError) as error:
+        return _objection(f"it is no JSON ({error})")
+
+
+class _DrawingError(Exception):
+    """What is wrong with a drawing."""
+
+
+def _objection(problem: str) -> Drawing:
+    return Drawing(
+        objection=f"The FMU's drawing (resources/drawing.json) cannot be shown: {problem}. Build the FMU again."
+    )
+
+
+def _shapes(data: Any, description: Description) -> Iterator[Shape]:
+    if not isinstance(data, dict) or not isinstance(data.get("shapes"), list):
+        raise _DrawingError("it holds no list of shapes")
+    if data.get("format") != _FORMAT:
+        raise _DrawingError(f"its format is {data.get('format')!r}, and this harness knows format {_FORMAT}")
+    variables = [*recorded_variables(description), *description.of("parameter", "calculatedParameter")]
+    reader = _Reader({variable.name for variable in variables if variable.type in ("Real", "Integer")})
+    for number, raw in enumerate(data["shapes"], start=1):
+        yield reader.shape(raw, f"shape {number}")
+
+
+class _Reader:
+    """Reads one shape after another; a shape may start from any bar before it.
+
+    Args:
+        variables: names of the variables that have a value in every run.
+    """
+
+    def __init__(self, variables: set[str]) -> None:
+        self._variables = variables
+        self._bars: set[str] = set()
+
+    def shape(self, raw: Any, label: str) -> Shape:
+        kind = raw.get("kind") if isinstance(raw, dict) else None
+        if not isinstance(kind, str) or kind not in _QUANTITIES:
+            raise _DrawingError(f"{label} is of the unknown kind {kind!r}")
+        name = raw.get("name", "")
+        if not isinstance(name, str) or (kind in _NAMED and not name):
+            raise _DrawingError(f"{label} has no name")
+        if name:
+            label = f"{kind} '{name}'"
+        outline = raw.get("outline", [])
+        if not isinstance(outline, list) or (kind == "wheel" and not outline):
+            raise _DrawingError(f"{label} has no outline")
+        shape = Shape(
+            kind,
+            self._place(raw.get("at"), label),
+            name,
+            {key: self._quantity(raw.get(key), f"{key} of {label}") for key in _QUANTITIES[kind]},
+            tuple(self._pair(point, f"outline of {label}") for point in outline),
+            raw.get("clockwise") is True,
+        )
+        if kind == "bar":
+            self._bars.add(name)
+        return shape
+
+    def _place(self, raw: Any, label: str) -> Place:
+        if not isinstance(raw, str):
+            return self._pair(raw, f"place of {label}")
+        if raw not in self._bars:
+            raise _DrawingError(f"{label} starts from '{raw}', which is no bar before it")
+        return raw
+
+    def _pair(self, raw: Any, label: str) -> tuple[Quantity, Quantity]:
+        if not isinstance(raw, list) or len(raw) != 2:
+            raise _DrawingError(f"the {label} is no pair of numbers")
+        return self._quantity(raw[0], label), self._quantity(raw[1], label)
+
+    def _quantity(self, raw: Any, label: str) -> Quantity:
+        if isinstance(raw, str):
+            if raw.removeprefix("-") not in self._variables:
+                raise _DrawingError(f"the {label} is the variable '{raw.removeprefix('-')}', which the FMU has not")
+            return raw
+        if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not math.isfinite(raw):
+            raise _DrawingError(f"the {label} is {raw!r}, neither a number nor the name of a variable")
+        return float(raw)

@@ -1,0 +1,190 @@
+"""Modes and transitions of an FMU's mechanism, `resources/logic.json`, and every event of a run."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from mechanism_fmu.statechart import Logic, taken
+from mechanism_fmu.statechart.records import decode
+
+from ..analysis.impacts import Buffer
+from ..errors import UsageError
+from ..fmu.description import Description, Value
+from ..fmu.interface import Observable
+from ..fmu.values import parse_value
+
+# Modes and transitions of an FMU's mechanism: `resources/logic.json`, when the FMU has one.
+
+#: The format of logic.json that is understood.
+_FORMAT = 1
+
+
+@dataclass(frozen=True)
+class LogicFile:
+    """What an FMU tells about its logic.
+
+    Attributes:
+        contacts: names, in the order of the bits of a mode; () when the FMU tells nothing.
+        events: names of events by (guard, subject).
+        switches: parameters that choose the variant by being zero (false) or not.
+        choices: place of the variant by a text of 0 and 1, one for each switch.
+        variants: the logic of each.
+        objection: why it cannot be used, for the user; "" when nothing is wrong.
+    """
+
+    contacts: tuple[str, ...] = ()
+    events: Mapping[tuple[int, int], str] = field(default_factory=dict)
+    switches: tuple[str, ...] = ()
+    choices: Mapping[str, int] = field(default_factory=dict)
+    variants: tuple[Logic, ...] = ()
+    objection: str = ""
+
+    def chosen(self, parameters: Mapping[str, Value]) -> Logic | None:
+        """The logic for parameter values; None when the FMU tells nothing about these."""
+        key = "".join("1" if parameters.get(name) else "0" for name in self.switches)
+        return self.variants[self.choices[key]] if key in self.choices else None
+
+    def event(self, guard: int, subject: int) -> str:
+        """An event in words."""
+        return self.events.get((guard, subject), f"guard {guard} of {subject}")
+
+    def mode(self, number: int) -> str:
+        """Names of the closed contacts, joined by "+"; the number itself when the FMU gives no names."""
+        if not self.contacts:
+            return str(number)
+        return "+".join(name for bit, name in enumerate(self.contacts) if number >> bit & 1)
+
+
+@lru_cache(maxsize=8)
+def read_logic(folder: Path) -> LogicFile:
+    """The logic in the extracted FMU `folder`; one that cannot be used is an objection and never an error.
+
+    It is read once for all runs with the FMU: nothing changes in an extracted one.
+    """
+    path = folder / "resources" / "logic.json"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return LogicFile()
+    except (OSError, UnicodeDecodeError) as error:
+        return _objection(f"it cannot be read ({error})")
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        return _objection(f"it is no JSON ({error})")
+    try:
+        return _checked(data)
+    except ValueError as error:
+        return _objection(str(error))
+
+
+def default_parameters(description: Description, settings: Mapping[str, Value]) -> dict[str, Value]:
+    """All parameters at their default values, but for the settings."""
+    values: dict[str, Value] = {}
+    for variable in description.of("parameter"):
+        try:
+            values[variable.name] = parse_value(variable.start or "", variable, description)
+        except UsageError:
+            continue  # an odd start value decides nothing here
+    return values | dict(settings)
+
+
+def _objection(problem: str) -> LogicFile:
+    return LogicFile(
+        objection=f"The FMU's modes (resources/logic.json) cannot be shown: {problem}. Build the FMU again."
+    )
+
+
+def _checked(data: Any) -> LogicFile:
+    if not isinstance(data, dict) or not isinstance(data.get("variants"), list):
+        raise ValueError("it holds no list of variants")
+    if data.get("format") != _FORMAT:
+        raise ValueError(f"its format is {data.get('format')!r:.60}, and this harness knows format {_FORMAT}")
+    variants = tuple(decode(variant) for variant in data["variants"])
+    choices = data.get("choices")
+    if not isinstance(choices, dict) or not all(_is_place(place, len(variants)) for place in choices.values()):
+        raise ValueError("its choices name variants that are not there")
+    return LogicFile(_names(data, "contacts"), _events(data), _names(data, "switches"), choices, variants)
+
+
+def _is_place(place: Any, count: int) -> bool:
+    return isinstance(place, int) and not isinstance(place, bool) and 0 <= place < count
+
+
+def _names(data: dict[str, Any], key: str) -> tuple[str, ...]:
+    names = data.get(key)
+    if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
+        raise ValueError(f"it has no list of {key}")
+    return tuple(names)
+
+
+def _events(data: dict[str, Any]) -> dict[tuple[int, int], str]:
+    raw = data.get("events")
+    if not isinstance(raw, list):
+        raise ValueError("it has no list of events")
+    events: dict[tuple[int, int], str] = {}
+    for entry in raw:
+        guard, subject, name = (entry.get(k) if isinstance(entry, dict) else None for k in ("guard", "subject", "name"))
+        if not (isinstance(guard, int) and isinstance(subject, int) and isinstance(name, str)):
+            raise ValueError("an event has no guard, subject and name")
+        events[guard, subject] = name
+    return events
+
+
+# Every event of a run, from the FMU's buffer of the events of the last communication step.
+
+_COUNT = "event_count"
+_FIELDS = ("time", "guard", "subject", "old_mode", "new_mode", "impulse")
+
+#: Columns of the table of events, with their units.
+UNITS = {"time": "s", "guard": "1", "old_mode": "1", "new_mode": "1", "impulse": "N.s"}
+
+
+class EventCollector:
+    """An observer that keeps the events in `events[1].time`, `events[1].guard`, ... after every step.
+
+    Attributes:
+        tells: whether the FMU has these variables; one without them has no events to tell.
+        lost: events that did not fit into the buffer, when the FMU counts all in `event_count`.
+    """
+
+    def __init__(self, description: Description) -> None:
+        self._buffer = Buffer(description, "events", _FIELDS)
+        self._counts = _COUNT in description.variables
+        self._rows: list[list[Value]] = []
+        self.tells = bool(self._buffer.fields)
+        self.lost = 0
+
+    def started(self, unit: Observable, time: float) -> None:
+        """No step, no event."""
+
+    def stepped(self, unit: Observable, time: float) -> None:
+        """Keep the events of the step that ends at `time`."""
+        new = self._buffer.read(unit)
+        self._rows += new
+        if new and self._counts:
+            self.lost = int(unit.get((_COUNT,))[0]) - len(self._rows)
+
+    def table(self, logic: LogicFile) -> pd.DataFrame:
+        """One row for each event, in the order of time, in words: the columns of `UNITS`."""
+        rows = [
+            (time, logic.event(int(guard), int(subject)), logic.mode(int(old)), logic.mode(int(new)), impulse)
+            for time, guard, subject, old, new, impulse in self._rows
+        ]
+        return pd.DataFrame(rows, columns=list(UNITS))
+
+
+def counts_of(logic: Logic, events: pd.DataFrame) -> Mapping[int, int]:
+    """How often each transition of `logic` happened, by its place."""
+    counts = dict.fromkeys(range(len(logic.transitions)), 0)
+    for _, guard, old, new, impulse in events.itertuples(index=False):
+        for place in taken(logic, str(guard), str(old).split("+"), str(new).split("+"), float(impulse)):
+            counts[place] += 1
+    return counts

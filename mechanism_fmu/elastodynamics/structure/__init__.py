@@ -1,0 +1,1 @@
+"""A mechanism as a structure: its elements, what of them is unknown, compatibility, flexibility, masses."""

@@ -1,0 +1,116 @@
+"""How numba's machine code is made as whole programs, and kept in files that are read only as they were written."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from numba.core.caching import IndexDataCacheFile
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
+
+# Compile inner functions only as parts of the entry points that use them.
+#
+# Numba optimises, and turns into machine code, every function by itself together with all that it calls; with functions
+# that call each other ten deep, most of that work is thrown away. Here an inner function stops at intermediate code,
+# and each entry point is optimised and emitted once, as a whole program. Nothing else changes: the numbers are the same
+# with and without this file. It leans on numba's internals, for which numba's minor series is pinned.
+
+
+class _NoEnvironment:
+    """Stands in for the code generator where numba would bind Python objects to machine code that does not exist."""
+
+    def set_env(self, _name: str, _environment: Any) -> None:
+        """Do nothing: the engine's functions use no Python object."""
+
+
+class _InnerLibrary(JITCodeLibrary):
+    """The intermediate code of a function, to be linked into its callers' and never to be run by itself."""
+
+    @property
+    def codegen(self) -> _NoEnvironment:
+        return _NoEnvironment()
+
+    def get_pointer_to_function(self, _name: str) -> int:
+        return 0
+
+    def _optimize_final_module(self) -> None:
+        pass
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+
+class InnerCompiler(CompilerBase):
+    """Numba's own pipeline, with an inner library as its product (`numba.njit(pipeline_class=...)`)."""
+
+    def define_pipelines(self) -> list[Any]:
+        """The usual pipeline."""
+        return [DefaultPassBuilder.define_nopython_pipeline(self.state)]
+
+    def compile_extra(self, func: Callable[..., Any]) -> Any:
+        """Compile `func` into an inner library."""
+        self.state.library = _InnerLibrary(self.state.targetctx.codegen(), func.__qualname__)
+        return super().compile_extra(func)
+
+
+def refuse_python_calls(inner: Any) -> None:
+    """Make calling a compiled inner function from Python an error instead of a jump to code that does not exist."""
+
+    def refuse(*_arguments: Any, **_keywords: Any) -> None:
+        raise TypeError(
+            f"{inner.py_func.__qualname__} has no machine code of its own: only compiled functions can call it. "
+            "Call it from a function that is decorated with `entry`."
+        )
+
+    inner._insert = lambda *_arguments, **_keywords: None
+    inner._compile_for_args = refuse
+
+
+# Machine code that numba keeps in files: each has its digest beside it, and one that does not fit is compiled again.
+#
+# Numba would unpickle whatever it finds: what a full disk has cut off stops it, and what was changed runs.
+
+
+class CheckedFiles(IndexDataCacheFile):
+    """Numba's index and data files of one function, read only as they were written."""
+
+    def _load_index(self) -> Any:
+        return super()._load_index() if _fits(self._index_path) else {}
+
+    def _save_index(self, overloads: Any) -> None:
+        super()._save_index(overloads)
+        _sign(self._index_path)
+
+    def _load_data(self, name: str) -> Any:
+        path = self._data_path(name)
+        if not _fits(path):
+            raise OSError(f"{path} is not as it was written")  # numba then compiles
+        return super()._load_data(name)
+
+    def _save_data(self, name: str, data: Any) -> None:
+        super()._save_data(name, data)
+        _sign(self._data_path(name))
+
+
+def check_files(function: Any) -> None:
+    """Let a function that numba has been told to keep be read by `CheckedFiles`."""
+    function._cache._cache_file.__class__ = CheckedFiles
+
+
+def _digest(path: str) -> str:
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
+def _sign(path: str) -> None:
+    Path(f"{path}.sha256").write_text(_digest(path), encoding="ascii")
+
+
+def _fits(path: str) -> bool:
+    with suppress(OSError, ValueError):
+        return Path(f"{path}.sha256").read_text(encoding="ascii") == _digest(path)
+    return False

@@ -1,0 +1,1 @@
+"""Files and folders: archives, the user's cache, temporary folders."""

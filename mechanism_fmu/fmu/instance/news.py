@@ -1,0 +1,102 @@
+"""What an instance tells through the FMI logger while it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from pythonfmu.enums import Fmi2Status
+
+from ... import codes
+from ...simulation import Simulation
+
+
+class Message(NamedTuple):
+    """A line of the log: text, FMI status, category."""
+
+    text: str
+    status: Fmi2Status
+    category: str
+
+
+class News:
+    """Keeps count of what has been told.
+
+    Args:
+        simulation: all that has happened to it so far counts as told.
+    """
+
+    def __init__(self, simulation: Simulation | None = None) -> None:
+        self._impacts = 0 if simulation is None else simulation.counters.item(codes.COUNT_IMPACTS)
+        self._events = 0 if simulation is None else simulation.counters.item(codes.COUNT_EVENTS)
+        self._lost = 0 if simulation is None else simulation.counters.item(codes.COUNT_LOST)
+        self._pulls = set[str]() if simulation is None else set(simulation.pulling_contacts())
+
+    def since_last(self, simulation: Simulation) -> Iterator[Message]:
+        """Impacts and events of the step, those that the buffers lost, contacts that have begun to pull."""
+        counters = simulation.counters
+        if counters.item(codes.COUNT_IMPACTS) != self._impacts:
+            self._impacts = counters.item(codes.COUNT_IMPACTS)
+            yield from _impacts(simulation)
+        if counters.item(codes.COUNT_EVENTS) != self._events:
+            new = counters.item(codes.COUNT_EVENTS) - self._events
+            self._events += new
+            yield from _events(simulation, new)
+        if counters.item(codes.COUNT_LOST) != self._lost:
+            lost = counters.item(codes.COUNT_LOST) - self._lost
+            self._lost += lost
+            yield Message(
+                f"{lost} impacts of the step to t = {simulation.time:.9g} s did not fit into "
+                f"impacts[1..{codes.IMPACT_BUFFER_LENGTH}] and are lost to the outside (the motion is right); "
+                "use a shorter communication step.",
+                Fmi2Status.warning,
+                "logStatusWarning",
+            )
+        if counters.item(codes.COUNT_PULLS) > len(self._pulls):
+            for contact, time in simulation.pulling_contacts().items():
+                if contact not in self._pulls:
+                    self._pulls.add(contact)
+                    yield pulls(contact, time)
+
+
+def _impacts(simulation: Simulation) -> Iterator[Message]:
+    for impact in simulation.impacts_in_step():
+        yield Message(
+            f"Impact on {impact.contact} at t = {impact.time:.12g} s: closing speed {impact.closing_speed:.6g} m/s, "
+            f"impulse {impact.impulse:.6g} N.s.",
+            Fmi2Status.ok,
+            "logEvents",
+        )
+
+
+def _events(simulation: Simulation, new: int) -> Iterator[Message]:
+    """What is known of the `new` events; of a step with many, the last ones."""
+    known = simulation.events_in_step()
+    if new > len(known):
+        yield Message(
+            f"{new - len(known)} events of the step to t = {simulation.time:.9g} s are not told one by one; the last "
+            f"{len(known)} follow.",
+            Fmi2Status.ok,
+            "logEvents",
+        )
+    for event in known:
+        yield Message(
+            f"Event {event.guard} at t = {event.time:.12g} s: {_mode(event.old_mode)} -> {_mode(event.new_mode)}, "
+            f"total impulse {event.impulse:.6g} N.s.",
+            Fmi2Status.ok,
+            "logEvents",
+        )
+
+
+def _mode(closed: tuple[str, ...]) -> str:
+    return "+".join(closed) or "all open"
+
+
+def pulls(contact: str, time: float) -> Message:
+    """A guided contact has pulled from a time [s] on."""
+    return Message(
+        f"From t = {time:.6g} s the guided contact {contact} pulls: it holds the bodies together where a real contact "
+        "would open. The motion from here on is the guided model's, as in the paper.",
+        Fmi2Status.warning,
+        "logStatusWarning",
+    )

@@ -1,0 +1,1 @@
+"""What travels in an FMU of every flavour: variables, descriptions, documentation, drawing, logic."""

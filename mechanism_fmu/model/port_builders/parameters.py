@@ -1,0 +1,176 @@
+"""Parameters and inputs that many mechanisms have."""
+
+from __future__ import annotations
+
+from ..ports import Input, Parameter
+
+# Parameters by what they measure, with the limits that keep the numerics sound; `start` is in the SI unit.
+
+
+def length_parameter(name: str, start: float, description: str, minimum: float = 1e-6) -> Parameter:
+    """A length [m], from `minimum` to 1 km; not zero if nothing else is said."""
+    return Parameter(name, start, description, "m", minimum, 1e3)
+
+
+def angle_parameter(
+    name: str, start: float, description: str, minimum: float = -1e3, maximum: float = 1e3
+) -> Parameter:
+    """An angle [rad], shown in degrees."""
+    return Parameter(name, start, description, "rad", minimum, maximum, display_unit="deg")
+
+
+def speed_parameter(name: str, start: float, description: str) -> Parameter:
+    """An angular velocity [rad/s], shown in rpm."""
+    return Parameter(name, start, description, "rad/s", -1e6, 1e6, display_unit="rpm")
+
+
+def mass_parameter(name: str, start: float, description: str) -> Parameter:
+    """A mass [kg], not zero."""
+    return Parameter(name, start, description, "kg", 1e-12, 1e6)
+
+
+def inertia_parameter(name: str, start: float, description: str) -> Parameter:
+    """A moment of inertia [kg.m2], not zero."""
+    return Parameter(name, start, description, "kg.m2", 1e-12, 1e6)
+
+
+def stiffness_parameter(name: str, start: float, description: str) -> Parameter:
+    """Stiffness of a torsion spring [N.m/rad], which may be zero."""
+    return Parameter(name, start, description, "N.m/rad", 0.0, 1e6)
+
+
+def torque_parameter(name: str, start: float, description: str) -> Parameter:
+    """A torque [N.m]."""
+    return Parameter(name, start, description, "N.m", -1e6, 1e6)
+
+
+def fraction_parameter(name: str, start: float, description: str) -> Parameter:
+    """A number from 0 to 1, such as a coefficient of restitution."""
+    return Parameter(name, start, description, "1", 0.0, 1.0)
+
+
+def flag_parameter(name: str, start: bool, description: str) -> Parameter:
+    """Yes or no; the function of the mechanism gets 1 or 0."""
+    return Parameter(name, float(start), description, type="Boolean")
+
+
+# Parameters of parts; their names begin with the part's.
+
+
+def body_parameters(body: str, mass: float, inertia: float) -> tuple[Parameter, Parameter]:
+    """<body>_mass [kg] and <body>_inertia [kg.m2] about the centre of mass."""
+    return (
+        mass_parameter(f"{body}_mass", mass, f"Mass of the {body}"),
+        inertia_parameter(f"{body}_inertia", inertia, f"Moment of inertia of the {body} about its centre of mass"),
+    )
+
+
+def rotor_parameters(body: str, mass: float, inertia: float) -> tuple[Parameter, Parameter]:
+    """<body>_mass [kg] and <body>_inertia [kg.m2] of a body that turns about its centre of mass."""
+    return (
+        mass_parameter(f"{body}_mass", mass, f"Mass of the {body}; it matters for nothing but friction"),
+        inertia_parameter(f"{body}_inertia", inertia, f"Moment of inertia of the {body} about its hinge"),
+    )
+
+
+def link_parameters(
+    body: str, length: float, mass: float, inertia: float, centre: float, origin: str
+) -> tuple[Parameter, ...]:
+    """<body>_length [m], _mass [kg], _inertia [kg.m2] and _centre [m] of a bar.
+
+    Args:
+        body: its name.
+        length: between its pins [m].
+        mass: [kg].
+        inertia: about the centre of mass [kg.m2].
+        centre: distance [m] of the centre of mass from `origin`, along the bar; it may lie behind it.
+        origin: the pin from which it counts, e.g. "its hinge".
+    """
+    away = f"Distance of the {body}'s centre of mass from {origin}, along it"
+    return (
+        length_parameter(f"{body}_length", length, f"Length of the {body}"),
+        *body_parameters(body, mass, inertia),
+        length_parameter(f"{body}_centre", centre, away, minimum=-1e3),
+    )
+
+
+def damping_parameter(body: str, start: float = 0.0) -> Parameter:
+    """<body>_damping [N.m.s/rad]: viscous, of the body's rotation."""
+    return Parameter(f"{body}_damping", start, f"Damping of the {body}'s rotation", "N.m.s/rad", 0.0, 1e6)
+
+
+def shaft_parameters(damping: float) -> tuple[Parameter, Parameter]:
+    """drive_stiffness [N.m/rad], 0 at first, and drive_damping [N.m.s/rad] of the `CompliantShaft` "shaft"."""
+    lag = "Damping of the drive shaft: torque per lag of speed"
+    return (
+        Parameter("drive_stiffness", 0.0, "Stiffness of the drive shaft", "N.m/rad", 0.0, 1e9),
+        Parameter("drive_damping", damping, lag, "N.m.s/rad", 0.0, 1e9),
+    )
+
+
+def joint_friction_parameter(hinges: str = "all hinges") -> Parameter:
+    """joint_friction_radius [m]: Coulomb friction of the hinges, `friction_radius` of `Revolute`."""
+    description = f"Coefficient of friction times pin radius, of {hinges}"
+    return Parameter("joint_friction_radius", 0.0, description, "m", 0.0, 1.0)
+
+
+def settings_parameters() -> tuple[Parameter, ...]:
+    """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s], tolerance, most steps."""
+    return (
+        Parameter("baumgarte_alpha", 10.0, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
+        Parameter("baumgarte_beta", 1.0, "Baumgarte gain on the constraints, squared in use", "1/s", 0.0, 1e4),
+        Parameter("relative_tolerance", 1e-9, "Relative tolerance of the integration", "1", 1e-13, 1e-3),
+        Parameter(
+            "max_internal_steps",
+            200_000,
+            "Most internal steps of one communication step, which ends early when it needs more",
+            "1",
+            10,
+            1e9,
+            "Integer",
+        ),
+    )
+
+
+# Inputs that many mechanisms have.
+
+
+def shaft_inputs(speed: float, angle: float = 0.0, shaft: str = "drive shaft") -> tuple[Input, Input]:
+    """Speed and angle of the driven end of the `CompliantShaft` "shaft": drive_speed and drive_angle.
+
+    Args:
+        speed: before the first value arrives [rad/s].
+        angle: before the first value arrives [rad].
+        shaft: what it is called in the descriptions.
+    """
+    end = f"of the driven end of the {shaft} (it acts when"
+    return (
+        Input("drive_speed", "shaft.speed", speed, f"Speed {end} drive_damping > 0)", "rad/s", -1e6, 1e6, "rpm"),
+        Input("drive_angle", "shaft.angle", angle, f"Angle {end} drive_stiffness > 0)", "rad", -1e6, 1e6, "deg"),
+    )
+
+
+def torque_input(force: str, body: str, start: float = 0.0) -> Input:
+    """The torque [N.m] of a `Torque` on a body: <force>_torque.
+
+    Args:
+        force: name of the `Torque`, e.g. "drive".
+        body: on which it acts, for the description.
+        start: before the first value arrives [N.m].
+    """
+    return _torque(force, f"Torque on the {body}", start)
+
+
+def load_torque_input(body: str, start: float = 0.0) -> Input:
+    """The torque [N.m] of what a body drives, by the `Torque` "load": load_torque.
+
+    Args:
+        body: on which it acts, for the description.
+        start: before the first value arrives [N.m].
+    """
+    return _torque("load", f"External torque on the {body}", start)
+
+
+def _torque(force: str, what: str, start: float) -> Input:
+    description = f"{what}, counter-clockwise positive"
+    return Input(f"{force}_torque", f"{force}.torque", start, description, "N.m", -1e6, 1e6)
