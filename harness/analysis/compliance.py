@@ -12,6 +12,7 @@ import pandas as pd
 
 from mechanism_fmu.stress.links import Bar, Loaded, Pose, SeriesLinks, Teeth
 
+from ..errors import FmuError
 from ..fmu.declared import Chain, Link, value_of
 from ..fmu.description import Value
 
@@ -113,6 +114,12 @@ def _name(chain: Chain, field: str) -> str:
 
 def _links(chain: Chain, parameters: Mapping[str, Value]) -> SeriesLinks:
     arm, strut, wheel = (_numbers(link, parameters) for link in chain.links)
+    for link in chain.links[:2]:
+        for name, value in _numbers(link, parameters).items():
+            if name in ("length", "width", "depth", "stiffness") and not value > 0.0:
+                raise FmuError(
+                    f"The {link.name}'s {name} is {value:g}, but a link that gives way needs a positive one."
+                )
     return SeriesLinks(
         Bar.cantilever(**arm),
         Bar(strut["length"], strut["width"], strut["depth"], 1 / strut["stiffness"]),

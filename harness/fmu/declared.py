@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import math
+import sys
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -208,7 +208,7 @@ class _Reader:
         value = entry.get(key) if isinstance(entry, dict) else None
         if isinstance(value, str):
             return self.variable(entry, key)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
             raise _DeclarationError(f"{key} of {self.label} is {value!r}, neither a number nor the name of a variable")
         return float(value)
 

@@ -13,7 +13,7 @@ from ..tables.parts import Bodies, Contacts, Patterns, Ports
 from ..tables.sizes import Sizes
 from .compiler.by_kind import by_kind
 from .compiler.subset import entry, jit, keep_small
-from .constraints.kinematics import place_bodies
+from .constraints.kinematics import place_bodies, set_instant
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
 from .dynamics.forces import (
@@ -251,7 +251,7 @@ def read_outputs(block: Array) -> None:
     table = Ports(block)
     s = Stages(block)
     state_at_time(block, s.y_at)
-    Pose(block).instant[0] = Course(block).clock[codes.TIME]
+    set_instant(block, Course(block).clock[codes.TIME])
     feed(block, table.inputs)  # one that was set after the last step acts already
     at = place_bodies(block, s.y_at)
     bends = Sizes(block).nodes > 0
@@ -275,7 +275,7 @@ def read_output_rates(block: Array) -> None:
     table = Ports(block)
     s = Stages(block)
     state_at_time(block, s.y_at)
-    Pose(block).instant[0] = Course(block).clock[codes.TIME]
+    set_instant(block, Course(block).clock[codes.TIME])
     feed(block, table.inputs)  # one that was set after the last step acts already
     at = derivative(block, s.y_at, s.dy_at)
     for o in range(table.outputs.shape[0]):

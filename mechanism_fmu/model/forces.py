@@ -47,7 +47,7 @@ class _Element:
     writable: ClassVar[tuple[str, ...]] = ()
     quantities: ClassVar[Mapping[str, Quantity]] = {}
     own: ClassVar = 0
-    acts: ClassVar[Literal["torque", "at centre", "at points"]] = "torque"
+    acts: ClassVar[Literal["torque", "at centre", "at points"]]
     positive: ClassVar[Mapping[str, str]] = {}
     not_negative: ClassVar[Mapping[str, str]] = {}
 
@@ -93,6 +93,7 @@ class Torque(_Element):
     """
 
     row: ClassVar = "torque"
+    acts: ClassVar = "torque"
     writable: ClassVar = ("torque",)
 
     name: str
@@ -117,6 +118,7 @@ class TorsionSpring(_Element):
     """
 
     row: ClassVar = "torsion_spring"
+    acts: ClassVar = "torque"
     writable: ClassVar = ("preload",)
     not_negative: ClassVar = {"stiffness": "N.m/rad"}
 
@@ -139,6 +141,7 @@ class Damper(_Element):
     """
 
     row: ClassVar = "damper"
+    acts: ClassVar = "torque"
     not_negative: ClassVar = {"damping": "N.m.s/rad"}
 
     name: str
@@ -164,6 +167,7 @@ class CompliantShaft(_Element):
     """
 
     row: ClassVar = "shaft"
+    acts: ClassVar = "torque"
     writable: ClassVar = ("angle", "speed")
     quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the shaft on its body", ("angle", "speed"))}
     not_negative: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
@@ -221,6 +225,7 @@ class SlipClutch(_Element):
     """
 
     row: ClassVar = "slip_clutch"
+    acts: ClassVar = "torque"
     writable: ClassVar = ("limit", "speed")
     quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the clutch on its body", ("limit", "speed"))}
     positive: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
@@ -263,6 +268,7 @@ class DCMotor(_Element):
     """
 
     row: ClassVar = "dc_motor"
+    acts: ClassVar = "torque"
     writable: ClassVar = ("voltage", "speed")
     quantities: ClassVar = {
         "torque": Quantity("N.m", "Torque of the motor on its body"),
@@ -301,7 +307,8 @@ class SpringDamper(_Element):
         f = stiffness (l - free_length) + damping l' + preload.
 
     The energy of the linear part counts as spring energy, the work of the preload as work done on the mechanism, and
-    what the damper takes as lost. Where the points meet, the force has no direction and vanishes.
+    what the damper takes as lost. Where the points meet, the force acts along their relative velocity; where they rest
+    there, it has no direction and vanishes.
 
     Attributes:
         name: unique within the mechanism.

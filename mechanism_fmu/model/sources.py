@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from difflib import get_close_matches
+from typing import get_args
 
 from .. import codes
 from .beams import OF_BEAM, beam_members, hinge
 from .contacts import AngleStop
 from .errors import MechanismError
+from .forces import ForceElement
 from .functions import Number
+from .joints import Joint
 from .mechanism import Mechanism
 from .structure import nodes_of
 
@@ -94,9 +97,8 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
         raise MechanismError(
             f"output source {source!r} is unknown{meant}<body>.x|y|angle|x_rate|y_rate|speed, "
-            f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, <pattern>.index, <shaft>.torque, "
-            f"<clutch>.torque, <motor>.torque|current|voltage, "
-            f"<joint>.force|force_x|force_y|normal_force|torque as the joint has them, event.count|in_step, "
+            f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, <pattern>.index, "
+            f"{', '.join(_of_kinds())}, event.count|in_step, "
             f"<member>.{'|'.join([*_OF_MEMBER, *OF_BEAM])}, <member>.start|end.{'|'.join(_OF_MEMBER_END)}, "
             f"events[k].{'|'.join(_EVENT_FIELDS)}, energy.{'|'.join(_ENERGIES)}, "
             f"impact.{'|'.join([*_COUNTERS, *_FIELDS])} or impacts[k].<field>, with "
@@ -106,13 +108,23 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
     return found
 
 
+def _of_kinds() -> Iterator[str]:
+    """What can be read of force elements and joints, by class."""
+    for force in get_args(ForceElement):
+        if force.quantities:
+            yield f"<{force.__name__}>.{'|'.join(force.quantities)}"
+    for joint in get_args(Joint):
+        if joint.efforts:
+            yield f"<{joint.__name__}>.{'|'.join(joint.efforts)}"
+
+
 def _common_sources(mechanism: Mechanism) -> Iterator[str]:
     """The sources among which a misspelt one is looked for."""
     for body in mechanism.bodies:
         yield from (f"{body.name}.{quantity}" for quantity in (*_COORDINATES, *_RATES))
         yield from (f"impact.{field}:{body.name}" for field in ("speed", "speed_before"))
     for contact in mechanism.contacts:
-        yield from (f"{contact.name}.{quantity}" for quantity in _OF_CONTACT)
+        yield from (f"{contact.name}.{quantity}" for quantity in contact.readings)
         yield f"impact.impulse:{contact.name}"
     yield from (f"{pattern.name}.index" for pattern in mechanism.patterns)
     for force in mechanism.forces:

@@ -1,6 +1,7 @@
 """A bar on a hinge that bends under its own inertia: closed forms, and the ratchet's pawl seen from its other end."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from mechanism_fmu.model import (
     PointLineContact,
     Revolute,
     Section,
+    SpringDamper,
     Torque,
     hinged_beam_outputs,
 )
@@ -126,6 +128,9 @@ def test_what_pushes_or_weighs_beside_the_tip_is_refused():
             compile_mechanism(bar(contacts=(contact,)))
     with pytest.raises(MechanismError, match=r"Disk 'lump' stands beside the ends of member 'beam'"):
         compile_mechanism(bar(disks=(Disk("lump", "rod", (0.0, 0.0), 0.1),)))
+    strut = SpringDamper("strut", "rod", (0.0, 0.0), GROUND, (0.0, 1.0))
+    with pytest.raises(MechanismError, match=r"SpringDamper 'strut' acts at a point of body 'rod'"):
+        compile_mechanism(replace(bar(), forces=(strut,)))
     at_tip = Disk("tip", "rod", (LENGTH / 2, 0.0), 0.1)
     assert compile_mechanism(bar(disks=(at_tip,))).beam_body.tolist() == [0]
 

@@ -98,10 +98,36 @@ def test_energy_is_that_of_the_instant_that_is_read_whatever_was_looked_at_befor
         assert found["kinetic"] + found["spring"] == pytest.approx(2.5, rel=1e-9)
 
 
-def test_where_the_points_meet_there_is_no_force():
-    simulation = Simulation(swung(1.0, 10.0, 1.0, 0.0, 0.0, 0.0, 0.0))
+def test_where_the_points_rest_in_one_place_there_is_no_force():
+    simulation = Simulation(swung(1.0, 10.0, 1.0, 3.0, 0.0, 0.0, 2.0))
+    assert simulation.read()["force"] == 0.0
     simulation.advance(0.5)
-    assert simulation.read() == dict.fromkeys(simulation.read(), 0.0)
+    found = simulation.read()
+    assert found.pop("spring") == 0.5 * 10.0 * 2.0**2  # it is pressed together to nothing
+    assert found == dict.fromkeys(found, 0.0)
+
+
+def test_from_one_place_the_force_acts_along_the_relative_velocity():
+    simulation = Simulation(swung(1.0, 0.0, 0.5, 0.0, 0.0, 1.5, 0.0))
+    assert simulation.read()["force"] == 0.5 * 1.5
+    simulation.advance(1.0)
+    found = simulation.read()
+    assert found["x"] == pytest.approx(1.5 * (1 - math.exp(-0.5)) / 0.5, abs=1e-9)
+    assert found["lost"] == pytest.approx(0.5 * 1.5**2 * (1 - math.exp(-1.0)), abs=1e-9)
+
+
+def test_derivatives_of_outputs_are_those_of_differences():
+    simulation = Simulation(swung(0.7, 20.0, 0.6, 0.5, 2.1, 0.3, 2.0))
+    size, values = 1e-4, []
+    for time in (0.4 - size, 0.4, 0.4 + size):
+        simulation.advance(time)
+        values.append(simulation.read())
+        if time == 0.4:
+            rates = simulation.read_rates()
+    for name in ("length", "spring", "x"):
+        difference = (values[2][name] - values[0][name]) / (2 * size)
+        assert rates[name] == pytest.approx(difference, abs=1e-6)
+    assert math.isnan(rates["force"])
 
 
 @pytest.mark.parametrize("number", ["stiffness", "damping", "free_length"])

@@ -9,9 +9,10 @@ from typing import Any
 
 import pandas as pd
 
-#: Entries of result files that differ from run to run.
+#: Entries of result files that differ from run to run, by their whole names.
 _PASSING = re.compile(
-    r"^file$|time_spent|guid|token|date|created|started|ended|duration|elapsed|seconds|version|digest|sha|process|host|path"
+    r"file|fmu|guid|token|(time|date|seconds|started|ended|created)(_\w+)?|\w+_(guid|token|sha256|digest|version|seconds)"
+    r"|\w*version|\w*digest|sha256|process|host|path|command|duration|elapsed|time_spent|stress_code"
 )
 _GUID = re.compile(r"\{?[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}\}?")
 
@@ -32,10 +33,14 @@ def contents(folder: Path) -> dict[str, str]:
 
 def _lasting(value: Any) -> Any:
     if isinstance(value, dict):
-        return {key: _lasting(entry) for key, entry in value.items() if not _PASSING.search(key.lower())}
+        return {key: _lasting(entry) for key, entry in value.items() if not _passes(key)}
     return [_lasting(entry) for entry in value] if isinstance(value, list) else value
 
 
 def _table(frame: pd.DataFrame) -> str:
-    lasting = [name for name in frame.columns if not _PASSING.search(name.lower())]
+    lasting = [name for name in frame.columns if not _passes(name)]
     return "\n".join(repr(tuple(row)) for row in [lasting, *frame[lasting].itertuples(index=False, name=None)])
+
+
+def _passes(name: str) -> bool:
+    return name != "time" and bool(_PASSING.fullmatch(name.lower()))

@@ -11,6 +11,12 @@ from ..compiler.subset import jit, keep_small
 
 
 @jit
+def set_instant(block: Array, time: float) -> None:
+    """Make `time` [s] the instant that drivers see."""
+    Pose(block).instant[0] = time
+
+
+@jit
 def place_bodies(block: Array, y: Array) -> Pose:
     """Poses and rates of y = (q, qd, work, loss, alpha, ...).
 

@@ -14,7 +14,7 @@ from ..compiler.subset import entry, jit, keep_small
 from ..profiles.curves import curve
 from ..vectors import clear
 from .joints.cams import cam_flat_follower, cam_follower, point_follower
-from .kinematics import place_bodies
+from .kinematics import place_bodies, set_instant
 from .rows import contact_row, joint_rows
 
 
@@ -26,7 +26,7 @@ def textbook_rows(block: Array, time: float) -> None:
     Contact c has the rows from `joint_rows + row_first[c]` on (without meaning when it is not enabled); contact
     coordinate k has the column `columns + k`. gamma is without Baumgarte's terms.
     """
-    Pose(block).instant[0] = time
+    set_instant(block, time)
     at = place_bodies(block, Course(block).y_end)
     joint_rows(block, at)
     table = Contacts(block)

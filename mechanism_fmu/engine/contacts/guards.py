@@ -38,7 +38,6 @@ def place_contact(block: Array, at: Pose, contact: int) -> None:
         turns = float(table.clicks[contact])
         pitch = data[codes.STOP_PITCH]
         if table.kind[contact] == codes.ANGLE_LOCK:
-            at = at
             relative = at.phi[table.body_i[contact]] - at.phi[table.body_j[contact]]
             turns = math.floor((relative - data[codes.STOP_ANGLE]) / pitch + 0.5)
         line[0] = data[codes.STOP_ANGLE] + turns * pitch

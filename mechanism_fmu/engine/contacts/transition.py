@@ -189,6 +189,7 @@ def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
     if count == 0:
         return status.OK
     Strikes(block).problem[COUNT] = count
+    at = place_bodies(block, Course(block).y_end)
     outcome = push_forces(block, at)
     for k in range(count):
         c = Strikes(block).candidates[k]

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Pose
+from ...tables.motion import Course
 from ...tables.parts import Forces, Ports
 from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import set_instant
 
 
 @jit
@@ -55,7 +56,7 @@ def feed(block: Array, values: Array) -> None:
 @jit
 def set_time(block: Array, time: float) -> None:
     """Make `time` [s] the instant that drivers see, and feed the inputs' values there, if any has a slope."""
-    Pose(block).instant[0] = time
+    set_instant(block, time)
     if Course(block).counters[codes.RAMPING] != 0:
         _feed_ramp(block, time)
 

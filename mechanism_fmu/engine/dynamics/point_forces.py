@@ -22,16 +22,17 @@ LENGTH, RATE, FORCE = range(3)
 class Line(NamedTuple):
     """Between the points of a spring-damper, in the global frame.
 
-    a and b from the centres of mass to the points [m]; from the point of the body to that of the reaction [m]; its
-    length [m] and the rate of that [m/s].
+    a and b from the centres of mass to the points [m]; the unit vector from the point of the body to that of the
+    reaction; the length [m] and its rate [m/s]. Where the points meet, the vector is that of their relative velocity,
+    and zero where they rest there.
     """
 
     ax: float
     ay: float
     bx: float
     by: float
-    x: float
-    y: float
+    ux: float
+    uy: float
     length: float
     speed: float
 
@@ -64,7 +65,7 @@ def weight(block: Array, body: int) -> tuple[float, float]:
 
 @jit
 def _spring_damper(
-    block: Array, at: Pose, k: int, y: Array, _dy: Array, given: float, lost: float
+    block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float, lost: float
 ) -> tuple[float, float]:
     """Stores the energy of its linear part; the work of its preload is given."""
     keep_small()
@@ -73,12 +74,9 @@ def _spring_damper(
     i = table.body[k]
     j = table.reaction[k]
     line = _line(block, at, k)
-    pull = _read_spring_damper(block, at, k, y, FORCE)
-    fx = 0.0
-    fy = 0.0
-    if line.length > 0.0:
-        fx = pull * line.x / line.length
-        fy = pull * line.y / line.length
+    pull = _pull(data, line)
+    fx = pull * line.ux
+    fy = pull * line.uy
     force = Loads(block).force
     force[3 * i] += fx
     force[3 * i + 1] += fy
@@ -106,10 +104,26 @@ def _line(block: Array, at: Pose, k: int) -> Line:
     x_rate = at.x_rate[j] - by * at.phi_rate[j] - at.x_rate[i] + ay * at.phi_rate[i]
     y_rate = at.y_rate[j] + bx * at.phi_rate[j] - at.y_rate[i] - ax * at.phi_rate[i]
     length = math.sqrt(x * x + y * y)
-    speed = math.sqrt(x_rate * x_rate + y_rate * y_rate)
     if length > 0.0:
-        speed = (x * x_rate + y * y_rate) / length
-    return Line(ax, ay, bx, by, x, y, length, speed)
+        ux = x / length
+        uy = y / length
+        return Line(ax, ay, bx, by, ux, uy, length, ux * x_rate + uy * y_rate)
+    speed = math.sqrt(x_rate * x_rate + y_rate * y_rate)
+    ux = 0.0
+    uy = 0.0
+    if speed > 0.0:
+        ux = x_rate / speed
+        uy = y_rate / speed
+    return Line(ax, ay, bx, by, ux, uy, length, speed)
+
+
+@jit
+def _pull(data: Array, line: Line) -> float:
+    """Force that pulls the points together [N]; none where they rest in one place, as it has no direction there."""
+    if line.ux == 0.0 and line.uy == 0.0:
+        return 0.0
+    pull: float = data[STIFFNESS] * (line.length - data[FREE_LENGTH]) + data[DAMPING] * line.speed + data[PRELOAD]
+    return pull
 
 
 @jit
@@ -137,8 +151,7 @@ def _read_spring_damper(block: Array, at: Pose, k: int, _y: Array, which: int) -
         return line.length
     if which == RATE:
         return line.speed
-    pull: float = data[STIFFNESS] * (line.length - data[FREE_LENGTH]) + data[DAMPING] * line.speed + data[PRELOAD]
-    return pull
+    return _pull(data, line)
 
 
 @jit

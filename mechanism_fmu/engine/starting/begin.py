@@ -43,6 +43,7 @@ def start(block: Array, time: float) -> int:
         return status.OVERLAP
     if not _close_rates(block, at):
         return status.START_RATES
+    at = place_bodies(block, Course(block).y_end)
     if not _contacts_begin(block, at):
         return status.START_INSIDE
     return status.OK

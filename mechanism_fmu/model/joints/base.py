@@ -14,7 +14,7 @@ from ..functions import Number, where_positive
 
 
 def unit_vector(axis: Point) -> Point:
-    """The unit vector along `axis`; a vector of no length, which `check_joint_numbers` refuses, stays as it is."""
+    """The unit vector along `axis`; a vector of no length, which `findings` refuses, stays as it is."""
     long = length(axis)
     size = where_positive(long, long, 1.0)
     return axis[0] / size, axis[1] / size

@@ -1,5 +1,6 @@
 """Joints, drivers and higher pairs as tables, and what is refused of them."""
 
+import inspect
 import math
 from dataclasses import replace
 from typing import get_args
@@ -308,3 +309,11 @@ def test_the_engine_has_every_kind():
     for force in get_args(ForceElement):
         assert bool(force.quantities) == (ELEMENTS[force.row].read is not None)
         assert (ELEMENTS[force.row].stored is None) == (ELEMENTS[force.row].storing is None)
+
+
+def test_every_force_element_is_among_the_examples_and_says_how_it_acts():
+    assert {type(force) for force in FORCE_ELEMENTS} == set(get_args(ForceElement))
+    for force in FORCE_ELEMENTS:
+        act = ELEMENTS[force.row].act
+        source = inspect.getsource(getattr(act, "py_func", act))
+        assert ("turn(block, k" in source) == (force.acts == "torque")

@@ -19,6 +19,7 @@ from mechanism_fmu.model import (
     Output,
     Revolute,
     Section,
+    SpringDamper,
     Torque,
     Translational,
     polynomial_motion,
@@ -117,6 +118,10 @@ def test_without_outputs_that_read_members_there_are_no_tables_of_them():
         ({"held": ("rod.x",)}, "Held coordinate 'rod.x' is the centre of mass of a body with members"),
         ({"held": ("rod.angle",)}, "Held coordinate 'rod.angle' turns 'rod' against 'ground', which have 0 pins"),
         ({"forces": (Torque("twist", "rod"),)}, "Torque 'twist' turns 'rod' against 'ground', which have 0 pins"),
+        (
+            {"forces": (SpringDamper("strut", "rod", (0.0, 0.0), GROUND, (0.0, 1.0)),)},
+            "SpringDamper 'strut' acts at points of its bodies, which loads no member yet",
+        ),
         ({"held": ()}, "18 displacements, but 3 members, 8 rows of joints and 0 held coordinates give 17 conditions"),
         ({"disks": (Disk("off", "rod", (0.0, 0.0), 1.0),)}, r"Disk 'off' stands at \(0.0, 0.0\) of body 'rod'"),
         ({"outputs": (Output("x", "arm.end.z", ""),)}, "'arm.end.z' is unknown; did you mean 'arm.end.[xy]'"),

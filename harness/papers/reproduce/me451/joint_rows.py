@@ -248,10 +248,19 @@ def five_steps(kind: str, removed: int, verdict: Verdict = Verdict.ANSWERED) -> 
     return find
 
 
+#: The file of each joint, by the name of its page, in the model and in the engine.
+_FILES = {
+    **dict.fromkeys(("revolute", "translational", "distance", "revolute_translational"), "pins_and_slides"),
+    **dict.fromkeys(("gears", "internal_gears", "rack_and_pinion"), "gears"),
+    **dict.fromkeys(("cam_follower", "cam_flat_follower", "point_follower"), "cams"),
+    "drivers": "drivers",
+}
+
+
 def _joint(
     key: str, place: str, says: str, printed: str, file: str, removed: int, verdict: Verdict = Verdict.ANSWERED
 ) -> Row:
-    code = (f"{JOINTS}/{file}.py", f"{ROWS_OF_JOINTS}/{file.removeprefix('internal_')}.py", f"docs/joints/{file}.md")
+    code = (f"{JOINTS}/{_FILES[file]}.py", f"{ROWS_OF_JOINTS}/{_FILES[file]}.py", f"docs/joints/{file}.md")
     return Row(f"S-{key}", place, says, printed, code, five_steps(key, removed, verdict))
 
 
