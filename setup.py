@@ -1,8 +1,9 @@
 """How a wheel is laid out; everything else of the project is in pyproject.toml.
 
-In the tree and in an editable install, `harness`, `models` and `build_fmu` are importable by these names. At the root of
-site-packages they would hide, or be hidden by, what others call so. A wheel therefore holds them below `mechanism_fmu`
-(docs/decisions/037-one-name-in-site-packages.md): moved when it is built, with the imports between them written anew.
+In the tree and in an editable install, `harness`, `models` and `build_fmu` are importable by these names. At the root
+of site-packages they would hide, or be hidden by, what others call so. A wheel therefore holds them below
+`mechanism_fmu` (docs/decisions/037-one-name-in-site-packages.md): moved when it is built, with the imports between them
+written anew.
 """
 
 from __future__ import annotations

@@ -16,8 +16,8 @@ from harness.run.experiment import Experiment, perform
 from mechanism_fmu.stress import STEEL, WedgeTooth, maximum_stress
 
 ROOT = Path(__file__).parents[1]
-#: The base case of the paper with another torque and preload: time of the first impact, and the wheel's speed before and
-#: after it, by the plain implementation of the same equations in `benchmarks.reference`.
+#: The base case of the paper with another torque and preload: time of the first impact, and the wheel's speed before
+#: and after it, by the plain implementation of the same equations in `benchmarks.reference`.
 INPUTS = {"drive_torque": 2e-3, "spring_preload": 1e-3}
 TIME, BEFORE, AFTER = 0.6579058142133577, -2.05641553e-2, 1.29663422e-2
 #: The base case: jump of the tooth's tip [m/s], and the stress that it leaves [Pa], as README.md has them.

@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from harness.app.cli import main
+from harness.app.commands import examples
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 NAMES = sorted(path.name for path in EXAMPLES.iterdir() if path.is_file())
@@ -39,15 +40,23 @@ def test_they_are_copied_as_they_are(
 
 
 def test_the_commands_for_the_copies_are_those_that_there_are(tmp_path: Path) -> None:
-    """Every file but the signals has one; its command exists, and its last word is a copy."""
+    """Every file but the signals has one, which names the copy; it exists, and a program has its arguments."""
     folder = tmp_path / "examples"
     output = invoke("--copy", folder)[1]
     commands = [shlex.split(line) for line in output.splitlines() if line.startswith(("mechanism-fmu", "python"))]
-    assert sorted(Path(words[-1]).name for words in commands) == [n for n in NAMES if not n.endswith(".csv")]
+    files = [next(word for word in words if word.startswith(str(folder))) for words in commands]
+    assert sorted(Path(file).name for file in files) == [name for name in NAMES if not name.endswith(".csv")]
     for words in commands:
-        assert Path(words[-1]).parent == folder
         if words[0] == "mechanism-fmu":
             assert CliRunner().invoke(main, [*words[1:-1], "--help"]).exit_code == 0
+    assert ["python", str(folder / "ssp_in_fmpy.py"), "machine.ssp", "4", "2e-3"] in commands
+
+
+def test_where_they_are_not_installed_that_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(examples, "FOLDER", tmp_path / "none")
+    code, output = invoke()
+    assert code == 2
+    assert "docs/examples of the project's sources" in " ".join(output.split())
 
 
 def test_nothing_is_overwritten(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import tomllib
 from pathlib import Path
 
@@ -18,7 +19,13 @@ _COMMANDS = {"sweep": "sweep", "optimise": "optimise", "component": "machine run
 
 
 def files() -> list[Path]:
-    """All examples, by name."""
+    """All examples, by name.
+
+    Raises:
+        UsageError: they are not installed.
+    """
+    if not FOLDER.is_dir():  # an editable install in the mode "strict" links packages only
+        raise UsageError(f"There is no folder {FOLDER}; the examples are in docs/examples of the project's sources.")
     return sorted(path for path in FOLDER.iterdir() if path.is_file())
 
 
@@ -36,11 +43,13 @@ def description(path: Path) -> str:
 
 def command(path: Path) -> str:
     """What runs an example, as one types it; "" for what another example reads."""
+    text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
-        return f"python {path}"
+        usage = re.search(rf"python \S*{re.escape(path.name)}((?: \S+)*)", text)
+        return f"python {path}{usage[1] if usage else ''}"
     if path.suffix != ".toml":
         return ""
-    tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    tables = tomllib.loads(text)
     return next(f"mechanism-fmu {name} {path}" for table, name in _COMMANDS.items() if table in tables)
 
 
