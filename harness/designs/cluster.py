@@ -20,7 +20,7 @@ from ..fmu import open_fmu
 from ..fmu.instances.workspace import temporary_folder
 from ..run.master import never
 from .task import Design, Result, Task
-from .workers import Pairs, Way, Work, portions
+from .workers import Backend, Pairs, Work, portions
 
 #: The scheduler must answer within [s].
 _PATIENCE = 10
@@ -51,7 +51,7 @@ def on_cluster(
     client: Client,
     fmu: Path,
     task: Task,
-    way: Way,
+    way: Backend,
     designs: Iterable[Design],
     stop_requested: Callable[[], bool] = never,
 ) -> Iterator[Pairs]:
@@ -97,7 +97,7 @@ def _came(future: Any, portion: list[Design], tools: _Tools) -> Pairs:
 class _Tools(WorkerPlugin):
     """What every worker gets once: the FMU, and what to do with it."""
 
-    def __init__(self, fmu: Path, task: Task, way: Way) -> None:
+    def __init__(self, fmu: Path, task: Task, way: Backend) -> None:
         self.name = f"mechanism_fmu-{id(self):x}"
         self.task, self.way = task, way
         self._file_name, self._content = fmu.name, fmu.read_bytes()

@@ -36,7 +36,7 @@ class Constraint:
     at_most: float | None
 
     def violation(self, value: float) -> float:
-        """By how much a value misses, as a part of the limit (in its unit, where the limit is 0); 0 if it does not."""
+        """Violation of the constraint by a value, as a part of the limit (in its unit, where that is 0), or 0."""
         below = 0.0 if self.at_least is None else (self.at_least - value) / (abs(self.at_least) or 1.0)
         above = 0.0 if self.at_most is None else (value - self.at_most) / (abs(self.at_most) or 1.0)
         return max(below, above, 0.0)
@@ -66,7 +66,7 @@ class Goal:
         return _values(result, task).get(self.objective.column)
 
     def violation(self, result: Result, task: Task) -> float | None:
-        """The sum of what misses; None when something cannot be said, because there is no number."""
+        """Constraint violation: the sum over all constraints; None when there is no number for one of them."""
         values = _values(result, task)
         if any(quantity.column not in values for quantity in self.quantities):
             return None
@@ -83,7 +83,7 @@ class Goal:
             return 4.0 * _MISSED
         if violation > 0.0:
             return _MISSED * (2.0 - 1.0 / (1.0 + violation))
-        # lives reach 1e70, and safety factors infinity: asinh keeps their order, far below what misses
+        # lives reach 1e70, and safety factors infinity: asinh keeps their order, far below a constraint violation
         return min(max(math.asinh(-value if self.largest else value), -_LARGEST), _LARGEST)
 
 

@@ -18,7 +18,7 @@ from .optimum_file import CONTINUOUS, Optimum, near
 from .store import Store
 from .task import Design, Result
 from .variation import Axis
-from .workers import Crew
+from .workers import Executor
 
 # The designs of a search, in the order in which it asks for them; what is there already is not run again.
 
@@ -53,7 +53,7 @@ class History:
     def __init__(
         self,
         store: Store,
-        crew: Crew,
+        executor: Executor,
         limit: int,
         stop_requested: Callable[[], bool],
         on_progress: Callable[[History], None],
@@ -65,7 +65,7 @@ class History:
         self.allow(limit)
         self._kept = store.pairs()
         self.earlier = len(self._kept)
-        self._store, self._crew = store, crew
+        self._store, self._executor = store, executor
         self._stop_requested, self._on_progress = stop_requested, on_progress
 
     def allow(self, limit: int) -> None:
@@ -102,7 +102,7 @@ class History:
         """Find the results of designs, on the disk or by running them."""
         found = {design.number: self._known(design) for design in designs if design.number in self._kept}
         missing = [design for design in designs if design.number not in found]
-        for pairs in self._crew(missing, self._stop_requested) if missing else ():
+        for pairs in self._executor(missing, self._stop_requested) if missing else ():
             self._store.append(pairs)
             found |= {design.number: result for design, result in pairs}
         if len(found) < len(designs):

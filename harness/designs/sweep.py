@@ -19,7 +19,7 @@ from ..toml_file import TomlFile
 from .store import Store, failures
 from .task import MOST_DESIGNS, Design, Task, recorded, with_slenderness
 from .variation import Axis, axes, shared
-from .workers import Crew
+from .workers import Executor
 
 # The list of designs: the same file always gives the same list.
 
@@ -183,7 +183,7 @@ class Progress:
 def perform_sweep(
     sweep: Sweep,
     store: Store,
-    crew: Crew,
+    executor: Executor,
     on_progress: Callable[[Progress], None],
     stop_requested: Callable[[], bool] = never,
 ) -> tuple[Progress, pa.Table]:
@@ -198,7 +198,7 @@ def perform_sweep(
     progress = Progress(len(sweep.designs), len(there), len(there), len(failures(table)))
     on_progress(progress)
     left = (design for design in sweep.designs if design.number not in there)
-    for pairs in crew(left, stop_requested):
+    for pairs in executor(left, stop_requested):
         store.append(pairs)
         failed = sum(result.failure is not None for _, result in pairs)
         progress = Progress(progress.total, progress.earlier, progress.done + len(pairs), progress.failed + failed)

@@ -120,7 +120,7 @@ class Result:
 
     Attributes:
         number: of the design.
-        way: by which it ran (`workers.Way.name`).
+        way: by which it ran (`workers.Backend.name`).
         values: of the task's quantities, in their order; None where there is none (no impact), or the design failed.
         failure: why it failed; None when it did not.
         warnings: what the FMU said besides; None when it said nothing.

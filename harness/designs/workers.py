@@ -23,7 +23,7 @@ from .task import Design, Result, Task
 
 
 @dataclass(frozen=True)
-class Way:
+class Backend:
     """One way of running designs.
 
     Attributes:
@@ -37,14 +37,14 @@ class Way:
     together: int = 1
 
 
-BY_FMU = Way(by_fmu.NAME, by_fmu.run_designs)
+BY_FMU = Backend(by_fmu.NAME, by_fmu.run_designs)
 
 
-def by_batch_in(threads: int | None) -> Way:
+def by_batch_in(threads: int | None) -> Backend:
     """The way of many designs in one call, in so many threads; None: as many as there are processors."""
     from . import by_batch  # the engine's way in, which takes a moment to load
 
-    return Way(by_batch.NAME, partial(by_batch.run_designs, threads=threads), by_batch.TOGETHER)
+    return Backend(by_batch.NAME, partial(by_batch.run_designs, threads=threads), by_batch.TOGETHER)
 
 
 # Who runs the designs: this process (`here`), or some of this machine's.
@@ -53,7 +53,7 @@ def by_batch_in(threads: int | None) -> Way:
 Pairs = list[tuple[Design, Result]]
 
 #: Runs designs and yields what has come, as soon as it has; begins no more once it is asked to stop.
-Crew = Callable[[Iterable[Design], Callable[[], bool]], Iterator[Pairs]]
+Executor = Callable[[Iterable[Design], Callable[[], bool]], Iterator[Pairs]]
 
 #: What is lost at most when this process is killed, unless a single design takes longer [s].
 _PORTION = 0.5
@@ -71,7 +71,7 @@ class Work:
 
     fmu: Fmu
     task: Task
-    way: Way
+    way: Backend
 
     def run(self, designs: Sequence[Design]) -> Pairs:
         """Some designs with their results."""
@@ -135,7 +135,7 @@ class Processes:
         self._end()
 
     def run(self, designs: Iterable[Design], stop_requested: Callable[[], bool] = never) -> Iterator[Pairs]:
-        """Run designs; a `Crew`. Each process has one portion more than it works on."""
+        """Run designs; an `Executor`. Each process has one portion more than it works on."""
         waiting = portions(designs, self._work.way.together)
         suspects: list[Design] = []
         whole = False

@@ -80,7 +80,7 @@ class Machine:
         self._wires = {name: [wire for _, wire in wires] for name, wires in wired.items()}
         self._bends = {name: [(source, k, factor) for source, (_, k, factor, _) in wired[name]] for name in wired}
         self._followed = {name: frozenset(source for source, _ in wires) for name, wires in wired.items()}
-        self._through = {name: part.feeds_through for name, part in self.parts.items()}
+        self._feedthrough = {name: part.feedthrough for name, part in self.parts.items()}
         self._given: dict[str, list[float]] = {}
         self._slopes: dict[str, Sequence[float]] = {}
         self._driven: Driven | None = None
@@ -271,7 +271,7 @@ class Machine:
         inputs.values[:] = now
         inputs.write()
         self._given[name] = now
-        for k in self._through[name]:  # noqa: SIM110 any() takes twice as long
+        for k in self._feedthrough[name]:  # noqa: SIM110 any() takes twice as long
             if before is None or before[k] != now[k]:
                 return True
         return False

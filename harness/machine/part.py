@@ -206,7 +206,7 @@ class Part:
         inputs, slopes: those that follow somebody, and how they go on.
         statistics: of the run so far.
         can_restore: whether its state can be saved.
-        feeds_through: places, among the targets, of inputs that a connected output follows at once.
+        feedthrough: places, among the targets, of inputs that a connected output follows at once.
     """
 
     def __init__(
@@ -226,7 +226,7 @@ class Part:
         self.can_restore = description.saves_state
         self.takes_slopes = description.takes_slopes and bool(targets)
         follows = [description.variables[name].depends_on for name in sources]
-        self.feeds_through = [
+        self.feedthrough = [
             place for place, target in enumerate(targets) if any(known is None or target in known for known in follows)
         ]
         self.slopes = component.reals(targets)

@@ -215,33 +215,33 @@ class _Conformance:
     def run(self) -> str:
         with self._fmu.instantiate("run") as slave:
             self._start(slave)
-            trajectory = self._through(slave, list(self._grid))
+            trajectory = self._run_of(slave, list(self._grid))
         return f"{len(trajectory)} steps to {seconds(self._grid.stop):g} s"
 
     def reset(self) -> str:
         with self._fmu.instantiate("reset") as slave:
             self._start(slave)
-            first = self._through(slave, list(self._grid))
+            first = self._run_of(slave, list(self._grid))
             slave.reset()
             self._start(slave)
-            return self._same(first, self._through(slave, list(self._grid)))
+            return self._same(first, self._run_of(slave, list(self._grid)))
 
     def rollback(self) -> str:
         with self._fmu.instantiate("rollback") as slave:
             self._start(slave)
             steps = list(self._grid)
-            self._through(slave, steps[:_BRANCH])
+            self._run_of(slave, steps[:_BRANCH])
             state = slave.save()
-            first = self._through(slave, steps[_BRANCH:])
+            first = self._run_of(slave, steps[_BRANCH:])
             slave.restore(state)
             slave.free_state(state)
-            return self._same(first, self._through(slave, steps[_BRANCH:]))
+            return self._same(first, self._run_of(slave, steps[_BRANCH:]))
 
     def transfer(self) -> str:
         steps = list(self._grid)
         with self._fmu.instantiate("source") as source, self._fmu.instantiate("target") as target:
             self._start(source)
-            self._through(source, steps[:_BRANCH])
+            self._run_of(source, steps[:_BRANCH])
             state = source.save()
             data = source.serialize(state)
             source.free_state(state)
@@ -249,8 +249,8 @@ class _Conformance:
             state = target.deserialize(data)
             target.restore(state)
             target.free_state(state)
-            first = self._through(source, steps[_BRANCH:])
-            return self._same(first, self._through(target, steps[_BRANCH:])) + f", state of {len(data)} bytes"
+            first = self._run_of(source, steps[_BRANCH:])
+            return self._same(first, self._run_of(target, steps[_BRANCH:])) + f", state of {len(data)} bytes"
 
     def reference(self, reference: ReferenceResults) -> str:
         first, last = reference.times[0], reference.times[-1]
@@ -279,7 +279,7 @@ class _Conformance:
     def _start(self, slave: Instance) -> None:
         slave.initialize(seconds(self._grid.start), seconds(self._grid.stop))
 
-    def _through(self, slave: Instance, steps: Sequence[tuple[int, int]]) -> Trajectory:
+    def _run_of(self, slave: Instance, steps: Sequence[tuple[int, int]]) -> Trajectory:
         trajectory = []
         for begin, end in steps:
             slave.step(*begin_and_size(begin, end))

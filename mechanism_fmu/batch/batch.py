@@ -32,7 +32,7 @@ from .prepared import (
     said_of,
     signals_of,
 )
-from .workers import Progress, nobody, run_job
+from .workers import Progress, no_callback, run_job
 
 # The engine's shared library with the call that runs many designs.
 
@@ -98,7 +98,7 @@ class Batch:
         extremes: bool = False,
         until_impact: bool = False,
         threads: int | None = None,
-        progress: Progress = nobody,
+        progress: Progress = no_callback,
     ) -> BatchResult:
         """Run designs: the motions that the FMU makes with these start values and communication points.
 

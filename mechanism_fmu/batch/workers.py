@@ -100,7 +100,7 @@ Progress = Callable[[int, int], None]
 _PERIOD = 0.2
 
 
-def nobody(_done: int, _all: int) -> None:
+def no_callback(_done: int, _all: int) -> None:
     """Nobody wants to know."""
 
 

@@ -15,7 +15,7 @@ from harness.designs.store import Store, identity
 from harness.designs.sweep import Progress, Sweep, perform_sweep, sampled
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.variation import Axis
-from harness.designs.workers import Way, Work, here
+from harness.designs.workers import Backend, Work, here
 from harness.run.master import TimeGrid
 
 SQUARE = Quantity(When.END, "square", "Real", "m2")
@@ -93,17 +93,17 @@ def _forging(forged: bytes, fmu: Place, task: Task, designs: Sequence[Design]) -
     return _square(fmu, task, designs)
 
 
-def forging(forged: bytes) -> Way:
+def forging(forged: bytes) -> Backend:
     """The way that forges the result of one design."""
-    return Way("cheap", partial(_forging, forged))  # type: ignore[arg-type]
+    return Backend("cheap", partial(_forging, forged))  # type: ignore[arg-type]
 
 
-CHEAP = Way("cheap", _square)  # type: ignore[arg-type]
-TROUBLED = Way("cheap", _troubled)  # type: ignore[arg-type]
-VALLEY = Way("cheap", _far)  # type: ignore[arg-type]
+CHEAP = Backend("cheap", _square)  # type: ignore[arg-type]
+TROUBLED = Backend("cheap", _troubled)  # type: ignore[arg-type]
+VALLEY = Backend("cheap", _far)  # type: ignore[arg-type]
 
 
-def work_of(sweep: Sweep, folder: Path, way: Way = CHEAP) -> Work:
+def work_of(sweep: Sweep, folder: Path, way: Backend = CHEAP) -> Work:
     place = folder / f"fmu{os.getpid()}"
     place.mkdir(parents=True, exist_ok=True)
     return Work(Place(place), sweep.task, way)  # type: ignore[arg-type]

@@ -12,14 +12,14 @@ from distributed import KilledWorker
 
 from harness.designs import cluster
 from harness.designs.task import Design, Result, Task
-from harness.designs.workers import Way
+from harness.designs.workers import Backend
 from harness.run.master import TimeGrid
 
 TASK = Task(TimeGrid.of(1.0, 0.1), {}, None, (SQUARE,))
 DESIGN = Design(7, {})
 
 
-TOOLS: Any = SimpleNamespace(task=TASK, way=Way("cheap", lambda *_: []))
+TOOLS: Any = SimpleNamespace(task=TASK, way=Backend("cheap", lambda *_: []))
 
 
 class Future:

@@ -43,8 +43,8 @@ def store_of(optimum: Optimum, folder: Path) -> Store:
 def history_of(
     optimum: Optimum, folder: Path, stop_requested: Callable[[], bool] = never, way: Way = VALLEY
 ) -> History:
-    crew = partial(here, Work(Place(folder), optimum.task, way))  # type: ignore[arg-type]
-    return History(store_of(optimum, folder), crew, optimum.count, stop_requested, lambda history: None)
+    executor = partial(here, Work(Place(folder), optimum.task, way))  # type: ignore[arg-type]
+    return History(store_of(optimum, folder), executor, optimum.count, stop_requested, lambda history: None)
 
 
 def found(optimum: Optimum, folder: Path) -> Best:
@@ -154,7 +154,7 @@ def test_sobol_indices_of_a_sum_of_squares(tmp_path: Path) -> None:
     """Uniform near the floor: the variance of k u^2 with |u| <= a is k^2 a^4 4/45, of each variable by itself."""
     optimum = replace(optimum_of(X, Y, count=200), around=Around(128, 0.1))
     history = history_of(optimum, tmp_path)
-    history._crew = partial(here, Work(Place(tmp_path), optimum.task, replace(VALLEY, run=_smooth)))  # type: ignore[arg-type]
+    history._executor = partial(here, Work(Place(tmp_path), optimum.task, replace(VALLEY, run=_smooth)))  # type: ignore[arg-type]
     best = search(optimum, history)
     found = sensitivity(optimum, best, history)
     assert found is not None

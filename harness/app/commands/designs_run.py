@@ -24,7 +24,7 @@ from ...designs.search import (
 )
 from ...designs.store import Store, contents, failures, identity, numbers_of
 from ...designs.sweep import Progress, Sweep, range_cells, read_sweep
-from ...designs.workers import Crew
+from ...designs.workers import Executor
 from ...fmu import Fmu
 from ...fmu.values import shown
 from ...run.master import seconds
@@ -34,7 +34,7 @@ from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, sho
 from .designs_shared import (
     ENDING,
     DesignsBar,
-    crew_of,
+    executor_of,
     keep_built,
     prepared,
     seen_again,
@@ -60,16 +60,16 @@ def run_sweep(
             store = Store(folder, known, sweep.axes, sweep.task.quantities)
             if built:
                 keep_built(fmu, folder)
-            with crew_of(fmu, sweep.task, workers, scheduler, fast, trust or built) as crew:
-                progress, table = _performed(sweep, store, crew)
+            with executor_of(fmu, sweep.task, workers, scheduler, fast, trust or built) as executor:
+                progress, table = _performed(sweep, store, executor)
             return _ending(fmu, sweep, store, progress, table)
 
 
-def _performed(sweep: Sweep, store: Store, crew: Crew) -> tuple[sweeps.Progress, pa.Table]:
+def _performed(sweep: Sweep, store: Store, executor: Executor) -> tuple[sweeps.Progress, pa.Table]:
     console.print(f"[bold]{escape(sweep.title)}[/]: {len(sweep.designs)} designs ({sweep.method})", soft_wrap=True)
     show_input_note(sweep.task)
     with DesignsBar(len(sweep.designs)) as bar, interruption(lambda: console.print(ENDING)) as stop_requested:
-        return sweeps.perform_sweep(sweep, store, crew, bar.show, stop_requested)
+        return sweeps.perform_sweep(sweep, store, executor, bar.show, stop_requested)
 
 
 def _ending(fmu: Fmu, sweep: Sweep, store: Store, progress: sweeps.Progress, table: pa.Table) -> int:
@@ -139,12 +139,16 @@ def run_optimise(
             )
             show_input_note(optimum.task)
             with (
-                crew_of(fmu, optimum.task, workers, scheduler, fast, trust or built) as crew,
+                executor_of(fmu, optimum.task, workers, scheduler, fast, trust or built) as executor,
                 DesignsBar(optimum.total) as bar,
                 interruption(lambda: console.print(ENDING)) as stop_requested,
             ):
                 history = History(
-                    store, crew, optimum.count, stop_requested, lambda history: bar.show(_progress(history, optimum))
+                    store,
+                    executor,
+                    optimum.count,
+                    stop_requested,
+                    lambda history: bar.show(_progress(history, optimum)),
                 )
                 try:
                     best = search(optimum, history)

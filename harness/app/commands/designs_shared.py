@@ -19,7 +19,7 @@ from ...designs import sweep as sweeps
 from ...designs.by_fmu import InMotion, in_motion
 from ...designs.task import Design, Task, wants_stress
 from ...designs.variation import Source, source
-from ...designs.workers import BY_FMU, Crew, Processes, Work, by_batch_in, here
+from ...designs.workers import BY_FMU, Executor, Processes, Work, by_batch_in, here
 from ...errors import UsageError
 from ...fmu import Fmu, open_fmu
 from ...fmu.instances.workspace import temporary_folder
@@ -123,9 +123,9 @@ class DesignsBar:
 
 
 @contextmanager
-def crew_of(
+def executor_of(
     fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool, trusted: bool
-) -> Iterator[Crew]:
+) -> Iterator[Executor]:
     """Those who run the designs: processes, a cluster, or (`fast`) threads of this process.
 
     Args:
