@@ -5,7 +5,6 @@ import runpy
 import shutil
 import subprocess
 import sys
-import sysconfig
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -114,8 +113,8 @@ def python(installed: Path, tmp_path: Path) -> Callable[..., str]:
         (tmp_path / name).mkdir()
         (tmp_path / name / "__init__.py").write_text(MINE)
     (tmp_path / "build_fmu.py").write_text(MINE)
-    path = dict.fromkeys([str(installed), sysconfig.get_path("purelib"), sysconfig.get_path("platlib")])
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(path)}
+    others = [entry for entry in sys.path if entry and Path(entry).resolve() != ROOT]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(installed), *others])}
 
     def run(*arguments: str | Path) -> str:
         return called([sys.executable, "-S", *map(str, arguments)], tmp_path, environment)
