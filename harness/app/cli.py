@@ -91,6 +91,29 @@ def new(
 
 
 @main.command()
+def examples(
+    folder: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="FOLDER", help="Where to copy them, with --copy.", show_default="examples", file_okay=False
+        ),
+    ] = None,
+    copy: Annotated[bool, typer.Option("--copy", help="Copy them into FOLDER; no file there is overwritten.")] = False,
+) -> None:
+    """List the examples: sweeps, searches of an optimum, machines, programs; with --copy, copy them.
+
+    Exit code: 0 all well, 2 a file of an example's name is there already.
+    """
+    from .commands.examples import show_examples
+    from .terminal import user_errors
+
+    if folder is not None and not copy:
+        raise typer.BadParameter(f"to copy the examples to {folder}, add --copy.", param_hint="FOLDER")
+    with user_errors():
+        raise typer.Exit(show_examples((folder or Path("examples")) if copy else None))
+
+
+@main.command()
 def run(
     fmu: FmuPath,
     settings: Annotated[

@@ -140,15 +140,16 @@ def _inside(imported: _Import, package: str, homes: tuple[Home, ...]) -> str | N
 
 
 def _locate(homes: tuple[Home, ...], module: str) -> Path | None:
-    for home in sorted(homes, key=lambda home: len(home.place), reverse=True):
-        if home.place in ("", module) or module.startswith(f"{home.place}."):
-            inner = module[len(home.place) :].strip(".").replace(".", "/")
-            if not inner and not home.is_package:
-                continue
-            for path in (home.folder / inner / "__init__.py", home.folder / f"{inner}.py"):
-                if path.is_file():
-                    return path
-    return None
+    """The file of a module: in the innermost home of its place, and nowhere else."""
+    if any(home.place.startswith(f"{module}.") for home in homes):
+        return None  # it leads to a home; in a wheel, the library has files there that are not the model's
+    around = [home for home in homes if home.place in ("", module) or module.startswith(f"{home.place}.")]
+    home = max(around, key=lambda home: len(home.place), default=None)
+    if home is None or (home.place == module and not home.is_package):
+        return None
+    inner = module[len(home.place) :].strip(".").replace(".", "/")
+    paths = (home.folder / inner / "__init__.py", home.folder / f"{inner}.py")
+    return next((path for path in paths if path.is_file()), None)
 
 
 def _with_relative_imports(source: str, tree: ast.Module, path: Path, package: str, homes: tuple[Home, ...]) -> str:

@@ -55,6 +55,22 @@ def test_imports_inside_functions_count_and_those_for_type_checkers_do_not(homes
     assert names(closure(homes, ("start",))) == {"start.py", "late.py", "real.py"}
 
 
+def test_the_librarys_own_models_do_not_travel_with_a_model(homes: tuple[Home, Home]) -> None:
+    """A wheel has the ready-made models inside the library: an FMU of one is the same from there as from the tree."""
+    folder = homes[0].folder / "models" / "ratchet"
+    folder.mkdir(parents=True)
+    for path in (folder.parent / "__init__.py", folder / "__init__.py", folder / "teeth.py"):
+        path.write_text("import somebody\n")
+    write(homes[1], "model.py", "from . import teeth\n")
+    assert closure(homes, ("models.ratchet.model",)).files.keys() == {
+        "__init__.py", "models/ratchet/__init__.py", "models/ratchet/model.py"
+    }  # fmt: skip
+    own = Home("own_mechanism_1", homes[1].folder, "models.ratchet", is_package=False)
+    found = closure((homes[0], own), ("models.ratchet.model",))
+    assert found.files.keys() == {"__init__.py", "models/ratchet/model.py"}
+    assert not found.external
+
+
 def test_two_modules_that_import_each_other_are_found_once(homes: tuple[Home, Home]) -> None:
     write(homes[0], "a.py", "from . import b\n")
     write(homes[0], "b.py", "from . import a\n")
