@@ -52,9 +52,6 @@ class LogMessage:
         return self.status in (Status.WARNING, Status.DISCARD, Status.ERROR, Status.FATAL)
 
 
-# What can go wrong, in words for the user.
-
-
 class HarnessError(Exception):
     """Something the user can put right; the message says what is wrong and what to do."""
 

@@ -36,8 +36,6 @@ from ..fmu.declared import SIZES, Struck, value_of
 from ..fmu.description import Value
 from .impacts import body_held, one_of_each_instant
 
-# From the impacts of a run to the stress they leave in the beam that they strike.
-
 #: The beams that an FMU can declare, by their kinds.
 _BEAMS: dict[str, Callable[..., Beam]] = {one.__name__: one for one in (WedgeTooth, TrapezoidTooth, RectangularTooth)}
 

@@ -158,8 +158,6 @@ def with_goal(recorded: Sequence[Quantity], goal: Goal) -> tuple[Quantity, ...]:
     return tuple(dict.fromkeys([*goal.quantities, *recorded]))
 
 
-# The file of an optimum, checked as a whole.
-
 TABLES = ("title", "fmu", "run", "set", "optimise", "vary", "constraint", "sensitivity", "record")
 
 #: By name; `search` has what they do.

@@ -1,4 +1,13 @@
-"""Results on the disk, such that a process may end at any moment; and what makes two runs of a file the same."""
+"""Results on the disk, such that a process may end at any moment; and what makes two runs of a file the same.
+
+    FOLDER/identity.json         what the results belong to (`identity`); written first
+    FOLDER/parts/*.parquet    results as they come: a file for what came together, by its first design's number;
+                              many of them are put into one, which takes the place of the first
+    FOLDER/results.parquet    all of them, in the order of their numbers; written last
+
+Every file is written under another name and then renamed, so it is there as a whole or not at all. The parts go only
+when `results.parquet` is there; whoever finds both reads each design once.
+"""
 
 from __future__ import annotations
 
@@ -143,16 +152,6 @@ def _signals(task: Task) -> str:
 def _digest(data: Any) -> str:
     return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 
-
-# Results on the disk, such that a process may end at any moment.
-#
-#     FOLDER/identity.json         what the results belong to (`identity`); written first
-#     FOLDER/parts/*.parquet    results as they come: a file for what came together, by its first design's number;
-#                               many of them are put into one, which takes the place of the first
-#     FOLDER/results.parquet    all of them, in the order of their numbers; written last
-#
-# Every file is written under another name and then renamed, so it is there as a whole or not at all. The parts go only
-# when `results.parquet` is there; whoever finds both reads each design once.
 
 _ARROW = {"Real": pa.float64(), "Integer": pa.int64(), "Boolean": pa.bool_(), "String": pa.string()}
 _OK, _FAILED = "ok", "failed"

@@ -93,8 +93,6 @@ def _terminals(parent: Element, within: str) -> Iterator[Terminal]:
         yield from _terminals(element, f"{name}.")
 
 
-# What an FMU says about itself: the part of modelDescription.xml that the harness needs.
-
 #: Value of a variable: Real, Integer, Boolean or String; Binary ones are their bytes in hexadecimal, as in FMI's XML.
 Value = float | int | bool | str
 

@@ -21,8 +21,6 @@ from typing import Any
 
 from mechanism_fmu.fmu.disk.folders import temporary_folder
 
-# Processes beside this one: how they start, and that none outlives it.
-
 #: How numpy's libraries are told how many threads to have, when they are loaded.
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 

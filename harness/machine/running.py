@@ -212,9 +212,6 @@ def _warning(instance: str, text: str, time: float = 0.0) -> LogMessage:
     return LogMessage(instance, time, Status.WARNING, "", text)
 
 
-# A machine from start to stop.
-
-
 def run_machine(
     machine: Machine,
     algorithm: Algorithm,

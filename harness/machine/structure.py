@@ -93,9 +93,6 @@ def _follows(output: str, target: str, machine: Description) -> bool:
     return part_of(output) == part_of(target) and (known is None or own_of(target) in known)
 
 
-# How the parts of a machine hang together, as far as their descriptions tell.
-
-
 @dataclass(frozen=True)
 class Structure:
     """Of a machine, whether its components are there or not.

@@ -219,9 +219,6 @@ def _stresses(name: str, struck: ComponentImpacts, what: str, end: float) -> str
     return section(f"Impacts on the {what} of {name}", chart(figure), note=note)
 
 
-# report.html of a machine's run.
-
-
 def write_machine_report(run: MachineRun, path: Path) -> Path:
     """Write the report of a machine's run as one file that works offline.
 

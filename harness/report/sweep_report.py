@@ -45,8 +45,6 @@ def animation_of_design(seen: InMotion | None) -> str:
     return drawn or section(HEADING, note=told)
 
 
-# report.html of a sweep: what was varied, what came of it.
-
 #: More rows make a page slow; the file has all.
 _MOST_ROWS = 500
 _NUMBER = re.compile(r"-?\d+(\.\d+)?(e[-+]?\d+)?")

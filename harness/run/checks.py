@@ -53,8 +53,6 @@ def verdict_of(criteria: Sequence[bool]) -> Verdict:
     return Verdict.HOLDS if all(criteria) else Verdict.HOLDS_IN_PART if any(criteria) else Verdict.DOES_NOT_HOLD
 
 
-# Verdicts: what should hold, whether it does, and the numbers behind it.
-
 #: Largest accepted residual of the energy balance, relative to the energy that was in play.
 _ENERGY_TOLERANCE = 1e-6
 

@@ -20,8 +20,6 @@ from ..fmu.description import Description, Value
 from ..fmu.interface import Observable
 from ..fmu.values import parse_value
 
-# Modes and transitions of an FMU's mechanism: `resources/logic.json`, when the FMU has one.
-
 #: The format of logic.json that is understood.
 _FORMAT = 1
 

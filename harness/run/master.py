@@ -162,9 +162,6 @@ class Recorder:
         return pd.DataFrame({name: exact.get(name, table.get(name)) for name in ["time", *self._names]})
 
 
-# The master algorithm: it alone moves time forward.
-
-
 class Ending(Enum):
     """How a run ended."""
 

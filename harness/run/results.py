@@ -60,8 +60,6 @@ def _installed(package: str) -> str:
         return ""
 
 
-# The files of a run: results.csv, impacts.csv, events.csv, summary.json.
-
 #: How names of files end that are being written; they begin with a point.
 UNFINISHED = ".unfinished"
 

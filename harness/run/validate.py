@@ -153,8 +153,6 @@ def farthest(reference: ReferenceResults, found: Sequence[Sequence[Value]]) -> t
     return worst
 
 
-# Does an FMU keep what it promises? A check of the file, then a short life of two instances.
-
 #: The run takes this many steps through the default experiment, and branches off after some of them.
 _STEPS = 100
 _BRANCH = 10

@@ -13,8 +13,6 @@ from ..model.functions import Number
 from ..model.symbol import Symbol
 from ..model.trace import Trace
 
-# A model's recorded calculation for many designs at once: the very numbers that each design alone would give.
-
 Array = np.ndarray[Any, np.dtype[Any]]
 #: A number of each design, shape (designs,), or one for all, a float.
 Column = Any

@@ -17,8 +17,6 @@ from ..model.trace import Trace, trace
 from ..tables.layout import field_of, pack, slot
 from .numbers import Array, Column, Numbers
 
-# What is the same for all designs of a model.
-
 _FIRST_IMPACT = re.compile(r"impacts\[1\]\.(.+)")
 
 

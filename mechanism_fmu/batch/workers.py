@@ -92,8 +92,6 @@ class OneByOne:
             np.fmax(job.greatest[design], values, out=job.greatest[design])
 
 
-# Threads that share the designs of a job.
-
 #: Is told how many designs are done, and how many there are.
 Progress = Callable[[int, int], None]
 

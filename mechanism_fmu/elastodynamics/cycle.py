@@ -23,8 +23,6 @@ from .structure.places import RELEASED, held_coordinates, named_place
 from .structure.pose import left
 from .turn import crank_of, rigid_rows
 
-# Elastodynamic analysis by the paper's definition: deflections under the inertia forces of the rigid mechanism.
-
 
 @dataclass(frozen=True)
 class Power:

@@ -1,4 +1,9 @@
-"""Flexibility matrices of the elements of Erdman, Sandor and Oakberg (1972): d = F f; and of beams that taper."""
+"""Flexibility matrices of the elements of Erdman, Sandor and Oakberg (1972): d = F f; and of beams that taper.
+
+Deformations d and forces f of an element stand in the order axial [m; N], transverse [m; N], rotation [rad; N m], as
+far as it has them: tension, the normal to the left of the element and counter-clockwise turns are positive. Numbers
+of equations are the paper's.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +21,6 @@ from ..model import Section
 class LinkageError(ValueError):
     """The mechanism cannot be analysed as a structure; the message names the part, and says why and what to do."""
 
-
-# Flexibility matrices of the elements of Erdman, Sandor and Oakberg (1972): d = F f.
-#
-# Deformations d and forces f of an element stand in the order axial [m; N], transverse [m; N], rotation [rad; N m], as
-# far as it has them: tension, the normal to the left of the element and counter-clockwise turns are positive. Numbers
-# of equations are the paper's.
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 

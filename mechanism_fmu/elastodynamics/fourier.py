@@ -10,8 +10,6 @@ from scipy.optimize import minimize_scalar
 
 from .elements import FloatArray
 
-# Trigonometric series of periodic samples: values anywhere, derivatives, collocation.
-
 ComplexArray = npt.NDArray[np.complex128]
 
 

@@ -1,4 +1,8 @@
-"""Kineto-elastodynamic synthesis: the lightest linkage that keeps to its path and below its stress at its speed."""
+"""Kineto-elastodynamic synthesis: the lightest linkage that keeps to its path and below its stress at its speed.
+
+The paper names it; the method is ours: sequential quadratic programming over cross-sections, and lengths if wanted,
+with one constraint for every time of the cycle.
+"""
 
 from __future__ import annotations
 
@@ -101,11 +105,6 @@ def _judged(cycle: Cycle, displacement: FloatArray, place: str, target: FloatArr
         member_mass(configurations.linkage), np.hypot(off[:, 0], off[:, 1]), stress_of(configurations, displacement)
     )
 
-
-# Kineto-elastodynamic synthesis: the lightest linkage that keeps to its path and below its stress at its speed.
-#
-# The paper names it; the method is ours: sequential quadratic programming over cross-sections, and lengths if wanted,
-# with one constraint for every time of the cycle.
 
 #: By how much the search stays inside the limits, in parts of them, so that rounding cannot leave it outside.
 _MARGIN = 1e-6

@@ -143,8 +143,6 @@ def _residual(mechanism: Mechanism, pose: Pose, angles: FloatArray) -> FloatArra
     return np.column_stack([*found, pose.position[:, crank, 2] - angles])
 
 
-# One turn of a mechanism at constant speed, whatever drives it in a simulation.
-
 #: What a turn may end beside its beginning [m, rad], for a mechanism of the size 1 m.
 _REPEATS = 1e-9
 

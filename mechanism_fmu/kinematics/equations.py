@@ -27,8 +27,6 @@ class SingularConfigurationError(KinematicsError):
     """The rank of the constraint rows drops: the motion may go on along more than one branch, or not at all."""
 
 
-# The constraint equations of a mechanism with all coordinates, contact coordinates among them.
-
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
 

@@ -116,8 +116,6 @@ def _directions(count: int) -> list[FloatArray]:
     return [math.cos(t) * axes[a] + math.sin(t) * axes[b] for a, b in combinations(range(count), 2) for t in turns]
 
 
-# Degrees of freedom, and the constraint rows that depend on others.
-
 #: A row belongs to a dependency when its share is larger than this part of the largest one.
 _SHARE = 1e-6
 

@@ -119,7 +119,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     def columns(table: type[Table], parts: Sequence[Any] = (), **given: Sequence[Any]) -> Iterator[tuple[str, Array]]:
         """The columns of a table: those given, and else what the parts have by that name."""
         for column, field in table.fields.items():
-            if field.room == "tables":
+            if field.section == "tables":
                 values = given[column] if column in given else [_entry(part, column, bodies) for part in parts]
                 yield field.name, _array(values, field)
 

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from typing import get_args
 
 from .. import codes
+from ..tables.sizes import GIVEN_SIZES, complete
 from .beams import OF_BEAM, beam_members, hinge
 from .contacts import AngleStop
 from .errors import MechanismError
@@ -91,7 +92,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         or _of_member(part, quantity, mechanism)
     )
     if part == "energy" and quantity in _ENERGIES:
-        found = (_ENERGIES[quantity], 6 * len(mechanism.bodies) if quantity == "work" else 0, 0)
+        found = (_ENERGIES[quantity], _first_of_y(mechanism, "y_work") if quantity == "work" else 0, 0)
     if found is None:
         near = get_close_matches(source, list(_common_sources(mechanism)), 1)
         meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
@@ -106,6 +107,11 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
             f"{', '.join(c.name for c in mechanism.contacts) or '(none)'}."
         )
     return found
+
+
+def _first_of_y(mechanism: Mechanism, part: str) -> int:
+    """Where a part of the engine's unknowns begins, by the name of that size; those up to alpha follow the bodies."""
+    return complete(dict.fromkeys(GIVEN_SIZES, 0) | {"bodies": len(mechanism.bodies)})[part]
 
 
 def _of_kinds() -> Iterator[str]:
@@ -148,7 +154,7 @@ def _of_body(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, 
     if quantity in _COORDINATES:
         return codes.UNKNOWN, first + _COORDINATES[quantity], 0
     if quantity in _RATES:
-        return codes.UNKNOWN, 3 * len(names) + first + _RATES[quantity], 0
+        return codes.UNKNOWN, _first_of_y(mechanism, "coordinates") + first + _RATES[quantity], 0
     return None
 
 
@@ -167,7 +173,7 @@ def _of_profiles(contact: int, which: int, mechanism: Mechanism) -> tuple[int, i
     if profiles[which] is None:
         return None
     before = sum(other.alphas for other in mechanism.contacts[:contact])
-    return codes.UNKNOWN, 6 * len(mechanism.bodies) + 2 + before + which * (profiles[0] is not None), 0
+    return codes.UNKNOWN, _first_of_y(mechanism, "y_alpha") + before + which * (profiles[0] is not None), 0
 
 
 def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

@@ -9,8 +9,6 @@ from textwrap import wrap
 
 from .records import Logic, Region, Transition
 
-# A mechanism's logic as tables.
-
 #: Headings of `rows`.
 HEADINGS = ("Part", "From", "Event", "Guard", "To", "Reset")
 #: Headings of `definition_rows`.

@@ -162,8 +162,6 @@ def _locate(field: BendingField, centre: tuple[float, float], cell: tuple[float,
     return StressPoint(abs(float(found.fun * scale)), x, t)
 
 
-# The largest bending stress that an impact leaves in a tooth.
-
 #: With less damping there are thousands of nearly equal swings to compare, and with none there is no largest one.
 _LEAST_DAMPING = 1e-4
 

@@ -46,8 +46,6 @@ def legendre_of_powers(degree: int) -> FloatArray:
     return matrix
 
 
-# Bending modes of a cantilever tooth by the Rayleigh–Ritz method.
-
 #: Powers of xi tell little with more of them: each further one costs a digit.
 _MOST_TERMS = 10
 

@@ -63,9 +63,6 @@ def require_size(name: str, value: float) -> None:
     require_within(f"tooth {name}", value, SMALLEST, LARGEST, "m", "give it in metres")
 
 
-# Teeth as beams of rectangular cross section: the paper's wedge, a trapezoid, a rectangle.
-
-
 @dataclass(frozen=True)
 class WedgeTooth(RectangularSection):
     """A right-angled triangle, fixed at its root x = 0 and tapering to a sharp tip at x = length.

@@ -74,7 +74,7 @@ class Field(NamedTuple):
     """A field of the block.
 
     Attributes:
-        room: "tables" (the mechanism), "state" (all that a saved state restores) or "work" (scratch).
+        section: "tables" (the mechanism), "state" (all that a saved state restores) or "work" (scratch).
         name: unique in the block.
         shape: names of sizes, or numbers.
         integer: whether it is int64, not float64.
@@ -83,7 +83,7 @@ class Field(NamedTuple):
         columns: names of its columns, where they differ.
     """
 
-    room: str
+    section: str
     name: str
     shape: tuple[str | int, ...]
     integer: bool = False
@@ -128,8 +128,8 @@ def _column(
 ) -> Array:
     columns = tuple(holds) if isinstance(holds, Mapping) else ()
     allowed = None if holds is None else tuple(holds.values()) if isinstance(holds, Mapping) else (holds,)
-    room = "work" if work else "tables" if holds is None else "state"
-    return cast(Array, _Column(Field(room, name, shape, integer, allowed, columns), alone))
+    section = "work" if work else "tables" if holds is None else "state"
+    return cast(Array, _Column(Field(section, name, shape, integer, allowed, columns), alone))
 
 
 class Table:

@@ -1,4 +1,8 @@
-"""What stands where in an instance's block: header, tables, state, work; and how tables are written into one."""
+"""What stands where in an instance's block: header, tables, state, work; and how tables are written into one.
+
+The tables describe the mechanism and change only with its parameters (an input's value is written into `force_data`);
+the state is everything that a saved state must restore, in one piece; work is scratch that no result depends on.
+"""
 
 from __future__ import annotations
 
@@ -10,11 +14,6 @@ from . import members, motion, parts
 from .declare import Array, Field, Table
 from .sizes import GIVEN_SIZES, SIZES, complete as completed, sizes_of
 
-# What stands where in an instance's block: header, tables, state, work.
-#
-# The tables describe the mechanism and change only with its parameters (an input's value is written into `force_data`);
-# the state is everything that a saved state must restore, in one piece; work is scratch that no result depends on.
-
 #: Every table, in the order of its module: whatever is imported first, the order is this one.
 TABLES: tuple[type[Table], ...] = tuple(
     table
@@ -25,10 +24,10 @@ TABLES: tuple[type[Table], ...] = tuple(
 #: Every field, in the order of the block: tables, then the state in one piece, then scratch.
 FIELDS = tuple(
     field
-    for room in ("tables", "state", "work")
+    for section in ("tables", "state", "work")
     for table in TABLES
     for field in table.fields.values()
-    if field.room == room
+    if field.section == section
 )
 _FIRST_OFFSET = len(SIZES)
 _HEADER = _FIRST_OFFSET + len(FIELDS)
@@ -80,8 +79,8 @@ Table._look = staticmethod(field_of)
 def state_of(block: Array) -> Array:
     """A view of the whole state, shape (words,): copy it to save, write it to restore."""
     header = block[:_HEADER].view(np.int64)
-    first = next(f.name for f in FIELDS if f.room == "state")
-    after = next(f.name for f in FIELDS if f.room == "work")
+    first = next(f.name for f in FIELDS if f.section == "state")
+    after = next(f.name for f in FIELDS if f.section == "work")
     return block[int(header[_SLOTS[first]]) : int(header[_SLOTS[after]])]
 
 
@@ -109,14 +108,14 @@ def pack(tables: Any) -> Array:
 def write_tables(block: Array, tables: Any) -> None:
     """Write tables of the same structure into a block, leaving its state as it is."""
     for field in FIELDS:
-        if field.room == "tables":
+        if field.section == "tables":
             field_of(block, field.name)[...] = getattr(tables, field.name)
 
 
 def _number(size: str, tables: Any) -> int:
     """The length of the tables with so many rows, or the number of that name."""
     for field in FIELDS:
-        if field.room == "tables" and field.shape[0] == size:
+        if field.section == "tables" and field.shape[0] == size:
             return len(getattr(tables, field.name))
     number: int = getattr(tables, size)
     return number

@@ -1,4 +1,8 @@
-"""The cam drive: a cam, a follower arm with a roller, and the spring that holds the roller on the cam."""
+"""The cam drive: a cam, a follower arm with a roller, and the spring that holds the roller on the cam.
+
+Frame: the cam's hinge at the origin, the follower's at (-d, 0), so that the cam lifts the roller counter-clockwise.
+The follower's x axis passes through the roller's centre. Equations and sources: README.md beside this file.
+"""
 
 from __future__ import annotations
 
@@ -142,12 +146,6 @@ def _transmission(values: SimpleNamespace, at: Point, sense: int) -> Number:
     psi = follower_angle(values, sqrt(x * x + y * y))
     turned = roller_direction(values, psi) - off
     return ny * cos(turned - psi) + nx * sin(turned - psi)
-
-
-# The cam drive: a cam, a follower arm with a roller, and the spring that holds the roller on the cam.
-#
-# Frame: the cam's hinge at the origin, the follower's at (-d, 0), so that the cam lifts the roller counter-clockwise.
-# The follower's x axis passes through the roller's centre. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

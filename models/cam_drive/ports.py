@@ -80,8 +80,6 @@ def form(values: SimpleNamespace) -> tuple[Calculated, ...]:
     )
 
 
-# Inputs, outputs and parameters of the cam drive.
-
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),
     torque_input("drive", "cam"),

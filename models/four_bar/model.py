@@ -1,4 +1,9 @@
-"""The four-bar linkage: crank, coupler and rocker between two fixed hinges, open or crossed."""
+"""The four-bar linkage: crank, coupler and rocker between two fixed hinges, open or crossed.
+
+Frame: the crank's hinge at the origin, the rocker's hinge at (d, 0). The x axis of a link runs along it: of crank and
+rocker from the fixed hinge on, of the coupler from the crank pin on. Equations and sources: README.md beside this
+file.
+"""
 
 from __future__ import annotations
 
@@ -111,13 +116,6 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         Calculated("folded_transmission_angle", known.folded, f"{between} to the rocker's hinge", "rad", "deg"),
         Calculated("stretched_transmission_angle", known.stretched, f"{between} away from it", "rad", "deg"),
     )
-
-
-# The four-bar linkage: crank, coupler and rocker between two fixed hinges, open or crossed.
-#
-# Frame: the crank's hinge at the origin, the rocker's hinge at (d, 0). The x axis of a link runs along it: of crank and
-# rocker from the fixed hinge on, of the coupler from the crank pin on. Equations and sources: README.md beside this
-# file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

@@ -1,4 +1,8 @@
-"""A four-bar linkage whose coupler carries a path point, with links that bend."""
+"""A four-bar linkage whose coupler carries a path point, with links that bend.
+
+Frame: the crank's hinge at the origin, the rocker's hinge at (d, 0). The coupler is two beams, welded at the crank
+pin: one to the rocker pin, and the arm to the path point P. Equations and sources: README.md beside this file.
+"""
 
 from __future__ import annotations
 
@@ -202,12 +206,6 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         Calculated("stretched_transmission_angle", known.stretched, f"{between} away from it", "rad", "deg"),
         Calculated("outline_path_radius", values.arm_length / 15, "Drawing: radius of the path point", "m"),
     )
-
-
-# A four-bar linkage whose coupler carries a path point, with links that bend.
-#
-# Frame: the crank's hinge at the origin, the rocker's hinge at (d, 0). The coupler is two beams, welded at the crank
-# pin: one to the rocker pin, and the arm to the path point P. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

@@ -1,4 +1,8 @@
-"""The gear train: a pinion and a wheel on fixed hinges, whose pitch circles roll on each other."""
+"""The gear train: a pinion and a wheel on fixed hinges, whose pitch circles roll on each other.
+
+Frame: the pinion's hinge at the origin, the wheel's at (R1 + R2, 0). Both angles are 0 together. Equations and
+source: README.md beside this file.
+"""
 
 from __future__ import annotations
 
@@ -188,12 +192,6 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         Calculated("reduced_inertia", pair.reduced_inertia, "Inertia of both gears seen at the pinion", "kg.m2"),
         *form(values),
     )
-
-
-# The gear train: a pinion and a wheel on fixed hinges, whose pitch circles roll on each other.
-#
-# Frame: the pinion's hinge at the origin, the wheel's at (R1 + R2, 0). Both angles are 0 together. Equations and
-# source: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

@@ -1,4 +1,8 @@
-"""Lengths, angles and known ratios of an external Geneva drive with tangential entry (Bickford 1972), and its start."""
+"""Lengths, angles and known ratios of an external Geneva drive with tangential entry (Bickford 1972), and its start.
+
+With n slots and the centre distance c, the pin enters a slot along its centre line when the driver is at a right
+angle to it: a = c sin(pi/n) for the pin, R = c cos(pi/n) for the mouth of the slot, a^2 + R^2 = c^2.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +11,6 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 
 from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
-
-# Lengths, angles and known ratios of an external Geneva drive with tangential entry (Bickford 1972).
-#
-# With n slots and the centre distance c, the pin enters a slot along its centre line when the driver is at a right
-# angle to it: a = c sin(pi/n) for the pin, R = c cos(pi/n) for the mouth of the slot, a^2 + R^2 = c^2.
 
 
 @dataclass(frozen=True)

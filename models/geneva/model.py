@@ -1,4 +1,8 @@
-"""The external Geneva drive: a pin in a slot while it is in there, a locking arc while it is not."""
+"""The external Geneva drive: a pin in a slot while it is in there, a locking arc while it is not.
+
+Frame: the wheel's hinge at the origin, the driver's hinge at (c, 0). The driver's x axis passes through its pin, the
+wheel's through slot 0; slots are counted counter-clockwise. Equations and sources: README.md beside this file.
+"""
 
 from __future__ import annotations
 
@@ -48,12 +52,6 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
         )
         for reason, most in limits.items()
     )
-
-
-# The external Geneva drive: a pin in a slot while it is in there, a locking arc while it is not.
-#
-# Frame: the wheel's hinge at the origin, the driver's hinge at (c, 0). The driver's x axis passes through its pin, the
-# wheel's through slot 0; slots are counted counter-clockwise. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

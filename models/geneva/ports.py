@@ -140,8 +140,6 @@ def _seen(c: Number, r: Number, angle: Number) -> tuple[Number, Number]:
     return sqrt(x * x + y * y), atan2(y, x)
 
 
-# Inputs, outputs and parameters of the Geneva drive.
-
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),
     torque_input("drive", "driver"),

@@ -1,4 +1,7 @@
-"""The motor: a rotor on a fixed hinge, its armature circuit, and a PI controller of its speed."""
+"""The motor: a rotor on a fixed hinge, its armature circuit, and a PI controller of its speed.
+
+Frame: the rotor's hinge at the origin. Equations and source: README.md beside this file.
+"""
 
 from __future__ import annotations
 
@@ -152,11 +155,6 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         ),
         *form(),
     )
-
-
-# The motor: a rotor on a fixed hinge, its armature circuit, and a PI controller of its speed.
-#
-# Frame: the rotor's hinge at the origin. Equations and source: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

@@ -1,4 +1,8 @@
-"""The ratchet of Pennestrì, Valentini and Vita: guided along the slope of one tooth, or free on the whole wheel."""
+"""The ratchet of Pennestrì, Valentini and Vita: guided along the slope of one tooth, or free on the whole wheel.
+
+Frame: the wheel's hinge at the origin, the crank's hinge at (d, 0). The wheel's x axis passes through the
+root of the tooth that is struck, so that its angle is psi. Equations and sources: README.md beside this file.
+"""
 
 from __future__ import annotations
 
@@ -99,12 +103,6 @@ ANALYSIS = (
         source="models/ratchet/README.md",
     ),
 )
-
-
-# The ratchet of Pennestrì, Valentini and Vita: guided along the slope of one tooth, or free on the whole wheel.
-#
-# Frame: the wheel's hinge at the origin, the crank's hinge at (d, 0). The wheel's x axis passes through the
-# root of the tooth that is struck, so that its angle is psi. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

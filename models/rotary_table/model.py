@@ -1,4 +1,7 @@
-"""The rotary table: a disc on a fixed hinge, a brake that holds it up to a torque, and the shaft that turns it."""
+"""The rotary table: a disc on a fixed hinge, a brake that holds it up to a torque, and the shaft that turns it.
+
+Frame: the table's hinge at the origin. Equations and source: README.md beside this file.
+"""
 
 from __future__ import annotations
 
@@ -126,11 +129,6 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         Calculated("brake_time", time, "Within this the brake gives way or holds again", "s", "ms"),
         *form(),
     )
-
-
-# The rotary table: a disc on a fixed hinge, a brake that holds it up to a torque, and the shaft that turns it.
-#
-# Frame: the table's hinge at the origin. Equations and source: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

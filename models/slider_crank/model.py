@@ -1,4 +1,8 @@
-"""The slider-crank: crank, connecting rod and slider, with an offset if wanted."""
+"""The slider-crank: crank, connecting rod and slider, with an offset if wanted.
+
+Frame: the crank's hinge at the origin, the slider's line parallel to the x axis at the height e. The x axis of a link
+runs along it, from its hinge or the crank pin on. Equations and sources: README.md beside this file.
+"""
 
 from __future__ import annotations
 
@@ -78,12 +82,6 @@ def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
             (rod, needed, needed),
         ),
     )
-
-
-# The slider-crank: crank, connecting rod and slider, with an offset if wanted.
-#
-# Frame: the crank's hinge at the origin, the slider's line parallel to the x axis at the height e. The x axis of a link
-# runs along it, from its hinge or the crank pin on. Equations and sources: README.md beside this file.
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:

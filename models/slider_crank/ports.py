@@ -131,8 +131,6 @@ def form(values: SimpleNamespace) -> tuple[Calculated, ...]:
     )
 
 
-# Inputs, outputs and parameters of the slider-crank.
-
 INPUTS = (
     *shaft_inputs(speed=2 * math.pi),
     torque_input("drive", "crank"),

@@ -156,7 +156,7 @@ def test_forged_states_are_refused_and_nothing_changes(instance):
     one.run(0.5, 0.1)
     saved = one.save_bytes()
     model = models.load("ratchet").MODEL
-    words = sum(math.prod(shape_of(f, sizes_of(block(model)))) for f in FIELDS if f.room == "state")
+    words = sum(math.prod(shape_of(f, sizes_of(block(model)))) for f in FIELDS if f.section == "state")
     first = len(saved) - 4 - 8 * words
     cases = [(what, {first + 8 * place: struct.pack("<Q", bits)}) for what, place, bits in forged_words(model)]
     cases += [(f"phase {phase}", {24: struct.pack("<I", phase)}) for phase in (4, 2**31)]

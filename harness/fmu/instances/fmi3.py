@@ -149,8 +149,6 @@ class EventMode:
         self._owner.call("SetClock", [variables[name].reference for name in clocks], [True] * len(clocks))
 
 
-# Instances of FMUs of FMI 3.0, by way of fmpy.
-
 #: So often in a row an FMU may return early for no event.
 _MOST_SHORT = 100
 #: Types that have no functions of their own.

@@ -217,9 +217,6 @@ class RemoteEventMode:
         self._trips.changed(None)
 
 
-# What a machine has of a component in another process.
-
-
 class RemoteComponent:
     """The near side of it (a `machine.component.Component`).
 

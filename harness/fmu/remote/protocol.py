@@ -12,8 +12,6 @@ from ...errors import FmuError, HarnessError, LogMessage, Status, UsageError
 from ..description import Value, Variable
 from ..processes import BrokenFrameError
 
-# What goes between the process of a component and the one that leads, as plain data: checked when it comes.
-
 _KINDS: dict[str, type[HarnessError]] = {"usage": UsageError, "fmu": FmuError, "harness": HarnessError}
 _TYPES: dict[str, type[Value]] = {"Real": float, "Integer": int, "Boolean": bool, "String": str, "Binary": str}
 

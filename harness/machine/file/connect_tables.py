@@ -95,9 +95,6 @@ def _rate(name: str, side: Mapping[str, Member], description: Description) -> st
     return rate.variable if description.variables[rate.variable].causality == "output" else ""
 
 
-# The tables [[connect]] and [[bond]].
-
-
 def connections(
     file: TomlFile, description: Description, known: Collection[str], names: Collection[str]
 ) -> list[Connection]:

@@ -17,8 +17,6 @@ from ...run.master import TimeGrid
 from ..connection import Connection
 from ..part import Extrapolation
 
-# What the file of a machine says.
-
 
 class Scheme(StrEnum):
     """Algorithms by name (`harness/machine/algorithms`)."""

@@ -12,8 +12,6 @@ from ...fmu.description import Description, Value, Variable
 from ..connection import Connection
 from .machine_plan import ComponentPlan, Plan
 
-# A machine's file from its plan.
-
 
 def machine_toml(plan: Plan, descriptions: Mapping[str, Description], folder: Path, notes: Sequence[str] = ()) -> str:
     """The file that says what the plan does; numbers read back as the same.

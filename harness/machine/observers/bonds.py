@@ -1,4 +1,10 @@
-"""The energy that a coupling makes or loses: what one part gives is not just what the other takes."""
+"""The energy that a coupling makes or loses: what one part gives is not just what the other takes.
+
+A bond is two connections: a flow (a speed) or a displacement (an angle) one way, and an effort (a torque, a force)
+the other way. Each part knows the other's quantity only as it was extrapolated from communication points, so that the
+two reckon with different powers (Sadjina, Kyllingstad, Skjong, Pedersen: Energy conservation and power bonds in
+co-simulations, 2017). See `port` for what is assumed.
+"""
 
 from __future__ import annotations
 
@@ -110,13 +116,6 @@ class Port:
             self.energy += self._scale * self._piece(time - begin, u0, u, y0, y)
         self._point = time, u, y
 
-
-# The energy that a coupling makes or loses: what one part gives is not just what the other takes.
-#
-# A bond is two connections: a flow (a speed) or a displacement (an angle) one way, and an effort (a torque, a force)
-# the other way. Each part knows the other's quantity only as it was extrapolated from communication points, so that the
-# two reckon with different powers (Sadjina, Kyllingstad, Skjong, Pedersen: Energy conservation and power bonds in
-# co-simulations, 2017). See `port` for what is assumed.
 
 #: The columns of `bond_rows`.
 HEADINGS = ("bond", "given [J]", "taken [J]", "made by\nthe coupling [J]", "largest\npassed [J]", "made / largest [%]")

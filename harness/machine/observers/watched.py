@@ -1,4 +1,8 @@
-"""Looking on at every step of a component, those that are taken back, too; and how the components fared."""
+"""Looking on at every step of a component, those that are taken back, too; and how the components fared.
+
+An observer sees a machine at communication points only. But an algorithm may take several steps in between, and what
+an FMU says of its last step is then gone; or it may take steps back, and what was seen in them never happened.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +16,6 @@ from ...run.master import SECOND
 from ..event_iteration import EventMode, event_mode_of
 from ..machine import Machine
 from ..part import Part
-
-# Looking on at every step of a component, those within a step of the machine and those that are taken back, too.
-#
-# An observer sees a machine at communication points only. But an algorithm may take several steps in between, and what
-# an FMU says of its last step is then gone; or it may take steps back, and what was seen in them never happened.
 
 #: The number of impacts in the last step.
 IMPACTS = ("impacts_in_step",)

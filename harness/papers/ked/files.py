@@ -111,9 +111,6 @@ def _expected(found: Solution, ports: ElasticPorts) -> dict[str, Any]:
     return {name: by_source[source] for source, name in ports.outputs.items() if source in by_source}
 
 
-# The files of a turn: cycle.csv, cycle.parquet, summary.json.
-
-
 @dataclass(frozen=True)
 class Result:
     """All that there is to tell.

@@ -205,8 +205,6 @@ def frame(made: Reproduction) -> pd.DataFrame:
     )
 
 
-# report.html of the papers reproduced.
-
 _HEADINGS = ("id and place", "verdict", "what it says", "this project")
 _COLOURS = {
     Verdict.REPRODUCED: "#1b7f4b",

@@ -1,4 +1,7 @@
-"""What the paper says of the accuracy of its tooth, against finite elements and against its own first mode."""
+"""What the paper says of the accuracy of its tooth, against finite elements and against its own first mode.
+
+Source of the claims: Pennestrì, Valentini, Vita, section 5.1.
+"""
 
 from __future__ import annotations
 
@@ -85,10 +88,6 @@ def plane_teeth() -> tuple[PlaneTooth, ...]:
     rows = pd.read_csv(FILE, comment="#").to_dict("records")
     return tuple(PlaneTooth(**{str(name): value for name, value in row.items()}) for row in rows)
 
-
-# What the paper says of the accuracy of its tooth, against finite elements and against its own first mode.
-#
-# Source of the claims: Pennestrì, Valentini, Vita, section 5.1.
 
 #: Heading of these findings.
 ACCURACY = "What the paper says of its accuracy"

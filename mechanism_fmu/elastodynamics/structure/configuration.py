@@ -93,9 +93,6 @@ def _moving(compatibility: FloatArray, coordinates: tuple[str, ...]) -> str:
     return ", ".join(coordinates[k] for k in np.argsort(-shares)[:4] if shares[k] > 1e-3)
 
 
-# The structure in all configurations of a motion: compatibility d = C u, and what follows from it.
-
-
 @dataclass(frozen=True)
 class Configurations:
     """A linkage along a motion. All matrices come for all configurations, shape (times, ...).

@@ -16,8 +16,6 @@ from ..elements import FloatArray, LinkageError, block_diagonal, cantilever, sup
 from .places import RELEASED, Freedoms, find_freedoms, place_of
 from .pose import require_known
 
-# A mechanism as a structure: its elements, what of them is unknown, and their flexibilities. No configuration yet.
-
 #: Element coordinates, in the order of an element's deformations.
 _AXIAL, _TRANSVERSE, _ROTATION = "axial", "transverse", "rotation"
 

@@ -1,4 +1,8 @@
-"""Places: where members end and joints are attached; which of them move as one, stand still, or are unknown."""
+"""Places: where members end and joints are attached; which of them move as one, stand still, or are unknown.
+
+A body with members has a place at every end of one. Around it the body is a small rigid frame that moves by (u_x,
+u_y, theta). A body without members is rigid; its first place is the centre of mass.
+"""
 
 from __future__ import annotations
 
@@ -22,11 +26,6 @@ from ...model import (
 from ...model.body import Point
 from ...model.joints import Joint
 from ..elements import LinkageError
-
-# Places: where members end and joints are attached, and which of them move as one.
-#
-# A body with members has a place at every end of one. Around it the body is a small rigid frame that moves by (u_x,
-# u_y, theta). A body without members is rigid; its first place is the centre of mass.
 
 #: Points of a body are one when they are nearer to each other than this part of its longest member.
 _SAME = 1e-9

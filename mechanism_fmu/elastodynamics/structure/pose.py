@@ -26,8 +26,6 @@ from ...model.findings import length
 from ...model.joints import Joint
 from ..elements import FloatArray, LinkageError
 
-# Where the rigid bodies are in all configurations, how fast they go, and how their points are accelerated.
-
 
 @dataclass(frozen=True)
 class Pose:

@@ -18,8 +18,6 @@ from .forces import apply_forces
 from .friction import has_friction, resist
 from .minimum_norm import minimum_norm
 
-# Acceleration by Gauss / Udwadia-Kalaba (Pennestrì et al., eqs (2) and (3)), and the multipliers of the same solve.
-
 #: Friction and normal forces agree when no multiplier changes by more than this part of the largest one, or, where all
 #: vanish as a contact opens, by what is no push and is left by rounding: it does not shrink from round to round.
 _AGREE = 1e-13

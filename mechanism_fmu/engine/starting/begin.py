@@ -141,8 +141,6 @@ def _close_rates(block: Array, at: Pose) -> bool:
     return worst_of(Rows(block).residual_rate, count) <= RATES_WITHIN
 
 
-# The beginning: from the start guess to a mechanism that is assembled and ready to move.
-
 #: Copies of a pattern that are tried: the one where the point is, and four on either side.
 _MOST_ASSEMBLIES = 9
 

@@ -80,8 +80,6 @@ def _locate(block: Array, contact: int) -> float:
     return time
 
 
-# One step of the engine's own, as far as the first event within it.
-
 _LAST = METHOD.last
 
 

@@ -1,4 +1,8 @@
-"""Temporary folders that do not stay for good, and which names of an archive may be unpacked."""
+"""Temporary folders that do not stay for good, and which names of an archive may be unpacked.
+
+A folder is locked as long as its process lives. The system itself ends a lock with its process, however that ends; an
+id of a process may by now be that of another one, or of another container's.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +16,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
 from zipfile import ZipInfo
-
-# Temporary folders that do not stay for good: a killed process cannot remove its own, but the next one does.
-#
-# A folder is locked as long as its process lives. The system itself ends a lock with its process, however that ends; an
-# id of a process may by now be that of another one, or of another container's.
 
 #: The process that made it, for whoever wonders, and what no other has. Folders that are called otherwise were made by
 #: others, or by an earlier version, which locked nothing.

@@ -61,7 +61,7 @@ def rules(sizes: dict[str, int]) -> tuple[Rule, ...]:
     found: list[Rule] = []
     first = 0
     for field in FIELDS:
-        if field.room == "state":
+        if field.section == "state":
             found += _of_field(field, first, sizes)
             first += math.prod(shape_of(field, sizes))
     return tuple(found)
@@ -161,7 +161,7 @@ class Admissible:
 
     def _field(self, state: bytes, name: str) -> Array:
         field = FIELDS_BY_NAME[name]
-        first = sum(math.prod(shape_of(f, self.sizes)) for f in FIELDS[: FIELDS.index(field)] if f.room == "state")
+        first = sum(math.prod(shape_of(f, self.sizes)) for f in FIELDS[: FIELDS.index(field)] if f.section == "state")
         shape = shape_of(field, self.sizes)
         kind = np.int64 if field.integer else np.float64
         return np.frombuffer(state, kind, math.prod(shape), 8 * first).reshape(shape)

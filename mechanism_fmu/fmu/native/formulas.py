@@ -46,7 +46,7 @@ def entries(traced: Trace, block: Array) -> list[Entry]:
     """
     found = []
     for field in FIELDS:
-        if field.room != "tables":
+        if field.section != "tables":
             continue
         table = np.asarray(getattr(traced.tables, field.name))
         if table.shape != field_of(block, field.name).shape:

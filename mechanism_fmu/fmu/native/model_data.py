@@ -30,7 +30,7 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes, clock
     """
     mechanism = model.mechanism(model.values())
     block = pack(compile_mechanism(mechanism))
-    first_of_work = next(field.name for field in FIELDS if field.room == "work")
+    first_of_work = next(field.name for field in FIELDS if field.section == "work")
     given = int(block.view("int64")[slot(first_of_work)])
     variables = variables_of(model)
     again = outputs_again(variables) if clocks else ()

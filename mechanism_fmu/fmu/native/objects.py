@@ -39,8 +39,8 @@ void mechanism_read_output_rates(double *block, int64_t words);
 
 def engine_header() -> str:
     """The text of engine.h: codes, header words of a block, statuses, limits of the protocol, prototypes."""
-    rooms = [field.room for field in FIELDS]
-    edges = {"FIRST_OF_STATE": rooms.index("state"), "END_OF_STATE": rooms.index("work")}
+    sections = [field.section for field in FIELDS]
+    edges = {"FIRST_OF_STATE": sections.index("state"), "END_OF_STATE": sections.index("work")}
     enums = {
         "CODE": {name: value for name, value in vars(codes).items() if name.isupper()},
         "SIZE": {name: size_slot(name) for name in SIZES},

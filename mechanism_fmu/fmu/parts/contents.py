@@ -171,8 +171,6 @@ def _with_relative_imports(source: str, tree: ast.Module, path: Path, package: s
     return "".join(lines)
 
 
-# What the FMU of a model holds in every flavour, and what is asked of a model before it becomes one.
-
 #: Beginning of the name of the package that a user's own file is loaded into (see `own.load`).
 OWN = "own_mechanism_"
 

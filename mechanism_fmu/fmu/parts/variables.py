@@ -10,8 +10,6 @@ from typing import Literal
 from ...model import Calculated, Input, Model, Output, Parameter
 from ...model.ports import VariableType
 
-# The variables of an FMU: the ports of a model, numbered.
-
 Causality = Literal["input", "output", "parameter", "calculatedParameter", "independent"]
 Variability = Literal["fixed", "discrete", "continuous"]
 Initial = Literal["exact", "calculated"]

@@ -32,7 +32,7 @@ def running(model=RATCHET, until=1.0):
     return simulation
 
 
-@pytest.mark.parametrize("field", [field for field in FIELDS if field.room == "state"], ids=lambda field: field.name)
+@pytest.mark.parametrize("field", [field for field in FIELDS if field.section == "state"], ids=lambda field: field.name)
 def test_every_field_of_the_state_declares_what_it_holds(field):
     assert field.holds is not None
     assert len(field.holds) == len(field.columns or ("",))

@@ -82,7 +82,7 @@ def test_a_new_block_is_zero():
 
 def test_the_state_is_the_state_fields_and_nothing_else():
     block = filled()
-    in_state = [field_of(block, field.name).ravel() for field in FIELDS if field.room == "state"]
+    in_state = [field_of(block, field.name).ravel() for field in FIELDS if field.section == "state"]
     np.testing.assert_array_equal(state_of(block).view(np.int64), np.concatenate([f.view(np.int64) for f in in_state]))
 
 
@@ -90,7 +90,7 @@ def test_pack_writes_every_table_where_field_of_finds_it():
     tables = compile_mechanism(rotor([Stop(1.0)], acceleration=2.0))
     block = pack(tables)
     for field in FIELDS:
-        if field.room == "tables":
+        if field.section == "tables":
             np.testing.assert_array_equal(field_of(block, field.name), getattr(tables, field.name), field.name)
     np.testing.assert_array_equal(field_of(block, "inputs"), tables.input_start)
 

@@ -36,7 +36,7 @@ def test_the_motion_goes_on_from_a_saved_state_in_another_instance(saved_at):
     second.set_input("torque", 1.0)
     second.advance(3.0)
     for field in FIELDS:
-        if field.room == "work":
+        if field.section == "work":
             second.field(field.name)[...] = -77 if field.integer else np.nan
     second.state[:] = saved
     np.testing.assert_array_equal(course(second, times), expected)

@@ -118,7 +118,7 @@ def test_c_writes_the_tables_of_the_model_to_the_last_bit(compiled, data):
     assume(not compiled.model.refused(values))
     block, expected = compiled(values)[0], pack(compile_mechanism(compiled.model.build(values)))
     for field in FIELDS:
-        if field.room == "tables":
+        if field.section == "tables":
             assert field_of(block, field.name).tobytes() == field_of(expected, field.name).tobytes(), field.name
 
 

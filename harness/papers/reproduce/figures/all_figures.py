@@ -16,8 +16,6 @@ from ..bench import Bench
 from ..row import Found, judged
 from . import erdman_figures, pennestri_figures
 
-# All figures that the page shows, as SVG texts and as plots.
-
 
 @dataclass(frozen=True)
 class Figure:

@@ -29,8 +29,6 @@ from ..figures.all_figures import redrawn_joint
 from ..row import Found, Row, judged, within
 from .joint_rows import PARTS, two_bodies
 
-# What the ME451 slides say of composite joints and gears beside the five steps: eqs (1), (2), example 3.4.1.
-
 GEARS, SLIDES = "mechanism_fmu/model/joints/gears.py", "mechanism_fmu/slides.py"
 
 

@@ -165,8 +165,6 @@ PLACED: dict[str, tuple[Callable[[Free], FloatArray], int]] = {
 }
 
 
-# The joints of the ME451 slides: each one's five steps, against differences of its own Phi along a motion.
-
 JOINTS = "mechanism_fmu/model/joints"
 ROWS_OF_JOINTS = "mechanism_fmu/engine/constraints/joints"
 #: What differences of eighth order leave, with a safe margin.

@@ -10,8 +10,6 @@ from ..bench import AFTER_IMPACT, Bench
 from ..row import STUDY, Found, Row, judged
 from . import beam_rows, case_rows, impact_rows, stress_rows
 
-# What Pennestrì, Valentini and Vita claim of their method and its accuracy, beside single equations.
-
 ACCURACY = ("harness/papers/study/accuracy.py", "harness/papers/study/plane_teeth.csv")
 
 

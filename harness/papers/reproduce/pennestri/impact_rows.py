@@ -79,9 +79,6 @@ def _distance(q: FloatArray, direction: float, side: float) -> float:
     return float(side * (-math.sin(direction) * (tip[0] - root[0]) + math.cos(direction) * (tip[1] - root[1])))
 
 
-# Section 3 of Pennestrì, Valentini, Vita: eqs (4) to (7), the inverse of A, Figs 1 and 2.
-
-
 def _eq4(bench: Bench) -> Found:
     hit = bench.impact
     right = np.zeros(len(hit.mass) + len(hit.jacobian))

@@ -81,8 +81,6 @@ def largest() -> tuple[float, float]:
     return -float(best.fun), float(best.x[0])
 
 
-# Section 4 of Pennestrì, Valentini, Vita: eqs (8) to (13), Fig. 3.
-
 RITZ, RECOVERY = "mechanism_fmu/stress/ritz.py", "mechanism_fmu/stress/recovery.py"
 
 TOOTH, MODES = "mechanism_fmu/stress/tooth.py", "mechanism_fmu/stress/modes.py"
