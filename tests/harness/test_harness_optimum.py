@@ -17,7 +17,7 @@ from harness.designs.search import Best, History, InterruptedSearchError, NoIndi
 from harness.designs.store import Store, identity
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.variation import Axis
-from harness.designs.workers import Way, Work, here
+from harness.designs.workers import Backend, Work, here
 from harness.errors import UsageError
 from harness.report.optimum_report import Found, optimum_report
 from harness.run.master import TimeGrid, never
@@ -41,7 +41,7 @@ def store_of(optimum: Optimum, folder: Path) -> Store:
 
 
 def history_of(
-    optimum: Optimum, folder: Path, stop_requested: Callable[[], bool] = never, way: Way = VALLEY
+    optimum: Optimum, folder: Path, stop_requested: Callable[[], bool] = never, way: Backend = VALLEY
 ) -> History:
     executor = partial(here, Work(Place(folder), optimum.task, way))  # type: ignore[arg-type]
     return History(store_of(optimum, folder), executor, optimum.count, stop_requested, lambda history: None)
@@ -187,7 +187,7 @@ def test_near_an_optimum_that_fails_there_are_no_indices(tmp_path: Path) -> None
 
 
 def test_an_objective_that_never_changes_has_no_indices_and_this_is_said(tmp_path: Path) -> None:
-    constant = Way("cheap", lambda fmu, task, designs: [Result(d.number, "cheap", (7.0, 1.0)) for d in designs])
+    constant = Backend("cheap", lambda fmu, task, designs: [Result(d.number, "cheap", (7.0, 1.0)) for d in designs])
     optimum = replace(optimum_of(X, Y, count=20), around=Around(4, 0.1))
     history = history_of(optimum, tmp_path, way=constant)
     best = search(optimum, history)

@@ -36,7 +36,7 @@ from harness.designs import store as identities, store as stores, sweep
 from harness.designs.store import Store, code_of, contents, failures, identity
 from harness.designs.sweep import Progress, perform_sweep, range_cells
 from harness.designs.task import Design, Quantity, Result, Task, When
-from harness.designs.workers import Processes, Way, Work, here
+from harness.designs.workers import Backend, Processes, Work, here
 from harness.errors import UsageError
 from harness.run.master import TimeGrid
 
@@ -259,7 +259,7 @@ def test_portions_are_as_large_as_fits_in_a_moment(monkeypatch: pytest.MonkeyPat
         ]
 
     sweep = cheap_sweep(1000)
-    work = Work(None, sweep.task, Way("cheap", run, 256))  # type: ignore[arg-type]
+    work = Work(None, sweep.task, Backend("cheap", run, 256))  # type: ignore[arg-type]
     assert sum(len(pairs) for pairs in here(work, sweep.designs)) == 1000
     assert set(sizes[:50]) == {1}
     assert sizes[50:60] == [1, 2, 4, 5, 5, 5, 5, 5, 5, 5]
