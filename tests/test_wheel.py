@@ -5,6 +5,7 @@ import runpy
 import shutil
 import subprocess
 import sys
+import sysconfig
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -107,13 +108,14 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def python(installed: Path, tmp_path: Path) -> Callable[..., str]:
     """Runs Python in a folder with a user's own packages, with the installed wheel and without the checkout.
 
-    `-S` leaves out the .pth files, among which an editable install is; what is installed otherwise is on the path.
+    `-S` leaves out the .pth files, among which an editable install is; what is installed otherwise is on the path. Not
+    so all of `sys.path`: FMUs that other tests have run in this process have put their folders there.
     """
     for name in ("harness", "models"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "__init__.py").write_text(MINE)
     (tmp_path / "build_fmu.py").write_text(MINE)
-    others = [entry for entry in sys.path if entry and Path(entry).resolve() != ROOT]
+    others = dict.fromkeys(sysconfig.get_path(kind) for kind in ("purelib", "platlib"))
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(installed), *others])}
 
     def run(*arguments: str | Path) -> str:
