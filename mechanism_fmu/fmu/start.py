@@ -63,20 +63,39 @@ def slave_class(
         needed = ".".join(map(str, _PYTHON))
         raise _refusal(f"it needs Python {needed} or later; this is {sys.version.split()[0]}.")
     try:
-        _import_package(package, _cached(_RESOURCES / package))
-        slave = importlib.import_module(f"{package}.fmu.instance.slave")
-        described = importlib.import_module(f"{package}.{model}").MODEL
-        if starts or inputs:
-            baked = importlib.import_module(f"{package}.model.baked")
-            seen = {name: baked.Seen(*given) for name, given in inputs}
-            described = baked.baked_model(described, baked.Baked(dict(starts), seen))
-        made: type = slave.make_slave_class(described)
+        try:
+            made = _made(package, model, starts, inputs)
+        except (ModuleNotFoundError, FileNotFoundError) as error:
+            if isinstance(error, ModuleNotFoundError) and not (error.name or "").startswith(f"{package}."):
+                raise
+            # Somebody has deleted the cache while it was read: once more, from a folder that is written anew.
+            for name in [name for name in sys.modules if name == package or name.startswith(f"{package}.")]:
+                del sys.modules[name]
+            made = _made(package, model, starts, inputs)
     except ModuleNotFoundError as error:
         lines = (_RESOURCES / "requirements.txt").read_text(encoding="utf-8").splitlines()
         # Of the comments, those that are no sentence are packages for platforms without a compiled engine.
         requirements = [line.removeprefix("# ") for line in lines if not line.endswith(":")]
         install = f"python -m pip install {' '.join(map(repr, requirements))}"
         raise _refusal(f"there is no {error.name}. Install what it needs with: {install}") from error
+    return made
+
+
+def _made(
+    package: str,
+    model: str,
+    starts: tuple[tuple[str, float], ...],
+    inputs: tuple[tuple[str, tuple[object, ...]], ...],
+) -> type:
+    """As `slave_class`, from the package in the cache."""
+    _import_package(package, _cached(_RESOURCES / package))
+    slave = importlib.import_module(f"{package}.fmu.instance.slave")
+    described = importlib.import_module(f"{package}.{model}").MODEL
+    if starts or inputs:
+        baked = importlib.import_module(f"{package}.model.baked")
+        seen = {name: baked.Seen(*given) for name, given in inputs}
+        described = baked.baked_model(described, baked.Baked(dict(starts), seen))
+    made: type = slave.make_slave_class(described)
     return made
 
 

@@ -107,6 +107,26 @@ def test_the_second_start_from_another_folder_writes_nothing(tmp_path: Path, cac
     assert len(inodes) == len(SOURCES)
 
 
+#: Deletes the package that it stands in, the first time that it is imported.
+VANISHING = """
+import shutil
+from pathlib import Path
+
+package = Path(__file__).parents[1]
+if not package.with_name("gone").exists():
+    package.with_name("gone").touch()
+    shutil.rmtree(package)
+"""
+
+
+def test_a_cache_that_is_deleted_while_it_is_read_is_written_anew(tmp_path: Path, cache: Path, load: Load) -> None:
+    sources = SOURCES | {"fmu/__init__.py": VANISHING}
+    start = load(write_resources(tmp_path / "unzipped", "aaa", sources), "aaa")
+    assert start.slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
+    assert (cache / "gone").is_file()
+    assert contents(cache / "mechanism_fmu_aaa") == sources
+
+
 @pytest.mark.parametrize("damage", ["truncated", "changed", "missing", "folder gone", "all gone"])
 def test_a_damaged_cache_is_repaired(damage: str, tmp_path: Path, cache: Path, load: Load) -> None:
     resources = write_resources(tmp_path / "unzipped", "aaa")
