@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ..errors import UsageError
-from ..fmu.description import Description, Terminal, Variable
+from ..fmu.description import Description, Variable
+from ..fmu.terminals import Terminal
 from .connection import Connection, Link, linked, own_of, part_of, units_of_parts
 
 # In which order parts depend on each other.

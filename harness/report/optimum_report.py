@@ -11,7 +11,8 @@ import pyarrow as pa
 
 from ..designs.by_fmu import InMotion
 from ..designs.optimum_file import Optimum
-from ..designs.search import Best, History, Sensitivity
+from ..designs.search import Best, History
+from ..designs.sensitivity import Sensitivity
 from ..designs.variation import Axis
 from ..fmu import Fmu
 from ..fmu.description import Description, Value

@@ -7,7 +7,7 @@ import pytest
 from harness.designs.optimum_file import read_optimum
 from harness.designs.sweep import read_sweep
 from harness.designs.variation import Source, source
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from harness.toml_file import TomlFile
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"

@@ -10,7 +10,8 @@ from hypothesis import given, strategies as st
 
 from harness.analysis.impacts import ImpactCollector
 from harness.errors import UsageError
-from harness.fmu.description import Description, read_description
+from harness.fmu.description import Description
+from harness.fmu.description_file import read_description
 from harness.fmu.values import shown, start_values
 from harness.machine.connection import Connection
 from harness.machine.file.machine_plan import ComponentPlan, Plan, Policy, Source

@@ -15,7 +15,7 @@ from harness.app.commands import machine_exchange, machine_ready, machine_run
 from harness.app.execution import alone_in
 from harness.app.terminal import RunDisplay
 from harness.errors import UsageError
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from harness.fmu.interface import Observable
 from harness.machine.observers import record
 from mechanism_fmu.fmu.disk.archive import read_entries, write_archive

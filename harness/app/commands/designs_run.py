@@ -12,16 +12,8 @@ from rich.markup import escape
 from ...designs import sweep as sweeps
 from ...designs.by_fmu import design_with_largest
 from ...designs.optimum_file import Optimum, read_optimum
-from ...designs.search import (
-    Best,
-    History,
-    InterruptedSearchError,
-    NoIndicesError,
-    Sensitivity,
-    best_of,
-    search,
-    sensitivity,
-)
+from ...designs.search import Best, History, InterruptedSearchError, best_of, search
+from ...designs.sensitivity import NoIndicesError, Sensitivity, sensitivity
 from ...designs.store import Store, contents, failures, identity, numbers_of
 from ...designs.sweep import Progress, Sweep, range_cells, read_sweep
 from ...designs.workers import Executor

@@ -12,7 +12,8 @@ import build_fmu
 from mechanism_fmu.fmu.disk.archive import write_archive
 
 from ...errors import UsageError
-from ...fmu.description import Description, read_description
+from ...fmu.description import Description
+from ...fmu.description_file import read_description
 from ...fmu.instances.common import discard_message
 from ...fmu.instances.workspace import temporary_folder
 from ...machine.file.machine_plan import Scheme, Source

@@ -12,7 +12,8 @@ import build_fmu
 
 from ...errors import UsageError
 from ...fmu import Fmu, open_fmu
-from ...fmu.description import Description, hint_at, read_description
+from ...fmu.description import Description, hint_at
+from ...fmu.description_file import read_description
 from ...fmu.instances.common import MessageHandler
 from ...fmu.instances.workspace import temporary_folder
 from ...fmu.interface import Component

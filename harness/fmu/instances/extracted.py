@@ -11,7 +11,8 @@ from pathlib import Path
 import fmpy
 
 from ...errors import NO_ROOM, UsageError
-from ..description import Description, damaged, read_description
+from ..description import Description
+from ..description_file import damaged, read_description
 from .common import FmuSlave, MessageHandler, discard_message
 from .fmi2 import Fmi2Slave
 from .fmi3 import Fmi3Slave

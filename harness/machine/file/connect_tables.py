@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from ...errors import UsageError
-from ...fmu.description import Description, Member, Terminal, Variable
+from ...fmu.description import Description, Variable
+from ...fmu.terminals import Member, Terminal
 from ...toml_file import Section, TomlFile, as_text, parsed
 from ..connection import Connection, linked, own_of, part_of
 from .machine_plan import BondPlan

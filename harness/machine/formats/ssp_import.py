@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from ...errors import UsageError
-from ...fmu.description import Description, Value, read_description
+from ...fmu.description import Description, Value
+from ...fmu.description_file import read_description
 from ...fmu.values import parse_value, settable_variable
 from ...run.results import write_bytes, write_text
 from ..connection import Connection, kind_of, linked
