@@ -12,7 +12,7 @@ from ..analysis.impacts import ImpactCollector
 from ..errors import FmuError
 from ..fmu import Fmu
 from ..fmu.description import Description, Value
-from ..fmu.instances.common import discard_message
+from ..fmu.instances.message_log import discard_message
 from ..fmu.interface import Instances, Observable
 from ..fmu.values import shown
 from ..run.drawing import read_drawing

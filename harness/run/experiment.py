@@ -18,7 +18,7 @@ from ..analysis.impacts import ImpactCollector
 from ..analysis.stress import DAMAGE_UNITS
 from ..errors import LogMessage, UsageError
 from ..fmu.description import Description, Value
-from ..fmu.instances.common import MessageHandler, discard_message
+from ..fmu.instances.message_log import MessageHandler, discard_message
 from ..fmu.interface import Instances, Observable
 from .checks import Check, run_checks
 from .drawing import Drawing, read_drawing

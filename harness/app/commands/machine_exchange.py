@@ -14,7 +14,7 @@ from mechanism_fmu.fmu.disk.archive import write_archive
 from ...errors import UsageError
 from ...fmu.description import Description
 from ...fmu.description_file import read_description
-from ...fmu.instances.common import discard_message
+from ...fmu.instances.message_log import discard_message
 from ...fmu.instances.workspace import temporary_folder
 from ...machine.file.machine_plan import Scheme, Source
 from ...machine.formats.baking import GAINS, Baking, Numbers, baking

@@ -14,7 +14,7 @@ from ...errors import UsageError
 from ...fmu import Fmu, open_fmu
 from ...fmu.description import Description, hint_at
 from ...fmu.description_file import read_description
-from ...fmu.instances.common import MessageHandler
+from ...fmu.instances.message_log import MessageHandler
 from ...fmu.instances.workspace import temporary_folder
 from ...fmu.interface import Component
 from ...fmu.remote import TIME_LIMIT, in_own_process

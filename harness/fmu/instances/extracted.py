@@ -13,9 +13,10 @@ import fmpy
 from ...errors import NO_ROOM, UsageError
 from ..description import Description
 from ..description_file import damaged, read_description
-from .common import FmuSlave, MessageHandler, discard_message
+from .common import FmuSlave
 from .fmi2 import Fmi2Slave
 from .fmi3 import Fmi3Slave
+from .message_log import MessageHandler, discard_message
 from .workspace import require_library, temporary_folder
 
 

@@ -24,7 +24,7 @@ from typing import Any, Protocol
 
 from ...errors import LogMessage
 from ..description import Description
-from ..instances.common import MessageHandler
+from ..instances.message_log import MessageHandler
 from ..interface import Component, Reals
 from ..processes import BrokenFrameError, Wire, serve_only
 from .protocol import Numbers, Types, packed_answer, packed_error, packed_messages

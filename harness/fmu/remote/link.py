@@ -9,7 +9,7 @@ from multiprocessing.process import BaseProcess
 from typing import Any
 
 from ...errors import FmuError, HarnessError, LogMessage, Status
-from ..instances.common import MessageHandler
+from ..instances.message_log import MessageHandler
 from ..processes import BrokenFrameError, LateFrameError, Wire
 from .far_side import WRITES, Request
 from .protocol import Numbers, Question, read_error, read_messages
