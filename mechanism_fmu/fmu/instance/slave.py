@@ -1,4 +1,4 @@
-"""The co-simulation slave: FMI calls on one side, a `Simulation` on the other. No dynamics here."""
+"""FMI 2.0 co-simulation slave (pythonfmu): FMI calls on one side, a `Simulation` on the other. No dynamics here."""
 
 from __future__ import annotations
 
@@ -12,25 +12,24 @@ from types import SimpleNamespace
 from typing import Any, ClassVar
 from xml.etree.ElementTree import Element
 
-from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 from ... import __version__
 from ...engine.run import compiled_library
-from ...model import MechanismError, Model, compile_mechanism
+from ...model import Model, compile_mechanism
 from ...model.model import check_value
-from ...simulation import Simulation, SimulationError, StepBudgetError
+from ...simulation import Simulation, StepBudgetError
 from ...tables.layout import FIELDS, pack
 from ...tables.sizes import sizes_of
 from ..parts.variables import FIRST_REFERENCE, Variable, variables_of
 from . import saved_state
+from .logging_slave import LoggingSlave
 from .news import News
 from .protocol import (
     TIGHTEST,
     Experiment,
     FmiError,
     Phase,
-    Told,
     experiment,
     fmi_call,
     require,
@@ -46,7 +45,7 @@ _SETTABLE = {
 }
 
 
-class MechanismSlave(Fmi2Slave):
+class MechanismSlave(LoggingSlave):
     """The slave of any model; `make_slave_class` gives it one."""
 
     model: ClassVar[Model]
@@ -68,7 +67,6 @@ class MechanismSlave(Fmi2Slave):
         self._simulation: Simulation | None = None
         self._values: list[float] | None = None
         self._news = News()
-        self._told = Told()
         self._instances.add(self)
 
     # --- life cycle --------------------------------------------------------------------------------------------------
@@ -97,7 +95,7 @@ class MechanismSlave(Fmi2Slave):
         for warning in self.model.warned(values):
             self.log(warning, Fmi2Status.warning)
         self._phase = Phase.STEPPING
-        self._tell()
+        self._report_news()
 
     @fmi_call
     def do_step(self, current_time: float, step_size: float) -> bool:
@@ -113,7 +111,7 @@ class MechanismSlave(Fmi2Slave):
             self.log(f"{self.instance_name}: {spent}", Fmi2Status.discard, "logStatusDiscard")
             return False  # fmi2Discard
         finally:
-            self._tell()
+            self._report_news()
         return True
 
     @fmi_call
@@ -228,29 +226,6 @@ class MechanismSlave(Fmi2Slave):
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
-    def log(self, msg: str, status: Fmi2Status = Fmi2Status.ok, category: str | None = None, debug: Any = None) -> None:
-        """Log a plain text: the FMI logger takes it for a printf format, in which % must be doubled."""
-        if not self.log_queue:
-            self._told.release()
-        # A string of its own, which nobody else holds: the wrapper's reference to it will be released.
-        text = "".join((msg.replace("%", "%%"), " "))[:-1]
-        super().log(text, status, category)
-        self._told.add(text)
-
-    def report(self, error: Exception) -> None:
-        """Log an exception: as it is when it was meant for the user, with its type and place when it was not."""
-        if isinstance(error, (FmiError, MechanismError, SimulationError, SavedStateError)):
-            self.log(f"{self.instance_name}: {error}", Fmi2Status.error)
-            return
-        trace = error.__traceback__
-        while trace is not None and trace.tb_next is not None:
-            trace = trace.tb_next
-        place = "" if trace is None else f" at {trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}"
-        self.log(
-            f"{self.instance_name}: internal error {type(error).__name__}: {error}{place}; please report it.",
-            Fmi2Status.error,
-        )
-
     def _parameter_values(self) -> dict[str, float]:
         return {p.name: value for p, value in zip(self.model.parameters, self._parameters, strict=True)}
 
@@ -323,7 +298,7 @@ class MechanismSlave(Fmi2Slave):
                 raise FmiError(f"{variable.name} (value reference {reference}) is of type {variable.type}, not {kind}.")
         return places
 
-    def _tell(self) -> None:
+    def _report_news(self) -> None:
         for message in self._news.since_last(self._prepared()):
             self.log(*message)
 
