@@ -96,7 +96,7 @@ _FAILED = 1
 
 
 @contextmanager
-def exhaustion_told() -> Iterator[None]:
+def exhaustion_reported() -> Iterator[None]:
     """Say in a line that memory or a disk is full, and end with an exit code that says so; nothing of it is imported.
 
     Files that are written say so themselves (`results`).

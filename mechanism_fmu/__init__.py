@@ -6,5 +6,5 @@ means), `slides` (the worked examples of the ME451 slides). The machine around a
 ready-made mechanisms in `models`. What of all this is for users: docs/public-interface.md.
 """
 
-#: Version of the library, which every FMU tells as its own.
+#: Version of the library, which every FMU states as its own.
 __version__ = "0.1.0"

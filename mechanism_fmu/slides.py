@@ -112,7 +112,7 @@ def falling_gear(times: Sequence[float] | FloatArray | None = None) -> Fall:
     """Gear 2, a disc of 1 kg on a massless carrier, falls under its weight; its motion is that of the engine.
 
     Args:
-        times: that increase from 0 on [s]; unless told, 3 s in steps of 10 ms, which hold the bottom.
+        times: that increase from 0 on [s]; by default 3 s in steps of 10 ms, which hold the bottom.
 
     Raises:
         ValueError: the gear does not come to the bottom within these times.

@@ -40,7 +40,7 @@ def require_batch(path: Path) -> None:
 
 
 def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | None = None) -> list[Result]:
-    """Run designs together, in as many threads as there are processors unless told otherwise.
+    """Run designs together, by default in as many threads as there are processors.
 
     The numbers are those of `by_fmu`, to the last bit. Impacts that would not fit into the FMU's buffer of one step are
     not lost here.

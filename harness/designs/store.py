@@ -120,7 +120,7 @@ def identity(
 
 
 def contents(fmu: Fmu) -> dict[str, str]:
-    """What tells an FMU from another: its model, its GUID, and SHA-256 of all that is in it but the date of its making.
+    """What distinguishes FMUs: model, GUID, and SHA-256 of all that is in it but the date of its making.
 
     Whoever edits an FMU seldom gives it another GUID.
     """

@@ -89,8 +89,8 @@ class Description:
         units: its unit definitions.
         stop_time, step: of its default experiment [s]; None when it gives none.
         saves_state, serializes_state: its capability flags.
-        takes_slopes, gives_slopes: whether it takes slopes of inputs (canInterpolateInputs), and tells those of outputs
-            (maxOutputDerivativeOrder).
+        takes_slopes, gives_slopes: whether it takes slopes of inputs (canInterpolateInputs), and returns those of
+            outputs (maxOutputDerivativeOrder).
         log_categories: by name, with what each is for.
         fmi: version of FMI, 2 or 3.
         has_event_mode, returns_early: of FMI 3, whether it can let the importer handle events, and end a step at one.

@@ -67,7 +67,7 @@ def loops(links: Sequence[Link], machine: Description) -> list[list[str]]:
 
     Args:
         links: the machine's connections.
-        machine: description of its parts' variables; an output that tells no dependencies may follow any input.
+        machine: description of its parts' variables; an output that declares no dependencies may follow any input.
     """
     return _dependencies(links, machine)[1]
 

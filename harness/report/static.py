@@ -194,7 +194,7 @@ def ticks(low: float, high: float, intervals: int = 7) -> list[float]:
 
 
 def tick_labels(values: list[float]) -> list[str]:
-    """The same number of decimals for all ticks, as few as tell them apart."""
+    """The same number of decimals for all ticks, as few as distinguish them."""
     step = min(np.diff(values), default=1.0)
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
     return [f"{value:.{decimals}f}".replace("-", "−") for value in values]

@@ -68,8 +68,8 @@ class Run:
         drawing: how the mechanism is drawn.
         events: a row for each event, in words (`events.EventCollector`).
         events_lost: events that the FMU could not report.
-        tells_events: whether the FMU reports events at all.
-        logic: the modes and transitions that the FMU tells.
+        reports_events: whether the FMU reports events at all.
+        logic: the modes and transitions that the FMU declares.
         damage: what all impacts together do to the beam; None without a beam or an impact.
         inputs: the signals that drove inputs; None when there were none.
         compliance: how far links give way; () when the FMU declares none, or nothing loads them.
@@ -91,7 +91,7 @@ class Run:
     drawing: Drawing = field(default_factory=Drawing)
     events: pd.DataFrame = field(default_factory=lambda: pd.DataFrame(columns=list(EVENT_UNITS)))
     events_lost: int = 0
-    tells_events: bool = False
+    reports_events: bool = False
     logic: LogicFile = field(default_factory=LogicFile)
     damage: SequenceDamage | None = None
     inputs: InputSignals | None = None
@@ -101,6 +101,11 @@ class Run:
     def tooth(self) -> Beam | None:
         """The beam, by the name that it had before version 0.2."""
         return self.beam
+
+    @property
+    def tells_events(self) -> bool:
+        """`reports_events`, by the name that it had before version 0.2."""
+        return self.reports_events
 
 
 class _ParameterReader:
@@ -205,7 +210,7 @@ def performing(
             drawing=read_drawing(fmu.folder, fmu.description),
             events=event_collector.table(logic),
             events_lost=event_collector.lost,
-            tells_events=event_collector.tells,
+            reports_events=event_collector.reports,
             logic=logic,
             damage=found.damage,
             inputs=inputs,

@@ -181,8 +181,8 @@ def columns_of(ready: Prepared, designs: Mapping[str, ArrayLike]) -> dict[str, A
             raise MechanismError(f"{name} has the shape {column.shape}; give one number for each design.")
     lengths = {name: len(column) for name, column in columns.items()}
     if len(set(lengths.values())) != 1:
-        told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
-        raise MechanismError(f"All columns must be of one length, but {told or 'there are none'}.")
+        sizes_given = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        raise MechanismError(f"All columns must be of one length, but {sizes_given or 'there are none'}.")
     return columns
 
 

@@ -30,7 +30,7 @@ def event_name(mechanism: Mechanism, guard: int, subject: int) -> str:
 
 
 def event_names(mechanism: Mechanism) -> Iterator[tuple[int, int, str]]:
-    """All (guard, subject, name) that the engine can tell of a mechanism, in the order of the guards."""
+    """All (guard, subject, name) that the engine can report of a mechanism, in the order of the guards."""
     subjects = {
         **dict.fromkeys(_OF_CONTACT, len(mechanism.contacts)),
         **dict.fromkeys(_OF_PATTERN, len(mechanism.patterns)),

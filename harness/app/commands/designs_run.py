@@ -185,8 +185,8 @@ def _ending_of_search(
 
     table = store.finish()
     asked, failed = len(history.designs), len(failures(table))
-    told = f", {failed} failed (status and message are in {store.table_file.name})" if failed else ""
-    console.print(f"{asked} designs, {min(history.earlier, asked)} of them there before{told}.", soft_wrap=True)
+    of_which = f", {failed} failed (status and message are in {store.table_file.name})" if failed else ""
+    console.print(f"{asked} designs, {min(history.earlier, asked)} of them there before{of_which}.", soft_wrap=True)
     description = optimum.axes[0].description
     values = best.design.values.items()
     rows = [[name, shown(value, name, description), "free"] for name, value in values]

@@ -127,8 +127,8 @@ def import_file(path: Path, folder: Path | None) -> int:
             with prepared(str(found.file)):
                 pass
         except UsageError as error:  # what is in the folder will be gone
-            told = str(error).replace(f"{place}{os.sep}", "")
-            raise UsageError(told if f"'{path}'" in told else f"'{path}' was not imported: {told}") from error
+            reason = str(error).replace(f"{place}{os.sep}", "")
+            raise UsageError(reason if f"'{path}'" in reason else f"'{path}' was not imported: {reason}") from error
         _move(place, folder)
     console.print(f"Written to {escape(str(folder))}: {escape(found.file.name)} and its FMUs.", soft_wrap=True)
     console.print(f"mechanism-fmu machine run {folder / found.file.name}", soft_wrap=True, markup=False)

@@ -60,7 +60,7 @@ def prepared(
         in_process: whether components of which the file does not say it have no process of their own.
 
     Raises:
-        UsageError: there is none, or the file has mistakes, all of which are told.
+        UsageError: there is none, or the file has mistakes, all of which are listed.
         typer.Exit: an FMU cannot be built; the reason has been said.
     """
     file = TomlFile.read(machine_file(name))

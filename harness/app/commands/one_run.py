@@ -26,6 +26,7 @@ from ..terminal import (
     INTERRUPTED,
     RunDisplay,
     console,
+    name_earlier_files,
     show_checks,
     show_error,
     show_files,
@@ -35,7 +36,6 @@ from ..terminal import (
     show_table,
     show_warning,
     show_wide_table,
-    tell_of_earlier_files,
 )
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def run_fmu(
             try:
                 return _performed(instances, experiment, lambda run: _written(run, folder))
             except FmuError:
-                tell_of_earlier_files(folder)
+                name_earlier_files(folder)
                 raise
 
         with alone_in(folder, waits=False):
@@ -130,7 +130,7 @@ def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:
     logic = file.chosen(default_parameters(fmu.description, values))
     if file.objection or logic is None:
         why = "for these parameter values" if file.variants else "in this FMU"
-        raise UsageError(file.objection or f"{path.name} tells no modes and transitions {why}.")
+        raise UsageError(file.objection or f"{path.name} has no modes and transitions {why}.")
     show_wide_table("Transitions", HEADINGS, rows(logic))
     for name in kept_parts(logic):
         console.print(f"[bold]{escape(name)}[/] is closed throughout.")
@@ -251,7 +251,7 @@ def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
     from ...report.run_report import write_report
 
     if run.outcome.error is not None and run.results.empty:
-        tell_of_earlier_files(folder)
+        name_earlier_files(folder)
         show_error(str(run.outcome.error))
         return FAILED
     if run.inputs is not None and run.inputs.note:

@@ -56,7 +56,7 @@ from ..terminal import FAILED, console, show_checks, show_files, show_progress, 
 
 
 def run_reproduce(asked: Sequence[str], folder: Path) -> int:
-    """Work the rows, tell and write what comes of it, and return the exit code."""
+    """Work the rows, show and write what comes of it, and return the exit code."""
     chosen(asked)
     with alone_in(folder, waits=False), ExitStack() as stack:
         opened: list[Fmu] = []
@@ -129,7 +129,7 @@ def run_ked(
     folder: Path | None,
     asked: Asked | None = None,
 ) -> int:
-    """Bend a linkage over a turn, tell and write what comes of it, and return the exit code.
+    """Bend a linkage over a turn, show and write what comes of it, and return the exit code.
 
     Args:
         model: name of a ready-made one, or file.
@@ -186,12 +186,12 @@ def _result(
     synthesis = None
     searching = 0.6 if asked.synthesise else 0.0
     if asked.synthesise:
-        told = fmu.description
+        description = fmu.description
         synthesis = synthesised(
-            bounds_of(asked.vary, described, parameters, told),
+            bounds_of(asked.vary, described, parameters, description),
             described,
             parameters,
-            told,
+            description,
             prepared(described(parameters), speed, damping, samples).place,
             speed,
             damping,
@@ -234,7 +234,7 @@ def _refuse_rigid(mechanism: Any, model: str) -> None:
     """Refuse a mechanism without members.
 
     Raises:
-        UsageError: it has none; the message tells which models have.
+        UsageError: it has none; the message names the models that have.
     """
     if mechanism.members:
         return

@@ -72,7 +72,7 @@ def _show_final_values(run: Run) -> None:
 
 def _show_impacts(run: Run) -> None:
     if run.impacts.empty:
-        console.print("No impacts." if len(run.impacts.columns) else "The FMU does not tell of impacts.")
+        console.print("No impacts." if len(run.impacts.columns) else "The FMU reports no impacts.")
         return
     columns = [name for name in _IMPACT_COLUMNS if name in run.impacts.columns]
     rows = [[_cell(name, row, run.logic.contacts) for name in columns] for row in _records(run.impacts)]

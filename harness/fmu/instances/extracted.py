@@ -44,7 +44,7 @@ class Fmu:
             name: of the instance.
             on_message: receives its messages.
             early_return: whether an FMU of FMI 3.0 may end steps at its events, for `FmuSlave.advance`. What it then
-                tells of its last step, such as a list of impacts, is about the part of it that was taken last.
+                reports of its last step, such as a list of impacts, is about the part of it that was taken last.
 
         Raises:
             UsageError: it has clocks that tick by time.

@@ -44,7 +44,7 @@ class Opener(Protocol):
         """Of the component: known here, and not asked of it."""
 
     def __call__(self, on_message: MessageHandler, /) -> AbstractContextManager[Component]:
-        """A component that tells its messages to the given function."""
+        """A component that passes its messages to the given function."""
 
 
 def serve(end: socket.socket, name: str, opener: Opener, folder: Path | None) -> None:
@@ -147,8 +147,8 @@ class _Servant:
             return reals.values
 
         def read_slopes() -> tuple[bool, Sequence[float]]:
-            told = reals.read_slopes()
-            return told, reals.values
+            known = reals.read_slopes()
+            return known, reals.values
 
         self._questions[number] = kind, types, read if kind == "read" else read_slopes
 

@@ -1,4 +1,4 @@
-"""The connection to the process of a component: requests go, replies come, and its trouble is told."""
+"""The connection to the process of a component: requests go, replies come, and its trouble is reported."""
 
 from __future__ import annotations
 

@@ -170,7 +170,7 @@ def _offset(section: Section, target: Variable | None, description: Description)
     if given is None:
         return 0.0
     if target is None:
-        return 0.0  # what is wrong with the target is told elsewhere
+        return 0.0  # what is wrong with the target is reported elsewhere
     unit = Variable("offset", -1, "Real", "input", unit=target.unit)
     value = parsed(section, "offset", as_text(given), unit, description)
     return None if value is None else float(value)

@@ -98,7 +98,7 @@ class CheckedFiles(IndexDataCacheFile):
 
 
 def check_files(function: Any) -> None:
-    """Let a function that numba has been told to keep be read by `CheckedFiles`."""
+    """Let a function that numba is to keep be read by `CheckedFiles`."""
     function._cache._cache_file.__class__ = CheckedFiles
 
 

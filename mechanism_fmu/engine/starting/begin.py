@@ -114,7 +114,7 @@ def _contacts_begin(block: Array, at: Pose) -> bool:
 
 @jit
 def _blame(block: Array, contact: int, distance: float) -> None:
-    """Tell which contact is inside, and its gap [m or rad]: PENDING_SUBJECT and the spare row's residual."""
+    """Report which contact is inside, and its gap [m or rad]: PENDING_SUBJECT and the spare row's residual."""
     Course(block).counters[codes.PENDING_SUBJECT] = contact
     Rows(block).residual[spare_row(block)] = distance
 
@@ -123,7 +123,7 @@ def _blame(block: Array, contact: int, distance: float) -> None:
 def _close_rates(block: Array, at: Pose) -> bool:
     """Whether the start rates agree with the active rows, after those of coordinates that are not held have given way.
 
-    Without held coordinates nothing tells which rates are meant, and all stay as they are given.
+    Without held coordinates it is not known which rates are meant, and all stay as they are given.
     """
     keep_small()
     n = Sizes(block).coordinates

@@ -88,7 +88,7 @@ def prepare(text: str, native: bool, warn: Callable[[str], None]) -> tuple[Modul
     Args:
         text: the path as it was written.
         native: see `examine`.
-        warn: is told each warning.
+        warn: is called with each warning.
 
     Returns:
         The module that holds `MODEL`, and the file.
