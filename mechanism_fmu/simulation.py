@@ -1,4 +1,4 @@
-"""A mechanism in motion: where the model room and the engine meet."""
+"""Simulation of a mechanism in time: where `model` and `engine` meet."""
 
 from __future__ import annotations
 

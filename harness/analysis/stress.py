@@ -1,4 +1,4 @@
-"""From the impacts of a run to the stress that each leaves in what it strikes, and to the damage of all of them."""
+"""Bending stress of each impact of a run in the beam that it strikes, and fatigue damage of all of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a command works: it ends when asked to, is alone in its folder, and gives foreign FMUs processes of their own."""
+"""Execution of a command: signals and interruption, lock of its folder, processes of their own for foreign FMUs."""
 
 from __future__ import annotations
 

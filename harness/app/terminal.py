@@ -1,4 +1,4 @@
-"""What the user sees in the terminal."""
+"""Terminal output: progress, tables, checks, warnings and errors."""
 
 from __future__ import annotations
 

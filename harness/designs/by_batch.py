@@ -1,4 +1,4 @@
-"""The way of hundreds of designs in one compiled call: the FMU's numbers without its FMI calls."""
+"""Backend `batch`: hundreds of designs in one compiled call, with the FMU's numbers but without its FMI calls."""
 
 from __future__ import annotations
 

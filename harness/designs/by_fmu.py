@@ -1,4 +1,4 @@
-"""A design through the FMU, by its FMI calls; and one of many, run once more to be seen in motion."""
+"""Backend `fmu`: a design simulated by FMI calls; and one design run once more, to be shown in motion."""
 
 from __future__ import annotations
 

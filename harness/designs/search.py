@@ -78,7 +78,7 @@ class History:
         Values that were asked for before are answered from memory and count no second time.
 
         Raises:
-            EnoughError: there is no room for a single one, or the search has nothing new to ask for.
+            EnoughError: not a single one is left within the limit, or the search has nothing new to ask for.
             InterruptedSearchError: somebody wants it to end.
             UsageError: what is kept belongs to another search, or the disk refuses.
         """

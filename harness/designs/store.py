@@ -1,4 +1,4 @@
-"""Results on the disk, such that a process may end at any moment; and what makes two runs of a file the same.
+"""Store of results on the disk, safe against the end of the process at any moment; and identity of two runs of a file.
 
     FOLDER/identity.json         what the results belong to (`identity`); written first
     FOLDER/parts/*.parquet    results as they come: a file for what came together, by its first design's number;

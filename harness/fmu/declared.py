@@ -1,4 +1,4 @@
-"""What an FMU declares to be analysed: `resources/analysis.json`, when it has one."""
+"""Analyses that an FMU declares: `resources/analysis.json`, when it has one."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class Variable:
         start: its default value, as text; None when it has none.
         minimum, maximum: its limits in `unit`; None when it has none.
         nominal: its usual size in `unit`.
-        depends_on: of an output, the inputs that it follows at once; None: nobody says, so it may be all.
+        depends_on: of an output, the inputs that it follows at once; None: not declared, so it may be all.
         fmi_type: what FMI calls its type, as in "Float64".
         elements, element: of an array of FMI 3, how many numbers it has, and which of them this variable is.
         clocks: names of the clocks by which it ticks (FMI 3): it has a value only while one of them does.
@@ -58,7 +58,7 @@ class Variable:
 
     @property
     def in_event_mode_only(self) -> bool:
-        """Whether nobody may read it between events: a clock, or what ticks by one (FMI 3.0, section 4.2.1.4)."""
+        """Whether it may be read in event mode only: a clock, or what ticks by one (FMI 3.0, section 4.2.1.4)."""
         return self.type == "Clock" or bool(self.clocks)
 
     @property

@@ -1,4 +1,4 @@
-"""What a simulation unit is to those around it: the smallest of interfaces, so that a test can fake it."""
+"""Co-simulation interface (slave) as the harness uses it: the smallest of interfaces, so that a test can fake it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Processes beside this one: how they start, that none outlives it, and the frames that they exchange."""
+"""Worker processes: start and end, none outlives its parent, and the frames (messages) between them."""
 
 from __future__ import annotations
 

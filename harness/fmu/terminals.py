@@ -38,7 +38,7 @@ class Terminal:
     Attributes:
         name: "<terminal>", or "<terminal>.<terminal>" of one within another one.
         rule: how members are matched; "plug": by their names, all of them.
-        kind: what it is, in words of its maker's; "" where nobody says.
+        kind: what it is, in words of its maker's; "" where not declared.
         members: in the order of the file.
     """
 

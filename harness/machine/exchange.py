@@ -1,4 +1,4 @@
-"""What parts get beside continuous signals: initial values, signals that are held, inputs that a table drives."""
+"""Initialization of coupled components, discrete signals that are held, and inputs from a table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One component of a machine: its connected outputs, its inputs between communication points, how it fared."""
+"""Component in a machine: its connected outputs, extrapolated inputs, states saved and restored, statistics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A machine from start to stop: what is made ready, the run, cautions, and what came of it."""
+"""Run of a machine from start to stop: preparation, the loop of steps, warnings of its coupling, results."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ class Frames:
         self._keep(time)
 
     def stepped(self, unit: Observable, time: float) -> None:
-        """Keep a frame when one is due, or an impact has come and there is room for it."""
+        """Keep a frame when one is due, or an impact has come and there is space for it."""
         if time >= (self._number - _SLACK) * self._span:
             self._number = int(time / self._span + _SLACK) + 1
             self._keep(time)

@@ -1,4 +1,4 @@
-"""How the parts of a machine hang together, as far as their descriptions say: order, and loops without delay."""
+"""Dependency graph of a machine: order of its components, cycles, and algebraic loops."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class Structure:
     """Of a machine, whether its components are there or not.
 
     Attributes:
-        description: of it, as if it were one FMU; a connected input is an output, since nobody else may set it.
+        description: of it, as if it were one FMU; a connected input is an output, since nothing else may set it.
         links: its connections.
         order: names of its parts, each behind those that it follows.
         cycles: groups of parts that follow each other.

@@ -1,4 +1,4 @@
-"""The mechanism in motion: its shapes for every frame, and a player that plays them in the report."""
+"""Animation of a mechanism: its shapes for every frame, and the player in the report."""
 
 from __future__ import annotations
 

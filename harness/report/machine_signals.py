@@ -1,4 +1,4 @@
-"""A whole machine in motion, and charts of what was recorded of it."""
+"""Animation of a whole machine, and charts of its recorded signals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run over time: its quantities, which contacts are active when, modes and transitions, events."""
+"""Charts of a run over time: quantities, active contacts, modes and transitions, events."""
 
 from __future__ import annotations
 
@@ -245,7 +245,7 @@ def _is_motion(variable: Variable, run: Run) -> bool:
 def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
     """The curves of a quantity, in the display unit of its first variable.
 
-    Angles count from their start: bodies that point in different directions would leave each other no room.
+    Angles count from their start: bodies that point in different directions would leave each other no space.
     """
     known = run.description.units.displayed.get(unit, {})
     shown = variables[0].display_unit if variables[0].display_unit in known else ""

@@ -29,7 +29,7 @@ class Found:
 
     Attributes:
         best: design.
-        near_it: how much each variable matters there; None when nobody knows.
+        near_it: how much each variable matters there; None when it was not asked for.
         history: of the search.
         results: of all designs, as `Store.finish` gives them.
         seen: the best design in motion.

@@ -1,4 +1,4 @@
-"""The settings of a run: parameters and inputs, where their values come from, and the signals that drove inputs."""
+"""Report of parameters and inputs: where their values come from, and the signals that drove inputs."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def parameters_of_designs(
 
     Args:
         task: of the designs.
-        description: of the FMU; it has the values that nobody has set.
+        description: of the FMU; it has the default values.
         varied: value, unit and origin of what differs between designs, by name.
         note: what there is to say.
     """

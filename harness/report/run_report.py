@@ -22,7 +22,7 @@ from .motion import contacts, events_section, modes_section, motion_chart
 from .page import cards, chart, checks_list, page, section, table, versions_section
 from .parameters import Origin, Row, parameters_section, table_note
 
-# Charts above each other on a phone's screen, where there is no room for legends beside them.
+# Charts above each other on a phone's screen, where there is no space for legends beside them.
 
 #: Of a line of a legend, between two charts, and around them all [px].
 _LINE, _GAP, _TOP, _BOTTOM = 17, 34, 10, 46

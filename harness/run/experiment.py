@@ -1,4 +1,4 @@
-"""One experiment with one FMU: settings in, a run with tables and verdicts out."""
+"""Simulation experiment with one FMU: settings in, a run with tables and verdicts out."""
 
 from __future__ import annotations
 
@@ -218,17 +218,17 @@ def performing(
         )
 
 
-#: So many steps a run has whose step nobody says.
+#: So many steps a run has whose step size is not given.
 _USUAL_STEPS = 1000
 
 
 def default_times(description: Description, stop_time: float | None, step: float | None) -> tuple[float, float]:
     """Stop time and step [s], from the FMU's default experiment where they are None.
 
-    Where nobody says the step, it is a thousandth of the run, in whole nanoseconds.
+    Where no step size is given, it is a thousandth of the run, in whole nanoseconds.
 
     Raises:
-        UsageError: nobody says the stop time.
+        UsageError: no stop time is given.
     """
     stop_time = description.stop_time if stop_time is None else stop_time
     step = description.step if step is None else step

@@ -1,4 +1,4 @@
-"""A model made ready for many designs."""
+"""Batch simulation: a model made ready for many designs."""
 
 from __future__ import annotations
 

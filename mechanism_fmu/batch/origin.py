@@ -1,4 +1,4 @@
-"""The model of an FMU: from the Python sources that travel in it, if they are for the engine that stands here."""
+"""Model of an FMU from the Python sources that travel in it, if they are for the engine that stands here."""
 
 from __future__ import annotations
 

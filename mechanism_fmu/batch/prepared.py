@@ -1,4 +1,4 @@
-"""What is the same for all designs of a model, what is asked of them, and which of them cannot be."""
+"""Preparation of a batch: what is the same for all designs, what is asked of them, and which are refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Threads that share the designs of a job, or one design after the other by way of `Simulation`."""
+"""Threads that run the designs of a job, or one design after the other by way of `Simulation`."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ _PERIOD = 0.2
 
 
 def no_callback(_done: int, _all: int) -> None:
-    """Nobody wants to know."""
+    """No callback: progress is not reported."""
 
 
 def run_job(job: Job, mechanism: Mechanism, library: CDLL | None, threads: int, progress: Progress) -> Refusals:

@@ -1,4 +1,4 @@
-"""Outputs at the current time, and their derivatives: what each kind reads stands once, in `READINGS`."""
+"""Outputs at the current time, and their derivatives: what each kind of output reads stands once, in `READINGS`."""
 
 from __future__ import annotations
 

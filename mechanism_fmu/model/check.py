@@ -1,4 +1,4 @@
-"""What cannot be right is refused here, by name and with the way out."""
+"""Validation of a mechanism's structure: what cannot be right is refused, by name and with the way out."""
 
 from __future__ import annotations
 

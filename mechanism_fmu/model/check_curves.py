@@ -1,4 +1,4 @@
-"""What cannot be right of the numbers of curves, as findings."""
+"""Validation of the numbers of curves, as findings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What cannot be right of a mechanism's numbers, as findings: asked of plain numbers, and traced for native FMUs."""
+"""Validation of a mechanism's numbers, as findings: of plain numbers, and traced for native FMUs."""
 
 from __future__ import annotations
 

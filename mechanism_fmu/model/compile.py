@@ -1,4 +1,4 @@
-"""From parts to tables: the one thing that the engine reads."""
+"""Compilation of a mechanism to the tables of numbers that the engine reads."""
 
 from __future__ import annotations
 

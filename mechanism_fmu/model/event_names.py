@@ -1,4 +1,4 @@
-"""One vocabulary for events: the quantity that reaches zero, or the logical function that changes.
+"""Names of events: the quantity that reaches zero, or the logical function that changes.
 
 "face.gap" and "slope.force" are also the names of these quantities in `Output.source`; a pattern, a stop with memory
 and a declared logical function give the names of their functions: "teeth.next", "holding_pawl.click", "pin_in_slot".

@@ -1,4 +1,4 @@
-"""What the commands `sweep` and `optimise` do."""
+"""Commands `sweep` and `optimise`: many designs run, their table and report written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A machine's run, under the eyes of the user."""
+"""Run of a machine with a progress display: observers, interruption, and the record of the run."""
 
 from __future__ import annotations
 

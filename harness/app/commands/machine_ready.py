@@ -1,4 +1,4 @@
-"""From the file of a machine to its plan, its components' FMUs, built where need be, and their instances."""
+"""Preparation of a machine's run: its file read, its components' FMUs found or built, and their instances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the commands `ked` and `reproduce` do."""
+"""Commands `ked` and `reproduce`: elastodynamics of a linkage, and the papers' rows."""
 
 from __future__ import annotations
 

@@ -211,12 +211,12 @@ class FmuSlave(ABC):
         return error
 
     def failure(self, function: str, reason: str) -> FmuError:
-        """What to raise for an answer that the FMU finds good, but nobody can go on from."""
+        """What to raise for an answer that the FMU finds good, but from which the run cannot go on."""
         text = f"{self.name} failed {self._when()} ({function}): {reason}."
         return FmuError(text, instance=self.name, time=self._time if self._initialized else None)
 
     def quietly(self, call: Callable[[], int]) -> int:
-        """Call a function of the FMU; what it says is kept, but shown to nobody."""
+        """Call a function of the FMU; what it says is kept, but not shown."""
         return self._message_log.quietly(call)
 
     @abstractmethod

@@ -1,4 +1,4 @@
-"""FMUs by way of fmpy: extract, instantiate, and always clean up."""
+"""FMU files by way of fmpy: extracted, instantiated, and always cleaned up."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
         except Exception as error:
             if isinstance(error, OSError) and error.errno in NO_ROOM:
                 raise UsageError(
-                    f"'{path}' cannot be unpacked into '{folder.parent}': {error.strerror}. Make room there, or set "
+                    f"'{path}' cannot be unpacked into '{folder.parent}': {error.strerror}. Make space there, or set "
                     "the environment variable TMPDIR to another folder."
                 ) from error
             raise damaged(path, error) from error

@@ -52,7 +52,7 @@ class EventMode:
 
     Attributes:
         shared: whether a machine handles events.
-        pending: whether there is one that nobody has handled.
+        pending: whether there is one that is not yet handled.
         inside: whether the instance is in event mode.
         announced: when the FMU wants event mode next [s]; None: it has not said so (nextEventTime).
     """
@@ -242,7 +242,7 @@ class Fmi3Slave(FmuSlave):
         step = self.raw("fmi3DoStep", c_void_p, c_double, c_double, c_bool, *[c_void_p] * 4)
         self._step = partial(step, c_void_p(self._instance.component))
         results = self._event, self._ends, self._early_return, self._reached
-        # Without states, nobody goes back.
+        # Without saved states, no step is taken back.
         self._rest: tuple[Any, ...] = not self.description.saves_state, *(byref(result) for result in results)
 
     def _enter(self, start_time: float, stop_time: float) -> None:

@@ -1,4 +1,4 @@
-"""Variables of an FMU: one call for each type, and real ones that are bound once."""
+"""Value access of an FMU: variables grouped into one FMI call for each type, and Real ones that are bound once."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""What a process does that has one component: it obeys the machine's process (`remote`) until that says "end".
+"""Server of a remote component: its process answers the machine's process (`remote`) until that says "end".
 
 A request is plain data (`wire`, `plain`) of
 
-- orders: what is to be done first, as (name, arguments ...); nobody waits for each of them;
+- orders: what is to be done first, as (name, arguments ...); no reply is sent to each of them;
 - call: "enter_initialization", "exit_initialization", "advance", "terminate", "look", "end", ..., with its arguments;
 - wanted: numbers of the questions that are to be answered with the reply.
 
@@ -60,7 +60,7 @@ def serve(end: socket.socket, name: str, opener: Opener, folder: Path | None) ->
     signal.signal(signal.SIGTERM, signal.SIG_IGN)  # sent to all of a group: the one that leads ends this one
     try:
         _have_component(Wire(end), name, opener)
-    except (EOFError, ConnectionError):  # nobody is there any more
+    except (EOFError, ConnectionError):  # the client is gone
         leader.join()
 
 

@@ -1,4 +1,4 @@
-"""The connection to the process of a component: requests go, replies come, and its trouble is reported."""
+"""Connection to the process of a component: requests go, replies come, and its failures are reported."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _PATIENCE = 5.0
 
 
 class Link:
-    """The near side of the connection.
+    """The client's end of the connection.
 
     Attributes:
         name: of the part.

@@ -1,4 +1,4 @@
-"""What a machine has of a component in another process, with as few round trips as can be: one a step."""
+"""Client (proxy) of a component in another process, with as few round trips as can be: one a step."""
 
 from __future__ import annotations
 
@@ -159,7 +159,7 @@ class RemoteEventMode:
     """What a machine has of it (a `machine.events.EventMode`).
 
     Attributes:
-        pending: whether there is an event that nobody has handled.
+        pending: whether there is an event that is not yet handled.
     """
 
     def __init__(self, link: Link, trips: RoundTrips) -> None:
@@ -218,7 +218,7 @@ class RemoteEventMode:
 
 
 class RemoteComponent:
-    """The near side of it (a `machine.component.Component`).
+    """Client (proxy) of a remote component (an `interface.Component`).
 
     What is written, saved or restored goes with the next call that needs a reply; a refusal of it is therefore raised
     by that call.

@@ -1,4 +1,4 @@
-"""The tables [[connect]] and [[bond]], and terminals as connections."""
+"""Connections and power bonds of a machine's file: the tables [[connect]] and [[bond]], and terminals."""
 
 from __future__ import annotations
 
@@ -183,7 +183,7 @@ def _checked(
     known: Collection[str],
     names: Collection[str],
 ) -> bool:
-    """Whether a connection can be; if components are there that are not described, nobody knows, and it cannot."""
+    """Whether a connection can be; if components are there that are not described, it is unknown, and it cannot."""
     ends = {"from": connection.source, "to": connection.target, "rate": connection.rate}
     sound = True
     for key, end in ends.items():

@@ -1,4 +1,4 @@
-"""What the file of a machine says, and what a command changes in it for one run."""
+"""Contents of a machine's file, and what a command changes in it for one run."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ class ComponentPlan:
     Attributes:
         name: in the machine.
         source: of its FMU.
-        process: whether it runs in a process of its own; None: nobody has said.
-        time_limit: for each of its calls, in a process of its own [s]; None: nobody has said.
+        process: whether it runs in a process of its own; None: the file does not say.
+        time_limit: for each of its calls, in a process of its own [s]; None: the file does not say.
         values: start values of its parameters and free inputs, in their units.
     """
 

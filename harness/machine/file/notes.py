@@ -1,4 +1,4 @@
-"""What is to be said of a machine that is no mistake."""
+"""Notes on a machine that are no mistakes: cycles, algebraic loops, free inputs, missing units, held signals."""
 
 from __future__ import annotations
 

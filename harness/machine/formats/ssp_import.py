@@ -1,4 +1,4 @@
-"""From an .ssp file to a folder with a machine's file and its FMUs."""
+"""Import of an SSP file (.ssp): a folder with a machine's file and its FMUs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The energy that a coupling makes or loses: what one part gives is not just what the other takes.
+"""Energy balance of a power bond: what one part gives is not just what the other takes.
 
 A bond is two connections: a flow (a speed) or a displacement (an angle) one way, and an effort (a torque, a force)
 the other way. Each part knows the other's quantity only as it was extrapolated from communication points, so that the

@@ -1,4 +1,4 @@
-"""Chosen signals of a machine, recorded to a file while it runs, whatever happens to it."""
+"""Recorder of a machine's signals: to a file while it runs, whatever happens to it."""
 
 from __future__ import annotations
 

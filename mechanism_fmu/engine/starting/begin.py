@@ -1,4 +1,4 @@
-"""The beginning: from the start guess to a mechanism that is assembled, checked and ready to move."""
+"""Initialization: from the start guess to a mechanism that is assembled, checked and ready to move."""
 
 from __future__ import annotations
 

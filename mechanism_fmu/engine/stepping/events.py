@@ -1,4 +1,4 @@
-"""Where inside a step the first event happens.
+"""Event location: where inside a step the first event happens.
 
 The rule. On a step from t0 to t1, a guard w fires at the first t in (t0, t1] at which w <= 0 and before which w > 0.
 Open at t0: what has fired at the end of one step does not fire again at the start of the next. Closed at t1: no zero

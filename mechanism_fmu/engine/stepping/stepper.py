@@ -3,7 +3,7 @@
 The engine takes steps of its own, with dense output, and may be ahead of the time that the outside has reached
 (TIME <= STEP_END): the trajectory then does not depend on the communication step at all. When an input changes, what
 lies ahead is dropped and the motion goes on from TIME. Only a step in which an input has a slope ends at the target,
-because nobody knows the input beyond.
+because the input beyond is unknown.
 """
 
 from __future__ import annotations

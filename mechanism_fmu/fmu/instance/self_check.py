@@ -1,4 +1,4 @@
-"""Whether a mechanism can start with its default values: asked once, when its FMU is built."""
+"""Start check: whether a mechanism can start with its default values, asked once when its FMU is built."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From what the user wrote on the command line to a module that can be built."""
+"""User's model file made ready to be built: from the command line to an imported module."""
 
 from __future__ import annotations
 

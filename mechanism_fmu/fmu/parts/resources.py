@@ -1,4 +1,4 @@
-"""What travels in an FMU for tools: its drawing, its logic, which variables make up a shaft, what can be analysed."""
+"""Resource files of an FMU for tools: its drawing, its logic, terminals of its shafts, analyses that it declares."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ void forget_news(Instance *x) {
         x->logged_pull[c] = x->head.prepared && FIELD(x, pull_time)[c] <= time_of(x);
 }
 
-/* Append to a text that has room for `size` bytes. */
+/* Append to a text that has space for `size` bytes. */
 static void append(char *text, size_t size, const char *more) {
     size_t length = strlen(text);
     snprintf(text + length, size - length, "%s", more);
