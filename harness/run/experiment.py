@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,6 +20,7 @@ from ..errors import LogMessage, UsageError
 from ..fmu.description import Description, Value
 from ..fmu.instances.message_log import MessageHandler, discard_message
 from ..fmu.interface import Instances, Observable
+from ..fmu.values import parse_value, settable_variable
 from .checks import Check, run_checks
 from .drawing import Drawing, read_drawing
 from .inputs import InputSignals, check_no_overlap, read_inputs
@@ -220,6 +221,26 @@ def performing(
 
 #: So many steps a run has whose step size is not given.
 _USUAL_STEPS = 1000
+
+
+def start_values(assignments: Iterable[str], description: Description) -> dict[str, Value]:
+    """Values by name from assignments such as "tooth_slope_angle=95deg" or "drive_torque=2 N.mm".
+
+    A number without a unit is in the unit of the variable.
+
+    Raises:
+        UsageError: no `=`, unknown or unsettable variable, set twice, or a value that does not fit.
+    """
+    values: dict[str, Value] = {}
+    for assignment in assignments:
+        name, equals, text = assignment.partition("=")
+        name = name.strip()
+        if not equals:
+            raise UsageError(f"'{assignment}' is not a setting; write name=value, e.g. drive_torque='2 N.mm'.")
+        if name in values:
+            raise UsageError(f"'{name}' is set twice; set it once.")
+        values[name] = parse_value(text, settable_variable(name, description), description)
+    return values
 
 
 def default_times(description: Description, stop_time: float | None, step: float | None) -> tuple[float, float]:

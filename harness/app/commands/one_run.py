@@ -14,10 +14,9 @@ from ...analysis.stress import card_of
 from ...errors import FmuError, UsageError
 from ...fmu import open_fmu
 from ...fmu.interface import Instances
-from ...fmu.values import start_values
 from ...papers.study.wheels import base_case_checks
 from ...run.checks import Check, all_passed
-from ...run.experiment import Experiment, Run, default_times, performing
+from ...run.experiment import Experiment, Run, default_times, performing, start_values
 from ...run.logic import default_parameters, read_logic
 from ...run.results import prepare_folder, write_run, write_text
 from ..execution import alone_in, interruption, with_instances

@@ -17,7 +17,6 @@ from mechanism_fmu.elastodynamics import LinkageError, crank_of, with_friction
 from ...errors import UsageError
 from ...fmu import Fmu, open_fmu
 from ...fmu.description import Description, Value
-from ...fmu.values import start_values
 from ...papers.ked.files import Result, agreement, write_result
 from ...papers.ked.ked_report import write_ked_report
 from ...papers.ked.options import Asked, quantity
@@ -48,6 +47,7 @@ from ...papers.reproduce.papers_page import (
 from ...papers.reproduce.perform import Reproduction, chosen, perform
 from ...papers.reproduce.row import Document, Row
 from ...run.checks import all_passed
+from ...run.experiment import start_values
 from ...run.results import prepare_folder, write_text
 from ..execution import alone_in
 from ..terminal import FAILED, console, show_checks, show_files, show_progress, show_table

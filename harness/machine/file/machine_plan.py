@@ -12,7 +12,8 @@ from mechanism_fmu.fmu.disk.user_cache import was_built_here
 
 from ...errors import UsageError
 from ...fmu.description import Description, Value, Variable
-from ...fmu.values import parse_value, start_values
+from ...fmu.values import parse_value
+from ...run.experiment import start_values
 from ...run.master import TimeGrid
 from ..connection import Connection
 from ..part import Extrapolation

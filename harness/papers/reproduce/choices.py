@@ -186,7 +186,7 @@ CHOICES = (
         "Pennestrì, sections 4, 5",
         "Reading of v_I.",
         "“sudden variation of its velocity … follows from (7)”",
-        ("mechanism_fmu/engine/contacts/records.py",),
+        ("mechanism_fmu/engine/contacts/impact.py",),
         _velocity,
     ),
     Row(

@@ -15,8 +15,8 @@ from ..compiler.subset import entry, jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, spare_row
 from ..contacts.guards import gap
-from ..contacts.records import clear_impact, clear_records
-from ..dynamics.inputs import set_time, take_inputs
+from ..contacts.impact import clear_impact, clear_records
+from ..dynamics.forces import set_time, take_inputs
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
 from ..vectors import clear

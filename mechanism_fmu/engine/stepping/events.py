@@ -29,7 +29,7 @@ from ..constraints.rows import row_count
 from ..contacts.complementarity import push_ratio
 from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
 from ..dynamics.acceleration import derivative
-from ..dynamics.inputs import set_time
+from ..dynamics.forces import set_time
 from .interpolation import interpolate
 from .runge_kutta import try_step
 

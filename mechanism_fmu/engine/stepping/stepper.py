@@ -16,10 +16,10 @@ from ...tables.motion import Course, Stages
 from ...tables.parts import Contacts, Options, Ports
 from .. import status
 from ..compiler.subset import entry, jit, keep_small
-from ..contacts.records import clear_records
+from ..contacts.impact import clear_records
 from ..contacts.transition import release, transit
 from ..dynamics.acceleration import derivative
-from ..dynamics.inputs import feed, inputs_changed, set_time, show_reached, take_inputs
+from ..dynamics.forces import feed, inputs_changed, set_time, show_reached, take_inputs
 from ..vectors import copy
 from .interpolation import interpolate
 from .runge_kutta import initial_step_size, try_step

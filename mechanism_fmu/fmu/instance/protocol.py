@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import math
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
@@ -149,3 +150,37 @@ def fmi_call(method: _Method) -> _Method:
             raise
 
     return guarded  # type: ignore[return-value]
+
+
+def place_of(error: Exception) -> str:
+    """Where an exception was raised, as " at file:line"; "" where that is not known."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    return "" if trace is None else f" at {trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}"
+
+
+#: References to a text while `PassedTexts.release` looks at it: the list's, the variable's, the argument's.
+_HELD_HERE = 3
+
+
+class PassedTexts:
+    """Log messages that the wrapper has passed on to the host.
+
+    The wrapper (pythonfmu 0.7.0) takes a reference to the text of each message and never releases it, so that a long
+    run with many impacts would grow without end.
+    """
+
+    def __init__(self) -> None:
+        self._texts: list[str] = []
+
+    def add(self, text: str) -> None:
+        """Remember a text that has been put into the wrapper's queue."""
+        self._texts.append(text)
+
+    def release(self) -> None:
+        """Release the wrapper's references; the queue must be empty, which it is when the wrapper has read it."""
+        for text in self._texts:
+            if sys.getrefcount(text) > _HELD_HERE:
+                ctypes.pythonapi.Py_DecRef(ctypes.py_object(text))
+        self._texts.clear()

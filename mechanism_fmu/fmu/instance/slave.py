@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import gc
 import math
 import weakref
 from collections.abc import Sequence
@@ -12,32 +11,34 @@ from types import SimpleNamespace
 from typing import Any, ClassVar
 from xml.etree.ElementTree import Element
 
+from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 from ... import __version__
 from ...engine.run import compiled_library
-from ...model import Model, compile_mechanism
+from ...model import MechanismError, Model, compile_mechanism
 from ...model.model import check_value
-from ...simulation import Simulation, StepBudgetError
+from ...simulation import Simulation, SimulationError, StepBudgetError
 from ...tables.layout import FIELDS, pack
 from ...tables.sizes import sizes_of
 from ..parts.variables import FIRST_REFERENCE, Variable, variables_of
 from . import saved_state
-from .logging_slave import LoggingSlave
 from .news import News
 from .protocol import (
     TIGHTEST,
     Experiment,
     FmiError,
+    PassedTexts,
     Phase,
     experiment,
     fmi_call,
+    place_of,
     require,
     step_target,
     survive_release,
 )
 from .saved_state import Admissible, CheckedState, Contents, SavedState, SavedStateError, check_contents
-from .self_check import require_numbers, start_explained
+from .self_check import compile_engine, require_numbers, start_explained
 
 _SETTABLE = {
     "input": (Phase.INSTANTIATED, Phase.INITIALIZATION, Phase.STEPPING),
@@ -45,7 +46,7 @@ _SETTABLE = {
 }
 
 
-class MechanismSlave(LoggingSlave):
+class MechanismSlave(Fmi2Slave):
     """The slave of any model; `make_slave_class` gives it one."""
 
     model: ClassVar[Model]
@@ -56,7 +57,7 @@ class MechanismSlave(LoggingSlave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        _compile_engine(self.model)
+        compile_engine(self.model)
         self.modelName = self.model.name
         self.description = self.model.description
         self._phase = Phase.INSTANTIATED
@@ -67,6 +68,7 @@ class MechanismSlave(LoggingSlave):
         self._simulation: Simulation | None = None
         self._values: list[float] | None = None
         self._news = News()
+        self._passed = PassedTexts()
         self._instances.add(self)
 
     # --- life cycle --------------------------------------------------------------------------------------------------
@@ -226,6 +228,26 @@ class MechanismSlave(LoggingSlave):
 
     # --- inside ------------------------------------------------------------------------------------------------------
 
+    def log(self, msg: str, status: Fmi2Status = Fmi2Status.ok, category: str | None = None, debug: Any = None) -> None:
+        """Log a plain text: the FMI logger takes it for a printf format, in which % must be doubled."""
+        if not self.log_queue:
+            self._passed.release()
+        # A string of its own, which nobody else holds: the wrapper's reference to it will be released.
+        text = "".join((msg.replace("%", "%%"), " "))[:-1]
+        super().log(text, status, category)
+        self._passed.add(text)
+
+    def report(self, error: Exception) -> None:
+        """Log an exception: as it is when it was meant for the user, with its type and place when it was not."""
+        if isinstance(error, (FmiError, MechanismError, SimulationError, SavedStateError)):
+            self.log(f"{self.instance_name}: {error}", Fmi2Status.error)
+            return
+        place = place_of(error)
+        self.log(
+            f"{self.instance_name}: internal error {type(error).__name__}: {error}{place}; please report it.",
+            Fmi2Status.error,
+        )
+
     def _parameter_values(self) -> dict[str, float]:
         return {p.name: value for p, value in zip(self.model.parameters, self._parameters, strict=True)}
 
@@ -325,20 +347,3 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
         "__doc__": model.description,
     }
     return type(model.name, (MechanismSlave,), members)
-
-
-@functools.cache
-def _compile_engine(model: Model) -> None:
-    """Compile the engine, or load it from the cache: in the constructor, never in the first step."""
-    if compiled_library() is not None:
-        return
-    collects = gc.isenabled()
-    gc.disable()  # the compiler makes millions of small objects and keeps them: looking for garbage costs a tenth
-    try:
-        with start_explained():
-            simulation = Simulation(model.build(model.values()))
-        simulation.advance(1e-3)
-        simulation.read()
-    finally:
-        if collects:
-            gc.enable()

@@ -2,8 +2,7 @@ import sys
 
 import pytest
 
-from mechanism_fmu.fmu.instance.logging_slave import PassedTexts
-from mechanism_fmu.fmu.instance.protocol import fmi_call, survive_release
+from mechanism_fmu.fmu.instance.protocol import PassedTexts, fmi_call, survive_release
 
 
 class Slave:
