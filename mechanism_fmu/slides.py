@@ -29,7 +29,7 @@ from .model import (
     polynomial_motion,
 )
 from .model.curves import constant, cosine
-from .model.profiles import circle, piecewise_profile
+from .model.curves.profiles import circle, piecewise_profile
 from .simulation import Simulation
 
 # Example 3.4.1 of the ME451 slides: gear 2 falls around gear 1, which is fixed to the ground.

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import functions
-from .check_numbers import number_findings
+from .checks.check_numbers import number_findings
 from .compile import Array, MechanismTables, compile_mechanism, compile_tables
 from .errors import MechanismError
 from .findings import Finding

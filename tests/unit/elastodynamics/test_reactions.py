@@ -31,7 +31,7 @@ from mechanism_fmu.model import (
     Translational,
     lumped_body,
 )
-from mechanism_fmu.model.motions import harmonic_motion, polynomial_motion
+from mechanism_fmu.model.curves.motions import harmonic_motion, polynomial_motion
 from mechanism_fmu.simulation import Simulation
 
 #: The crank is speeded up from a start that is none of the oracle's.
