@@ -224,7 +224,7 @@ def _angle_drivers(mechanism: Mechanism) -> set[str]:
     return {j.name for j in mechanism.joints if isinstance(j, AngleDriver) and j.body_i == GROUND}
 
 
-# What of a mechanism's inputs and outputs turns its crank, and tells how its members bend.
+# What of a mechanism's inputs and outputs turns its crank, and reports how its members bend.
 
 
 @dataclass(frozen=True)

@@ -113,7 +113,7 @@ def _expected(found: Solution, ports: ElasticPorts) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Result:
-    """All that there is to tell.
+    """All results of a turn.
 
     Attributes:
         fmu: of the mechanism.
