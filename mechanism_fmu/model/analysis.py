@@ -69,7 +69,8 @@ class RectangularTooth:
 class TableBeam:
     """The beam `mechanism_fmu.stress.TableBeam`, fixed at its root, with any cross section.
 
-    Between the places the section follows monotone cubics; a step is two places close together.
+    Between the places the section follows monotone cubics. It should change gradually: modes are polynomials along the
+    whole beam, which near a step are off by half of the stress there.
 
     Attributes:
         places: distances from the root, ascending from 0 to the tip [m].
