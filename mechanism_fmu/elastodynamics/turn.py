@@ -1,4 +1,4 @@
-"""One turn of a mechanism at constant speed, whatever drives it in a simulation; and the engine's own motion."""
+"""One turn of a mechanism at constant speed, whatever drives it in a simulation."""
 
 from __future__ import annotations
 
