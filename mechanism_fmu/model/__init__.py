@@ -13,6 +13,7 @@ from .analysis import (
     SawtoothWheel,
     SeriesCompliance,
     Strut,
+    TableBeam,
     TrapezoidTooth,
     WedgeTooth,
 )
@@ -152,6 +153,7 @@ __all__ = [
     "Shape",
     "Striker",
     "Strut",
+    "TableBeam",
     "Term",
     "Translational",
     "TranslationalDriver",

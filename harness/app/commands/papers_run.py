@@ -25,6 +25,7 @@ from ...papers.ked.solve import Turn, prepared, solved, swept
 from ...papers.ked.synthesis import bounds_of, synthesised
 from ...papers.ked.tables import (
     cycle_rows,
+    feedback_sentence,
     flywheel_sentence,
     frame_sentence,
     frequency_rows,
@@ -138,7 +139,7 @@ def run_ked(
         damping: ratio of every mode.
         settings: parameters, "name=value unit".
         folder: for the results.
-        asked: limits, synthesis, flywheel and friction.
+        asked: limits, synthesis, flywheel, friction and speeds.
 
     Raises:
         UsageError: something of it cannot be; the message says what and what to do.
@@ -207,8 +208,9 @@ def _result(
     compared = found if plain is None else plain
     agreed = replace(agreement(fmu, mechanism, compared, parameters), frictionless=plain is not None)
     begun = searching + 0.2 * (1.0 - searching)
-    sweep = swept(turned, speed, lambda text, done: progress(text, begun + (1.0 - begun) * done))
-    return Result(fmu, fmu.description.text, parameters, found, sweep, agreed, asked.limits, synthesis, plain)
+    sweep = swept(turned, speed, lambda text, done: progress(text, begun + (1.0 - begun) * done), asked.speeds)
+    text, drawn_only = fmu.description.text, asked.speeds is None
+    return Result(fmu, text, parameters, found, sweep, agreed, asked.limits, synthesis, plain, not drawn_only)
 
 
 def _described(model: str, parameters: Mapping[str, Value]) -> Any:
@@ -318,7 +320,12 @@ def _show_turn(result: Result) -> None:
         f"energy that it has given beyond its mean varies by {torque.energy:.4g} J.",
         soft_wrap=True,
     )
-    for sentence in (frame_sentence(found), friction_sentence(found), flywheel_sentence(found)):
+    for sentence in (
+        frame_sentence(found),
+        friction_sentence(found),
+        flywheel_sentence(found),
+        feedback_sentence(found),
+    ):
         if sentence:
             console.print(sentence, soft_wrap=True)
     show_checks(result.checks)
