@@ -1,4 +1,4 @@
-"""How a bending linkage swings: its periodic steady state, whether that is stable, by feedback, over speeds."""
+"""Dynamic response of a bending linkage: periodic steady state, transient, by feedback, and over a range of speeds."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def periodic_response(cycle: ElasticCycle) -> PeriodicResponse:
 
     u is a trigonometric series that fulfils the equations at 2 H + 1 even times, where M, C, K and p are read off the
     series through their samples; H grows until they are fulfilled at all T given times, to `TOLERANCE`. With more
-    than T / 4 harmonics the samples could no longer tell, so that is where it ends, with a warning.
+    than T / 4 harmonics the samples could no longer resolve the motion, so that is where it ends, with a warning.
 
     Warns:
         UserWarning: T / 4 harmonics are not enough.

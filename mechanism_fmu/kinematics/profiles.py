@@ -1,4 +1,4 @@
-"""What a profile is like before it meets a follower: curvature, hollows, jumps."""
+"""Cam profiles by themselves, before they meet a follower: curvature, hollows, jumps."""
 
 from __future__ import annotations
 

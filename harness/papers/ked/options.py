@@ -1,4 +1,4 @@
-"""What an engineer asks of a turn besides: limits, the lightest design within them, a flywheel, friction."""
+"""Design limits of a turn, the lightest design within them, flywheel, and joint friction."""
 
 from __future__ import annotations
 

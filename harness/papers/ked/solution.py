@@ -1,4 +1,4 @@
-"""What a turn of a bending linkage comes to."""
+"""Results of a turn of a bending linkage."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From the description of a mechanism to what a turn of it comes to."""
+"""Elastodynamic solution of a turn, from the description of a mechanism to its results."""
 
 from __future__ import annotations
 

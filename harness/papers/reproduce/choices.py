@@ -1,4 +1,4 @@
-"""What the documents leave open and what this project takes, each with what it does to the numbers."""
+"""Choices: what the documents leave open and what this project takes, each with what it does to the numbers."""
 
 from __future__ import annotations
 

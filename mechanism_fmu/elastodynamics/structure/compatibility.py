@@ -1,4 +1,4 @@
-"""What joints and rigid bodies ask of the displacements of the places, G w = 0, and which are free: w = Z u."""
+"""Compatibility: constraints of joints and rigid bodies on the displacements, G w = 0, and free ones: w = Z u."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How numba's machine code is made as whole programs, and kept in files that are read only as they were written."""
+"""Machine code by numba, made as whole programs and cached in files that are read only as they were written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What happens at an event, the record of it, and which contacts no longer touch behind a step."""
+"""Transition at an event, the record of it, and contacts that no longer touch behind a step."""
 
 from __future__ import annotations
 
