@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import codes, tables
 from ..tables.declare import Field, Table
+from .beams import beam_data, beam_members, hinge
 from .body import GROUND
 from .checks.check import check
 from .curves import Curve
@@ -18,7 +19,7 @@ from .functions import is_plain, sqrt
 from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
 from .sources import output_factor, reads_members, resolve_output
-from .structure import Structure, beam_data, beam_members, hinge, member_data, structure
+from .structure import Structure, member_data, structure
 
 # Names of the engine's unknowns for messages: which part limits the steps.
 

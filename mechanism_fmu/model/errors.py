@@ -1,4 +1,4 @@
-"""The one error of `mechanism_fmu.model`."""
+"""The one error of the model room."""
 
 
 class MechanismError(ValueError):

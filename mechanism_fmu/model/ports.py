@@ -71,7 +71,7 @@ class Output:
             of elastic members
             "<member>.start|end.x|y|x_bent|y_bent|x_deflection|y_deflection|rotation|deviation",
             "<member>.axial_force|start_moment|end_moment|stress" (see `structure`) and
-            "<member>.tip_deflection|bending_stress" (see `structure.hinge`);
+            "<member>.tip_deflection|bending_stress" (see `beams`);
             "event.count|in_step"; "events[k].<field>" of
             the k-th (1..16) event of the last communication step, with field one of time, guard and subject (codes;
             -1 in an empty slot), old_mode, new_mode (sum of 2^c over closed contacts c), impulse;

@@ -9,13 +9,14 @@ from typing import get_args
 
 from .. import codes
 from ..tables.sizes import GIVEN_SIZES, complete
+from .beams import OF_BEAM, beam_members, hinge
 from .contacts import AngleStop
 from .errors import MechanismError
 from .forces import ForceElement
 from .functions import Number
 from .joints import Joint
 from .mechanism import Mechanism
-from .structure import OF_BEAM, beam_members, hinge, nodes_of
+from .structure import nodes_of
 
 _COORDINATES = {"x": 0, "y": 1, "angle": 2}
 _RATES = {"x_rate": 0, "y_rate": 1, "speed": 2}

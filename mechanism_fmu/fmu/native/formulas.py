@@ -9,11 +9,12 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ...model import GROUND, Mechanism, MechanismError, Settings
+from ...model.beams import beam_members
 from ...model.findings import MOST_NUMBERS, Finding, pieces
 from ...model.functions import Number
 from ...model.mechanism import curve_owners
 from ...model.sources import reads_members
-from ...model.structure import Structure, beam_members, structure
+from ...model.structure import Structure, structure
 from ...model.symbol import Operation, Symbol
 from ...model.trace import Trace
 from ...tables.declare import Array
