@@ -136,7 +136,7 @@ def trace(model: Model) -> Trace:
 def _place(error: Exception) -> str:
     """Where in the model's own code an error came from."""
     frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if Path(frame.filename).parent != Path(__file__).parent] or list(frames)
+    own = [frame for frame in frames if Path(__file__).parent not in Path(frame.filename).parents] or list(frames)
     return f"{own[-1].filename}, line {own[-1].lineno} ({own[-1].line})"
 
 

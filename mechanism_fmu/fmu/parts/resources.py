@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement
 from ...model import GROUND, CompliantShaft, ImpactStress, Mechanism, MechanismError, Model, Parameter, Torque
 from ...model.analysis import Analysis, check_analysis
 from ...model.drawing import check_drawing
-from ...model.logical_functions import event_names
+from ...model.event_names import event_names
 from ...model.transitions import logic_of
 from ...statechart import Logic
 from ...statechart.records import encode

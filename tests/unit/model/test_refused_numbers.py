@@ -198,7 +198,7 @@ def test_every_kind_of_part_is_there() -> None:
     }
     # what is to be analysed is checked at the build: tests/unit/fmu/test_analysis_file.py
     others |= {"Arm", "ImpactStress", "SawtoothWheel", "SeriesCompliance", "Strut"}
-    others |= {"RectangularTooth", "TrapezoidTooth", "WedgeTooth"}
+    others |= {"RectangularTooth", "TableBeam", "TrapezoidTooth", "WedgeTooth"}
     assert {kind.__name__ for kind in frozen} - {kind.__name__ for kind in parts} == others
     assert len(CASES) > 400
 
