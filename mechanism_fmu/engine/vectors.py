@@ -1,4 +1,4 @@
-"""Vector operations: copy, clear, largest magnitude."""
+"""Vectors as wholes."""
 
 from __future__ import annotations
 
