@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Protocol
 
@@ -12,12 +12,26 @@ from .analysis import Analysis
 from .drawing import Shape
 from .errors import MechanismError
 from .findings import Finding, messages
-from .mechanism import Mechanism
+from .mechanism import DEFAULT_SETTINGS, Mechanism, Settings
 from .ports import Parameter
 
 
 def _nothing(_values: SimpleNamespace) -> Sequence[Finding]:
     return ()
+
+
+@dataclass(frozen=True)
+class _WithSettings:
+    """A model's function; where its mechanism gives no settings, they are those among the parameter values."""
+
+    function: Callable[[SimpleNamespace], Mechanism]
+
+    def __call__(self, values: SimpleNamespace) -> Mechanism:
+        mechanism = self.function(values)
+        # A user's function may return anything; what is no mechanism is objected to elsewhere.
+        if isinstance(mechanism, Mechanism) and mechanism.settings is DEFAULT_SETTINGS:
+            return replace(mechanism, settings=Settings.of(values))
+        return mechanism
 
 
 @dataclass(frozen=True)
@@ -29,7 +43,8 @@ class Model:
         description: one line for the user.
         parameters: all parameters with their limits.
         mechanism: pure function from parameter values (attributes of its one argument, by name) to the mechanism:
-            plain arithmetic and `model.functions` only, no branching on structure, so that symbolic numbers pass.
+            plain arithmetic and `model.functions` only, no branching on structure, so that symbolic numbers pass;
+            its settings are those among the parameters (`settings_parameters`), unless it gives some.
         objections: pure function, as `mechanism` is, to what is wrong with values that are each within their limits;
             it is asked first, so it must not fail where `mechanism` would.
         warnings: likewise, for what is legal but deserves a line in the log.
@@ -57,6 +72,8 @@ class Model:
     license: str = ""
 
     def __post_init__(self) -> None:
+        if callable(self.mechanism) and not isinstance(self.mechanism, _WithSettings):
+            object.__setattr__(self, "mechanism", _WithSettings(self.mechanism))
         for what, value in (("stop_time", self.stop_time), ("step_size", self.step_size)):
             if not 0.0 < value < math.inf:
                 raise MechanismError(f"{self.name}: {what} = {value:g} s, but it must be positive and finite.")

@@ -18,7 +18,6 @@ from mechanism_fmu.model import (
     Mechanism,
     Model,
     Revolute,
-    Settings,
     Torque,
     TorsionSpring,
 )
@@ -189,7 +188,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("cam.angle",),
-        settings=Settings.of(values),
     )
 
 

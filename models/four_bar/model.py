@@ -23,7 +23,6 @@ from mechanism_fmu.model import (
     Model,
     Parameter,
     Revolute,
-    Settings,
     Torque,
     TorsionSpring,
     angle_parameter,
@@ -145,7 +144,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("crank.angle",),
-        settings=Settings.of(values),
     )
 
 

@@ -26,7 +26,6 @@ from mechanism_fmu.model import (
     Parameter,
     Revolute,
     Section,
-    Settings,
     Torque,
     Wheel,
     angle_parameter,
@@ -231,7 +230,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("crank.angle",),
-        settings=Settings.of(values),
     )
 
 

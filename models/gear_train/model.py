@@ -23,7 +23,6 @@ from mechanism_fmu.model import (
     Mechanism,
     Model,
     Revolute,
-    Settings,
     Torque,
     Wheel,
     angle_parameter,
@@ -217,7 +216,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("pinion.angle",),
-        settings=Settings.of(values),
     )
 
 

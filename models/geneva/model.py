@@ -23,7 +23,6 @@ from mechanism_fmu.model import (
     Model,
     PointLineContact,
     Revolute,
-    Settings,
     Torque,
 )
 from mechanism_fmu.model.body import rotor_body
@@ -79,7 +78,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("driver.angle",),
-        settings=Settings.of(values),
     )
 
 

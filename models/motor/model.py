@@ -22,7 +22,6 @@ from mechanism_fmu.model import (
     Output,
     Parameter,
     Revolute,
-    Settings,
     Torque,
     Wheel,
     angle_parameter,
@@ -181,7 +180,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("rotor.angle",),
-        settings=Settings.of(values),
     )
 
 

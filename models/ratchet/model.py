@@ -29,7 +29,6 @@ from mechanism_fmu.model import (
     SawtoothWheel,
     Section,
     SeriesCompliance,
-    Settings,
     Striker,
     Strut,
     Torque,
@@ -135,7 +134,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("crank.angle", "wheel.angle"),
-        settings=Settings.of(values),
         members=members,
     )
 

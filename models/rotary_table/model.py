@@ -21,7 +21,6 @@ from mechanism_fmu.model import (
     Model,
     Parameter,
     Revolute,
-    Settings,
     SlipClutch,
     Torque,
     Wheel,
@@ -146,7 +145,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("table.angle",),
-        settings=Settings.of(values),
     )
 
 

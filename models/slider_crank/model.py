@@ -19,7 +19,6 @@ from mechanism_fmu.model import (
     Mechanism,
     Model,
     Revolute,
-    Settings,
     Torque,
     Translational,
 )
@@ -118,7 +117,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         outputs=OUTPUTS,
         calculated=calculated(values),
         held=("crank.angle",),
-        settings=Settings.of(values),
     )
 
 
