@@ -24,15 +24,7 @@ from mechanism_fmu.model import (
     Revolute,
     Torque,
     Wheel,
-    angle_parameter,
-    body_angle_output,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    load_torque_input,
-    rotor_parameters,
-    settings_parameters,
-    speed_parameter,
+    port_builders as ports,
 )
 from mechanism_fmu.model.body import rotor_body
 
@@ -89,12 +81,12 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
 
 INPUTS = (
     Input("speed_reference", "motor.speed", 50.0, "Speed that the controller keeps", "rad/s", -1e6, 1e6, "rpm"),
-    load_torque_input("rotor"),
+    ports.load_torque_input("rotor"),
 )
 
 OUTPUTS = (
-    body_angle_output("rotor", "phi"),
-    body_speed_output("rotor", "omega", nominal=10.0),
+    ports.body_angle_output("rotor", "phi"),
+    ports.body_speed_output("rotor", "omega", nominal=10.0),
     Output("motor_torque", "motor.torque", "Torque of the motor on its rotor (K i)", "N.m", nominal=1.0),
     Output("current", "motor.current", "Current of the armature (i)", "A", nominal=1.0),
     Output(
@@ -105,7 +97,7 @@ OUTPUTS = (
         nominal=10.0,
         feedthrough=("speed_reference",),
     ),
-    *energy_outputs(
+    *ports.energy_outputs(
         kinetic="Kinetic energy of the rotor",
         spring="Magnetic energy of the armature",
         work="Work done by the electric supply and load_torque since the start",
@@ -117,8 +109,8 @@ PARAMETERS = (
     Parameter("motor_constant", 0.25, "Torque per current, and voltage per speed (K)", "N.m/A", 1e-9, 1e6),
     Parameter("resistance", 2.0, "Resistance of the armature (R)", "ohm", 1e-9, 1e9),
     Parameter("inductance", 4e-3, "Inductance of the armature (L)", "H", 1e-9, 1e6),
-    *rotor_parameters("rotor", 1.0, 1e-3),
-    damping_parameter("rotor", 1e-4),
+    *ports.rotor_parameters("rotor", 1.0, 1e-3),
+    ports.damping_parameter("rotor", 1e-4),
     Parameter("voltage_limit", 24.0, "Most that the controller gives, either way (U)", "V", 0.0, 1e6),
     Parameter("speed_gain", 0.5, "Proportional gain of the controller (kp)", "V.s/rad", 0.0, 1e6),
     Parameter("integral_gain", 10.0, "Integral gain of the controller (ki)", "V/rad", 0.0, 1e9),
@@ -130,9 +122,11 @@ PARAMETERS = (
         0.0,
         1e6,
     ),
-    angle_parameter("rotor_angle_start", 0.0, "Rotor angle at the start (phi)"),
-    speed_parameter("rotor_speed_start", 0.0, "Rotor speed at the start (omega); current and integral begin at 0"),
-    *settings_parameters(),
+    ports.angle_parameter("rotor_angle_start", 0.0, "Rotor angle at the start (phi)"),
+    ports.speed_parameter(
+        "rotor_speed_start", 0.0, "Rotor speed at the start (omega); current and integral begin at 0"
+    ),
+    *ports.settings_parameters(),
 )
 
 
