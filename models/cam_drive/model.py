@@ -184,9 +184,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
                 restitution=values.restitution,
             ),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("cam.angle",),
     )
 
@@ -194,13 +191,16 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 MODEL = Model(
     name="CamDrive",
     description="Cam with a roller follower on an arm: a steady rotation becomes a swing to and fro with dwells",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -126,9 +126,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Force("coupler_weight", "coupler", (0.0, -values.coupler_mass * values.gravity)),
             Force("rocker_weight", "rocker", (0.0, -values.rocker_mass * values.gravity)),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("crank.angle",),
     )
 
@@ -147,13 +144,16 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
 MODEL = Model(
     name="FourBar",
     description="Four-bar linkage: a crank moves a rocker through a coupler, open or crossed",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -217,9 +217,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         ),
         members=(arm, crank_bar, bar, rocker_bar),
         disks=coupler.parts.disks,
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("crank.angle",),
     )
 
@@ -227,13 +224,16 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 MODEL = Model(
     name="FourBarPathGenerator",
     description="Four-bar path generator whose links bend: rigid and elastic path, stresses",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,
     stop_time=0.24,
     step_size=5e-4,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

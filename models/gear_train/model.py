@@ -199,9 +199,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Damper("pinion_damper", "pinion", damping=values.pinion_damping),
             Damper("wheel_damper", "wheel", damping=values.wheel_damping),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("pinion.angle",),
     )
 
@@ -219,12 +216,15 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, Body]:
 MODEL = Model(
     name="GearTrain",
     description="Pair of external gears: a pinion turns a wheel, slower and the other way round",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     stop_time=1.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -170,9 +170,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Torque("load", "rotor"),
             Damper("rotor_damper", "rotor", damping=values.rotor_damping),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("rotor.angle",),
     )
 
@@ -180,12 +177,15 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 MODEL = Model(
     name="Motor",
     description="Direct-current motor with a PI controller of its speed and limited voltage",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     stop_time=0.5,
     step_size=1e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

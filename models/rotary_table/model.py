@@ -130,9 +130,6 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Torque("load", "table"),
             Damper("table_damper", "table", damping=values.table_damping),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("table.angle",),
     )
 
@@ -140,12 +137,15 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 MODEL = Model(
     name="RotaryTable",
     description="Rotary table with a friction brake that sticks and slips, turned through a compliant shaft",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     stop_time=4.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

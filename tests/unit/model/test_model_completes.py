@@ -1,9 +1,9 @@
-"""Where a mechanism's settings come from: its own, else its model's parameters, else the defaults."""
+"""What a mechanism leaves open, and its model says: settings (among the parameters), inputs, outputs, calculated."""
 
 from dataclasses import replace
 from types import SimpleNamespace
 
-from mechanism_fmu.model import Body, Mechanism, Model, Settings, settings_parameters
+from mechanism_fmu.model import Body, Calculated, Input, Mechanism, Model, Output, Settings, Torque, settings_parameters
 
 BODIES = (Body("body", 1.0, 1.0, (0.0, 0.0, 0.0)),)
 
@@ -32,3 +32,21 @@ def test_without_such_parameters_the_defaults_stand() -> None:
 def test_a_copy_of_a_model_is_equal_to_it() -> None:
     free = model(Mechanism(BODIES))
     assert replace(free) == free
+
+
+def test_ports_of_the_model_are_those_of_a_mechanism_that_gives_none() -> None:
+    inputs, outputs = (Input("torque", "load.torque", 0.0, "T", "N.m"),), (Output("angle", "body.angle", "A", "rad"),)
+    given = Mechanism(BODIES, forces=(Torque("load", "body"),))
+    whole = replace(
+        model(given),
+        inputs=inputs,
+        outputs=outputs,
+        calculated=lambda values: (Calculated("tenth", values.relative_tolerance / 10, "T", "1"),),
+    )
+    made = whole.build(whole.values(relative_tolerance=1e-6))
+    assert (made.inputs, made.outputs) == (inputs, outputs)
+    assert [(c.name, c.value) for c in made.calculated] == [("tenth", 1e-6 / 10)]
+    other = (Output("speed", "body.speed", "S", "rad/s"),)
+    own = replace(whole, mechanism=lambda values: replace(given, outputs=other))
+    assert own.build(own.values()).outputs == other
+    assert own.build(own.values()).inputs == inputs
