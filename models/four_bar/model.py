@@ -12,37 +12,24 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
-    Bar,
     Body,
-    Calculated,
     CompliantShaft,
     Damper,
     Force,
-    Hinge,
     Mechanism,
     Model,
     Parameter,
     Revolute,
     Torque,
     TorsionSpring,
+    four_bar,
     port_builders as ports,
 )
 from mechanism_fmu.model.body import MovingPoint, link_body
-from mechanism_fmu.model.four_bar import form, objections, start, warnings
 
 # How the four-bar linkage is drawn from its variables: links and hinges.
 
-_CRANK_HINGE, _ROCKER_HINGE = (0.0, 0.0), ("ground_length", 0.0)
-
-SHAPES = (
-    Bar("crank", _CRANK_HINGE, "crank_angle", "crank_length"),
-    Bar("coupler", "crank", "coupler_angle", "coupler_length"),
-    Bar("rocker", _ROCKER_HINGE, "rocker_angle", "rocker_length"),
-    Hinge(_CRANK_HINGE),
-    Hinge(_ROCKER_HINGE),
-    Hinge("crank"),
-    Hinge("coupler"),
-)
+SHAPES = (four_bar.CRANK, four_bar.COUPLER, four_bar.ROCKER, *four_bar.HINGES)
 
 
 # Inputs, outputs and parameters of the four-bar linkage.
@@ -54,12 +41,7 @@ INPUTS = (
 )
 
 OUTPUTS = (
-    ports.body_angle_output("crank", "theta"),
-    ports.body_angle_output("coupler", "phi"),
-    ports.body_angle_output("rocker", "psi"),
-    ports.body_speed_output("crank"),
-    ports.body_speed_output("coupler"),
-    ports.body_speed_output("rocker"),
+    *four_bar.OUTPUTS,
     ports.shaft_torque_output("crank"),
     *ports.energy_outputs(
         kinetic="Kinetic energy of crank, coupler and rocker",
@@ -74,11 +56,7 @@ PARAMETERS = (
     *ports.link_parameters("crank", 0.05, 0.2, 1e-3, 0.025, "its hinge"),
     *ports.link_parameters("coupler", 0.18, 0.5, 1.35e-3, 0.09, "the crank pin"),
     *ports.link_parameters("rocker", 0.12, 0.4, 4.8e-4, 0.06, "its hinge"),
-    ports.flag_parameter(
-        "crossed",
-        False,
-        "Whether coupler and rocker are assembled on the other side of the line from crank pin to rocker hinge",
-    ),
+    four_bar.CROSSED,
     ports.angle_parameter("crank_angle_start", 0.0, "Crank angle at the start (theta)"),
     ports.speed_parameter(
         "crank_speed_start", 2 * math.pi, "Crank speed at the start; those of coupler and rocker follow"
@@ -91,16 +69,6 @@ PARAMETERS = (
     ports.joint_friction_parameter(),
     *ports.settings_parameters(),
 )
-
-
-def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
-    """The extreme transmission angles."""
-    known = form(values)
-    between = "Transmission angle, between coupler and rocker, with the crank pointing"
-    return (
-        Calculated("folded_transmission_angle", known.folded, f"{between} to the rocker's hinge", "rad", "deg"),
-        Calculated("stretched_transmission_angle", known.stretched, f"{between} away from it", "rad", "deg"),
-    )
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:
@@ -131,7 +99,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 
 
 def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
-    theta, speed, at = values.crank_angle_start, values.crank_speed_start, start(values)
+    theta, speed, at = values.crank_angle_start, values.crank_speed_start, four_bar.start(values)
     origin = MovingPoint(0.0, 0.0)
     pin = origin.along(values.crank_length, theta, speed)
     return (
@@ -149,10 +117,10 @@ MODEL = Model(
     inputs=INPUTS,
     outputs=OUTPUTS,
     parameters=PARAMETERS,
-    calculated=calculated,
+    calculated=four_bar.transmission_angles,
     mechanism=mechanism,
-    objections=objections,
-    warnings=warnings,
+    objections=four_bar.objections,
+    warnings=four_bar.warnings,
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,

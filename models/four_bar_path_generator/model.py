@@ -12,13 +12,11 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
-    Bar,
     Body,
     Calculated,
     CompliantShaft,
     Disc,
     Disk,
-    Hinge,
     LumpedBody,
     Mechanism,
     Member,
@@ -28,11 +26,11 @@ from mechanism_fmu.model import (
     Section,
     Torque,
     Wheel,
+    four_bar,
     lumped_body,
     port_builders as ports,
 )
 from mechanism_fmu.model.body import MovingPoint
-from mechanism_fmu.model.four_bar import form, objections, start, warnings
 from mechanism_fmu.model.functions import Number, cos, sin
 
 # The bodies of the path generator, made of elastic members and disks.
@@ -48,7 +46,7 @@ class Link:
 
 def links(values: SimpleNamespace) -> tuple[Link, Link, Link]:
     """Crank, coupler (its members: arm, bar) and rocker; half of each member's mass is at each of its ends."""
-    at, theta, speed = start(values), values.crank_angle_start, values.crank_speed_start
+    at, theta, speed = four_bar.start(values), values.crank_angle_start, values.crank_speed_start
     origin, hinge = MovingPoint(0.0, 0.0), MovingPoint(values.ground_length, 0.0)
     pin = origin.along(values.crank_length, theta, speed)
     path = values.arm_length * cos(values.arm_angle), values.arm_length * sin(values.arm_angle)
@@ -85,20 +83,15 @@ def _link(name: str, parts: LumpedBody, begin: MovingPoint, angle: Number, speed
 
 # How the path generator is drawn from its variables: links, hinges and the path point, all as if they were rigid.
 
-_CRANK_HINGE, _ROCKER_HINGE = (0.0, 0.0), ("ground_length", 0.0)
-
 #: Pin, pin and path point, in polar coordinates of the coupler.
 _PLATE = ((0.0, 0.0), ("coupler_length", 0.0), ("arm_length", "arm_angle"))
 
 SHAPES = (
-    Bar("crank", _CRANK_HINGE, "crank_angle", "crank_length"),
+    four_bar.CRANK,
     Wheel("coupler with arm", "crank", "coupler_angle", 1, _PLATE),
-    Bar("coupler", "crank", "coupler_angle", "coupler_length"),
-    Bar("rocker", _ROCKER_HINGE, "rocker_angle", "rocker_length"),
-    Hinge(_CRANK_HINGE),
-    Hinge(_ROCKER_HINGE),
-    Hinge("crank"),
-    Hinge("coupler"),
+    four_bar.COUPLER,
+    four_bar.ROCKER,
+    *four_bar.HINGES,
     Disc("path point", ("path_x", "path_y"), "outline_path_radius"),
 )
 
@@ -117,12 +110,7 @@ _SPEED = 500 * math.pi / 30
 INPUTS = (*ports.shaft_inputs(speed=_SPEED), ports.torque_input("drive", "crank"))
 
 OUTPUTS = (
-    ports.body_angle_output("crank", "theta"),
-    ports.body_angle_output("coupler", "phi"),
-    ports.body_angle_output("rocker", "psi"),
-    ports.body_speed_output("crank"),
-    ports.body_speed_output("coupler"),
-    ports.body_speed_output("rocker"),
+    *four_bar.OUTPUTS,
     ports.shaft_torque_output("crank", nominal=5.0),
     *ports.bent_point_outputs("path", "arm.end", "path point", INPUTS, nominal=0.2),
     *(
@@ -175,11 +163,7 @@ PARAMETERS = (
     *_disk("path_disk", "path point", 0.5, 0.75),
     *_disk("crank_pin_disk", "crank pin", 0.1, 0.5),
     *_disk("rocker_pin_disk", "rocker pin", 0.1),
-    ports.flag_parameter(
-        "crossed",
-        False,
-        "Whether coupler and rocker are assembled on the other side of the line from crank pin to rocker hinge",
-    ),
+    four_bar.CROSSED,
     ports.angle_parameter("crank_angle_start", math.radians(30), "Crank angle at the start (theta)"),
     ports.speed_parameter("crank_speed_start", _SPEED, "Crank speed at the start; those of coupler and rocker follow"),
     *ports.shaft_parameters(damping=100.0),
@@ -189,11 +173,8 @@ PARAMETERS = (
 
 def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
     """The extreme transmission angles, and how large the path point is drawn."""
-    known = form(values)
-    between = "Transmission angle, between coupler and rocker, with the crank pointing"
     return (
-        Calculated("folded_transmission_angle", known.folded, f"{between} to the rocker's hinge", "rad", "deg"),
-        Calculated("stretched_transmission_angle", known.stretched, f"{between} away from it", "rad", "deg"),
+        *four_bar.transmission_angles(values),
         Calculated("outline_path_radius", values.arm_length / 15, "Drawing: radius of the path point", "m"),
     )
 
@@ -231,8 +212,8 @@ MODEL = Model(
     parameters=PARAMETERS,
     calculated=calculated,
     mechanism=mechanism,
-    objections=objections,
-    warnings=warnings,
+    objections=four_bar.objections,
+    warnings=four_bar.warnings,
     stop_time=0.24,
     step_size=5e-4,
     drawing=SHAPES,

@@ -5,7 +5,6 @@ Frame: the rotor's hinge at the origin. Equations and source: README.md beside t
 
 from __future__ import annotations
 
-import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
@@ -27,6 +26,7 @@ from mechanism_fmu.model import (
     port_builders as ports,
 )
 from mechanism_fmu.model.body import rotor_body
+from mechanism_fmu.model.drawing import square_tooth
 
 # How the motor is drawn from its variables: housing, and a rotor whose poles show how it turns.
 
@@ -34,13 +34,9 @@ from mechanism_fmu.model.body import rotor_body
 HOUSING, POLE, CORE = 0.05, 0.042, 0.018
 POLES = 4
 
-_HALF, _GAP = 0.55 * math.pi / POLES, math.pi / POLES
-#: One pole, about the x axis, from the middle of the gap before it to that behind it: radius [m], angle [rad].
-OUTLINE = ((CORE, -_GAP), (CORE, -_HALF), (POLE, -_HALF), (POLE, _HALF), (CORE, _HALF), (CORE, _GAP))
-
 SHAPES = (
     Disc("housing", (0.0, 0.0), "outline_housing_radius"),
-    Wheel("rotor", (0.0, 0.0), "rotor_angle", POLES, OUTLINE),
+    Wheel("rotor", (0.0, 0.0), "rotor_angle", POLES, square_tooth(CORE, POLE, 0.55, POLES)),
     Hinge((0.0, 0.0)),
 )
 

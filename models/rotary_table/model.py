@@ -5,7 +5,6 @@ Frame: the table's hinge at the origin. Equations and source: README.md beside t
 
 from __future__ import annotations
 
-import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
@@ -27,6 +26,7 @@ from mechanism_fmu.model import (
     port_builders as ports,
 )
 from mechanism_fmu.model.body import rotor_body
+from mechanism_fmu.model.drawing import square_tooth
 
 # How the rotary table is drawn from its variables: the table with its stations, and the brake's disc.
 
@@ -34,12 +34,8 @@ from mechanism_fmu.model.body import rotor_body
 RIM, STATION, BRAKE = 0.13, 0.115, 0.05
 STATIONS = 10
 
-_HALF, _GAP = 0.6 * math.pi / STATIONS, math.pi / STATIONS
-#: One station, about the x axis, from the middle of the gap before it to that behind it: radius [m], angle [rad].
-OUTLINE = ((RIM, -_GAP), (RIM, -_HALF), (STATION, -_HALF), (STATION, _HALF), (RIM, _HALF), (RIM, _GAP))
-
 SHAPES = (
-    Wheel("table", (0.0, 0.0), "table_angle", STATIONS, OUTLINE),
+    Wheel("table", (0.0, 0.0), "table_angle", STATIONS, square_tooth(RIM, STATION, 0.6, STATIONS)),
     Disc("brake", (0.0, 0.0), "outline_brake_radius"),
     Hinge((0.0, 0.0)),
 )
