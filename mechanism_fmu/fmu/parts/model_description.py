@@ -13,7 +13,8 @@ from pythonfmu import __version__ as pythonfmu_version
 
 from ... import __version__
 from ...model import Model
-from .fmi_units import BASE_UNITS, OFFERED_DISPLAY_UNITS, UnitError, display_factor, parse_unit
+from ...units import BASE_UNITS
+from .fmi_units import OFFERED_DISPLAY_UNITS, UnitError, display_factor, parse_unit
 from .variables import FIRST_REFERENCE, Variable, variables_of
 
 #: FMI log categories (section 2.2.4) and when a message falls into one.
