@@ -27,6 +27,8 @@ def record(fmu: Path) -> dict[str, Any]:
     named = {variable.name: variable for variable in description.modelVariables}
     outputs = [name for name, v in named.items() if v.causality in ("output", "local", "calculatedParameter")]
     outputs = [name for name in outputs if named[name].type not in ("Clock", "String") and not named[name].dimensions]
+    # FMPy reads outputs in step mode, where those of a clock cannot be read; each has a twin that can.
+    outputs = [name for name in outputs if not named[name].clocks]
     inputs = [
         v for v in named.values() if v.causality == "input" and v.type in ("Real", "Float64") and not v.dimensions
     ]
