@@ -22,14 +22,25 @@ from mechanism_fmu.model import (
     Revolute,
     Torque,
     TorsionSpring,
-    four_bar,
     port_builders as ports,
 )
 from mechanism_fmu.model.body import MovingPoint, link_body
+from mechanism_fmu.model.four_bar import (
+    COUPLER,
+    CRANK,
+    CROSSED,
+    HINGES,
+    OUTPUTS as LINKAGE_OUTPUTS,
+    ROCKER,
+    objections,
+    start,
+    transmission_angles as calculated,
+    warnings,
+)
 
 # How the four-bar linkage is drawn from its variables: links and hinges.
 
-SHAPES = (four_bar.CRANK, four_bar.COUPLER, four_bar.ROCKER, *four_bar.HINGES)
+SHAPES = (CRANK, COUPLER, ROCKER, *HINGES)
 
 
 # Inputs, outputs and parameters of the four-bar linkage.
@@ -41,7 +52,7 @@ INPUTS = (
 )
 
 OUTPUTS = (
-    *four_bar.OUTPUTS,
+    *LINKAGE_OUTPUTS,
     ports.shaft_torque_output("crank"),
     *ports.energy_outputs(
         kinetic="Kinetic energy of crank, coupler and rocker",
@@ -56,7 +67,7 @@ PARAMETERS = (
     *ports.link_parameters("crank", 0.05, 0.2, 1e-3, 0.025, "its hinge"),
     *ports.link_parameters("coupler", 0.18, 0.5, 1.35e-3, 0.09, "the crank pin"),
     *ports.link_parameters("rocker", 0.12, 0.4, 4.8e-4, 0.06, "its hinge"),
-    four_bar.CROSSED,
+    CROSSED,
     ports.angle_parameter("crank_angle_start", 0.0, "Crank angle at the start (theta)"),
     ports.speed_parameter(
         "crank_speed_start", 2 * math.pi, "Crank speed at the start; those of coupler and rocker follow"
@@ -99,7 +110,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
 
 
 def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
-    theta, speed, at = values.crank_angle_start, values.crank_speed_start, four_bar.start(values)
+    theta, speed, at = values.crank_angle_start, values.crank_speed_start, start(values)
     origin = MovingPoint(0.0, 0.0)
     pin = origin.along(values.crank_length, theta, speed)
     return (
@@ -117,10 +128,10 @@ MODEL = Model(
     inputs=INPUTS,
     outputs=OUTPUTS,
     parameters=PARAMETERS,
-    calculated=four_bar.transmission_angles,
+    calculated=calculated,
     mechanism=mechanism,
-    objections=four_bar.objections,
-    warnings=four_bar.warnings,
+    objections=objections,
+    warnings=warnings,
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,

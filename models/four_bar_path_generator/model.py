@@ -26,11 +26,22 @@ from mechanism_fmu.model import (
     Section,
     Torque,
     Wheel,
-    four_bar,
     lumped_body,
     port_builders as ports,
 )
 from mechanism_fmu.model.body import MovingPoint
+from mechanism_fmu.model.four_bar import (
+    COUPLER,
+    CRANK,
+    CROSSED,
+    HINGES,
+    OUTPUTS as LINKAGE_OUTPUTS,
+    ROCKER,
+    objections,
+    start,
+    transmission_angles,
+    warnings,
+)
 from mechanism_fmu.model.functions import Number, cos, sin
 
 # The bodies of the path generator, made of elastic members and disks.
@@ -46,7 +57,7 @@ class Link:
 
 def links(values: SimpleNamespace) -> tuple[Link, Link, Link]:
     """Crank, coupler (its members: arm, bar) and rocker; half of each member's mass is at each of its ends."""
-    at, theta, speed = four_bar.start(values), values.crank_angle_start, values.crank_speed_start
+    at, theta, speed = start(values), values.crank_angle_start, values.crank_speed_start
     origin, hinge = MovingPoint(0.0, 0.0), MovingPoint(values.ground_length, 0.0)
     pin = origin.along(values.crank_length, theta, speed)
     path = values.arm_length * cos(values.arm_angle), values.arm_length * sin(values.arm_angle)
@@ -87,11 +98,11 @@ def _link(name: str, parts: LumpedBody, begin: MovingPoint, angle: Number, speed
 _PLATE = ((0.0, 0.0), ("coupler_length", 0.0), ("arm_length", "arm_angle"))
 
 SHAPES = (
-    four_bar.CRANK,
+    CRANK,
     Wheel("coupler with arm", "crank", "coupler_angle", 1, _PLATE),
-    four_bar.COUPLER,
-    four_bar.ROCKER,
-    *four_bar.HINGES,
+    COUPLER,
+    ROCKER,
+    *HINGES,
     Disc("path point", ("path_x", "path_y"), "outline_path_radius"),
 )
 
@@ -110,7 +121,7 @@ _SPEED = 500 * math.pi / 30
 INPUTS = (*ports.shaft_inputs(speed=_SPEED), ports.torque_input("drive", "crank"))
 
 OUTPUTS = (
-    *four_bar.OUTPUTS,
+    *LINKAGE_OUTPUTS,
     ports.shaft_torque_output("crank", nominal=5.0),
     *ports.bent_point_outputs("path", "arm.end", "path point", INPUTS, nominal=0.2),
     *(
@@ -163,7 +174,7 @@ PARAMETERS = (
     *_disk("path_disk", "path point", 0.5, 0.75),
     *_disk("crank_pin_disk", "crank pin", 0.1, 0.5),
     *_disk("rocker_pin_disk", "rocker pin", 0.1),
-    four_bar.CROSSED,
+    CROSSED,
     ports.angle_parameter("crank_angle_start", math.radians(30), "Crank angle at the start (theta)"),
     ports.speed_parameter("crank_speed_start", _SPEED, "Crank speed at the start; those of coupler and rocker follow"),
     *ports.shaft_parameters(damping=100.0),
@@ -174,7 +185,7 @@ PARAMETERS = (
 def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
     """The extreme transmission angles, and how large the path point is drawn."""
     return (
-        *four_bar.transmission_angles(values),
+        *transmission_angles(values),
         Calculated("outline_path_radius", values.arm_length / 15, "Drawing: radius of the path point", "m"),
     )
 
@@ -212,8 +223,8 @@ MODEL = Model(
     parameters=PARAMETERS,
     calculated=calculated,
     mechanism=mechanism,
-    objections=four_bar.objections,
-    warnings=four_bar.warnings,
+    objections=objections,
+    warnings=warnings,
     stop_time=0.24,
     step_size=5e-4,
     drawing=SHAPES,
