@@ -9,6 +9,7 @@ import typer
 
 from ..papers.ked.judged_by import JudgedBy
 from .cli_group import Group
+from .options import folder_option, settings_option
 
 
 def ked(
@@ -28,10 +29,7 @@ def ked(
         float, typer.Option(metavar="DEG", help="Of the crank's angle in the tables; 360 is a multiple.")
     ] = 1.0,
     damping: Annotated[float, typer.Option(metavar="RATIO", help="Of each mode of the periodic motion.")] = 0.02,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE[UNIT]", help="Set a parameter; repeat it for more."),
-    ] = None,
+    settings: Annotated[list[str] | None, settings_option("Set a parameter; repeat it for more.")] = None,
     limit_deviation: Annotated[
         str | None,
         typer.Option(
@@ -77,10 +75,7 @@ def ked(
             metavar="VALUE[UNIT]", help="Of all pins, where --friction acts, e.g. '5 mm'.", show_default=False
         ),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="ked_NAME"),
-    ] = None,
+    output: Annotated[Path | None, folder_option(default="ked_NAME")] = None,
 ) -> None:
     """Bend a linkage over a turn of its crank at constant speed, and write cycle.csv, summary.json and report.html.
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from .drawing import Bar, Hinge
+from .drawing import Bar, Hinge, Shape
 from .findings import Finding, at_most, first, size
 from .functions import Number, atan2, cos, sin, sqrt, where_positive
 from .port_builders import body_angle_output, body_speed_output, flag_parameter
@@ -115,7 +115,7 @@ CROSSED = flag_parameter(
     "Whether coupler and rocker are assembled on the other side of the line from crank pin to rocker hinge",
 )
 
-OUTPUTS = (
+MOTIONS = (
     body_angle_output("crank", "theta"),
     body_angle_output("coupler", "phi"),
     body_angle_output("rocker", "psi"),
@@ -124,12 +124,12 @@ OUTPUTS = (
 
 _CRANK_HINGE, _ROCKER_HINGE = (0.0, 0.0), ("ground_length", 0.0)
 
-CRANK, COUPLER, ROCKER = (
+SHAPES: tuple[Shape, ...] = (
     Bar("crank", _CRANK_HINGE, "crank_angle", "crank_length"),
     Bar("coupler", "crank", "coupler_angle", "coupler_length"),
     Bar("rocker", _ROCKER_HINGE, "rocker_angle", "rocker_length"),
+    *(Hinge(at) for at in (_CRANK_HINGE, _ROCKER_HINGE, "crank", "coupler")),
 )
-HINGES = (Hinge(_CRANK_HINGE), Hinge(_ROCKER_HINGE), Hinge("crank"), Hinge("coupler"))
 
 
 def transmission_angles(values: SimpleNamespace) -> tuple[Calculated, Calculated]:

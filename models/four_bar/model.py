@@ -25,23 +25,7 @@ from mechanism_fmu.model import (
     port_builders as ports,
 )
 from mechanism_fmu.model.body import MovingPoint, link_body
-from mechanism_fmu.model.four_bar import (
-    COUPLER,
-    CRANK,
-    CROSSED,
-    HINGES,
-    OUTPUTS as LINKAGE_OUTPUTS,
-    ROCKER,
-    objections,
-    start,
-    transmission_angles as calculated,
-    warnings,
-)
-
-# How the four-bar linkage is drawn from its variables: links and hinges.
-
-SHAPES = (CRANK, COUPLER, ROCKER, *HINGES)
-
+from mechanism_fmu.model.four_bar import CROSSED, MOTIONS, SHAPES, objections, start, transmission_angles, warnings
 
 # Inputs, outputs and parameters of the four-bar linkage.
 
@@ -52,7 +36,7 @@ INPUTS = (
 )
 
 OUTPUTS = (
-    *LINKAGE_OUTPUTS,
+    *MOTIONS,
     ports.shaft_torque_output("crank"),
     *ports.energy_outputs(
         kinetic="Kinetic energy of crank, coupler and rocker",
@@ -128,7 +112,7 @@ MODEL = Model(
     inputs=INPUTS,
     outputs=OUTPUTS,
     parameters=PARAMETERS,
-    calculated=calculated,
+    calculated=transmission_angles,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,

@@ -31,12 +31,9 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.body import MovingPoint
 from mechanism_fmu.model.four_bar import (
-    COUPLER,
-    CRANK,
     CROSSED,
-    HINGES,
-    OUTPUTS as LINKAGE_OUTPUTS,
-    ROCKER,
+    MOTIONS,
+    SHAPES as LINKAGE,
     objections,
     start,
     transmission_angles,
@@ -98,11 +95,9 @@ def _link(name: str, parts: LumpedBody, begin: MovingPoint, angle: Number, speed
 _PLATE = ((0.0, 0.0), ("coupler_length", 0.0), ("arm_length", "arm_angle"))
 
 SHAPES = (
-    CRANK,
+    LINKAGE[0],
     Wheel("coupler with arm", "crank", "coupler_angle", 1, _PLATE),
-    COUPLER,
-    ROCKER,
-    *HINGES,
+    *LINKAGE[1:],
     Disc("path point", ("path_x", "path_y"), "outline_path_radius"),
 )
 
@@ -121,7 +116,7 @@ _SPEED = 500 * math.pi / 30
 INPUTS = (*ports.shaft_inputs(speed=_SPEED), ports.torque_input("drive", "crank"))
 
 OUTPUTS = (
-    *LINKAGE_OUTPUTS,
+    *MOTIONS,
     ports.shaft_torque_output("crank", nominal=5.0),
     *ports.bent_point_outputs("path", "arm.end", "path point", INPUTS, nominal=0.2),
     *(
