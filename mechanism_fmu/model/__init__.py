@@ -15,6 +15,7 @@ from .analysis import (
     SawtoothWheel as SawtoothWheel,
     SeriesCompliance as SeriesCompliance,
     Strut as Strut,
+    TableBeam as TableBeam,
     TrapezoidTooth as TrapezoidTooth,
     WedgeTooth as WedgeTooth,
 )

@@ -128,7 +128,7 @@ def run_ked(
         damping: ratio of every mode.
         settings: parameters, "name=value unit".
         folder: for the results.
-        asked: limits, synthesis, flywheel and friction.
+        asked: limits, synthesis, flywheel, friction and speeds.
 
     Raises:
         UsageError: something of it cannot be; the message says what and what to do.
@@ -197,8 +197,9 @@ def _result(
     compared = found if plain is None else plain
     agreed = replace(agreement(fmu, mechanism, compared, parameters), frictionless=plain is not None)
     begun = searching + 0.2 * (1.0 - searching)
-    sweep = swept(turned, speed, lambda text, done: progress(text, begun + (1.0 - begun) * done))
-    return Result(fmu, fmu.description.text, parameters, found, sweep, agreed, asked.limits, synthesis, plain)
+    sweep = swept(turned, speed, lambda text, done: progress(text, begun + (1.0 - begun) * done), asked.speeds)
+    text, drawn_only = fmu.description.text, asked.speeds is None
+    return Result(fmu, text, parameters, found, sweep, agreed, asked.limits, synthesis, plain, not drawn_only)
 
 
 def _described(model: str, parameters: Mapping[str, Value]) -> Any:
@@ -308,7 +309,12 @@ def _show_turn(result: Result) -> None:
         f"energy that it has given beyond its mean varies by {torque.energy:.4g} J.",
         soft_wrap=True,
     )
-    for sentence in (tables.frame_sentence(found), tables.friction_sentence(found), tables.flywheel_sentence(found)):
+    for sentence in (
+        tables.frame_sentence(found),
+        tables.friction_sentence(found),
+        tables.flywheel_sentence(found),
+        tables.feedback_sentence(found),
+    ):
         if sentence:
             console.print(sentence, soft_wrap=True)
     show_checks(result.checks)
