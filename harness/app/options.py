@@ -20,3 +20,8 @@ def folder_option(purpose: str = "Folder for the results.", default: str = "the 
 def file_option(metavar: str, default: str, purpose: str = "File to write.") -> Any:
     """The file that a command writes; `default` as of `folder_option`."""
     return typer.Option("-o", "--output", metavar=metavar, help=purpose, show_default=default, dir_okay=False)
+
+
+def quantity_option(purpose: str) -> Any:
+    """A value in any fitting unit; what is taken unless given goes without saying."""
+    return typer.Option(metavar="VALUE[UNIT]", help=purpose, show_default=False)

@@ -9,7 +9,7 @@ import typer
 
 from ..papers.ked.judged_by import JudgedBy
 from .cli_group import Group
-from .options import folder_option, settings_option
+from .options import folder_option, quantity_option, settings_option
 
 
 def ked(
@@ -31,14 +31,9 @@ def ked(
     damping: Annotated[float, typer.Option(metavar="RATIO", help="Of each mode of the periodic motion.")] = 0.02,
     settings: Annotated[list[str] | None, settings_option("Set a parameter; repeat it for more.")] = None,
     limit_deviation: Annotated[
-        str | None,
-        typer.Option(
-            metavar="VALUE[UNIT]", help="Of the path point from its rigid path, e.g. '1 mm'.", show_default=False
-        ),
+        str | None, quantity_option("Of the path point from its rigid path, e.g. '1 mm'.")
     ] = None,
-    limit_stress: Annotated[
-        str | None, typer.Option(metavar="VALUE[UNIT]", help="In every member, e.g. '60 MPa'.", show_default=False)
-    ] = None,
+    limit_stress: Annotated[str | None, quantity_option("In every member, e.g. '60 MPa'.")] = None,
     judge: Annotated[
         JudgedBy,
         typer.Option(
@@ -69,12 +64,7 @@ def ked(
         float | None,
         typer.Option(metavar="COEFFICIENT", help="Of Coulomb friction in all joints.", show_default="the model's"),
     ] = None,
-    pin_radius: Annotated[
-        str | None,
-        typer.Option(
-            metavar="VALUE[UNIT]", help="Of all pins, where --friction acts, e.g. '5 mm'.", show_default=False
-        ),
-    ] = None,
+    pin_radius: Annotated[str | None, quantity_option("Of all pins, where --friction acts, e.g. '5 mm'.")] = None,
     speeds: Annotated[
         tuple[str, str, int] | None,
         typer.Option(

@@ -25,7 +25,15 @@ from mechanism_fmu.model import (
     port_builders as ports,
 )
 from mechanism_fmu.model.body import MovingPoint, link_body
-from mechanism_fmu.model.four_bar import CROSSED, MOTIONS, SHAPES, objections, start, transmission_angles, warnings
+from mechanism_fmu.model.four_bar import (
+    CROSSED,
+    MOTIONS,
+    SHAPES,
+    objections,
+    start,
+    transmission_angles as calculated,
+    warnings,
+)
 
 # Inputs, outputs and parameters of the four-bar linkage.
 
@@ -112,7 +120,7 @@ MODEL = Model(
     inputs=INPUTS,
     outputs=OUTPUTS,
     parameters=PARAMETERS,
-    calculated=transmission_angles,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,

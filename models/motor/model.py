@@ -41,11 +41,6 @@ SHAPES = (
 )
 
 
-def form() -> tuple[Calculated, ...]:
-    """The radius of the housing."""
-    return (Calculated("outline_housing_radius", HOUSING, "Drawing: radius of the housing", "m"),)
-
-
 # What is wrong with parameter values that are each within their limits.
 
 #: An armature or a controller that is so fast [s] costs millions of steps a second and shows nothing.
@@ -142,7 +137,7 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
             "rad/s",
             "rpm",
         ),
-        *form(),
+        Calculated("outline_housing_radius", HOUSING, "Drawing: radius of the housing", "m"),
     )
 
 

@@ -41,11 +41,6 @@ SHAPES = (
 )
 
 
-def form() -> tuple[Calculated, ...]:
-    """The radius of the brake's disc."""
-    return (Calculated("outline_brake_radius", BRAKE, "Drawing: radius of the brake's disc", "m"),)
-
-
 # What is wrong with parameter values that are each within their limits.
 
 #: A brake that gives way so fast [s] costs millions of steps a second and shows nothing.
@@ -111,7 +106,7 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
     time = values.brake_damping / values.brake_stiffness
     return (
         Calculated("brake_time", time, "Within this the brake gives way or holds again", "s", "ms"),
-        *form(),
+        Calculated("outline_brake_radius", BRAKE, "Drawing: radius of the brake's disc", "m"),
     )
 
 
