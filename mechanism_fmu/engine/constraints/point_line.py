@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...tables.declare import Array
 from ...tables.motion import Pose, Rows
 from ..compiler.subset import jit, keep_small
+from ..vectors import turned
 
 # The relative angle of two bodies against a given one: one row.
 
@@ -31,10 +32,8 @@ def point_line(at: Pose, rows: Rows, row: int, i: int, j: int, point: Array, lin
     s_q = [n, n.Ra, -n, (R n).e], s' = n.e' + u (R n).e, gamma = n.a phi_i'^2 + n.e u^2 - 2 u (R n).e'.
     """
     keep_small()
-    ax = at.cosine[i] * point[0] - at.sine[i] * point[1]
-    ay = at.sine[i] * point[0] + at.cosine[i] * point[1]
-    nx = at.cosine[j] * line[2] - at.sine[j] * line[3]
-    ny = at.sine[j] * line[2] + at.cosine[j] * line[3]
+    ax, ay = turned(at, i, point[0], point[1])
+    nx, ny = turned(at, j, line[2], line[3])
     ui, uj = at.phi_rate[i], at.phi_rate[j]
     ex = at.x[i] + ax - at.x[j]
     ey = at.y[i] + ay - at.y[j]
