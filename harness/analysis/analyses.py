@@ -68,11 +68,13 @@ class Analysis(Protocol):
 
     @property
     def columns(self) -> Mapping[str, str]:
-        """By name; "1" of a number without a unit, "" of a text."""
+        """By name; "1" of a number without a unit, "" of a text; none unless it says so."""
+        return {}
 
     @property
     def tables(self) -> Mapping[str, Mapping[str, str]]:
-        """By table and name."""
+        """By table and name; none unless it says so."""
+        return {}
 
     def analyse(self, seen: Seen, found: Analysed) -> Analysed:
         """What has been found before, and what this analysis finds.
@@ -83,7 +85,7 @@ class Analysis(Protocol):
 
 
 @dataclass(frozen=True)
-class Stress:
+class Stress(Analysis):
     """The beam that is struck, and the stress that each impact leaves in it."""
 
     struck: Struck
@@ -98,11 +100,6 @@ class Stress:
         """Stress, its place and delay, and a remark."""
         return STRESS_COLUMNS
 
-    @property
-    def tables(self) -> Mapping[str, Mapping[str, str]]:
-        """None."""
-        return {}
-
     def analyse(self, seen: Seen, found: Analysed) -> Analysed:
         """The beam, and the columns; neither where its damage has been objected to.
 
@@ -116,7 +113,7 @@ class Stress:
 
 
 @dataclass(frozen=True)
-class Damage:
+class Damage(Analysis):
     """What all impacts together do to the beam."""
 
     struck: Struck
@@ -125,11 +122,6 @@ class Damage:
     def variables(self) -> tuple[str, ...]:
         """Sizes of the beam."""
         return self.struck.variables
-
-    @property
-    def columns(self) -> Mapping[str, str]:
-        """None."""
-        return {}
 
     @property
     def tables(self) -> Mapping[str, Mapping[str, str]]:
@@ -147,7 +139,7 @@ class Damage:
 
 
 @dataclass(frozen=True)
-class Yielding:
+class Yielding(Analysis):
     """How far the links of a chain give way."""
 
     chain: Chain
@@ -156,11 +148,6 @@ class Yielding:
     def variables(self) -> tuple[str, ...]:
         """Sizes of the links."""
         return self.chain.variables
-
-    @property
-    def columns(self) -> Mapping[str, str]:
-        """None."""
-        return {}
 
     @property
     def tables(self) -> Mapping[str, Mapping[str, str]]:

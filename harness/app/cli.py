@@ -11,6 +11,7 @@ from build_fmu import build
 
 from . import designs_cli, machine_cli, papers_cli
 from .cli_group import Group
+from .options import file_option, settings_option
 
 # Everything else is imported inside the commands: --help must not wait for pandas and fmpy.
 main = typer.Typer(
@@ -117,12 +118,7 @@ def examples(
 def run(
     fmu: FmuPath,
     settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set",
-            metavar="NAME=VALUE[UNIT]",
-            help="Set an input or parameter, with a unit if you like; repeat it for more.",
-        ),
+        list[str] | None, settings_option("Set an input or parameter, with a unit if you like; repeat it for more.")
     ] = None,
     stop_time: Annotated[
         float | None, typer.Option(metavar="S", help="End of the run [s].", show_default="the FMU's default")
@@ -180,22 +176,9 @@ def run(
 def modes(
     fmu: FmuPath,
     settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set", metavar="NAME=VALUE[UNIT]", help="Set a parameter: some of them choose among mechanisms."
-        ),
+        list[str] | None, settings_option("Set a parameter: some of them choose among mechanisms.")
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE.svg",
-            help="File for the diagram.",
-            show_default="<FMU>_modes.svg",
-            dir_okay=False,
-        ),
-    ] = None,
+    output: Annotated[Path | None, file_option("FILE.svg", "<FMU>_modes.svg", "File for the diagram.")] = None,
 ) -> None:
     """Print the modes and transitions of an FMU's mechanism as a table, and draw them as a state chart.
 

@@ -7,10 +7,12 @@ from typing import Annotated
 
 import typer
 
+from .options import folder_option
+
 #: What commands with many designs share.
 DesignsFolder = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
+    folder_option(),
 ]
 Workers = Annotated[
     int | None,

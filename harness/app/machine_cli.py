@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from .cli_group import Group
+from .options import file_option, folder_option, settings_option
 
 machine = typer.Typer(
     cls=Group,
@@ -62,10 +63,7 @@ def run_machine(
             show_default="run.input of the file",
         ),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="the file's name"),
-    ] = None,
+    output: Annotated[Path | None, folder_option()] = None,
     step: Annotated[
         str | None,
         typer.Option(
@@ -74,10 +72,8 @@ def run_machine(
     ] = None,
     settings: Annotated[
         list[str] | None,
-        typer.Option(
-            "--set",
-            metavar="NAME=VALUE[UNIT]",
-            help="Set a parameter or a free input, e.g. `cam.drive_stiffness=3`, for this run; repeat it for more.",
+        settings_option(
+            "Set a parameter or a free input, e.g. `cam.drive_stiffness=3`, for this run; repeat it for more."
         ),
     ] = None,
     as_others: Annotated[
@@ -156,12 +152,7 @@ def check_machine(name: MachineName) -> None:
 @machine.command("export")
 def export_machine(
     name: MachineName,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o", "--output", metavar="FILE.ssp", help="File to write.", show_default="NAME.ssp", dir_okay=False
-        ),
-    ] = None,
+    output: Annotated[Path | None, file_option("FILE.ssp", "NAME.ssp")] = None,
     baked: Annotated[
         bool,
         typer.Option(
@@ -193,10 +184,7 @@ def export_machine(
 @machine.command("import")
 def import_machine(
     file: Annotated[Path, typer.Argument(metavar="FILE.ssp", help="System in the format SSP 1.0.", show_default=False)],
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Folder for the machine.", show_default="the file's name"),
-    ] = None,
+    output: Annotated[Path | None, folder_option("Folder for the machine.")] = None,
 ) -> None:
     """Write the system of an SSP file as a machine's file, with its FMUs beside it; nothing is overwritten.
 
@@ -218,12 +206,7 @@ def import_machine(
 @machine.command("container")
 def contain_machine(
     name: MachineName,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o", "--output", metavar="FILE.fmu", help="File to write.", show_default="NAME.fmu", dir_okay=False
-        ),
-    ] = None,
+    output: Annotated[Path | None, file_option("FILE.fmu", "NAME.fmu")] = None,
 ) -> None:
     """Wrap a machine as one FMU, which steps its components itself: fixed steps, all at once, inputs held.
 

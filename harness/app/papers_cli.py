@@ -9,6 +9,7 @@ import typer
 
 from ..papers.ked.judged_by import JudgedBy
 from .cli_group import Group
+from .options import folder_option, quantity_option, settings_option
 
 
 def ked(
@@ -28,19 +29,11 @@ def ked(
         float, typer.Option(metavar="DEG", help="Of the crank's angle in the tables; 360 is a multiple.")
     ] = 1.0,
     damping: Annotated[float, typer.Option(metavar="RATIO", help="Of each mode of the periodic motion.")] = 0.02,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE[UNIT]", help="Set a parameter; repeat it for more."),
-    ] = None,
+    settings: Annotated[list[str] | None, settings_option("Set a parameter; repeat it for more.")] = None,
     limit_deviation: Annotated[
-        str | None,
-        typer.Option(
-            metavar="VALUE[UNIT]", help="Of the path point from its rigid path, e.g. '1 mm'.", show_default=False
-        ),
+        str | None, quantity_option("Of the path point from its rigid path, e.g. '1 mm'.")
     ] = None,
-    limit_stress: Annotated[
-        str | None, typer.Option(metavar="VALUE[UNIT]", help="In every member, e.g. '60 MPa'.", show_default=False)
-    ] = None,
+    limit_stress: Annotated[str | None, quantity_option("In every member, e.g. '60 MPa'.")] = None,
     judge: Annotated[
         JudgedBy,
         typer.Option(
@@ -71,12 +64,7 @@ def ked(
         float | None,
         typer.Option(metavar="COEFFICIENT", help="Of Coulomb friction in all joints.", show_default="the model's"),
     ] = None,
-    pin_radius: Annotated[
-        str | None,
-        typer.Option(
-            metavar="VALUE[UNIT]", help="Of all pins, where --friction acts, e.g. '5 mm'.", show_default=False
-        ),
-    ] = None,
+    pin_radius: Annotated[str | None, quantity_option("Of all pins, where --friction acts, e.g. '5 mm'.")] = None,
     speeds: Annotated[
         tuple[str, str, int] | None,
         typer.Option(
@@ -86,10 +74,7 @@ def ked(
             show_default="31 from 0.4 to 1.4 times the speed, drawn only",
         ),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="ked_NAME"),
-    ] = None,
+    output: Annotated[Path | None, folder_option(default="ked_NAME")] = None,
 ) -> None:
     """Bend a linkage over a turn of its crank at constant speed, and write cycle.csv, summary.json and report.html.
 

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from mechanism_fmu.units import BASE_UNITS as BASE_UNITS, SYMBOLS, Grammar, Unit, UnreadableUnitError
+
 # Unit expressions made of SI symbols: "N.mm", "kg.mm2", "rad/s", "N.m/(rad/s)".
 
-#: The base units of FMI 2.0, section 2.2.2, in this order wherever exponents are listed.
-BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+#: As people write them: with minutes, and with prefixes only where they are usual, so that "min" is a minute.
+_WRITTEN = Grammar(
+    {**SYMBOLS, "min": Unit(60.0, SYMBOLS["s"].exponents)}, without_prefix=("1", "kg", "cd", "min", "deg", "rpm")
+)
+_OTHER_SPELLINGS = str.maketrans({" ": "", "*": ".", "·": ".", "µ": "u", "μ": "u", "°": "deg"})
 
 
 @dataclass(frozen=True)
@@ -28,91 +32,21 @@ class Measure:
     offset: float = 0.0
 
     def __mul__(self, other: Measure) -> Measure:
-        return Measure(
-            tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)), self.factor * other.factor
-        )
-
-    def __pow__(self, power: int) -> Measure:
-        return Measure(tuple(a * power for a in self.exponents), self.factor**power)
-
-
-def _measure(factor: float = 1.0, **exponents: int) -> Measure:
-    return Measure(tuple(exponents.get(base, 0) for base in BASE_UNITS), factor)
-
-
-_PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "c": 1e-2, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "n": 1e-9}
-
-_PREFIXABLE = {
-    "g": _measure(1e-3, kg=1),
-    "m": _measure(m=1),
-    "s": _measure(s=1),
-    "A": _measure(A=1),
-    "K": _measure(K=1),
-    "mol": _measure(mol=1),
-    "rad": _measure(rad=1),
-    "N": _measure(kg=1, m=1, s=-2),
-    "J": _measure(kg=1, m=2, s=-2),
-    "W": _measure(kg=1, m=2, s=-3),
-    "Pa": _measure(kg=1, m=-1, s=-2),
-    "V": _measure(kg=1, m=2, s=-3, A=-1),
-    "ohm": _measure(kg=1, m=2, s=-3, A=-2),
-    "H": _measure(kg=1, m=2, s=-2, A=-2),
-    "Hz": _measure(s=-1),
-}
-
-#: Never with a prefix, so that "min" is a minute and "cd" a candela.
-_WHOLE = {
-    "1": _measure(),
-    "cd": _measure(cd=1),
-    "min": _measure(60.0, s=1),
-    "deg": _measure(math.pi / 180, rad=1),
-    "°": _measure(math.pi / 180, rad=1),
-    "rpm": _measure(math.pi / 30, rad=1, s=-1),
-}
-
-_FACTOR = re.compile(r"([^\W\d]+|°|1)(?:\^?([+-]?\d+))?")
+        product = Unit(self.factor, self.exponents).times(Unit(other.factor, other.exponents))
+        return Measure(product.exponents, product.factor)
 
 
 def parse_unit(text: str) -> Measure | None:
     """What a unit expression means, or None when it is not one.
 
-    Factors are joined by `.`, `*` or `·`; at most one `/`, with brackets around a denominator of several factors
-    (the unit grammar of the Modelica language, chapter 19). Symbols take the usual prefixes from G to n.
+    The grammar is that of `mechanism_fmu.units`; factors may also be joined by `*` or `·`, exponents stand behind `^`.
     """
-    numerator, slash, denominator = text.replace(" ", "").partition("/")
-    if not slash:
-        return _product(numerator)
-    if denominator.startswith("(") and denominator.endswith(")"):
-        below = parse_unit(denominator[1:-1])
-    elif len(re.split(r"[.*·]", denominator)) == 1:
-        below = _product(denominator)
-    else:
+    spelled = re.sub(r"(?<=[A-Za-z])\^(?=[+-]?\d)", "", text.translate(_OTHER_SPELLINGS))
+    try:
+        unit = _WRITTEN.read(spelled)
+    except UnreadableUnitError:
         return None
-    above = _product(numerator)
-    return None if above is None or below is None else above * below**-1
-
-
-def _product(text: str) -> Measure | None:
-    product = _WHOLE["1"]
-    for part in re.split(r"[.*·]", text):
-        match = _FACTOR.fullmatch(part)
-        symbol = None if match is None else _symbol(match[1])
-        if match is None or symbol is None:
-            return None
-        product = product * symbol ** int(match[2] or 1)
-    return product
-
-
-def _symbol(name: str) -> Measure | None:
-    if name in _WHOLE:
-        return _WHOLE[name]
-    if name in _PREFIXABLE:
-        return _PREFIXABLE[name]
-    prefix, rest = name[:1], name[1:]
-    if prefix in _PREFIXES and rest in _PREFIXABLE:
-        base = _PREFIXABLE[rest]
-        return Measure(base.exponents, base.factor * _PREFIXES[prefix])
-    return None
+    return Measure(unit.exponents, unit.factor)
 
 
 # The units of one FMU, as its modelDescription.xml defines them.

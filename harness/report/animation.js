@@ -2,20 +2,13 @@
 (function () {
   "use strict";
 
-  const SVG = "http://www.w3.org/2000/svg";
+  const { element, fit, held, player } = PLAYER;
   const INK = "#1c2733";
   // Of the picture, in its own pixels: the most it takes, and the room around the mechanism.
   const MOST_WIDTH = 1000, MOST_HEIGHT = 520, MARGIN = 40;
   // How long an impact flashes while playing, in seconds of the reader's time.
   const FLASH = 0.4;
   const SLIDER = 1000;
-
-  function element(name, attributes, parent) {
-    const made = document.createElementNS(SVG, name);
-    for (const key in attributes) made.setAttribute(key, attributes[key]);
-    if (parent) parent.appendChild(made);
-    return made;
-  }
 
   // The last index whose value is not above x; `values` increase.
   function lastUpTo(values, x) {
@@ -90,11 +83,8 @@
 
   // The picture of a mechanism, one of them or all that there is (`panel` is `data`); returns draw(time, struck).
   function picture(svg, panel, data) {
-    const [left, bottom, right, top] = panel.view;
     const [width, height] = panel.size || [MOST_WIDTH, MOST_HEIGHT];
-    const scale = Math.min(width / (right - left), height / (top - bottom));
-    svg.setAttribute("viewBox", [0, 0, scale * (right - left) + 2 * MARGIN, scale * (top - bottom) + 2 * MARGIN]
-      .map((number) => number.toFixed(1)).join(" "));
+    const { scale, across, down } = fit(svg, panel.view, width, height, MARGIN);
     const movers = panel.shapes.map((shape) => makers[shape.kind](shape, svg, scale, data.flash));
     return function (time, struck) {
       const before = Math.max(0, Math.min(lastUpTo(data.time, time), data.time.length - 2));
@@ -113,8 +103,7 @@
           const angle = value(shape.angle), length = value(shape.length);
           ends[shape.name] = [x + length * Math.cos(angle), y + length * Math.sin(angle)];
         }
-        const place = "translate(" + (MARGIN + scale * (x - left)).toFixed(2) + " " +
-          (MARGIN + scale * (top - y)).toFixed(2) + ")";
+        const place = "translate(" + across(x) + " " + down(y) + ")";
         movers[i](place, value, struck);
       });
     };
@@ -122,7 +111,7 @@
 
   function animate(root) {
     const find = (selector) => root.querySelector(selector);
-    const data = JSON.parse(find("script[type='application/json']").textContent);
+    const data = held(root);
     const slider = find("input"), play = find(".play"), speed = find("select");
     const lamps = [...root.querySelectorAll(".lamp")];
     const start = data.time[0], end = data.time[data.time.length - 1];
@@ -130,7 +119,7 @@
     // Each picture flashes at its own impacts.
     const pictures = (data.panels || [data]).map((panel, i) =>
       ({ impacts: panel.impacts, svg: svgs[i], draw: picture(svgs[i], panel, data) }));
-    let now = start, playing = false, stamp = null;
+    let now = start;
 
     for (const instant of data.impacts) {
       const mark = document.createElement("i");
@@ -151,7 +140,7 @@
       const least = (end - start) / SLIDER;
       const flashes = (impacts) => {
         const latest = lastUpTo(impacts, now);
-        return latest >= 0 && now - impacts[latest] <= Math.max(playing ? FLASH * speed.value : 0, least);
+        return latest >= 0 && now - impacts[latest] <= Math.max(playing.playing ? FLASH * speed.value : 0, least);
       };
       const struck = flashes(data.impacts);
       for (const one of pictures) {
@@ -173,31 +162,21 @@
       slider.setAttribute("aria-valuetext", text);
     }
 
-    function set(state) {
-      playing = state;
-      stamp = null;
-      play.textContent = playing ? "Pause" : "Play";
-      if (playing) requestAnimationFrame(tick);
-      show();
+    function advance(seconds) {
+      now = Math.min(end, now + speed.value * seconds);
+      return now < end;
     }
 
-    function tick(instant) {
-      if (!playing) return;
-      if (stamp !== null) now = Math.min(end, now + speed.value * (instant - stamp) / 1000);
-      stamp = instant;
-      if (now >= end) return set(false);
-      show();
-      requestAnimationFrame(tick);
-    }
+    const playing = player(play, advance, show);
 
     function go(time) {
       now = time;
-      set(false);
+      playing.set(false);
     }
 
     play.addEventListener("click", () => {
-      if (!playing && now >= end) now = start;
-      set(!playing);
+      if (!playing.playing && now >= end) now = start;
+      playing.set(!playing.playing);
     });
     slider.addEventListener("input", () => go(start + (end - start) * slider.value / SLIDER));
     if (find(".next"))
@@ -210,7 +189,7 @@
       const seen = new IntersectionObserver((entries) => {
         if (!entries.some((entry) => entry.isIntersecting)) return;
         seen.disconnect();
-        if (now === start && !playing) set(true);
+        if (now === start && !playing.playing) playing.set(true);
       }, { threshold: 0.5 });
       seen.observe(find("svg"));
     }

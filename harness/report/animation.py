@@ -213,11 +213,15 @@ def player(data: Mapping[str, Any], pictures: str) -> str:
             `picture_data`: of one picture here, or of several under `panels`.
         pictures: an <svg> for each, in their order, with legends.
     """
-    script = Path(__file__).with_name("animation.js").read_text(encoding="utf-8")
+    return playing("animation", pictures + _controls(data), data, Path(__file__).with_name("animation.js"))
+
+
+def playing(kind: str, shown: str, data: Mapping[str, Any], script: Path) -> str:
+    """An element of a class, with its data, and the script that plays it by `player.js`."""
     # "<" could close the script element
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    parts = [pictures, _controls(data), f'<script type="application/json">{text}</script>']
-    return f'<div class="animation">{"".join(parts)}</div><script>{script}</script>'
+    code = "".join(file.read_text(encoding="utf-8") for file in (Path(__file__).with_name("player.js"), script))
+    return f'<div class="{kind}">{shown}<script type="application/json">{text}</script></div><script>{code}</script>'
 
 
 def legend(shapes: Sequence[Mapping[str, Any]], contacts: Sequence[Contact]) -> str:

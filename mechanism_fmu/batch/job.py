@@ -115,18 +115,11 @@ class Job:
             values[designs] = np.nan
 
 
+#: What a job finds.
+_FOUND = ("values", "least", "greatest", "impacts", "reached", "pulled", "impact_count", "status")
+
 #: Arrays with a row for each design.
-_OF_DESIGNS = (
-    "varied_value",
-    "values",
-    "least",
-    "greatest",
-    "impacts",
-    "reached",
-    "pulled",
-    "impact_count",
-    "status",
-)
+_OF_DESIGNS = ("varied_value", *_FOUND)
 
 
 #: The order of the C structure: sizes, then addresses.
@@ -139,14 +132,7 @@ _ARRAYS = (
     "driven_value",
     "read_output",
     "impact_field",
-    "values",
-    "least",
-    "greatest",
-    "impacts",
-    "reached",
-    "pulled",
-    "impact_count",
-    "status",
+    *_FOUND,
     "next",
 )
 _SIZES = ("words", "designs", "varied", "points", "driven", "read", "fields", "kept", "until_impact")

@@ -1,8 +1,9 @@
-"""Vectors as wholes."""
+"""Vectors as wholes, and those of a body in the global frame."""
 
 from __future__ import annotations
 
 from ..tables.declare import Array
+from ..tables.motion import Pose
 from .compiler.subset import jit, keep_small
 
 
@@ -29,3 +30,10 @@ def largest(values: Array, count: int) -> float:
     for k in range(count):
         found = max(found, abs(values[k]))
     return found
+
+
+@jit
+def turned(at: Pose, body: int, x: float, y: float) -> tuple[float, float]:
+    """A vector (x, y) of a body, in the global frame."""
+    c, s = at.cosine[body], at.sine[body]
+    return c * x - s * y, s * x + c * y

@@ -5,218 +5,81 @@ parameters, and `compile_mechanism`, which checks it and writes the tables that 
 model's formulas, objections and state charts: `functions`, `findings`, `transitions`.
 """
 
-from ..codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH
-from .analysis import (
-    Arm,
-    ImpactStress,
-    RectangularTooth,
-    SawtoothWheel,
-    SeriesCompliance,
-    Strut,
-    TableBeam,
-    TrapezoidTooth,
-    WedgeTooth,
-)
-from .body import GROUND, Body
-from .compile import MechanismTables, compile_mechanism
-from .contacts import AngleLock, AngleStop, Contact, PointLineContact
-from .curves import Curve, Piece, Term, constant, cosine, sine
-from .curves.motions import (
-    Law,
-    Move,
-    cycloidal,
-    dwell,
-    harmonic_motion,
-    modified_sine,
-    polynomial_345,
-    polynomial_motion,
-    table_motion,
-)
-from .curves.profiles import circle, harmonic_profile, motion_profile, piecewise_profile, slot, spline_profile
-from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
-from .errors import MechanismError
-from .findings import Finding
-from .forces import *  # noqa: F403 a new force element is public by its own file
-from .forces import __all__ as _forces
-from .joints import (
-    AngleDriver,
-    CamFlatFollower,
-    CamFollower,
-    Distance,
-    DistanceDriver,
-    Gears,
-    InternalGears,
-    PointFollower,
-    RackAndPinion,
-    Revolute,
-    RevoluteTranslational,
-    Translational,
-    TranslationalDriver,
-    XDriver,
-    YDriver,
-)
-from .logic import LogicalFunction
-from .mechanism import Mechanism, Settings
-from .members import Disk, LumpedBody, Member, Section, lumped_body
-from .model import Model
-from .patterns import CircularPattern
-from .port_builders import (
-    active_output,
-    angle_output,
-    angle_parameter,
-    bent_point_outputs,
-    body_angle_output,
-    body_parameters,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    event_buffer_outputs,
-    flag_output,
-    flag_parameter,
-    force_output,
-    fraction_parameter,
-    hinged_beam_outputs,
-    impact_buffer_outputs,
-    impact_outputs,
-    impact_speed_fields,
-    inertia_parameter,
-    joint_friction_parameter,
-    last_impact_outputs,
-    length_parameter,
-    link_parameters,
-    load_torque_input,
-    mass_parameter,
-    member_outputs,
-    rotor_parameters,
-    settings_parameters,
-    shaft_inputs,
-    shaft_parameters,
-    shaft_torque_output,
-    speed_output,
-    speed_parameter,
-    stiffness_parameter,
-    torque_input,
-    torque_output,
-    torque_parameter,
-    whole_output,
-)
-from .ports import Calculated, Input, Output, Parameter
+from types import ModuleType as _Module
 
-__all__ = [
-    "EVENT_BUFFER_LENGTH",
-    "GROUND",
-    "IMPACT_BUFFER_LENGTH",
-    "AngleDriver",
-    "AngleLock",
-    "AngleStop",
-    "Arm",
-    "Bar",
-    "Body",
-    "Calculated",
-    "CamFlatFollower",
-    "CamFollower",
-    "CircularPattern",
-    "Contact",
-    "Curve",
-    "Disc",
-    "Disk",
-    "Distance",
-    "DistanceDriver",
-    "Finding",
-    "Gears",
-    "Hinge",
-    "ImpactStress",
-    "Input",
-    "InternalGears",
-    "Law",
-    "LogicalFunction",
-    "LumpedBody",
-    "Mechanism",
-    "MechanismError",
-    "MechanismTables",
-    "Member",
-    "Model",
-    "Move",
-    "Output",
-    "Parameter",
-    "Piece",
-    "PointFollower",
-    "PointLineContact",
-    "RackAndPinion",
-    "RectangularTooth",
-    "Revolute",
-    "RevoluteTranslational",
-    "SawtoothWheel",
-    "Section",
-    "SeriesCompliance",
-    "Settings",
-    "Shape",
-    "Striker",
-    "Strut",
-    "TableBeam",
-    "Term",
-    "Translational",
-    "TranslationalDriver",
-    "TrapezoidTooth",
-    "WedgeTooth",
-    "Wheel",
-    "XDriver",
-    "YDriver",
-    "active_output",
-    "angle_output",
-    "angle_parameter",
-    "bent_point_outputs",
-    "body_angle_output",
-    "body_parameters",
-    "body_speed_output",
-    "circle",
-    "compile_mechanism",
-    "constant",
-    "cosine",
-    "cycloidal",
-    "damping_parameter",
-    "dwell",
-    "energy_outputs",
-    "event_buffer_outputs",
-    "flag_output",
-    "flag_parameter",
-    "force_output",
-    "fraction_parameter",
-    "harmonic_motion",
-    "harmonic_profile",
-    "hinged_beam_outputs",
-    "impact_buffer_outputs",
-    "impact_outputs",
-    "impact_speed_fields",
-    "inertia_parameter",
-    "joint_friction_parameter",
-    "last_impact_outputs",
-    "length_parameter",
-    "link_parameters",
-    "load_torque_input",
-    "lumped_body",
-    "mass_parameter",
-    "member_outputs",
-    "modified_sine",
-    "motion_profile",
-    "piecewise_profile",
-    "polynomial_345",
-    "polynomial_motion",
-    "rotor_parameters",
-    "settings_parameters",
-    "shaft_inputs",
-    "shaft_parameters",
-    "shaft_torque_output",
-    "sine",
-    "slot",
-    "speed_output",
-    "speed_parameter",
-    "spline_profile",
-    "stiffness_parameter",
-    "table_motion",
-    "torque_input",
-    "torque_output",
-    "torque_parameter",
-    "whole_output",
-]
-__all__ += _forces
+from ..codes import EVENT_BUFFER_LENGTH as EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH as IMPACT_BUFFER_LENGTH
+from .analysis import (
+    Arm as Arm,
+    ImpactStress as ImpactStress,
+    RectangularTooth as RectangularTooth,
+    SawtoothWheel as SawtoothWheel,
+    SeriesCompliance as SeriesCompliance,
+    Strut as Strut,
+    TableBeam as TableBeam,
+    TrapezoidTooth as TrapezoidTooth,
+    WedgeTooth as WedgeTooth,
+)
+from .body import GROUND as GROUND, Body as Body
+from .compile import MechanismTables as MechanismTables, compile_mechanism as compile_mechanism
+from .contacts import (
+    AngleLock as AngleLock,
+    AngleStop as AngleStop,
+    Contact as Contact,
+    PointLineContact as PointLineContact,
+)
+from .curves import Curve as Curve, Piece as Piece, Term as Term, constant as constant, cosine as cosine, sine as sine
+from .curves.motions import (
+    Law as Law,
+    Move as Move,
+    cycloidal as cycloidal,
+    dwell as dwell,
+    harmonic_motion as harmonic_motion,
+    modified_sine as modified_sine,
+    polynomial_345 as polynomial_345,
+    polynomial_motion as polynomial_motion,
+    table_motion as table_motion,
+)
+from .curves.profiles import (
+    circle as circle,
+    harmonic_profile as harmonic_profile,
+    motion_profile as motion_profile,
+    piecewise_profile as piecewise_profile,
+    slot as slot,
+    spline_profile as spline_profile,
+)
+from .drawing import Bar as Bar, Disc as Disc, Hinge as Hinge, Shape as Shape, Striker as Striker, Wheel as Wheel
+from .errors import MechanismError as MechanismError
+from .findings import Finding as Finding
+from .forces import *  # noqa: F403 a new force element is public by its own file
+from .joints import (
+    AngleDriver as AngleDriver,
+    CamFlatFollower as CamFlatFollower,
+    CamFollower as CamFollower,
+    Distance as Distance,
+    DistanceDriver as DistanceDriver,
+    Gears as Gears,
+    InternalGears as InternalGears,
+    PointFollower as PointFollower,
+    RackAndPinion as RackAndPinion,
+    Revolute as Revolute,
+    RevoluteTranslational as RevoluteTranslational,
+    Translational as Translational,
+    TranslationalDriver as TranslationalDriver,
+    XDriver as XDriver,
+    YDriver as YDriver,
+)
+from .logic import LogicalFunction as LogicalFunction
+from .mechanism import Mechanism as Mechanism, Settings as Settings
+from .members import (
+    Disk as Disk,
+    LumpedBody as LumpedBody,
+    Member as Member,
+    Section as Section,
+    lumped_body as lumped_body,
+)
+from .model import Model as Model
+from .patterns import CircularPattern as CircularPattern
+from .port_builders import *  # noqa: F403
+from .ports import Calculated as Calculated, Input as Input, Output as Output, Parameter as Parameter
+
+__all__ = [name for name, value in list(globals().items()) if not (name.startswith("_") or isinstance(value, _Module))]

@@ -99,6 +99,19 @@ class Striker:
 Shape = Bar | Wheel | Disc | Hinge | Striker
 
 
+def square_tooth(gap: float, tooth: float, share: float, count: int) -> tuple[tuple[float, float], ...]:
+    """The outline of a `Wheel` with square teeth: one, about the x axis, and half the gaps before and behind it.
+
+    Args:
+        gap: radius between teeth [m].
+        tooth: radius of their tips [m].
+        share: of the pitch that a tooth takes.
+        count: of the teeth.
+    """
+    half, end = share * math.pi / count, math.pi / count
+    return (gap, -end), (gap, -half), (tooth, -half), (tooth, half), (gap, half), (gap, end)
+
+
 def check_drawing(drawing: Collection[Shape], variables: Collection[str]) -> None:
     """Check that a drawing stands on its own.
 

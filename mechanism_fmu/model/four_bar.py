@@ -6,8 +6,11 @@ import math
 from dataclasses import dataclass
 from types import SimpleNamespace
 
+from .drawing import Bar, Hinge, Shape
 from .findings import Finding, at_most, first, size
 from .functions import Number, atan2, cos, sin, sqrt, where_positive
+from .port_builders import body_angle_output, body_speed_output, flag_parameter
+from .ports import Calculated
 
 # Sides and angles of triangles, in a form that also has a value where there is no such triangle.
 #
@@ -102,6 +105,41 @@ def form(values: SimpleNamespace) -> Form:
     near, far = d - a, d + a
     sides, product = b * b + c * c, 4 * b * b * c * c
     return Form(angle_between(sides - near * near, product), angle_between(sides - far * far, product))
+
+
+# Ports and drawing that all four-bar linkages have.
+
+CROSSED = flag_parameter(
+    "crossed",
+    False,
+    "Whether coupler and rocker are assembled on the other side of the line from crank pin to rocker hinge",
+)
+
+MOTIONS = (
+    body_angle_output("crank", "theta"),
+    body_angle_output("coupler", "phi"),
+    body_angle_output("rocker", "psi"),
+    *(body_speed_output(link) for link in ("crank", "coupler", "rocker")),
+)
+
+_CRANK_HINGE, _ROCKER_HINGE = (0.0, 0.0), ("ground_length", 0.0)
+
+SHAPES: tuple[Shape, ...] = (
+    Bar("crank", _CRANK_HINGE, "crank_angle", "crank_length"),
+    Bar("coupler", "crank", "coupler_angle", "coupler_length"),
+    Bar("rocker", _ROCKER_HINGE, "rocker_angle", "rocker_length"),
+    *(Hinge(at) for at in (_CRANK_HINGE, _ROCKER_HINGE, "crank", "coupler")),
+)
+
+
+def transmission_angles(values: SimpleNamespace) -> tuple[Calculated, Calculated]:
+    """The extreme transmission angles."""
+    known = form(values)
+    between = "Transmission angle, between coupler and rocker, with the crank pointing"
+    return (
+        Calculated("folded_transmission_angle", known.folded, f"{between} to the rocker's hinge", "rad", "deg"),
+        Calculated("stretched_transmission_angle", known.stretched, f"{between} away from it", "rad", "deg"),
+    )
 
 
 # What is wrong, or odd, with lengths of a four-bar linkage that are each within their limits.

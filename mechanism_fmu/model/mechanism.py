@@ -34,8 +34,12 @@ class Settings:
 
     @classmethod
     def of(cls, values: SimpleNamespace) -> Settings:
-        """The settings among a model's parameter values (`settings_parameters`)."""
-        return cls(**{field.name: getattr(values, field.name) for field in fields(cls)})
+        """The settings among a model's parameter values (`settings_parameters`); of others, the default."""
+        return cls(**{name: getattr(values, name) for name in (f.name for f in fields(cls)) if hasattr(values, name)})
+
+
+#: Those of a mechanism that gives none: a `Model` puts those among its parameters in their place.
+DEFAULT_SETTINGS = Settings()
 
 
 @dataclass(frozen=True)
@@ -46,7 +50,7 @@ class Mechanism:
         bodies, joints, forces, contacts, patterns, functions: the parts; names are unique over all of them.
         inputs, outputs, calculated: what the outside sees.
         held: coordinates, as "<body>.x|y|angle", that assembly must not move, nor their rates.
-        settings: how the engine integrates.
+        settings: how the engine integrates; where none are given, a `Model` takes those among its parameters.
         members, disks: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics` and outputs
             that read them; the motion does without. The mechanism becomes a structure when its held and driven
             coordinates stand still.
@@ -62,7 +66,7 @@ class Mechanism:
     outputs: tuple[Output, ...] = ()
     calculated: tuple[Calculated, ...] = ()
     held: tuple[str, ...] = ()
-    settings: Settings = Settings()
+    settings: Settings = DEFAULT_SETTINGS
     members: tuple[Member, ...] = ()
     disks: tuple[Disk, ...] = ()
 

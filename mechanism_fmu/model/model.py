@@ -4,20 +4,42 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
-from typing import Protocol
+from typing import Any, Protocol
 
 from .analysis import Analysis
 from .drawing import Shape
 from .errors import MechanismError
 from .findings import Finding, messages
-from .mechanism import Mechanism
-from .ports import Parameter
+from .mechanism import DEFAULT_SETTINGS, Mechanism, Settings
+from .ports import Calculated, Input, Output, Parameter
 
 
-def _nothing(_values: SimpleNamespace) -> Sequence[Finding]:
+def _nothing(_values: SimpleNamespace) -> tuple[()]:
     return ()
+
+
+@dataclass(frozen=True)
+class _Completed:
+    """A model's function; what its mechanism leaves out of ports and settings comes from the model."""
+
+    function: Callable[[SimpleNamespace], Mechanism]
+    inputs: tuple[Input, ...]
+    outputs: tuple[Output, ...]
+    calculated: Callable[[SimpleNamespace], tuple[Calculated, ...]]
+
+    def __call__(self, values: SimpleNamespace) -> Mechanism:
+        found: Any = self.function(values)
+        if not isinstance(found, Mechanism):
+            return found  # type: ignore[no-any-return]  # a user's function may return anything: objected to elsewhere
+        return replace(
+            found,
+            inputs=found.inputs or self.inputs,
+            outputs=found.outputs or self.outputs,
+            calculated=found.calculated or self.calculated(values),
+            settings=Settings.of(values) if found.settings is DEFAULT_SETTINGS else found.settings,
+        )
 
 
 @dataclass(frozen=True)
@@ -27,9 +49,10 @@ class Model:
     Attributes:
         name: of the FMU, a Python identifier, e.g. "Ratchet".
         description: one line for the user.
-        parameters: all parameters with their limits.
+        parameters: all parameters with their limits; those of `settings_parameters` are its mechanism's settings.
         mechanism: pure function from parameter values (attributes of its one argument, by name) to the mechanism:
-            plain arithmetic and `model.functions` only, no branching on structure, so that symbolic numbers pass.
+            plain arithmetic and `model.functions` only, no branching on structure, so that symbolic numbers pass;
+            what it leaves out of ports and settings comes from here.
         objections: pure function, as `mechanism` is, to what is wrong with values that are each within their limits;
             it is asked first, so it must not fail where `mechanism` would.
         warnings: likewise, for what is legal but deserves a line in the log.
@@ -38,6 +61,8 @@ class Model:
         analysis: what can be analysed of a run, in terms of the FMU's variables; () when nothing can.
         author: who made it; "" leaves it open.
         license: under which others may use it, one line; "" leaves it open.
+        inputs, outputs: what the outside sees of the mechanism, where `mechanism` gives none.
+        calculated: likewise; pure function, as `mechanism` is, to what follows from the parameters.
 
     Raises:
         MechanismError: stop_time or step_size is not positive and finite.
@@ -55,8 +80,14 @@ class Model:
     analysis: tuple[Analysis, ...] = ()
     author: str = ""
     license: str = ""
+    inputs: tuple[Input, ...] = ()
+    outputs: tuple[Output, ...] = ()
+    calculated: Callable[[SimpleNamespace], tuple[Calculated, ...]] = _nothing
 
     def __post_init__(self) -> None:
+        own = self.mechanism.function if isinstance(self.mechanism, _Completed) else self.mechanism
+        if callable(own):
+            object.__setattr__(self, "mechanism", _Completed(own, self.inputs, self.outputs, self.calculated))
         for what, value in (("stop_time", self.stop_time), ("step_size", self.step_size)):
             if not 0.0 < value < math.inf:
                 raise MechanismError(f"{self.name}: {what} = {value:g} s, but it must be positive and finite.")

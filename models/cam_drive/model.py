@@ -18,7 +18,6 @@ from mechanism_fmu.model import (
     Mechanism,
     Model,
     Revolute,
-    Settings,
     Torque,
     TorsionSpring,
 )
@@ -185,24 +184,23 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
                 restitution=values.restitution,
             ),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("cam.angle",),
-        settings=Settings.of(values),
     )
 
 
 MODEL = Model(
     name="CamDrive",
     description="Cam with a roller follower on an arm: a steady rotation becomes a swing to and fro with dwells",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -5,41 +5,7 @@ from __future__ import annotations
 import math
 from types import SimpleNamespace
 
-from mechanism_fmu.model import (
-    Bar,
-    Calculated,
-    Disc,
-    Hinge,
-    Output,
-    Parameter,
-    Striker,
-    Wheel,
-    active_output,
-    angle_output,
-    angle_parameter,
-    body_angle_output,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    flag_parameter,
-    force_output,
-    fraction_parameter,
-    impact_outputs,
-    impact_speed_fields,
-    joint_friction_parameter,
-    length_parameter,
-    load_torque_input,
-    rotor_parameters,
-    settings_parameters,
-    shaft_inputs,
-    shaft_parameters,
-    shaft_torque_output,
-    speed_parameter,
-    stiffness_parameter,
-    torque_input,
-    torque_parameter,
-    whole_output,
-)
+from mechanism_fmu.model import Bar, Calculated, Disc, Hinge, Output, Parameter, Striker, Wheel, port_builders as ports
 
 from .geometry import radius_at, timing
 
@@ -81,9 +47,9 @@ def form(values: SimpleNamespace) -> tuple[Calculated, ...]:
 
 
 INPUTS = (
-    *shaft_inputs(speed=2 * math.pi),
-    torque_input("drive", "cam"),
-    load_torque_input("follower"),
+    *ports.shaft_inputs(speed=2 * math.pi),
+    ports.torque_input("drive", "cam"),
+    ports.load_torque_input("follower"),
 )
 
 #: What is known of an impact: of the roller on the cam, for there is no other.
@@ -92,36 +58,36 @@ _IMPACT = (
         "closing_speed", "closing_speed", "Speed at which the roller comes to the cam, {impact}", "m/s", nominal=0.1
     ),
     Output("impulse", "impulse", "Impulse on the roller, {impact}", "N.s", nominal=0.01),
-    *impact_speed_fields("cam", "follower"),
+    *ports.impact_speed_fields("cam", "follower"),
 )
 
 OUTPUTS = (
-    body_angle_output("cam", "theta"),
-    body_angle_output("follower", "psi"),
-    body_speed_output("cam"),
-    body_speed_output("follower"),
-    force_output(
+    ports.body_angle_output("cam", "theta"),
+    ports.body_angle_output("follower", "psi"),
+    ports.body_speed_output("cam"),
+    ports.body_speed_output("follower"),
+    ports.force_output(
         "contact_force",
         "contact.force",
         "Force of the cam on the roller, along their common normal; negative: a guided roller is pulled; 0 when open",
         INPUTS,
     ),
     Output("contact_gap", "contact.gap", "Distance between cam and roller", "m", nominal=1e-3),
-    active_output("contact", "The roller is on the cam"),
-    angle_output(
+    ports.active_output("contact", "The roller is on the cam"),
+    ports.angle_output(
         "cam_contact_angle",
         "contact.alpha_i",
         "Angle of the cam's profile nearest to the roller (alpha), unwrapped",
     ),
-    angle_output(
+    ports.angle_output(
         "roller_contact_angle",
         "contact.alpha_j",
         "Angle on the roller nearest to the cam, from the arm's direction; the pressure angle is this less 270 deg",
     ),
-    shaft_torque_output("cam"),
-    whole_output("event_count", "event.count", "Events since the start: lift-offs and impacts"),
-    *impact_outputs("Impacts of the roller on the cam", _IMPACT),
-    *energy_outputs(
+    ports.shaft_torque_output("cam"),
+    ports.whole_output("event_count", "event.count", "Events since the start: lift-offs and impacts"),
+    *ports.impact_outputs("Impacts of the roller on the cam", _IMPACT),
+    *ports.energy_outputs(
         kinetic="Kinetic energy of cam and follower",
         spring="Energy of the return spring, without its preload",
         work="Work done by drive shaft, preload, drive_torque and load_torque since the start",
@@ -131,34 +97,34 @@ OUTPUTS = (
 
 
 def _cam_angle(name: str, degrees: float, description: str, minimum: float) -> Parameter:
-    return angle_parameter(name, math.radians(degrees), description, minimum, 2 * math.pi)
+    return ports.angle_parameter(name, math.radians(degrees), description, minimum, 2 * math.pi)
 
 
 PARAMETERS = (
-    length_parameter("base_radius", 0.03, "Radius of the cam's base circle"),
-    length_parameter("lift", 0.0216, "Radius of the upper dwell less that of the base circle", minimum=0.0),
+    ports.length_parameter("base_radius", 0.03, "Radius of the cam's base circle"),
+    ports.length_parameter("lift", 0.0216, "Radius of the upper dwell less that of the base circle", minimum=0.0),
     _cam_angle("rise_angle", 150, "Angle of the cam over which it lifts the roller, cycloidal, turning forwards", 0.01),
     _cam_angle("dwell_angle", 30, "Angle of the cam over which the roller rests on the upper dwell", 0.0),
     _cam_angle("return_angle", 150, "Angle of the cam over which the roller comes down, cycloidal", 0.01),
-    length_parameter("roller_radius", 0.01, "Radius of the roller"),
-    length_parameter("hinge_distance", 0.08, "Distance between the hinges of follower and cam"),
-    length_parameter("follower_length", 0.06, "Distance of the roller's centre from the follower's hinge"),
-    *rotor_parameters("cam", 0.8, 1e-3),
-    *rotor_parameters("follower", 0.1, 1.5e-4),
-    angle_parameter("cam_angle_start", 0.0, "Cam angle at the start (theta); the follower's follows"),
-    speed_parameter("cam_speed_start", 2 * math.pi, "Cam speed at the start; the follower's follows"),
-    stiffness_parameter("spring_stiffness", 0.1, "Stiffness of the return spring"),
-    torque_parameter("spring_preload", 0.02, "Torque of the return spring on the base circle"),
-    damping_parameter("follower"),
-    *shaft_parameters(damping=1.0),
-    flag_parameter(
+    ports.length_parameter("roller_radius", 0.01, "Radius of the roller"),
+    ports.length_parameter("hinge_distance", 0.08, "Distance between the hinges of follower and cam"),
+    ports.length_parameter("follower_length", 0.06, "Distance of the roller's centre from the follower's hinge"),
+    *ports.rotor_parameters("cam", 0.8, 1e-3),
+    *ports.rotor_parameters("follower", 0.1, 1.5e-4),
+    ports.angle_parameter("cam_angle_start", 0.0, "Cam angle at the start (theta); the follower's follows"),
+    ports.speed_parameter("cam_speed_start", 2 * math.pi, "Cam speed at the start; the follower's follows"),
+    ports.stiffness_parameter("spring_stiffness", 0.1, "Stiffness of the return spring"),
+    ports.torque_parameter("spring_preload", 0.02, "Torque of the return spring on the base circle"),
+    ports.damping_parameter("follower"),
+    *ports.shaft_parameters(damping=1.0),
+    ports.flag_parameter(
         "unilateral",
         False,
         "Whether the roller can leave the cam; if not, it is guided and only a warning says that it would",
     ),
-    fraction_parameter("restitution", 0.0, "Coefficient of restitution of the roller on the cam (unilateral)"),
-    joint_friction_parameter(),
-    *settings_parameters(),
+    ports.fraction_parameter("restitution", 0.0, "Coefficient of restitution of the roller on the cam (unilateral)"),
+    ports.joint_friction_parameter(),
+    *ports.settings_parameters(),
 )
 
 

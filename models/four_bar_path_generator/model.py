@@ -12,13 +12,11 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
-    Bar,
     Body,
     Calculated,
     CompliantShaft,
     Disc,
     Disk,
-    Hinge,
     LumpedBody,
     Mechanism,
     Member,
@@ -26,27 +24,21 @@ from mechanism_fmu.model import (
     Parameter,
     Revolute,
     Section,
-    Settings,
     Torque,
     Wheel,
-    angle_parameter,
-    bent_point_outputs,
-    body_angle_output,
-    body_speed_output,
-    energy_outputs,
-    flag_parameter,
-    length_parameter,
     lumped_body,
-    member_outputs,
-    settings_parameters,
-    shaft_inputs,
-    shaft_parameters,
-    shaft_torque_output,
-    speed_parameter,
-    torque_input,
+    port_builders as ports,
 )
 from mechanism_fmu.model.body import MovingPoint
-from mechanism_fmu.model.four_bar import form, objections, start, warnings
+from mechanism_fmu.model.four_bar import (
+    CROSSED,
+    MOTIONS,
+    SHAPES as LINKAGE,
+    objections,
+    start,
+    transmission_angles,
+    warnings,
+)
 from mechanism_fmu.model.functions import Number, cos, sin
 
 # The bodies of the path generator, made of elastic members and disks.
@@ -99,20 +91,13 @@ def _link(name: str, parts: LumpedBody, begin: MovingPoint, angle: Number, speed
 
 # How the path generator is drawn from its variables: links, hinges and the path point, all as if they were rigid.
 
-_CRANK_HINGE, _ROCKER_HINGE = (0.0, 0.0), ("ground_length", 0.0)
-
 #: Pin, pin and path point, in polar coordinates of the coupler.
 _PLATE = ((0.0, 0.0), ("coupler_length", 0.0), ("arm_length", "arm_angle"))
 
 SHAPES = (
-    Bar("crank", _CRANK_HINGE, "crank_angle", "crank_length"),
+    LINKAGE[0],
     Wheel("coupler with arm", "crank", "coupler_angle", 1, _PLATE),
-    Bar("coupler", "crank", "coupler_angle", "coupler_length"),
-    Bar("rocker", _ROCKER_HINGE, "rocker_angle", "rocker_length"),
-    Hinge(_CRANK_HINGE),
-    Hinge(_ROCKER_HINGE),
-    Hinge("crank"),
-    Hinge("coupler"),
+    *LINKAGE[1:],
     Disc("path point", ("path_x", "path_y"), "outline_path_radius"),
 )
 
@@ -128,23 +113,18 @@ _POUND_FORCE = _POUND * 9.80665
 #: 500 rpm [rad/s].
 _SPEED = 500 * math.pi / 30
 
-INPUTS = (*shaft_inputs(speed=_SPEED), torque_input("drive", "crank"))
+INPUTS = (*ports.shaft_inputs(speed=_SPEED), ports.torque_input("drive", "crank"))
 
 OUTPUTS = (
-    body_angle_output("crank", "theta"),
-    body_angle_output("coupler", "phi"),
-    body_angle_output("rocker", "psi"),
-    body_speed_output("crank"),
-    body_speed_output("coupler"),
-    body_speed_output("rocker"),
-    shaft_torque_output("crank", nominal=5.0),
-    *bent_point_outputs("path", "arm.end", "path point", INPUTS, nominal=0.2),
+    *MOTIONS,
+    ports.shaft_torque_output("crank", nominal=5.0),
+    *ports.bent_point_outputs("path", "arm.end", "path point", INPUTS, nominal=0.2),
     *(
         output
         for member in ("arm", "crank_bar", "coupler_bar", "rocker_bar")
-        for output in member_outputs(member, INPUTS, force=100.0, moment=5.0, stress=5e7)
+        for output in ports.member_outputs(member, INPUTS, force=100.0, moment=5.0, stress=5e7)
     ),
-    *energy_outputs(
+    *ports.energy_outputs(
         kinetic="Kinetic energy of crank, coupler and rocker",
         spring="Energy of springs: there are none",
         work="Work done by drive shaft and drive torque since the start",
@@ -156,8 +136,10 @@ OUTPUTS = (
 
 def _section(link: str) -> tuple[Parameter, Parameter]:
     return (
-        length_parameter(f"{link}_width", 0.25 * _INCH, f"Width of the {link}'s section, normal to the plane (b)"),
-        length_parameter(f"{link}_depth", 0.5 * _INCH, f"Depth of the {link}'s section, in the plane (h)"),
+        ports.length_parameter(
+            f"{link}_width", 0.25 * _INCH, f"Width of the {link}'s section, normal to the plane (b)"
+        ),
+        ports.length_parameter(f"{link}_depth", 0.5 * _INCH, f"Depth of the {link}'s section, in the plane (h)"),
     )
 
 
@@ -173,37 +155,32 @@ def _disk(name: str, place: str, weight: float, radius: float = 0.0) -> tuple[Pa
 
 
 PARAMETERS = (
-    length_parameter("ground_length", 10 * _INCH, "Distance between the fixed hinges of crank and rocker (d)"),
-    length_parameter("crank_length", 4 * _INCH, "Length of the crank (a)"),
-    length_parameter("coupler_length", 10 * _INCH, "Length of the coupler, from pin to pin (b)"),
-    length_parameter("rocker_length", 8 * _INCH, "Length of the rocker (c)"),
-    length_parameter("arm_length", 6 * _INCH, "Length of the coupler's arm, from the crank pin to the path point (p)"),
-    angle_parameter("arm_angle", math.radians(30), "Angle of the arm against the coupler (alpha)"),
+    ports.length_parameter("ground_length", 10 * _INCH, "Distance between the fixed hinges of crank and rocker (d)"),
+    ports.length_parameter("crank_length", 4 * _INCH, "Length of the crank (a)"),
+    ports.length_parameter("coupler_length", 10 * _INCH, "Length of the coupler, from pin to pin (b)"),
+    ports.length_parameter("rocker_length", 8 * _INCH, "Length of the rocker (c)"),
+    ports.length_parameter(
+        "arm_length", 6 * _INCH, "Length of the coupler's arm, from the crank pin to the path point (p)"
+    ),
+    ports.angle_parameter("arm_angle", math.radians(30), "Angle of the arm against the coupler (alpha)"),
     *(parameter for link in ("crank", "coupler", "rocker", "arm") for parameter in _section(link)),
     Parameter("elastic_modulus", 30e6 * _POUND_FORCE / _INCH**2, "Modulus of elasticity (E)", "Pa", 1.0, 1e15),
     Parameter("density", 0.283 * _POUND / _INCH**3, "Density of the links", "kg/m3", 1e-3, 1e6),
     *_disk("path_disk", "path point", 0.5, 0.75),
     *_disk("crank_pin_disk", "crank pin", 0.1, 0.5),
     *_disk("rocker_pin_disk", "rocker pin", 0.1),
-    flag_parameter(
-        "crossed",
-        False,
-        "Whether coupler and rocker are assembled on the other side of the line from crank pin to rocker hinge",
-    ),
-    angle_parameter("crank_angle_start", math.radians(30), "Crank angle at the start (theta)"),
-    speed_parameter("crank_speed_start", _SPEED, "Crank speed at the start; those of coupler and rocker follow"),
-    *shaft_parameters(damping=100.0),
-    *settings_parameters(),
+    CROSSED,
+    ports.angle_parameter("crank_angle_start", math.radians(30), "Crank angle at the start (theta)"),
+    ports.speed_parameter("crank_speed_start", _SPEED, "Crank speed at the start; those of coupler and rocker follow"),
+    *ports.shaft_parameters(damping=100.0),
+    *ports.settings_parameters(),
 )
 
 
 def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
     """The extreme transmission angles, and how large the path point is drawn."""
-    known = form(values)
-    between = "Transmission angle, between coupler and rocker, with the crank pointing"
     return (
-        Calculated("folded_transmission_angle", known.folded, f"{between} to the rocker's hinge", "rad", "deg"),
-        Calculated("stretched_transmission_angle", known.stretched, f"{between} away from it", "rad", "deg"),
+        *transmission_angles(values),
         Calculated("outline_path_radius", values.arm_length / 15, "Drawing: radius of the path point", "m"),
     )
 
@@ -227,24 +204,23 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         ),
         members=(arm, crank_bar, bar, rocker_bar),
         disks=coupler.parts.disks,
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("crank.angle",),
-        settings=Settings.of(values),
     )
 
 
 MODEL = Model(
     name="FourBarPathGenerator",
     description="Four-bar path generator whose links bend: rigid and elastic path, stresses",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,
     stop_time=0.24,
     step_size=5e-4,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

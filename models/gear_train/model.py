@@ -23,25 +23,9 @@ from mechanism_fmu.model import (
     Mechanism,
     Model,
     Revolute,
-    Settings,
     Torque,
     Wheel,
-    angle_parameter,
-    body_angle_output,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    force_output,
-    joint_friction_parameter,
-    length_parameter,
-    load_torque_input,
-    rotor_parameters,
-    settings_parameters,
-    shaft_inputs,
-    shaft_parameters,
-    shaft_torque_output,
-    speed_parameter,
-    torque_input,
+    port_builders as ports,
 )
 from mechanism_fmu.model.body import rotor_body
 from mechanism_fmu.model.findings import either
@@ -142,25 +126,25 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
 # Inputs, outputs and parameters of the gear train.
 
 INPUTS = (
-    torque_input("drive", "pinion", 1.5),
-    load_torque_input("wheel", -0.7),
-    *shaft_inputs(speed=0.0),
+    ports.torque_input("drive", "pinion", 1.5),
+    ports.load_torque_input("wheel", -0.7),
+    *ports.shaft_inputs(speed=0.0),
 )
 
 OUTPUTS = (
-    body_angle_output("pinion", "phi_1"),
-    body_angle_output("wheel", "phi_2"),
-    body_speed_output("pinion"),
-    body_speed_output("wheel"),
-    force_output(
+    ports.body_angle_output("pinion", "phi_1"),
+    ports.body_angle_output("wheel", "phi_2"),
+    ports.body_speed_output("pinion"),
+    ports.body_speed_output("wheel"),
+    ports.force_output(
         "mesh_force",
         "gears.force",
         "Tangential force between the gears (F); its torque on each gear is F times that gear's radius",
         INPUTS,
         nominal=10.0,
     ),
-    shaft_torque_output("pinion"),
-    *energy_outputs(
+    ports.shaft_torque_output("pinion"),
+    *ports.energy_outputs(
         kinetic="Kinetic energy of both gears",
         spring="Energy of springs within the gear train: none, 0",
         work="Work done by drive shaft, drive_torque and load_torque since the start",
@@ -169,17 +153,19 @@ OUTPUTS = (
 )
 
 PARAMETERS = (
-    length_parameter("pinion_radius", 0.05, "Radius of the pinion's pitch circle (R1)"),
-    length_parameter("wheel_radius", 0.12, "Radius of the wheel's pitch circle (R2)"),
-    *rotor_parameters("pinion", 16.0, 0.02),
-    *rotor_parameters("wheel", 15.3, 0.11),
-    angle_parameter("pinion_angle_start", 0.0, "Pinion angle at the start (phi_1); the wheel's is ratio times this"),
-    speed_parameter("pinion_speed_start", 0.0, "Pinion speed at the start; the wheel's is ratio times this"),
-    damping_parameter("pinion"),
-    damping_parameter("wheel"),
-    *shaft_parameters(damping=0.0),
-    joint_friction_parameter(),
-    *settings_parameters(),
+    ports.length_parameter("pinion_radius", 0.05, "Radius of the pinion's pitch circle (R1)"),
+    ports.length_parameter("wheel_radius", 0.12, "Radius of the wheel's pitch circle (R2)"),
+    *ports.rotor_parameters("pinion", 16.0, 0.02),
+    *ports.rotor_parameters("wheel", 15.3, 0.11),
+    ports.angle_parameter(
+        "pinion_angle_start", 0.0, "Pinion angle at the start (phi_1); the wheel's is ratio times this"
+    ),
+    ports.speed_parameter("pinion_speed_start", 0.0, "Pinion speed at the start; the wheel's is ratio times this"),
+    ports.damping_parameter("pinion"),
+    ports.damping_parameter("wheel"),
+    *ports.shaft_parameters(damping=0.0),
+    ports.joint_friction_parameter(),
+    *ports.settings_parameters(),
 )
 
 
@@ -213,11 +199,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Damper("pinion_damper", "pinion", damping=values.pinion_damping),
             Damper("wheel_damper", "wheel", damping=values.wheel_damping),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("pinion.angle",),
-        settings=Settings.of(values),
     )
 
 
@@ -234,12 +216,15 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, Body]:
 MODEL = Model(
     name="GearTrain",
     description="Pair of external gears: a pinion turns a wheel, slower and the other way round",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     stop_time=1.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -23,7 +23,6 @@ from mechanism_fmu.model import (
     Model,
     PointLineContact,
     Revolute,
-    Settings,
     Torque,
 )
 from mechanism_fmu.model.body import rotor_body
@@ -75,11 +74,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         contacts=_contacts(values),
         patterns=(_slots(values),),
         functions=(LogicalFunction("pin_in_slot", of="slot.along", below=geneva(values).mouth_radius),),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("driver.angle",),
-        settings=Settings.of(values),
     )
 
 
@@ -139,12 +134,15 @@ def _slots(values: SimpleNamespace) -> CircularPattern:
 MODEL = Model(
     name="Geneva",
     description="External Geneva drive: a driver's pin turns a slotted wheel by one station per turn",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     stop_time=3.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -5,39 +5,7 @@ from __future__ import annotations
 import math
 from types import SimpleNamespace
 
-from mechanism_fmu.model import (
-    Bar,
-    Calculated,
-    Disc,
-    Hinge,
-    Output,
-    Parameter,
-    Wheel,
-    active_output,
-    angle_parameter,
-    body_angle_output,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    flag_parameter,
-    force_output,
-    fraction_parameter,
-    impact_outputs,
-    impact_speed_fields,
-    joint_friction_parameter,
-    length_parameter,
-    load_torque_input,
-    rotor_parameters,
-    settings_parameters,
-    shaft_inputs,
-    shaft_parameters,
-    shaft_torque_output,
-    speed_output,
-    speed_parameter,
-    torque_input,
-    torque_output,
-    whole_output,
-)
+from mechanism_fmu.model import Bar, Calculated, Disc, Hinge, Output, Parameter, Wheel, port_builders as ports
 from mechanism_fmu.model.four_bar import angle_between
 from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt
 
@@ -141,49 +109,51 @@ def _seen(c: Number, r: Number, angle: Number) -> tuple[Number, Number]:
 
 
 INPUTS = (
-    *shaft_inputs(speed=2 * math.pi),
-    torque_input("drive", "driver"),
-    load_torque_input("wheel"),
+    *ports.shaft_inputs(speed=2 * math.pi),
+    ports.torque_input("drive", "driver"),
+    ports.load_torque_input("wheel"),
 )
 
 #: What is known of an impact: of the driver on its backstop, for there is no other.
 _IMPACT = (
-    speed_output("closing_speed", "closing_speed", "Speed at which the driver runs back, {impact}"),
+    ports.speed_output("closing_speed", "closing_speed", "Speed at which the driver runs back, {impact}"),
     Output("impulse", "impulse", "Angular impulse, {impact}", "N.m.s", nominal=0.01),
-    *impact_speed_fields("driver", "wheel"),
-    whole_output("tooth", "tooth", "Tooth of the backstop, {impact}"),
+    *ports.impact_speed_fields("driver", "wheel"),
+    ports.whole_output("tooth", "tooth", "Tooth of the backstop, {impact}"),
 )
 
 OUTPUTS = (
-    body_angle_output("driver", "theta"),
-    body_angle_output("wheel", "psi"),
-    body_speed_output("driver"),
-    body_speed_output("wheel"),
-    force_output(
+    ports.body_angle_output("driver", "theta"),
+    ports.body_angle_output("wheel", "psi"),
+    ports.body_speed_output("driver"),
+    ports.body_speed_output("wheel"),
+    ports.force_output(
         "pin_force",
         "slot.force",
         "Force of the slot on the pin, across the slot; positive: it turns the wheel clockwise; 0 outside the slot",
         INPUTS,
     ),
-    torque_output(
+    ports.torque_output(
         "locking_torque",
         "locking_arc.force",
         "Torque of the locking arc on the wheel, counter-clockwise positive; 0 while the pin is in a slot",
         INPUTS,
     ),
-    torque_output("backstop_torque", "backstop.force", "Torque of the backstop on the driver, 0 when open", INPUTS),
-    shaft_torque_output("driver"),
-    whole_output(
+    ports.torque_output(
+        "backstop_torque", "backstop.force", "Torque of the backstop on the driver, 0 when open", INPUTS
+    ),
+    ports.shaft_torque_output("driver"),
+    ports.whole_output(
         "station",
         "slots.index",
         "Number of the slot that the pin is in, has left or comes to: it changes on the far side, forwards by +1",
     ),
-    active_output("slot", "The pin is in a slot and moves the wheel"),
-    active_output("locking_arc", "The locking arc holds the wheel"),
-    active_output("backstop", "The backstop holds the driver"),
-    whole_output("event_count", "event.count", "Events since the start: switched rows, changes of slot, impacts"),
-    *impact_outputs("Impacts of the driver on its backstop", _IMPACT),
-    *energy_outputs(
+    ports.active_output("slot", "The pin is in a slot and moves the wheel"),
+    ports.active_output("locking_arc", "The locking arc holds the wheel"),
+    ports.active_output("backstop", "The backstop holds the driver"),
+    ports.whole_output("event_count", "event.count", "Events since the start: switched rows, changes of slot, impacts"),
+    *ports.impact_outputs("Impacts of the driver on its backstop", _IMPACT),
+    *ports.energy_outputs(
         kinetic="Kinetic energy of driver and wheel",
         spring="Energy of springs within the drive: none, 0",
         work="Work done by drive shaft, drive_torque and load_torque since the start",
@@ -193,24 +163,26 @@ OUTPUTS = (
 
 PARAMETERS = (
     Parameter("slot_count", 4, "Number of slots of the wheel (n)", "1", 3, 24, "Integer"),
-    length_parameter("centre_distance", 0.1, "Distance between the hinges of wheel and driver (c)"),
-    length_parameter("pin_diameter", 0.008, "Diameter of the pin; it matters for nothing but the form", minimum=1e-9),
-    *rotor_parameters("driver", 1.0, 1e-2),
-    *rotor_parameters("wheel", 0.5, 1e-3),
-    angle_parameter(
+    ports.length_parameter("centre_distance", 0.1, "Distance between the hinges of wheel and driver (c)"),
+    ports.length_parameter(
+        "pin_diameter", 0.008, "Diameter of the pin; it matters for nothing but the form", minimum=1e-9
+    ),
+    *ports.rotor_parameters("driver", 1.0, 1e-2),
+    *ports.rotor_parameters("wheel", 0.5, 1e-3),
+    ports.angle_parameter(
         "driver_angle_start",
         0.0,
         "Driver angle at the start (theta); 0: pin on the far side, 180 deg: pin in the middle of its way in the slot",
     ),
-    speed_parameter("driver_speed_start", 2 * math.pi, "Driver speed at the start; the wheel's follows"),
-    damping_parameter("wheel"),
-    *shaft_parameters(damping=1.0),
-    fraction_parameter("slot_friction", 0.0, "Coefficient of friction between pin and slot"),
-    joint_friction_parameter(),
-    flag_parameter("backstop", False, "Whether a ratchet on the driver's shaft keeps it from turning back"),
+    ports.speed_parameter("driver_speed_start", 2 * math.pi, "Driver speed at the start; the wheel's follows"),
+    ports.damping_parameter("wheel"),
+    *ports.shaft_parameters(damping=1.0),
+    ports.fraction_parameter("slot_friction", 0.0, "Coefficient of friction between pin and slot"),
+    ports.joint_friction_parameter(),
+    ports.flag_parameter("backstop", False, "Whether a ratchet on the driver's shaft keeps it from turning back"),
     Parameter("backstop_teeth", 12, "Teeth of the backstop's ratchet", "1", 1, 1000, "Integer"),
-    fraction_parameter("backstop_restitution", 0.0, "Coefficient of restitution of the backstop"),
-    *settings_parameters(),
+    ports.fraction_parameter("backstop_restitution", 0.0, "Coefficient of restitution of the backstop"),
+    *ports.settings_parameters(),
 )
 
 

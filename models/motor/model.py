@@ -5,7 +5,6 @@ Frame: the rotor's hinge at the origin. Equations and source: README.md beside t
 
 from __future__ import annotations
 
-import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
@@ -22,20 +21,12 @@ from mechanism_fmu.model import (
     Output,
     Parameter,
     Revolute,
-    Settings,
     Torque,
     Wheel,
-    angle_parameter,
-    body_angle_output,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    load_torque_input,
-    rotor_parameters,
-    settings_parameters,
-    speed_parameter,
+    port_builders as ports,
 )
 from mechanism_fmu.model.body import rotor_body
+from mechanism_fmu.model.drawing import square_tooth
 
 # How the motor is drawn from its variables: housing, and a rotor whose poles show how it turns.
 
@@ -43,20 +34,11 @@ from mechanism_fmu.model.body import rotor_body
 HOUSING, POLE, CORE = 0.05, 0.042, 0.018
 POLES = 4
 
-_HALF, _GAP = 0.55 * math.pi / POLES, math.pi / POLES
-#: One pole, about the x axis, from the middle of the gap before it to that behind it: radius [m], angle [rad].
-OUTLINE = ((CORE, -_GAP), (CORE, -_HALF), (POLE, -_HALF), (POLE, _HALF), (CORE, _HALF), (CORE, _GAP))
-
 SHAPES = (
     Disc("housing", (0.0, 0.0), "outline_housing_radius"),
-    Wheel("rotor", (0.0, 0.0), "rotor_angle", POLES, OUTLINE),
+    Wheel("rotor", (0.0, 0.0), "rotor_angle", POLES, square_tooth(CORE, POLE, 0.55, POLES)),
     Hinge((0.0, 0.0)),
 )
-
-
-def form() -> tuple[Calculated, ...]:
-    """The radius of the housing."""
-    return (Calculated("outline_housing_radius", HOUSING, "Drawing: radius of the housing", "m"),)
 
 
 # What is wrong with parameter values that are each within their limits.
@@ -90,12 +72,12 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
 
 INPUTS = (
     Input("speed_reference", "motor.speed", 50.0, "Speed that the controller keeps", "rad/s", -1e6, 1e6, "rpm"),
-    load_torque_input("rotor"),
+    ports.load_torque_input("rotor"),
 )
 
 OUTPUTS = (
-    body_angle_output("rotor", "phi"),
-    body_speed_output("rotor", "omega", nominal=10.0),
+    ports.body_angle_output("rotor", "phi"),
+    ports.body_speed_output("rotor", "omega", nominal=10.0),
     Output("motor_torque", "motor.torque", "Torque of the motor on its rotor (K i)", "N.m", nominal=1.0),
     Output("current", "motor.current", "Current of the armature (i)", "A", nominal=1.0),
     Output(
@@ -106,7 +88,7 @@ OUTPUTS = (
         nominal=10.0,
         feedthrough=("speed_reference",),
     ),
-    *energy_outputs(
+    *ports.energy_outputs(
         kinetic="Kinetic energy of the rotor",
         spring="Magnetic energy of the armature",
         work="Work done by the electric supply and load_torque since the start",
@@ -118,8 +100,8 @@ PARAMETERS = (
     Parameter("motor_constant", 0.25, "Torque per current, and voltage per speed (K)", "N.m/A", 1e-9, 1e6),
     Parameter("resistance", 2.0, "Resistance of the armature (R)", "ohm", 1e-9, 1e9),
     Parameter("inductance", 4e-3, "Inductance of the armature (L)", "H", 1e-9, 1e6),
-    *rotor_parameters("rotor", 1.0, 1e-3),
-    damping_parameter("rotor", 1e-4),
+    *ports.rotor_parameters("rotor", 1.0, 1e-3),
+    ports.damping_parameter("rotor", 1e-4),
     Parameter("voltage_limit", 24.0, "Most that the controller gives, either way (U)", "V", 0.0, 1e6),
     Parameter("speed_gain", 0.5, "Proportional gain of the controller (kp)", "V.s/rad", 0.0, 1e6),
     Parameter("integral_gain", 10.0, "Integral gain of the controller (ki)", "V/rad", 0.0, 1e9),
@@ -131,9 +113,11 @@ PARAMETERS = (
         0.0,
         1e6,
     ),
-    angle_parameter("rotor_angle_start", 0.0, "Rotor angle at the start (phi)"),
-    speed_parameter("rotor_speed_start", 0.0, "Rotor speed at the start (omega); current and integral begin at 0"),
-    *settings_parameters(),
+    ports.angle_parameter("rotor_angle_start", 0.0, "Rotor angle at the start (phi)"),
+    ports.speed_parameter(
+        "rotor_speed_start", 0.0, "Rotor speed at the start (omega); current and integral begin at 0"
+    ),
+    *ports.settings_parameters(),
 )
 
 
@@ -153,7 +137,7 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
             "rad/s",
             "rpm",
         ),
-        *form(),
+        Calculated("outline_housing_radius", HOUSING, "Drawing: radius of the housing", "m"),
     )
 
 
@@ -177,23 +161,22 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Torque("load", "rotor"),
             Damper("rotor_damper", "rotor", damping=values.rotor_damping),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("rotor.angle",),
-        settings=Settings.of(values),
     )
 
 
 MODEL = Model(
     name="Motor",
     description="Direct-current motor with a PI controller of its speed and limited voltage",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     stop_time=0.5,
     step_size=1e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -29,7 +29,6 @@ from mechanism_fmu.model import (
     SawtoothWheel,
     Section,
     SeriesCompliance,
-    Settings,
     Striker,
     Strut,
     Torque,
@@ -131,11 +130,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         ),
         contacts=_contacts(values, pawl.end),
         patterns=(_teeth(values),),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("crank.angle", "wheel.angle"),
-        settings=Settings.of(values),
         members=members,
     )
 
@@ -249,7 +244,12 @@ def _teeth(values: SimpleNamespace) -> CircularPattern:
 MODEL = Model(
     name="Ratchet",
     description="Ratchet of Pennestrì, Valentini and Vita: crank, pawl, toothed wheel with spring",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,
@@ -257,6 +257,4 @@ MODEL = Model(
     step_size=1e-2,
     drawing=SHAPES,
     analysis=ANALYSIS,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -6,39 +6,7 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
-from mechanism_fmu.model import (
-    Calculated,
-    Input,
-    Output,
-    Parameter,
-    active_output,
-    angle_output,
-    angle_parameter,
-    body_angle_output,
-    body_parameters,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    event_buffer_outputs,
-    flag_parameter,
-    force_output,
-    fraction_parameter,
-    hinged_beam_outputs,
-    impact_buffer_outputs,
-    impact_speed_fields,
-    joint_friction_parameter,
-    last_impact_outputs,
-    length_parameter,
-    load_torque_input,
-    settings_parameters,
-    shaft_inputs,
-    shaft_torque_output,
-    stiffness_parameter,
-    torque_input,
-    torque_output,
-    torque_parameter,
-    whole_output,
-)
+from mechanism_fmu.model import Calculated, Input, Output, Parameter, port_builders as ports
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt
 
 from .start import tooth
@@ -48,10 +16,10 @@ from .start import tooth
 #: What the descriptions call the shaft.
 SHAFT = "compliant drive shaft"
 
-_speed, _angle = shaft_inputs(speed=0.0, angle=math.radians(77), shaft=SHAFT)
+_speed, _angle = ports.shaft_inputs(speed=0.0, angle=math.radians(77), shaft=SHAFT)
 
 INPUTS = (
-    torque_input("drive", "crank", 1e-3),
+    ports.torque_input("drive", "crank", 1e-3),
     Input(
         "spring_preload",
         "spring.preload",
@@ -61,7 +29,7 @@ INPUTS = (
         -1e6,
         1e6,
     ),
-    load_torque_input("wheel"),
+    ports.load_torque_input("wheel"),
     _angle,
     _speed,
 )
@@ -74,52 +42,56 @@ _DENSITY, _THICKNESS, _BORE = 7850.0, 0.02, 6.5e-3
 
 PARAMETERS = (
     Parameter("tooth_count", 10, "Number of teeth of the wheel (nt)", "1", 3, 1000, "Integer"),
-    angle_parameter(
+    ports.angle_parameter(
         "tooth_slope_angle",
         math.radians(90),
         "Angle between the slope of a tooth and the radius at its root (beta_0)",
         math.radians(30),
         math.radians(150),
     ),
-    length_parameter("hinge_distance", 0.130, "Distance between the fixed hinges of wheel and crank (d)"),
-    length_parameter("crank_length", 0.110, "Length of the crank (a)"),
-    length_parameter("pawl_length", 0.100, "Length of the pawl, the paper's follower (b)"),
-    length_parameter("wheel_inner_radius", 0.100, "Radius of the tooth roots (r)"),
+    ports.length_parameter("hinge_distance", 0.130, "Distance between the fixed hinges of wheel and crank (d)"),
+    ports.length_parameter("crank_length", 0.110, "Length of the crank (a)"),
+    ports.length_parameter("pawl_length", 0.100, "Length of the pawl, the paper's follower (b)"),
+    ports.length_parameter("wheel_inner_radius", 0.100, "Radius of the tooth roots (r)"),
     Parameter("slope_ratio", 1.115, "Slope length over distance between two roots (c_prop)", "1", 1e-3, 1e3),
-    *body_parameters("crank", 0.1000, 0.0900e-3),
-    *body_parameters("pawl", 0.0976, 0.0853e-3),
-    *body_parameters("wheel", 5.6264, 32.7948e-3),
-    stiffness_parameter("spring_stiffness", 15e-3, "Stiffness of the wheel's torsion spring"),
-    angle_parameter("spring_free_angle", math.radians(75), "Wheel angle at which the torsion spring is relaxed"),
-    fraction_parameter("restitution", 0.0, "Coefficient of restitution between pawl and tooth, face and slope (e)"),
-    angle_parameter("crank_angle_start", math.radians(77), "Crank angle at the start (phi)"),
-    angle_parameter("wheel_angle_start", math.radians(75), "Wheel angle at the start (psi)"),
-    *settings_parameters(),
-    flag_parameter(
+    *ports.body_parameters("crank", 0.1000, 0.0900e-3),
+    *ports.body_parameters("pawl", 0.0976, 0.0853e-3),
+    *ports.body_parameters("wheel", 5.6264, 32.7948e-3),
+    ports.stiffness_parameter("spring_stiffness", 15e-3, "Stiffness of the wheel's torsion spring"),
+    ports.angle_parameter("spring_free_angle", math.radians(75), "Wheel angle at which the torsion spring is relaxed"),
+    ports.fraction_parameter(
+        "restitution", 0.0, "Coefficient of restitution between pawl and tooth, face and slope (e)"
+    ),
+    ports.angle_parameter("crank_angle_start", math.radians(77), "Crank angle at the start (phi)"),
+    ports.angle_parameter("wheel_angle_start", math.radians(75), "Wheel angle at the start (psi)"),
+    *ports.settings_parameters(),
+    ports.flag_parameter(
         "guided",
         True,
         "Whether the slope of one tooth guides the pawl's tip, as in the paper; false: a free pawl on all teeth",
     ),
-    flag_parameter("holding_pawl", True, "Whether a holding pawl keeps the wheel from turning back (free pawl)"),
-    fraction_parameter("holding_pawl_restitution", 0.0, "Coefficient of restitution between holding pawl and wheel"),
-    angle_parameter(
+    ports.flag_parameter("holding_pawl", True, "Whether a holding pawl keeps the wheel from turning back (free pawl)"),
+    ports.fraction_parameter(
+        "holding_pawl_restitution", 0.0, "Coefficient of restitution between holding pawl and wheel"
+    ),
+    ports.angle_parameter(
         "pawl_angle_start",
         0.0,
         "Pawl angle at the start (gamma) of a free pawl; 0: solved, so that the tip rests on the teeth",
     ),
-    torque_parameter("pawl_spring_torque", 0.0, "Torque of the pawl's spring, counter-clockwise on the pawl"),
-    damping_parameter("wheel"),
+    ports.torque_parameter("pawl_spring_torque", 0.0, "Torque of the pawl's spring, counter-clockwise on the pawl"),
+    ports.damping_parameter("wheel"),
     Parameter("drive_stiffness", 0.0, f"Stiffness of the {SHAFT}", "N.m/rad", 0.0, 1e9),
     Parameter("drive_damping", 0.0, f"Damping of the {SHAFT}", "N.m.s/rad", 0.0, 1e9),
     Parameter("friction", 0.0, "Coefficient of friction between pawl and teeth", "1", 0.0, 10.0),
-    joint_friction_parameter("every hinge"),
+    ports.joint_friction_parameter("every hinge"),
     Parameter("elastic_modulus", 2.06e11, "Modulus of elasticity of pawl and crank (E)", "Pa", 1.0, 1e15),
-    length_parameter("pawl_width", 5.6e-3, "Width of the pawl's section, along the axis of its hinge"),
-    length_parameter(
+    ports.length_parameter("pawl_width", 5.6e-3, "Width of the pawl's section, along the axis of its hinge"),
+    ports.length_parameter(
         "pawl_depth", 22e-3, "Depth of the pawl's section, in the plane of the motion and across the pawl"
     ),
-    length_parameter("crank_width", 5.6e-3, "Width of the crank's section, along the axis of its hinge"),
-    length_parameter(
+    ports.length_parameter("crank_width", 5.6e-3, "Width of the crank's section, along the axis of its hinge"),
+    ports.length_parameter(
         "crank_depth", 22e-3, "Depth of the crank's section, in the plane of the motion and across the crank"
     ),
 )
@@ -214,14 +186,14 @@ _GUARDS = "0 gap closed, 1 force gone, 2 next tooth, 3 previous tooth, 4 click, 
 _MODE = "sum of 1 slope, 2 face, 4 holding pawl"
 
 
-_SPEEDS = impact_speed_fields("wheel", "crank", "pawl", nominal=0.1)
+_SPEEDS = ports.impact_speed_fields("wheel", "crank", "pawl", nominal=0.1)
 _VELOCITY = "v_I of the stress recovery, tooth_length times the jump of the wheel's speed"
 
 
 #: Of the last impact. What all impacts of one instant share stands behind what is the contact's own.
 LAST_IMPACT = (
-    whole_output("tooth", "tooth", "Index of the tooth struck at the {impact}; -1 before the first"),
-    whole_output("contact", "contact", f"{_CONTACTS} at the {{impact}}; -1 before the first"),
+    ports.whole_output("tooth", "tooth", "Index of the tooth struck at the {impact}; -1 before the first"),
+    ports.whole_output("contact", "contact", f"{_CONTACTS} at the {{impact}}; -1 before the first"),
     Output(
         "closing_speed",
         "closing_speed",
@@ -241,9 +213,9 @@ LAST_IMPACT = (
 #: Of each impact of the last communication step.
 IMPACT = (
     Output("time", "time", "Time of {impact}", "s"),
-    whole_output("instant", "instant", "Number of the instant (the same for all its impacts): {impact}"),
-    whole_output("tooth", "tooth", "Index of the tooth struck: {impact}"),
-    whole_output("contact", "contact", f"{_CONTACTS}: {{impact}}"),
+    ports.whole_output("instant", "instant", "Number of the instant (the same for all its impacts): {impact}"),
+    ports.whole_output("tooth", "tooth", "Index of the tooth struck: {impact}"),
+    ports.whole_output("contact", "contact", f"{_CONTACTS}: {{impact}}"),
     Output(
         "closing_speed", "closing_speed", "Normal closing speed of {impact} (holding pawl: rad/s)", "m/s", nominal=0.1
     ),
@@ -262,10 +234,10 @@ IMPACT = (
 #: Of each event of the last communication step.
 EVENT = (
     Output("time", "time", "Time of {event}; -1 when there was none", "s"),
-    whole_output("guard", "guard", f"What fired ({_GUARDS}; -1 none) of {{event}}"),
-    whole_output("subject", "subject", f"Number of the contact {_NUMBERS}, or 0 the teeth, of {{event}}"),
-    whole_output("old_mode", "old_mode", f"Closed contacts ({_MODE}) before {{event}}"),
-    whole_output("new_mode", "new_mode", f"Closed contacts ({_MODE}) after {{event}}"),
+    ports.whole_output("guard", "guard", f"What fired ({_GUARDS}; -1 none) of {{event}}"),
+    ports.whole_output("subject", "subject", f"Number of the contact {_NUMBERS}, or 0 the teeth, of {{event}}"),
+    ports.whole_output("old_mode", "old_mode", f"Closed contacts ({_MODE}) before {{event}}"),
+    ports.whole_output("new_mode", "new_mode", f"Closed contacts ({_MODE}) after {{event}}"),
     Output(
         "impulse",
         "impulse",
@@ -279,49 +251,51 @@ EVENT = (
 # Outputs of the ratchet.
 
 OUTPUTS = (
-    body_angle_output("wheel", "psi"),
-    body_angle_output("crank", "phi"),
-    body_angle_output("pawl", "gamma"),
-    body_speed_output("wheel", "omega", nominal=0.1),
-    body_speed_output("crank", nominal=0.1),
-    body_speed_output("pawl", nominal=0.1),
-    force_output(
+    ports.body_angle_output("wheel", "psi"),
+    ports.body_angle_output("crank", "phi"),
+    ports.body_angle_output("pawl", "gamma"),
+    ports.body_speed_output("wheel", "omega", nominal=0.1),
+    ports.body_speed_output("crank", nominal=0.1),
+    ports.body_speed_output("pawl", nominal=0.1),
+    ports.force_output(
         "contact_force", "face.force", "Normal force of the pawl on the tooth face, 0 when open", INPUTS, nominal=0.1
     ),
-    force_output(
+    ports.force_output(
         "slope_force", "slope.force", "Normal force of the pawl on the tooth slope, 0 when open", INPUTS, nominal=0.1
     ),
-    torque_output(
+    ports.torque_output(
         "holding_pawl_torque",
         "holding_pawl.force",
         "Torque of the holding pawl on the wheel, 0 when open",
         INPUTS,
         nominal=0.01,
     ),
-    shaft_torque_output("crank", nominal=0.01, shaft=SHAFT),
+    ports.shaft_torque_output("crank", nominal=0.01, shaft=SHAFT),
     Output("face_gap", "face.gap", "Distance of the pawl's tip from the tooth face", "m", nominal=0.01),
     Output("slope_gap", "slope.gap", "Distance of the pawl's tip from the tooth slope", "m", nominal=0.01),
-    whole_output("tooth_index", "teeth.index", "Index of the tooth at which the pawl stands, counted forwards"),
-    angle_output("latched_angle", "holding_pawl.latched", "Wheel angle below which the holding pawl holds"),
-    angle_output(
+    ports.whole_output("tooth_index", "teeth.index", "Index of the tooth at which the pawl stands, counted forwards"),
+    ports.angle_output("latched_angle", "holding_pawl.latched", "Wheel angle below which the holding pawl holds"),
+    ports.angle_output(
         "lost_motion",
         "holding_pawl.gap",
         "How far the wheel stands beyond the latched angle: what it goes back when the pawl leaves it",
     ),
-    whole_output("clicks", "holding_pawl.clicks", "Teeth that the holding pawl has passed since the start"),
-    active_output("slope", "The pawl's tip slides on the tooth slope"),
-    active_output("face", "The pawl's tip stands on the tooth face"),
-    active_output("holding_pawl", "The holding pawl holds the wheel"),
-    whole_output("event_count", "event.count", "Events since the start: impacts, openings, clicks, changes of tooth"),
-    *last_impact_outputs("Impacts", LAST_IMPACT),
-    *impact_buffer_outputs(IMPACT),
-    *event_buffer_outputs(EVENT),
-    *energy_outputs(
+    ports.whole_output("clicks", "holding_pawl.clicks", "Teeth that the holding pawl has passed since the start"),
+    ports.active_output("slope", "The pawl's tip slides on the tooth slope"),
+    ports.active_output("face", "The pawl's tip stands on the tooth face"),
+    ports.active_output("holding_pawl", "The holding pawl holds the wheel"),
+    ports.whole_output(
+        "event_count", "event.count", "Events since the start: impacts, openings, clicks, changes of tooth"
+    ),
+    *ports.last_impact_outputs("Impacts", LAST_IMPACT),
+    *ports.impact_buffer_outputs(IMPACT),
+    *ports.event_buffer_outputs(EVENT),
+    *ports.energy_outputs(
         kinetic="Kinetic energy of all bodies",
         spring="Energy of the wheel's spring, without preload",
         work="Work done by inputs and pawl spring since the start",
         lost="Energy lost in impacts, friction and dampers since the start",
         nominal=1e-4,
     ),
-    *hinged_beam_outputs("pawl", "pawl_beam", "pawl", INPUTS, deflection=1e-9, stress=1e3),
+    *ports.hinged_beam_outputs("pawl", "pawl_beam", "pawl", INPUTS, deflection=1e-9, stress=1e3),
 )

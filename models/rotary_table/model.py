@@ -5,7 +5,6 @@ Frame: the table's hinge at the origin. Equations and source: README.md beside t
 
 from __future__ import annotations
 
-import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
@@ -21,24 +20,13 @@ from mechanism_fmu.model import (
     Model,
     Parameter,
     Revolute,
-    Settings,
     SlipClutch,
     Torque,
     Wheel,
-    angle_parameter,
-    body_angle_output,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    load_torque_input,
-    rotor_parameters,
-    settings_parameters,
-    shaft_inputs,
-    shaft_torque_output,
-    speed_parameter,
-    torque_output,
+    port_builders as ports,
 )
 from mechanism_fmu.model.body import rotor_body
+from mechanism_fmu.model.drawing import square_tooth
 
 # How the rotary table is drawn from its variables: the table with its stations, and the brake's disc.
 
@@ -46,20 +34,11 @@ from mechanism_fmu.model.body import rotor_body
 RIM, STATION, BRAKE = 0.13, 0.115, 0.05
 STATIONS = 10
 
-_HALF, _GAP = 0.6 * math.pi / STATIONS, math.pi / STATIONS
-#: One station, about the x axis, from the middle of the gap before it to that behind it: radius [m], angle [rad].
-OUTLINE = ((RIM, -_GAP), (RIM, -_HALF), (STATION, -_HALF), (STATION, _HALF), (RIM, _HALF), (RIM, _GAP))
-
 SHAPES = (
-    Wheel("table", (0.0, 0.0), "table_angle", STATIONS, OUTLINE),
+    Wheel("table", (0.0, 0.0), "table_angle", STATIONS, square_tooth(RIM, STATION, 0.6, STATIONS)),
     Disc("brake", (0.0, 0.0), "outline_brake_radius"),
     Hinge((0.0, 0.0)),
 )
-
-
-def form() -> tuple[Calculated, ...]:
-    """The radius of the brake's disc."""
-    return (Calculated("outline_brake_radius", BRAKE, "Drawing: radius of the brake's disc", "m"),)
 
 
 # What is wrong with parameter values that are each within their limits.
@@ -85,22 +64,22 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
 # Inputs, outputs and parameters of the rotary table.
 
 INPUTS = (
-    *shaft_inputs(speed=0.0, angle=0.3),
-    load_torque_input("table"),
+    *ports.shaft_inputs(speed=0.0, angle=0.3),
+    ports.load_torque_input("table"),
     Input("brake_torque", "brake.limit", 0.2, "Torque up to which the brake holds the table", "N.m", 0.0, 1e6),
 )
 
 OUTPUTS = (
-    body_angle_output("table", "theta"),
-    body_speed_output("table", nominal=0.1),
-    shaft_torque_output("table"),
-    torque_output(
+    ports.body_angle_output("table", "theta"),
+    ports.body_speed_output("table", nominal=0.1),
+    ports.shaft_torque_output("table"),
+    ports.torque_output(
         "friction_torque",
         "brake.torque",
         "Torque of the brake on the table; at most brake_torque either way, and less while it holds",
         [INPUTS[3]],
     ),
-    *energy_outputs(
+    *ports.energy_outputs(
         kinetic="Kinetic energy of the table",
         spring="Energy in the compliance of the brake",
         work="Work done by drive shaft and load_torque since the start",
@@ -110,15 +89,15 @@ OUTPUTS = (
 )
 
 PARAMETERS = (
-    *rotor_parameters("table", 2.0, 0.02),
-    damping_parameter("table"),
+    *ports.rotor_parameters("table", 2.0, 0.02),
+    ports.damping_parameter("table"),
     Parameter("brake_stiffness", 200.0, "Stiffness of the brake while it holds", "N.m/rad", 1e-6, 1e9),
     Parameter("brake_damping", 1.0, "Damping of the brake while it holds", "N.m.s/rad", 1e-6, 1e9),
     Parameter("drive_stiffness", 2.0, "Stiffness of the drive shaft", "N.m/rad", 0.0, 1e9),
     Parameter("drive_damping", 0.02, "Damping of the drive shaft: torque per lag of speed", "N.m.s/rad", 0.0, 1e9),
-    angle_parameter("table_angle_start", 0.0, "Table angle at the start (theta)"),
-    speed_parameter("table_speed_start", 0.0, "Table speed at the start"),
-    *settings_parameters(),
+    ports.angle_parameter("table_angle_start", 0.0, "Table angle at the start (theta)"),
+    ports.speed_parameter("table_speed_start", 0.0, "Table speed at the start"),
+    *ports.settings_parameters(),
 )
 
 
@@ -127,7 +106,7 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
     time = values.brake_damping / values.brake_stiffness
     return (
         Calculated("brake_time", time, "Within this the brake gives way or holds again", "s", "ms"),
-        *form(),
+        Calculated("outline_brake_radius", BRAKE, "Drawing: radius of the brake's disc", "m"),
     )
 
 
@@ -142,23 +121,22 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Torque("load", "table"),
             Damper("table_damper", "table", damping=values.table_damping),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("table.angle",),
-        settings=Settings.of(values),
     )
 
 
 MODEL = Model(
     name="RotaryTable",
     description="Rotary table with a friction brake that sticks and slips, turned through a compliant shaft",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     stop_time=4.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -19,7 +19,6 @@ from mechanism_fmu.model import (
     Mechanism,
     Model,
     Revolute,
-    Settings,
     Torque,
     Translational,
 )
@@ -114,11 +113,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             Force("rod_weight", "rod", (0.0, -values.rod_mass * values.gravity)),
             Force("slider_weight", "slider", (0.0, -values.slider_mass * values.gravity)),
         ),
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        calculated=calculated(values),
         held=("crank.angle",),
-        settings=Settings.of(values),
     )
 
 
@@ -142,13 +137,16 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
 MODEL = Model(
     name="SliderCrank",
     description="Slider-crank: a crank moves a slider through a connecting rod, or the slider the crank",
+    author="The mechanism_fmu team",
+    license="MIT",
+    inputs=INPUTS,
+    outputs=OUTPUTS,
     parameters=PARAMETERS,
+    calculated=calculated,
     mechanism=mechanism,
     objections=objections,
     warnings=warnings,
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,
-    author="The mechanism_fmu team",
-    license="MIT",
 )

@@ -6,31 +6,7 @@ import math
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from mechanism_fmu.model import (
-    Bar,
-    Calculated,
-    Hinge,
-    Input,
-    Output,
-    Parameter,
-    Wheel,
-    angle_parameter,
-    body_angle_output,
-    body_speed_output,
-    damping_parameter,
-    energy_outputs,
-    fraction_parameter,
-    joint_friction_parameter,
-    length_parameter,
-    link_parameters,
-    mass_parameter,
-    settings_parameters,
-    shaft_inputs,
-    shaft_parameters,
-    shaft_torque_output,
-    speed_parameter,
-    torque_input,
-)
+from mechanism_fmu.model import Bar, Calculated, Hinge, Input, Output, Parameter, Wheel, port_builders as ports
 from mechanism_fmu.model.four_bar import root
 from mechanism_fmu.model.functions import Number, atan2, cos, sin
 
@@ -132,20 +108,20 @@ def form(values: SimpleNamespace) -> tuple[Calculated, ...]:
 
 
 INPUTS = (
-    *shaft_inputs(speed=2 * math.pi),
-    torque_input("drive", "crank"),
+    *ports.shaft_inputs(speed=2 * math.pi),
+    ports.torque_input("drive", "crank"),
     Input("load_force", "load.x", 0.0, "Force on the slider along its line, outwards positive", "N", -1e6, 1e6),
 )
 
 OUTPUTS = (
-    body_angle_output("crank", "theta"),
-    body_angle_output("rod", "phi"),
-    body_speed_output("crank"),
-    body_speed_output("rod"),
+    ports.body_angle_output("crank", "theta"),
+    ports.body_angle_output("rod", "phi"),
+    ports.body_speed_output("crank"),
+    ports.body_speed_output("rod"),
     Output("slider_position", "slider.x", "Position of the slider along its line (x)", "m", nominal=0.1),
     Output("slider_velocity", "slider.x_rate", "Rate of slider_position", "m/s", nominal=0.1),
-    shaft_torque_output("crank"),
-    *energy_outputs(
+    ports.shaft_torque_output("crank"),
+    *ports.energy_outputs(
         kinetic="Kinetic energy of crank, rod and slider",
         spring="Energy of springs within the linkage: none, 0",
         work="Work done by drive shaft, inputs and weights since the start",
@@ -154,22 +130,22 @@ OUTPUTS = (
 )
 
 PARAMETERS = (
-    *link_parameters("crank", 0.05, 1.0, 2e-3, 0.0, "its hinge"),
-    *link_parameters("rod", 0.2, 0.5, 2e-3, 0.06, "the crank pin"),
-    mass_parameter("slider_mass", 0.8, "Mass of the slider"),
-    length_parameter("offset", 0.0, "Height of the slider's line above the crank's hinge (e)", minimum=-1e3),
-    angle_parameter(
+    *ports.link_parameters("crank", 0.05, 1.0, 2e-3, 0.0, "its hinge"),
+    *ports.link_parameters("rod", 0.2, 0.5, 2e-3, 0.06, "the crank pin"),
+    ports.mass_parameter("slider_mass", 0.8, "Mass of the slider"),
+    ports.length_parameter("offset", 0.0, "Height of the slider's line above the crank's hinge (e)", minimum=-1e3),
+    ports.angle_parameter(
         "crank_angle_start",
         0.0,
         "Crank angle at the start (theta); 0: the slider is outermost, if there is no offset",
     ),
-    speed_parameter("crank_speed_start", 2 * math.pi, "Crank speed at the start; those of rod and slider follow"),
+    ports.speed_parameter("crank_speed_start", 2 * math.pi, "Crank speed at the start; those of rod and slider follow"),
     Parameter("gravity", 0.0, "Gravitational acceleration, across the slider's line, downwards", "m/s2", -1e3, 1e3),
-    damping_parameter("crank"),
-    *shaft_parameters(damping=0.1),
-    joint_friction_parameter(),
-    fraction_parameter("slider_friction", 0.0, "Coefficient of friction between slider and guide"),
-    *settings_parameters(),
+    ports.damping_parameter("crank"),
+    *ports.shaft_parameters(damping=0.1),
+    ports.joint_friction_parameter(),
+    ports.fraction_parameter("slider_friction", 0.0, "Coefficient of friction between slider and guide"),
+    *ports.settings_parameters(),
 )
 
 

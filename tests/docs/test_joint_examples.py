@@ -13,13 +13,14 @@ from pages import JOINTS, PAGES, examples
 from docs.joints.drawings import DRAWINGS
 from mechanism_fmu.model import joints
 from mechanism_fmu.model.joints import Joint
+from tests.public import listed_by
 
 EXAMPLES = [
     pytest.param(page, program, printed, id=f"{page.stem}-{number}")
     for page in PAGES
     for number, (program, printed) in enumerate(examples(page), start=1)
 ]
-CLASSES = [name for name in joints.__all__ if isinstance(getattr(joints, name), type)]
+CLASSES = [name for name in listed_by(joints) or () if isinstance(getattr(joints, name), type)]
 OVERVIEW = JOINTS / "README.md"
 #: Drivers whose arguments are those of `XDriver`.
 LIKE_ANOTHER = ("YDriver", "DistanceDriver")

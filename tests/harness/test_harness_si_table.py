@@ -10,6 +10,7 @@ from scipy import constants
 
 from harness.fmu import units
 from harness.fmu.units import BASE_UNITS, Measure, parse_unit
+from mechanism_fmu.units import PREFIXES as PREFIXES_READ
 
 #: By symbol: value of one in coherent units, and the brochure's expression in base units.
 SYMBOLS = {
@@ -68,9 +69,10 @@ def exponents(expression: str) -> tuple[int, ...]:
 
 
 def test_the_table_has_these_rows_and_no_others() -> None:
-    assert {*units._PREFIXABLE, *units._WHOLE} == set(SYMBOLS)
-    assert set(units._WHOLE) == set(WITHOUT_PREFIX)
-    assert set(units._PREFIXES) == set(PREFIXES)
+    grammar = units._WRITTEN
+    assert {*grammar.symbols, "°"} == {*SYMBOLS, "kg"}
+    assert {*grammar.without_prefix, "°"} == {*WITHOUT_PREFIX, "kg"}
+    assert {*PREFIXES_READ, "µ", "μ"} == set(PREFIXES)
     assert BASE_UNITS == ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 
 

@@ -24,6 +24,8 @@ from harness.fmu.units import UnitMismatchError, Units, parse_unit
         ("µs", 1e-6, {"s": 1}),
         ("MPa", 1e6, {"kg": 1, "m": -1, "s": -2}),
         ("cd", 1.0, {"cd": 1}),
+        ("m^2", 1.0, {"m": 2}),
+        ("(N·mm)/s", 1e-3, {"kg": 1, "m": 2, "s": -3}),
     ],
 )
 def test_unit_expressions(text: str, factor: float, exponents: dict[str, int]) -> None:
@@ -33,7 +35,9 @@ def test_unit_expressions(text: str, factor: float, exponents: dict[str, int]) -
     assert parsed.exponents == measure(**exponents).exponents
 
 
-@pytest.mark.parametrize("text", ["", "Nm", "xm", "m/s/s", "m/s.kg", "N..m", "m2.5", "parsec", "/s", "m/(s"])
+@pytest.mark.parametrize(
+    "text", ["", "Nm", "xm", "m/s/s", "m/s.kg", "N..m", "m2.5", "parsec", "/s", "m/(s", "12", "m^", "m2^3"]
+)
 def test_what_is_no_unit_expression(text: str) -> None:
     assert parse_unit(text) is None
 

@@ -17,24 +17,13 @@ from mechanism_fmu.elastodynamics import LinkageError, crank_of, with_friction
 from ...errors import UsageError
 from ...fmu import Fmu, open_fmu
 from ...fmu.description import Description, Value
+from ...papers.ked import tables
 from ...papers.ked.files import Result, agreement, write_result
 from ...papers.ked.ked_report import write_ked_report
 from ...papers.ked.options import Asked, quantity
 from ...papers.ked.solution import Solution
 from ...papers.ked.solve import Turn, prepared, solved, swept
 from ...papers.ked.synthesis import bounds_of, synthesised
-from ...papers.ked.tables import (
-    cycle_rows,
-    feedback_sentence,
-    flywheel_sentence,
-    frame_sentence,
-    frequency_rows,
-    friction_sentence,
-    joint_rows,
-    largest_rows,
-    narrow_columns,
-    synthesis_rows,
-)
 from ...papers.reproduce.bench import Bench
 from ...papers.reproduce.figures.all_figures import write_figures
 from ...papers.reproduce.papers_page import (
@@ -296,20 +285,20 @@ def _show_turn(result: Result) -> None:
         f"damping ratio {found.damping:g}",
         soft_wrap=True,
     )
-    shown = cycle_rows(found)
+    shown = tables.cycle_rows(found)
     shown = shown.every(math.ceil(len(shown.rows) / _MOST_ROWS))
     if console.width < _NARROW:
-        shown = shown.without(narrow_columns(found))
+        shown = shown.without(tables.narrow_columns(found))
     title = "A turn: dx, dy, dev ed and stresses elastodynamic, dev qs quasi-static; shake: on the frame"
     show_table(title, shown.headings, shown.rows, numeric=range(len(shown.headings)))
-    frequencies, largest = frequency_rows(found), largest_rows(found)
+    frequencies, largest = tables.frequency_rows(found), tables.largest_rows(found)
     title = "Natural frequencies over the turn, and critical speeds: harmonic h of the crank meets the mean"
     show_table(title, frequencies.headings, frequencies.rows, numeric=range(len(frequencies.headings)))
     show_table("Largest over the turn", largest.headings, largest.rows, numeric=(1, 2, 3, 5))
-    joints = joint_rows(found)
+    joints = tables.joint_rows(found)
     show_table("Forces in the joints", joints.headings, joints.rows, numeric=(1, 2, 3, 5))
     if result.synthesis is not None:
-        lightest = synthesis_rows(result.synthesis, result.fmu.description)
+        lightest = tables.synthesis_rows(result.synthesis, result.fmu.description)
         title = f"The lightest design within the limits, of {result.synthesis.evaluations} that were judged"
         show_table(title, lightest.headings, lightest.rows, numeric=(1, 2))
         again = " ".join(f'--set "{row[0]}={row[2]} {row[3]}"' for row in lightest.rows[: len(result.synthesis.bounds)])
@@ -321,10 +310,10 @@ def _show_turn(result: Result) -> None:
         soft_wrap=True,
     )
     for sentence in (
-        frame_sentence(found),
-        friction_sentence(found),
-        flywheel_sentence(found),
-        feedback_sentence(found),
+        tables.frame_sentence(found),
+        tables.friction_sentence(found),
+        tables.flywheel_sentence(found),
+        tables.feedback_sentence(found),
     ):
         if sentence:
             console.print(sentence, soft_wrap=True)

@@ -1,30 +1,20 @@
-// Plays a bending linkage: every .deflected element holds its data as JSON (see deflected.py).
+// Plays a bending linkage: every .deflected element holds its data as JSON (see ked_charts.py).
 (function () {
   "use strict";
 
-  const SVG = "http://www.w3.org/2000/svg";
+  const { element, fit, held, player } = PLAYER;
   const INK = "#1c2733", PALE = "#b6c0ca";
   // Of the picture, in its own pixels: its size at most, and the room around the rigid motion.
   const MOST_WIDTH = 900, MOST_HEIGHT = 460, MARGIN = 70;
   // Straight pieces of a bent member, and seconds of a turn.
   const PIECES = 16, TURN = 6;
 
-  function element(name, attributes, parent) {
-    const made = document.createElementNS(SVG, name);
-    for (const key in attributes) made.setAttribute(key, attributes[key]);
-    parent.appendChild(made);
-    return made;
-  }
-
   function animate(root) {
     const find = (selector) => root.querySelector(selector);
-    const data = JSON.parse(find("script[type='application/json']").textContent);
+    const data = held(root);
     const svg = find("svg"), play = find(".play"), slider = find(".angle"), times = find(".times"), kind = find("select");
     const count = data.degrees.length;
-    const [left, bottom, right, top] = data.view;
-    const scale = Math.min(MOST_WIDTH / (right - left), MOST_HEIGHT / (top - bottom));
-    svg.setAttribute("viewBox", [0, 0, scale * (right - left) + 2 * MARGIN, scale * (top - bottom) + 2 * MARGIN]
-      .map((number) => number.toFixed(1)).join(" "));
+    const { across, down } = fit(svg, data.view, MOST_WIDTH, MOST_HEIGHT, MARGIN);
 
     // Numbers `size` to a frame, at an angle: linear between two frames, and the last one is followed by the first.
     function at(numbers, size, degrees) {
@@ -35,7 +25,7 @@
       return found;
     }
 
-    const place = (x, y) => (MARGIN + scale * (x - left)).toFixed(2) + "," + (MARGIN + scale * (top - y)).toFixed(2);
+    const place = (x, y) => across(x) + "," + down(y);
 
     // A member from its ends as they are displaced, `factor` times: along it linear, across it the cubic of a beam.
     function curve(member, degrees, factor) {
@@ -69,7 +59,7 @@
       element("polyline", { ...line, "class": "bent", stroke: member.colour, "stroke-width": 4 }, svg));
     const pins = data.members.flatMap(() => [0, 1].map(() =>
       element("circle", { r: 4.5, fill: "#fff", stroke: INK, "stroke-width": 1.5 }, svg)));
-    let degrees = 0, playing = false, stamp = null;
+    let degrees = 0;
 
     function show() {
       const factor = Number(times.value);
@@ -93,26 +83,16 @@
       slider.setAttribute("aria-valuetext", text);
     }
 
-    function set(state) {
-      playing = state;
-      stamp = null;
-      play.textContent = playing ? "Pause" : "Play";
-      if (playing) requestAnimationFrame(tick);
-      show();
+    function advance(seconds) {
+      degrees = (degrees + 360 * seconds / TURN) % 360;
+      return true;
     }
 
-    function tick(instant) {
-      if (!playing) return;
-      if (stamp !== null) degrees = (degrees + 360 * (instant - stamp) / (1000 * TURN)) % 360;
-      stamp = instant;
-      show();
-      requestAnimationFrame(tick);
-    }
-
-    play.addEventListener("click", () => set(!playing));
+    const playing = player(play, advance, show);
+    play.addEventListener("click", () => playing.set(!playing.playing));
     slider.addEventListener("input", () => {
       degrees = Number(slider.value) % 360;
-      set(false);
+      playing.set(false);
     });
     times.addEventListener("input", show);
     kind.addEventListener("change", show);

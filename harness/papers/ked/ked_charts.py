@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...report.animation import decimals, rounded
+from ...report.animation import decimals, playing, rounded
 from ...report.page import COLOURS
 from ...report.plot import Curve, Plot
 from .solution import Bent, FloatArray, Solution
@@ -133,14 +132,11 @@ _FINENESS = 1e-4
 def deflected(found: Solution) -> str:
     """The element that the script brings to life: `deflected.js`."""
     data = deflected_data(found)
-    script = Path(__file__).with_name("deflected.js").read_text(encoding="utf-8")
-    # "<" could close the script element
-    text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     lines = "".join(
         f'<li><i style="background:{member["colour"]}"></i>{member["name"]}</li>' for member in data["members"]
     )
-    return (
-        '<div class="animation deflected"><svg role="img" aria-label="The bent linkage at the angle shown below"></svg>'
+    shown = (
+        '<svg role="img" aria-label="The bent linkage at the angle shown below"></svg>'
         f'<div class="legend"><ul>{lines}<li>grey: rigid</li></ul></div>'
         '<input type="range" class="angle" min="0" max="360" step="0.5" value="0" aria-label="Angle of the crank">'
         '<div class="controls"><button type="button" class="play">Play</button>'
@@ -148,9 +144,9 @@ def deflected(found: Solution) -> str:
         '<option value="static">quasi-static</option></select></label>'
         f'<label>Deflection × <input type="range" class="times" min="1" max="{_MOST}" step="1" '
         f'value="{data["times"]}" aria-label="Exaggeration of the deflection"></label>'
-        f'<output class="time"></output></div><script type="application/json">{text}</script></div>'
-        f"<script>{script}</script>"
+        '<output class="time"></output></div>'
     )
+    return playing("animation deflected", shown, data, Path(__file__).with_name("deflected.js"))
 
 
 def deflected_data(found: Solution) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
-from ..vectors import clear
+from ..vectors import clear, turned
 from .joints.drivers import angle_driver, distance_driver, translational_driver, x_driver, y_driver
 from .joints.gears import gears, internal_gears, rack_and_pinion
 from .joints.pins_and_slides import distance, revolute, revolute_translational, translational
@@ -43,10 +43,8 @@ def point_line(at: Pose, rows: Rows, row: int, i: int, j: int, point: Array, lin
     s_q = [n, n.Ra, -n, (R n).e], s' = n.e' + u (R n).e, gamma = n.a phi_i'^2 + n.e u^2 - 2 u (R n).e'.
     """
     keep_small()
-    ax = at.cosine[i] * point[0] - at.sine[i] * point[1]
-    ay = at.sine[i] * point[0] + at.cosine[i] * point[1]
-    nx = at.cosine[j] * line[2] - at.sine[j] * line[3]
-    ny = at.sine[j] * line[2] + at.cosine[j] * line[3]
+    ax, ay = turned(at, i, point[0], point[1])
+    nx, ny = turned(at, j, line[2], line[3])
     ui, uj = at.phi_rate[i], at.phi_rate[j]
     ex = at.x[i] + ax - at.x[j]
     ey = at.y[i] + ay - at.y[j]

@@ -16,6 +16,7 @@ from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.rows import spare_row, tangent_row
+from ..vectors import turned
 
 #: Slip at which friction reaches 76 % of its full value: along a line [m/s], in a pin [rad/s].
 SLIP_SPEED = 1e-4
@@ -110,8 +111,7 @@ def _slider(block: Array, at: Pose, joint: int) -> float:
     length = math.sqrt(data[4] * data[4] + data[5] * data[5])
     vx = (at.cosine[i] * data[4] - at.sine[i] * data[5]) / length
     vy = (at.sine[i] * data[4] + at.cosine[i] * data[5]) / length
-    bx = at.cosine[j] * data[2] - at.sine[j] * data[3]
-    by = at.sine[j] * data[2] + at.cosine[j] * data[3]
+    bx, by = turned(at, j, data[2], data[3])
     # from the centre of mass of body i to the point of body j
     cx = at.x[j] + bx - at.x[i]
     cy = at.y[j] + by - at.y[i]

@@ -10,6 +10,7 @@ from ...tables.kinds import FORCES
 from ...tables.motion import Loads, Pose
 from ...tables.parts import Forces
 from ..compiler.subset import jit, keep_small
+from ..vectors import turned
 from .element import Element
 
 X, Y = FORCES.places("force")
@@ -95,10 +96,8 @@ def _line(block: Array, at: Pose, k: int) -> Line:
     data = table.data[k]
     i = table.body[k]
     j = table.reaction[k]
-    ax = at.cosine[i] * data[POINT_X] - at.sine[i] * data[POINT_Y]
-    ay = at.sine[i] * data[POINT_X] + at.cosine[i] * data[POINT_Y]
-    bx = at.cosine[j] * data[REACTION_X] - at.sine[j] * data[REACTION_Y]
-    by = at.sine[j] * data[REACTION_X] + at.cosine[j] * data[REACTION_Y]
+    ax, ay = turned(at, i, data[POINT_X], data[POINT_Y])
+    bx, by = turned(at, j, data[REACTION_X], data[REACTION_Y])
     x = at.x[j] + bx - at.x[i] - ax
     y = at.y[j] + by - at.y[i] - ay
     x_rate = at.x_rate[j] - by * at.phi_rate[j] - at.x_rate[i] + ay * at.phi_rate[i]

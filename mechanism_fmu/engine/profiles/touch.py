@@ -16,6 +16,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose
 from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
+from ..vectors import turned
 from .curves import curve
 
 # A point that moves along the profile of a body, in the global frame.
@@ -109,13 +110,6 @@ def look(block: Array, at: Pose, contact: int) -> Touch:
         ty /= stretch
         turn = (tx * ky - ty * kx) / stretch
     return Touch(ax, ay, bx, by, gx, gy, hx, hy, tx, ty, stretch, turn)
-
-
-@jit
-def turned(at: Pose, body: int, x: float, y: float) -> tuple[float, float]:
-    """A vector (x, y) of a body, in the global frame."""
-    c, s = at.cosine[body], at.sine[body]
-    return c * x - s * y, s * x + c * y
 
 
 @jit

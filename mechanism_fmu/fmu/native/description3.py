@@ -14,17 +14,8 @@ from itertools import groupby
 from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
-from ... import __version__
 from ...model import MechanismError, Model
-from ..parts.model_description import (
-    CommonType,
-    common_types,
-    default_experiment,
-    log_categories,
-    origin,
-    unit_definitions,
-    value_attributes,
-)
+from ..parts.model_description import CommonType, definitions, description_root, value_attributes
 from ..parts.variables import FIRST_REFERENCE, Variable, array_name, common_description, numbered, stride, variables_of
 
 _IMPACT_FLAG = "impact.any"
@@ -147,23 +138,9 @@ def model_description3(model: Model, token: str, clocks: bool = False) -> Elemen
     """
     variables = variables3(model, clocks)
     scalars = [variable.scalar for variable in variables]
-    root = Element(
-        "fmiModelDescription",
-        fmiVersion="3.0",
-        modelName=model.name,
-        instantiationToken=token,
-        description=model.description,
-        generationTool=f"mechanism_fmu {__version__}",
-        variableNamingConvention="structured",
-    )
-    root.attrib.update(origin(model))
+    root = description_root(model, "3.0", {"instantiationToken": token})
     _co_simulation(root, model)
-    unit_definitions(root, scalars)
-    types = common_types(scalars)
-    _type_definitions(root, types)
-    log_categories(root)
-    default_experiment(root, model)
-    elements = SubElement(root, "ModelVariables")
+    types, elements = definitions(root, model, scalars, _float_type)
     for variable in variables:
         _variable(elements, variable, types)
     _model_structure(root, variables)
@@ -210,11 +187,8 @@ def _co_simulation(root: Element, model: Model) -> None:
     )
 
 
-def _type_definitions(root: Element, types: dict[str, CommonType]) -> None:
-    if types:
-        definitions = SubElement(root, "TypeDefinitions")
-        for common in types.values():
-            SubElement(definitions, "Float64Type", {"name": common.name, **common.attributes})
+def _float_type(elements: Element, common: CommonType) -> None:
+    SubElement(elements, "Float64Type", {"name": common.name, **common.attributes})
 
 
 def _variable(elements: Element, variable: Variable3, types: dict[str, CommonType]) -> None:

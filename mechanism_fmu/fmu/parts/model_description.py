@@ -5,7 +5,7 @@ Section numbers refer to the FMI specification 2.0.4.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -13,7 +13,8 @@ from pythonfmu import __version__ as pythonfmu_version
 
 from ... import __version__
 from ...model import Model
-from .fmi_units import BASE_UNITS, OFFERED_DISPLAY_UNITS, UnitError, display_factor, parse_unit
+from ...units import BASE_UNITS
+from .fmi_units import OFFERED_DISPLAY_UNITS, UnitError, display_factor, parse_unit
 from .variables import FIRST_REFERENCE, Variable, variables_of
 
 #: FMI log categories (section 2.2.4) and when a message falls into one.
@@ -64,36 +65,68 @@ def model_description(model: Model, guid: str, native: bool = False) -> Element:
         UnitError: a port has a unit or display unit that cannot be.
     """
     variables = variables_of(model)
-    root = Element(
-        "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=model.name,
-        guid=guid,
-        description=model.description,
-        generationTool=f"mechanism_fmu {__version__}" + ("" if native else f" (pythonfmu {pythonfmu_version})"),
-        variableNamingConvention="structured",
-    )
-    root.attrib.update(origin(model))
+    wrapper = "" if native else f" (pythonfmu {pythonfmu_version})"
+    root = description_root(model, "2.0", {"guid": guid}, wrapper)
     _co_simulation(root, model, _NATIVE if native else _BY_PYTHONFMU)
-    unit_definitions(root, variables)
-    types = common_types(variables)
-    _type_definitions(root, types)
-    log_categories(root)
-    default_experiment(root, model)
-    elements = SubElement(root, "ModelVariables")
+    types, elements = definitions(root, model, variables, _simple_type)
     for variable in variables:
         _scalar_variable(elements, variable, types)
     _model_structure(root, variables)
     return root
 
 
-def origin(model: Model) -> dict[str, str]:
-    """Attributes that say who made the model and what, alike in FMI 2.0 and 3.0.
+# What is alike in FMI 2.0 and 3.0.
+
+
+def description_root(model: Model, fmi: str, fingerprint: Mapping[str, str], wrapper: str = "") -> Element:
+    """The root element with what says what the FMU is, and who made it.
 
     There is no generationDateAndTime: the same sources shall give the same bytes.
+
+    Args:
+        model: what the FMU simulates.
+        fmi: version of the standard.
+        fingerprint: of the FMU, as the attribute that this version has for it.
+        wrapper: what else made it, behind this project's name.
     """
-    given = {"author": model.author, "version": __version__, "license": model.license}
-    return {name: value for name, value in given.items() if value}
+    given = {
+        "fmiVersion": fmi,
+        "modelName": model.name,
+        **fingerprint,
+        "description": model.description,
+        "generationTool": f"mechanism_fmu {__version__}{wrapper}",
+        "variableNamingConvention": "structured",
+    }
+    origin = {"author": model.author, "version": __version__, "license": model.license}
+    return Element("fmiModelDescription", given | {name: value for name, value in origin.items() if value})
+
+
+def definitions(
+    root: Element, model: Model, variables: Sequence[Variable], define: Callable[[Element, CommonType], object]
+) -> tuple[dict[str, CommonType], Element]:
+    """Append all between `CoSimulation` and the variables; `define` appends one type.
+
+    Returns:
+        The types by unit, and the empty element `ModelVariables`.
+    """
+    _unit_definitions(root, variables)
+    types = _common_types(variables)
+    if types:
+        elements = SubElement(root, "TypeDefinitions")
+        for common in types.values():
+            define(elements, common)
+    categories = SubElement(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", name=name, description=description)
+    SubElement(
+        root,
+        "DefaultExperiment",
+        startTime=_real(0.0),
+        stopTime=_real(model.stop_time),
+        tolerance=_real(model.mechanism(model.values()).settings.relative_tolerance),
+        stepSize=_real(model.step_size),
+    )
+    return types, SubElement(root, "ModelVariables")
 
 
 def to_bytes(root: Element) -> bytes:
@@ -116,28 +149,8 @@ def _co_simulation(root: Element, model: Model, flags: dict[str, str]) -> None:
     SubElement(SubElement(element, "SourceFiles"), "File", name=NO_SOURCES)
 
 
-def log_categories(root: Element) -> None:
-    """Append the element `LogCategories`, alike in FMI 2.0 and 3.0."""
-    categories = SubElement(root, "LogCategories")
-    for name, description in LOG_CATEGORIES.items():
-        SubElement(categories, "Category", name=name, description=description)
-
-
-def default_experiment(root: Element, model: Model) -> None:
-    """Append the element `DefaultExperiment`, alike in FMI 2.0 and 3.0."""
-    tolerance = model.mechanism(model.values()).settings.relative_tolerance
-    SubElement(
-        root,
-        "DefaultExperiment",
-        startTime=_real(0.0),
-        stopTime=_real(model.stop_time),
-        tolerance=_real(tolerance),
-        stepSize=_real(model.step_size),
-    )
-
-
-def unit_definitions(root: Element, variables: Iterable[Variable]) -> None:
-    """Append units with their base units and display units (section 2.2.2), alike in FMI 2.0 and 3.0."""
+def _unit_definitions(root: Element, variables: Iterable[Variable]) -> None:
+    """Append units with their base units and display units (section 2.2.2)."""
     shown: dict[str, set[str]] = {}
     for variable in variables:
         if variable.unit is not None:
@@ -188,7 +201,7 @@ class CommonType:
         return {"quantity": self.name, "unit": self.unit, **shown}
 
 
-def common_types(variables: Sequence[Variable]) -> dict[str, CommonType]:
+def _common_types(variables: Sequence[Variable]) -> dict[str, CommonType]:
     """Types of the recurring quantities (section 2.2.3), by unit."""
 
     def shared_by(unit: str) -> str | None:
@@ -199,11 +212,8 @@ def common_types(variables: Sequence[Variable]) -> dict[str, CommonType]:
     return {unit: CommonType(name, unit, shared_by(unit)) for unit, name in _TYPES.items() if unit in used}
 
 
-def _type_definitions(root: Element, types: dict[str, CommonType]) -> None:
-    if types:
-        definitions = SubElement(root, "TypeDefinitions")
-        for common in types.values():
-            SubElement(SubElement(definitions, "SimpleType", name=common.name), "Real", common.attributes)
+def _simple_type(elements: Element, common: CommonType) -> None:
+    SubElement(SubElement(elements, "SimpleType", name=common.name), "Real", common.attributes)
 
 
 def _scalar_variable(elements: Element, variable: Variable, types: dict[str, CommonType]) -> None:

@@ -15,10 +15,21 @@ gamma = -(Phi_q q')_q q' - 2 Phi_qt q' - Phi_tt, so that Phi_q q' = nu and Phi_q
   which direction positive. They are multipliers lambda, with M q'' = F + Phi_q^T lambda, times a factor (`efforts`).
 """
 
-from .cams import CamFlatFollower, CamFollower, PointFollower
-from .drivers import AngleDriver, DistanceDriver, TranslationalDriver, XDriver, YDriver
-from .gears import Gears, InternalGears, RackAndPinion
-from .pins_and_slides import Distance, Revolute, RevoluteTranslational, Translational
+from .cams import CamFlatFollower as CamFlatFollower, CamFollower as CamFollower, PointFollower as PointFollower
+from .drivers import (
+    AngleDriver as AngleDriver,
+    DistanceDriver as DistanceDriver,
+    TranslationalDriver as TranslationalDriver,
+    XDriver as XDriver,
+    YDriver as YDriver,
+)
+from .gears import Gears as Gears, InternalGears as InternalGears, RackAndPinion as RackAndPinion
+from .pins_and_slides import (
+    Distance as Distance,
+    Revolute as Revolute,
+    RevoluteTranslational as RevoluteTranslational,
+    Translational as Translational,
+)
 
 #: Any driver.
 Driver = XDriver | YDriver | AngleDriver | DistanceDriver | TranslationalDriver
@@ -41,24 +52,3 @@ Joint = (
 
 #: Any higher pair: a joint by the textbook, and a contact that may open.
 HigherPair = CamFollower | CamFlatFollower | PointFollower
-
-__all__ = [
-    "AngleDriver",
-    "CamFlatFollower",
-    "CamFollower",
-    "Distance",
-    "DistanceDriver",
-    "Driver",
-    "Gears",
-    "HigherPair",
-    "InternalGears",
-    "Joint",
-    "PointFollower",
-    "RackAndPinion",
-    "Revolute",
-    "RevoluteTranslational",
-    "Translational",
-    "TranslationalDriver",
-    "XDriver",
-    "YDriver",
-]

@@ -9,7 +9,6 @@ from mechanism_fmu.model import (
     Model,
     Output,
     Revolute,
-    Settings,
     angle_parameter,
     body_angle_output,
     body_speed_output,
@@ -40,7 +39,6 @@ def mechanism(values):
             *impact_outputs("Impacts on the stop", [_IMPACT]),
         ),
         held=("wheel.angle",),
-        settings=Settings.of(values),
     )
 
 

@@ -3,14 +3,8 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from mechanism_fmu.fmu.parts.fmi_units import (
-    BASE_UNITS,
-    OFFERED_DISPLAY_UNITS,
-    Unit,
-    UnitError,
-    display_factor,
-    parse_unit,
-)
+from mechanism_fmu.fmu.parts.fmi_units import OFFERED_DISPLAY_UNITS, UnitError, display_factor, parse_unit
+from mechanism_fmu.units import BASE_UNITS, Unit
 
 
 def exponents(**powers: int) -> tuple[int, ...]:

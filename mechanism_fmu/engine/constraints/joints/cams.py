@@ -6,6 +6,7 @@ from ....tables.declare import Array
 from ....tables.motion import Pose, Rows
 from ...compiler.subset import jit, keep_small
 from ...profiles.touch import Profile, profile_point
+from ...vectors import turned
 
 # Cam and follower: Phi = (r_i^C - r_j^C, (R g_i).g_j) with contact coordinates alpha_i and alpha_j, three rows.
 
@@ -163,8 +164,7 @@ def point_follower(
     gamma = a phi_i'^2 - p phi_j'^2 + 2 phi_j' v R g + v^2 h.
     """
     keep_small()
-    ax = at.cosine[i] * data[0] - at.sine[i] * data[1]
-    ay = at.sine[i] * data[0] + at.cosine[i] * data[1]
+    ax, ay = turned(at, i, data[0], data[1])
     px, py, gx, gy, hx, hy, _, _ = profile_point(at, j, data[2], data[3], at.alpha[first], profile)
     ui, uj = at.phi_rate[i], at.phi_rate[j]
     v = at.alpha_rate[first]

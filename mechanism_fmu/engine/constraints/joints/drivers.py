@@ -6,6 +6,7 @@ from ....tables.declare import Array
 from ....tables.motion import Pose, Rows
 from ...compiler.subset import jit, keep_small
 from ...profiles.shape import along
+from ...vectors import turned
 from .pins_and_slides import distance_squared
 
 # What all drivers share: a quantity follows a motion.
@@ -34,10 +35,8 @@ def x_driver(
     gamma = -a_x phi_i'^2 + b_x phi_j'^2 + C''.
     """
     keep_small()
-    ax = at.cosine[i] * data[0] - at.sine[i] * data[1]
-    ay = at.sine[i] * data[0] + at.cosine[i] * data[1]
-    bx = at.cosine[j] * data[2] - at.sine[j] * data[3]
-    by = at.sine[j] * data[2] + at.cosine[j] * data[3]
+    ax, ay = turned(at, i, data[0], data[1])
+    bx, by = turned(at, j, data[2], data[3])
     ui, uj = at.phi_rate[i], at.phi_rate[j]
     rows.residual[row] = at.x[j] + bx - at.x[i] - ax
     rows.residual_rate[row] = at.x_rate[j] - by * uj - at.x_rate[i] + ay * ui
@@ -63,10 +62,8 @@ def y_driver(
     gamma = -a_y phi_i'^2 + b_y phi_j'^2 + C''.
     """
     keep_small()
-    ax = at.cosine[i] * data[0] - at.sine[i] * data[1]
-    ay = at.sine[i] * data[0] + at.cosine[i] * data[1]
-    bx = at.cosine[j] * data[2] - at.sine[j] * data[3]
-    by = at.sine[j] * data[2] + at.cosine[j] * data[3]
+    ax, ay = turned(at, i, data[0], data[1])
+    bx, by = turned(at, j, data[2], data[3])
     ui, uj = at.phi_rate[i], at.phi_rate[j]
     rows.residual[row] = at.y[j] + by - at.y[i] - ay
     rows.residual_rate[row] = at.y_rate[j] + bx * uj - at.y_rate[i] - ax * ui

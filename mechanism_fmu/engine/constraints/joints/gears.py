@@ -8,6 +8,7 @@ from ....tables.declare import Array
 from ....tables.motion import Pose, Rows
 from ...compiler.subset import jit, keep_small
 from ...profiles.shape import along
+from ...vectors import turned
 
 # Gears: Phi = d.n, the line of centres d = r_j^P - r_i^P stands at the angle that the gears ask for, one row.
 
@@ -35,10 +36,8 @@ def _gears(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array, radius_j
     gamma = n.d th'^2 + 2 t.d' th' - n.(a phi_i'^2 - b phi_j'^2).
     """
     keep_small()
-    ax = at.cosine[i] * data[0] - at.sine[i] * data[1]
-    ay = at.sine[i] * data[0] + at.cosine[i] * data[1]
-    bx = at.cosine[j] * data[2] - at.sine[j] * data[3]
-    by = at.sine[j] * data[2] + at.cosine[j] * data[3]
+    ax, ay = turned(at, i, data[0], data[1])
+    bx, by = turned(at, j, data[2], data[3])
     ui, uj = at.phi_rate[i], at.phi_rate[j]
     part_i = data[4] / (data[4] + radius_j)
     part_j = radius_j / (data[4] + radius_j)

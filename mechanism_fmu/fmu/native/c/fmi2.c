@@ -230,11 +230,17 @@ static fmi2Status no_pending(const Instance *x, const char *call) {
     return (fmi2Status)refuse(x, "%s: no step is ever pending, so there is no such status.", call);
 }
 
-fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value) {
-    SELF(c);
-    (void)kind, (void)value;
-    return no_pending(x, "fmi2GetStatus");
-}
+/* Kinds of status that there are while a step is pending only. */
+#define ONLY_PENDING(Get, Type)                                                                  \
+    fmi2Status fmi2##Get(fmi2Component c, const fmi2StatusKind kind, Type *value) {              \
+        SELF(c);                                                                                 \
+        (void)kind, (void)value;                                                                 \
+        return no_pending(x, "fmi2" #Get);                                                       \
+    }
+
+ONLY_PENDING(GetStatus, fmi2Status)
+ONLY_PENDING(GetIntegerStatus, fmi2Integer)
+ONLY_PENDING(GetStringStatus, fmi2String)
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value) {
     SELF(c);
@@ -245,22 +251,10 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
     return fmi2OK;
 }
 
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value) {
-    SELF(c);
-    (void)kind, (void)value;
-    return no_pending(x, "fmi2GetIntegerStatus");
-}
-
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value) {
     SELF(c);
     if (kind != fmi2Terminated) return no_pending(x, "fmi2GetBooleanStatus");
     if (!value) return (fmi2Status)refuse(x, "fmi2GetBooleanStatus: the pointer to the value is null.");
     *value = fmi2False; /* the mechanism never asks for the end of the simulation */
     return fmi2OK;
-}
-
-fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value) {
-    SELF(c);
-    (void)kind, (void)value;
-    return no_pending(x, "fmi2GetStringStatus");
 }

@@ -245,41 +245,22 @@ fmi3Status fmi3SetClock(fmi3Instance c, const fmi3ValueReference vr[], size_t co
 
 /* --- values --- */
 
-fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Float64 values[],
-                          size_t value_count) {
-    SELF(c);
-    return (fmi3Status)get_values(x, REAL, vr, count, AS_DOUBLE, values, value_count);
-}
+/* Types of variables, with the kind and the layout that they have inside. */
+#define VARIABLES(Type, KIND, LAYOUT)                                                                                 \
+    fmi3Status fmi3Get##Type(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3##Type values[],        \
+                             size_t value_count) {                                                                    \
+        SELF(c);                                                                                                      \
+        return (fmi3Status)get_values(x, KIND, vr, count, LAYOUT, values, value_count);                               \
+    }                                                                                                                 \
+    fmi3Status fmi3Set##Type(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3##Type values[],  \
+                             size_t value_count) {                                                                    \
+        SELF(c);                                                                                                      \
+        return (fmi3Status)set_values(x, KIND, vr, count, LAYOUT, values, value_count);                               \
+    }
 
-fmi3Status fmi3GetInt32(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Int32 values[],
-                        size_t value_count) {
-    SELF(c);
-    return (fmi3Status)get_values(x, INTEGER, vr, count, AS_INT32, values, value_count);
-}
-
-fmi3Status fmi3GetBoolean(fmi3Instance c, const fmi3ValueReference vr[], size_t count, fmi3Boolean values[],
-                          size_t value_count) {
-    SELF(c);
-    return (fmi3Status)get_values(x, BOOLEAN, vr, count, AS_BYTE, values, value_count);
-}
-
-fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Float64 values[],
-                          size_t value_count) {
-    SELF(c);
-    return (fmi3Status)set_values(x, REAL, vr, count, AS_DOUBLE, values, value_count);
-}
-
-fmi3Status fmi3SetInt32(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Int32 values[],
-                        size_t value_count) {
-    SELF(c);
-    return (fmi3Status)set_values(x, INTEGER, vr, count, AS_INT32, values, value_count);
-}
-
-fmi3Status fmi3SetBoolean(fmi3Instance c, const fmi3ValueReference vr[], size_t count, const fmi3Boolean values[],
-                          size_t value_count) {
-    SELF(c);
-    return (fmi3Status)set_values(x, BOOLEAN, vr, count, AS_BYTE, values, value_count);
-}
+VARIABLES(Float64, REAL, AS_DOUBLE)
+VARIABLES(Int32, INTEGER, AS_INT32)
+VARIABLES(Boolean, BOOLEAN, AS_BYTE)
 
 /* Types that no variable has. */
 #define NO_VARIABLES(Type)                                                                                            \
