@@ -42,6 +42,7 @@ from .joints import (
     XDriver,
     YDriver,
 )
+from .laws import characteristic
 from .logic import LogicalFunction
 from .mechanism import Mechanism, Settings
 from .members import Disk, LumpedBody, Member, Section, lumped_body
@@ -167,6 +168,7 @@ __all__ = [
     "body_angle_output",
     "body_parameters",
     "body_speed_output",
+    "characteristic",
     "circle",
     "compile_mechanism",
     "constant",
