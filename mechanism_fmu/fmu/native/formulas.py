@@ -73,6 +73,7 @@ def _labels(table: str, mechanism: Mechanism) -> list[str]:
         "body": bodies,
         "joint": [joint.name for joint in mechanism.joints],
         "force": [force.name for force in mechanism.elements],
+        "operation": [force.name for force in mechanism.elements for _ in force.operations()],
         "contact": [contact.name for contact in mechanism.contacts],
         "pattern": [pattern.name for pattern in mechanism.patterns],
         "function": [function.name for function in mechanism.functions],
