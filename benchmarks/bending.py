@@ -8,9 +8,10 @@ import numpy as np
 
 from mechanism_fmu.elastodynamics import configurations, linkage, quasi_static
 from mechanism_fmu.elastodynamics.elastic_cycle import deflection_of, elastic_cycle
-from mechanism_fmu.elastodynamics.responses import periodic_response, transient
+from mechanism_fmu.elastodynamics.responses import periodic_response
 from mechanism_fmu.kinematics import analyse
 
+from .newmark import transient
 from .path_generator import PathGenerator
 from .timing import Comparison, batch, in_turns, require_agreement
 

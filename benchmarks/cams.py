@@ -24,8 +24,8 @@ from mechanism_fmu.model import (
     Translational,
 )
 from mechanism_fmu.model.compile import compile_mechanism
+from mechanism_fmu.model.curves.profiles import circle, harmonic_profile
 from mechanism_fmu.model.joints import Joint
-from mechanism_fmu.model.profiles import circle, harmonic_profile
 from mechanism_fmu.tables.declare import Array
 from mechanism_fmu.tables.layout import field_of, pack
 

@@ -17,8 +17,8 @@ import numpy.typing as npt
 import models
 from harness.fmu import Fmu, open_fmu
 from harness.fmu.description import Value
-from harness.fmu.instances.common import discard_message
 from harness.fmu.instances.fmi2 import Fmi2Slave
+from harness.fmu.instances.message_log import discard_message
 from harness.fmu.interface import Observable
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine
@@ -94,8 +94,8 @@ class _Recording(Fmi2Slave):
 
     calls: list[list[_Call]]
 
-    def _raw(self, name: str, *types: Any) -> Callable[..., int]:
-        raw = super()._raw(name, *types)
+    def raw(self, name: str, *types: Any) -> Callable[..., int]:
+        raw = super().raw(name, *types)
 
         def call(component: Any, *arguments: Any) -> int:
             kept = (type(a).from_buffer_copy(a) if isinstance(a, Array) else a for a in arguments)
@@ -184,7 +184,7 @@ class _Workshop:
         machine.initialize(0.0, _SPAN)
         steps = [
             [
-                partial(parts[part]._raw(name, *types), c_void_p(parts[part]._instance.component), *arguments)
+                partial(parts[part].raw(name, *types), c_void_p(parts[part]._instance.component), *arguments)
                 for part, name, types, arguments in step
             ]
             for step in calls[:-1]

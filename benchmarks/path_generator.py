@@ -19,7 +19,7 @@ from mechanism_fmu.model import (
     Section,
     lumped_body,
 )
-from mechanism_fmu.model.motions import polynomial_motion
+from mechanism_fmu.model.curves.motions import polynomial_motion
 
 INCH, POUND, POUND_FORCE = 0.0254, 0.45359237, 0.45359237 * 9.80665
 

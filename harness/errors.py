@@ -1,4 +1,4 @@
-"""What can go wrong, in words for the user: errors, log messages of an FMU, and what a computer runs out of."""
+"""Errors for the user, log messages of an FMU, and exhausted resources (memory, disk, file handles)."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class FmuError(HarnessError):
         self.messages = tuple(messages)
 
 
-# What a machine runs out of at any place: memory, and room where something is printed.
+# What a machine runs out of at any place: memory, and space where something is printed.
 
 #: What systems call a full disk, a file that may not become longer, and a full share of a disk.
 NO_ROOM = frozenset(getattr(errno, name) for name in ("ENOSPC", "EFBIG", "EDQUOT") if hasattr(errno, name))
@@ -96,7 +96,7 @@ _FAILED = 1
 
 
 @contextmanager
-def exhaustion_told() -> Iterator[None]:
+def exhaustion_reported() -> Iterator[None]:
     """Say in a line that memory or a disk is full, and end with an exit code that says so; nothing of it is imported.
 
     Files that are written say so themselves (`results`).
@@ -116,7 +116,7 @@ def exhaustion_told() -> Iterator[None]:
         if error.errno == errno.ENOMEM:
             _end(f"The memory is full: {error}.")
         if error.errno in NO_ROOM:
-            _end(f"There is no room for what is printed or written: {error}.")
+            _end(f"There is no space for what is printed or written: {error}.")
         raise
 
 

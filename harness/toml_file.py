@@ -15,7 +15,7 @@ from .errors import UsageError
 from .fmu.description import Description, Value, Variable, hint_at
 from .fmu.values import parse_value
 
-# TOML files whose mistakes are told all at once, each with its line.
+# TOML files whose mistakes are listed all at once, each with its line.
 
 #: Where something stands in a file: names of tables, then of the key.
 Key = tuple[str, ...]
@@ -113,7 +113,7 @@ class TomlFile:
         return f"{self.path}: {'.'.join(key)}"
 
     def check(self) -> None:
-        """Tell all mistakes.
+        """List all mistakes.
 
         Raises:
             UsageError: there are some.
@@ -121,9 +121,9 @@ class TomlFile:
         if not self.mistakes:
             return
         ordered = sorted(self.mistakes, key=lambda mistake: self._line(mistake[0]))
-        told = [f"{self.place(key)}: {text}" for key, text in ordered]
-        number = "a mistake" if len(told) == 1 else f"{len(told)} mistakes"
-        raise UsageError("\n".join([f"{self.path.name} has {number}; nothing was run.", *told]))
+        listed = [f"{self.place(key)}: {text}" for key, text in ordered]
+        number = "a mistake" if len(listed) == 1 else f"{len(listed)} mistakes"
+        raise UsageError("\n".join([f"{self.path.name} has {number}; nothing was run.", *listed]))
 
     def _line(self, key: Key) -> int:
         found = (self._lines[key[:length]] for length in range(len(key), 0, -1) if key[:length] in self._lines)

@@ -1,4 +1,4 @@
-"""A mechanism in motion: where the model room and the engine meet."""
+"""Simulation of a mechanism in time: where `model` and `engine` meet."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .engine import status
 from .engine.run import engine_for
 from .model import Mechanism, MechanismError, compile_mechanism
 from .model.compile import unknown_names
-from .model.event_names import event_name
+from .model.logical_functions import event_name
 from .tables.layout import field_of, pack, state_of
 
 __all__ = ["Event", "Impact", "Simulation", "SimulationError", "StepBudgetError"]

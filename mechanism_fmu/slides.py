@@ -29,7 +29,7 @@ from .model import (
     polynomial_motion,
 )
 from .model.curves import constant, cosine
-from .model.profiles import circle, piecewise_profile
+from .model.curves.profiles import circle, piecewise_profile
 from .simulation import Simulation
 
 # Example 3.4.1 of the ME451 slides: gear 2 falls around gear 1, which is fixed to the ground.
@@ -112,7 +112,7 @@ def falling_gear(times: Sequence[float] | FloatArray | None = None) -> Fall:
     """Gear 2, a disc of 1 kg on a massless carrier, falls under its weight; its motion is that of the engine.
 
     Args:
-        times: that increase from 0 on [s]; unless told, 3 s in steps of 10 ms, which hold the bottom.
+        times: that increase from 0 on [s]; by default 3 s in steps of 10 ms, which hold the bottom.
 
     Raises:
         ValueError: the gear does not come to the bottom within these times.

@@ -1,4 +1,4 @@
-"""The fixed tolerances of events and contacts, in SI units: applied by the engine, told to users by the model room.
+"""The fixed tolerances of events and contacts, in SI units: applied by the engine, shown to users by `model`.
 
 Why each has its value: docs/decisions/005-one-sided-contacts.md.
 """

@@ -3,7 +3,7 @@
 import math
 
 from mechanism_fmu.model import GROUND, AngleDriver, Body, Mechanism, Revolute
-from mechanism_fmu.model.motions import polynomial_motion
+from mechanism_fmu.model.curves.motions import polynomial_motion
 
 ARM = 0.5
 

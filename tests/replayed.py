@@ -19,7 +19,8 @@ from pathlib import Path
 
 from harness.errors import FmuError, LogMessage, Status
 from harness.fmu import open_fmu
-from harness.fmu.description import Description, Value, read_description
+from harness.fmu.description import Description, Value
+from harness.fmu.description_file import read_description
 from harness.fmu.interface import Observable
 from harness.run.experiment import Experiment
 from harness.run.master import TimeGrid, run_fixed_step

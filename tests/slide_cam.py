@@ -17,7 +17,7 @@ from mechanism_fmu.model import (
     Translational,
 )
 from mechanism_fmu.model.curves import constant, cosine
-from mechanism_fmu.model.profiles import circle, harmonic_profile, piecewise_profile
+from mechanism_fmu.model.curves.profiles import circle, harmonic_profile, piecewise_profile
 
 #: rho = 5/4 - 1/4 cos(3 alpha) up to 120 deg, 1 elsewhere.
 SLIDE_CAM = piecewise_profile((0.0, (constant(1.25), cosine(-0.25, 3.0))), (2 * math.pi / 3, (constant(1.0),)))

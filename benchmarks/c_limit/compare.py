@@ -11,7 +11,7 @@ from mechanism_fmu import codes
 from mechanism_fmu.engine import status
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
-from mechanism_fmu.engine.dynamics.inputs import feed
+from mechanism_fmu.engine.dynamics.forces import feed
 from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.engine.stepping.stepper import advance, state_at_time
 from mechanism_fmu.model.compile import compile_mechanism

@@ -1,1 +1,1 @@
-"""What a run means: its impacts, the stress and the damage that they leave, and how far parts give way."""
+"""Post-processing of a run: its impacts, stress and fatigue damage that they leave, and compliance of links."""

@@ -1,4 +1,4 @@
-"""What a run means: a list of analyses, each for what the FMU declares of its own (`declared.Declared`)."""
+"""Post-processing of a run: a list of analyses, each for what the FMU declares of its own (`declared.Declared`)."""
 
 from __future__ import annotations
 

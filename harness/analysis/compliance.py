@@ -1,4 +1,4 @@
-"""How far a chain of links gives way, from what its FMU reports: deflections, stresses, lost motion."""
+"""Elastic compliance of a chain of links, from what its FMU reports: deflections, stresses, lost motion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every impact of a run, from the FMU's buffer of the impacts of the last communication step."""
+"""Impacts of a run, collected from the FMU's buffer of the impacts of the last communication step."""
 
 from __future__ import annotations
 

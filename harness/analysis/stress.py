@@ -1,4 +1,4 @@
-"""From the impacts of a run to the stress that each leaves in what it strikes, and to the damage of all of them."""
+"""Bending stress of each impact of a run in the beam that it strikes, and fatigue damage of all of them."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from mechanism_fmu.stress import (
     RectangularTooth,
     Ringing,
     SequenceDamage,
+    TableBeam,
     TrapezoidTooth,
     WedgeTooth,
     beam_theory_note,
@@ -32,12 +33,14 @@ from mechanism_fmu.stress import (
 )
 
 from ..errors import FmuError, UsageError
-from ..fmu.declared import SIZES, Struck, value_of
+from ..fmu.declared import SIZES, Struck, size_of
 from ..fmu.description import Value
 from .impacts import body_held, one_of_each_instant
 
 #: The beams that an FMU can declare, by their kinds.
-_BEAMS: dict[str, Callable[..., Beam]] = {one.__name__: one for one in (WedgeTooth, TrapezoidTooth, RectangularTooth)}
+_BEAMS: dict[str, Callable[..., Beam]] = {
+    one.__name__: one for one in (WedgeTooth, TrapezoidTooth, RectangularTooth, TableBeam)
+}
 
 #: Units of the numbers that `with_stress` adds to the table of impacts.
 STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
@@ -60,7 +63,7 @@ def beam_of(struck: Struck, values: Mapping[str, Value]) -> Beam:
         FmuError: the FMU reports a beam that cannot be.
     """
     try:
-        return _BEAMS[struck.kind](**{name: value_of(size, values) for name, size in struck.sizes.items()})
+        return _BEAMS[struck.kind](**{name: size_of(size, values) for name, size in struck.sizes.items()})
     except ValueError as error:
         raise FmuError(f"The FMU's {_listed(struck.variables)} describe no {struck.name}: {error}") from error
 

@@ -205,7 +205,7 @@ def modes(
 
         mechanism-fmu modes build/Ratchet.fmu --set guided=false -o modes.svg
 
-    Exit code: 0 all well, 2 wrong use, or an FMU that tells none.
+    Exit code: 0 all well, 2 wrong use, or an FMU that has none.
     """
     from .commands.one_run import show_modes
     from .terminal import user_errors

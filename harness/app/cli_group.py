@@ -11,7 +11,7 @@ from typing import Any
 
 from typer.core import TyperGroup
 
-from ..errors import exhaustion_told
+from ..errors import exhaustion_reported
 
 # SIGTERM as Ctrl-C: what is on the way ends in order, and nothing temporary is left behind.
 
@@ -46,8 +46,8 @@ class Group(TyperGroup):
     """
 
     def main(self, *arguments: Any, **options: Any) -> Any:
-        """Run the command; SIGTERM ends it as Ctrl-C does, and what is full is told in a line."""
-        with terminable(), exhaustion_told():
+        """Run the command; SIGTERM ends it as Ctrl-C does, and what is full is reported in a line."""
+        with terminable(), exhaustion_reported():
             return super().main(*arguments, **options)
 
     def get_help_option(self, ctx: Any) -> Any:

@@ -1,4 +1,4 @@
-"""How a command works: it ends when asked to, is alone in its folder, and gives foreign FMUs processes of their own."""
+"""Execution of a command: signals and interruption, lock of its folder, processes of their own for foreign FMUs."""
 
 from __future__ import annotations
 
@@ -146,30 +146,30 @@ def supervised(work: Callable[[], int]) -> int:
     Who runs foreign code in its own process cannot promise how that ends: `exit(0)` there would look like success. Not
     on Windows, which has no copies of processes.
     """
-    told, tell = os.pipe()
+    reader, writer = os.pipe()
     alive, stay = os.pipe()
     sys.stdout.flush()
     sys.stderr.flush()
     child = os.fork()
     if child == 0:
         os.setpgid(0, 0)  # Ctrl-C comes once: from below
-        os.close(told)
+        os.close(reader)
         os.close(stay)
         _end_with(alive)
         code = _code_of(work)
-        os.write(tell, bytes([code]))
+        os.write(writer, bytes([code]))
         os._exit(code)
-    os.close(tell)
+    os.close(writer)
     os.close(alive)
     passed_on = signal.SIGINT, signal.SIGTERM
     before = {number: signal.signal(number, lambda n, _: os.kill(child, n)) for number in passed_on}
     try:
         _, status = os.waitpid(child, 0)
-        asked_for = os.read(told, 1)
+        asked_for = os.read(reader, 1)
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-        os.close(told)
+        os.close(reader)
         os.close(stay)
     code = os.waitstatus_to_exitcode(status)
     if asked_for and code == asked_for[0]:

@@ -77,6 +77,15 @@ def ked(
             metavar="VALUE[UNIT]", help="Of all pins, where --friction acts, e.g. '5 mm'.", show_default=False
         ),
     ] = None,
+    speeds: Annotated[
+        tuple[str, str, int] | None,
+        typer.Option(
+            metavar="FROM TO COUNT",
+            help="Speeds of the crank at which the largest deviation is drawn and written to speeds.csv, e.g. "
+            "'200 rpm' '800 rpm' 61.",
+            show_default="31 from 0.4 to 1.4 times the speed, drawn only",
+        ),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.", show_default="ked_NAME"),
@@ -104,6 +113,8 @@ def ked(
 
         mechanism-fmu ked four_bar_path_generator --fluctuation 0.02 --friction 0.1 --pin-radius 5mm
 
+        mechanism-fmu ked four_bar_path_generator --speeds "200 rpm" "800 rpm" 61
+
     Exit code: 0 all well, 1 a verdict failed, 2 wrong use.
     """
     from ..papers.ked.options import asked
@@ -111,7 +122,9 @@ def ked(
     from .terminal import user_errors
 
     with user_errors():
-        wishes = asked(limit_deviation, limit_stress, judge, synthesise, vary or [], fluctuation, friction, pin_radius)
+        wishes = asked(
+            limit_deviation, limit_stress, judge, synthesise, vary or [], fluctuation, friction, pin_radius, speeds
+        )
         raise typer.Exit(run_ked(model, speed, step, damping, settings or [], output, wishes))
 
 

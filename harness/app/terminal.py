@@ -1,4 +1,4 @@
-"""What the user sees in the terminal."""
+"""Terminal output: progress, tables, checks, warnings and errors."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def _from_here(path: Path) -> str:
     return str(path.relative_to(here) if path.is_relative_to(here) else path)
 
 
-def tell_of_earlier_files(folder: Path) -> None:
+def name_earlier_files(folder: Path) -> None:
     """Nothing has been written: say so where something lies that could be taken for it."""
     if (folder / "summary.json").exists():
         console.print(
@@ -150,7 +150,7 @@ def show_progress(waiting: str) -> Iterator[Callable[[str, float], None]]:
 class RunDisplay:
     """An observer that says what is going on: a spinner until the first step, a bar when the steps take long.
 
-    The bar tells the real-time factor, too: how many seconds are simulated in one of the clock on the wall.
+    The bar shows the real-time factor, too: how many seconds are simulated in one of the clock on the wall.
     """
 
     def __init__(self, stop_time: float, loading: str, now: Callable[[], float] = clock.monotonic) -> None:

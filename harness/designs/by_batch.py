@@ -1,4 +1,4 @@
-"""The way of hundreds of designs in one compiled call: the FMU's numbers without its FMI calls."""
+"""Backend `batch`: hundreds of designs in one compiled call, with the FMU's numbers but without its FMI calls."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def require_batch(path: Path) -> None:
 
 
 def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | None = None) -> list[Result]:
-    """Run designs together, in as many threads as there are processors unless told otherwise.
+    """Run designs together, by default in as many threads as there are processors.
 
     The numbers are those of `by_fmu`, to the last bit. Impacts that would not fit into the FMU's buffer of one step are
     not lost here.

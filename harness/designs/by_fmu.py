@@ -1,4 +1,4 @@
-"""A design through the FMU, by its FMI calls; and one of many, run once more to be seen in motion."""
+"""Backend `fmu`: a design simulated by FMI calls; and one design run once more, to be shown in motion."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..analysis.impacts import ImpactCollector
 from ..errors import FmuError
 from ..fmu import Fmu
 from ..fmu.description import Description, Value
-from ..fmu.instances.common import discard_message
+from ..fmu.instances.message_log import discard_message
 from ..fmu.interface import Instances, Observable
 from ..fmu.values import shown
 from ..run.drawing import read_drawing
@@ -124,11 +124,11 @@ class InMotion:
     """A design to be seen.
 
     Attributes:
-        told: which it is, and how it was run; or why none is shown.
+        caption: which it is, and how it was run; or why none is shown.
         run: of the design; None when none is shown.
     """
 
-    told: str
+    caption: str
     run: Run | None = None
 
 
@@ -142,7 +142,7 @@ def in_motion(
 ) -> InMotion | None:
     """Run a design once more, with everything recorded; None when the FMU has no drawing.
 
-    Whatever happens is told, and no error: the results that a report is about are there without it.
+    Whatever happens is in the caption, and no error: the results that a report is about are there without it.
 
     Args:
         fmu: that ran the designs.
@@ -158,17 +158,17 @@ def in_motion(
     if design is None:
         return InMotion("No design ran to its end, so there is none to be seen in motion.")
     values = [f"{name} = {shown(value, name, fmu.description, digits=6)}" for name, value in design.values.items()]
-    told = f"Design {design.number}, {which}: {', '.join(values)}."
+    caption = f"Design {design.number}, {which}: {', '.join(values)}."
     step = _step(task)
     experiment = Experiment(seconds(task.grid.stop), step, {**task.fixed, **design.values}, material=task.material)
     try:
         run = perform(fmu, experiment, observers=observers, stop_requested=stop_requested, inputs=task.inputs)
     except Exception as error:  # a picture is not worth a report
-        return InMotion(f"{told} It failed when it was run once more, to be seen here: {error}")
+        return InMotion(f"{caption} It failed when it was run once more, to be seen here: {error}")
     if run.outcome.error is not None:
-        return InMotion(f"{told} It failed when it was run once more, to be seen here: {run.outcome.error}", run)
+        return InMotion(f"{caption} It failed when it was run once more, to be seen here: {run.outcome.error}", run)
     stopped = "" if run.outcome.ending is Ending.COMPLETED else f", and stopped at {run.outcome.final_time:g} s"
-    return InMotion(f"{told} It was run once more, to be seen here, in steps of {step:g} s{stopped}.", run)
+    return InMotion(f"{caption} It was run once more, to be seen here, in steps of {step:g} s{stopped}.", run)
 
 
 def design_with_largest(quantity: Quantity, designs: Sequence[Design], results: pa.Table) -> tuple[Design | None, str]:

@@ -1,4 +1,4 @@
-"""Workers of a Dask cluster. Importing this needs the extra `cluster`."""
+"""Executor on a Dask cluster. Importing this needs the extra `cluster`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The file of an optimum, checked as a whole, and what makes a design better than another."""
+"""Optimisation file: variables, objective, limits (constraints) and method, checked as a whole."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Results on the disk, such that a process may end at any moment; and what makes two runs of a file the same.
+"""Store of results on the disk, safe against the end of the process at any moment; and identity of two runs of a file.
 
     FOLDER/identity.json         what the results belong to (`identity`); written first
     FOLDER/parts/*.parquet    results as they come: a file for what came together, by its first design's number;
@@ -120,7 +120,7 @@ def identity(
 
 
 def contents(fmu: Fmu) -> dict[str, str]:
-    """What tells an FMU from another: its model, its GUID, and SHA-256 of all that is in it but the date of its making.
+    """What distinguishes FMUs: model, GUID, and SHA-256 of all that is in it but the date of its making.
 
     Whoever edits an FMU seldom gives it another GUID.
     """

@@ -1,4 +1,4 @@
-"""A sweep: its file, the list of its designs, always the same, and those run that are not there yet."""
+"""Parameter sweep: its file, its design points (grid, Latin hypercube, Sobol), and the run of those still missing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is done with every design, the quantities that a file asks for, and what comes of one."""
+"""Simulation of one design: experiment, recorded quantities, and the result or failure."""
 
 from __future__ import annotations
 

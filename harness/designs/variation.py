@@ -1,4 +1,4 @@
-"""What all designs of a file share, what is varied, and between which limits."""
+"""Varied parameters of a file of designs, their limits, and what all designs share."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""By which ways designs run, and who runs them: this process, or some of this machine's."""
+"""Backends (batch, FMU) and executors of designs: this process, or worker processes of this machine."""
 
 from __future__ import annotations
 
@@ -277,7 +277,7 @@ def _serve(end: socket.socket, work: Work) -> None:
         while asked := wire.receive()[0]:
             pairs = work.run([Design(number, values) for number, values in asked])
             wire.send([[r.number, [_plain(value) for value in r.values], r.failure, r.warnings] for _, r in pairs])
-    except (EOFError, ConnectionError):  # nobody is there any more
+    except (EOFError, ConnectionError):  # the other process is gone
         leader.join()
 
 

@@ -1,4 +1,4 @@
-"""What an FMU declares to be analysed: `resources/analysis.json`, when it has one."""
+"""Analyses that an FMU declares: `resources/analysis.json`, when it has one."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from typing import Any
 
 #: A number in SI units, or the name of a parameter or calculated parameter.
 Quantity = float | str
+#: One, or a column of a table of them.
+Size = Quantity | tuple[Quantity, ...]
 
 #: Path within the FMU, and the format of it that is understood.
 FILE = "resources/analysis.json"
@@ -24,11 +26,14 @@ NO_BEAM = (
     "again: docs/your-own-mechanism.md."
 )
 
+#: Columns of a table, which are a beam's sizes.
+COLUMNS = ("places", "areas", "second_moments", "outer_fibres")
 #: Sizes of each kind of beam, as of `mechanism_fmu.stress`; a thickness may come besides.
 SIZES = {
     "WedgeTooth": ("length", "apex_angle"),
     "TrapezoidTooth": ("length", "root_height", "tip_height"),
     "RectangularTooth": ("length", "height"),
+    "TableBeam": COLUMNS,
 }
 _THICKNESS = "thickness"
 
@@ -48,7 +53,7 @@ class Struck:
     """
 
     kind: str
-    sizes: Mapping[str, Quantity]
+    sizes: Mapping[str, Size]
     name: str
     plural: str
     body: str
@@ -60,7 +65,8 @@ class Struck:
     @property
     def variables(self) -> tuple[str, ...]:
         """The variables that hold its sizes."""
-        return tuple(dict.fromkeys(size for size in self.sizes.values() if isinstance(size, str)))
+        columns = (size if isinstance(size, tuple) else (size,) for size in self.sizes.values())
+        return tuple(dict.fromkeys(one for column in columns for one in column if isinstance(one, str)))
 
     @property
     def held(self) -> str:
@@ -140,6 +146,11 @@ def value_of(quantity: Quantity, values: Mapping[str, Any]) -> float:
     return float(values[quantity]) if isinstance(quantity, str) else quantity
 
 
+def size_of(size: Size, values: Mapping[str, Any]) -> float | tuple[float, ...]:
+    """The number or the column of numbers."""
+    return tuple(value_of(one, values) for one in size) if isinstance(size, tuple) else value_of(size, values)
+
+
 def read_declared(path: Path, variables: Mapping[str, object]) -> Declared:
     """What the FMU file `path`, with these variables, declares; what cannot be used is an objection and no error."""
     try:
@@ -204,6 +215,12 @@ class _Reader:
             raise _DeclarationError(f"{key} of {self.label} is {value!r}, and no text")
         return value
 
+    def column(self, entry: Any, key: str) -> tuple[Quantity, ...]:
+        value = entry.get(key)
+        if not isinstance(value, list):
+            raise _DeclarationError(f"{key} of {self.label} is {value!r}, and no list")
+        return tuple(self.quantity({key: one}, key) for one in value)
+
     def quantity(self, entry: Any, key: str) -> Quantity:
         value = entry.get(key) if isinstance(entry, dict) else None
         if isinstance(value, str):
@@ -234,7 +251,7 @@ def _struck(read: _Reader, entry: Mapping[str, Any]) -> Struck:
     sizes = SIZES[kind] + ((_THICKNESS,) if _THICKNESS in beam else ())
     return Struck(
         kind,
-        {size: read.quantity(beam, size) for size in sizes},
+        {size: (read.column if size in COLUMNS else read.quantity)(beam, size) for size in sizes},
         name=read.text(entry, "name"),
         plural=read.text(entry, "plural"),
         body=read.text(entry, "body"),

@@ -1,4 +1,4 @@
-"""What a simulation unit is to those around it: the smallest of interfaces, so that a test can fake it."""
+"""Co-simulation interface (slave) as the harness uses it: the smallest of interfaces, so that a test can fake it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Observable(Protocol):
 
 
 def whole_step(advance: Callable[[float, float], float], time: float, size: float) -> None:
-    """Take a step of `size` [s] from `time` by `advance`, which tells the time reached: it may return early."""
+    """Take a step of `size` [s] from `time` by `advance`, which returns the time reached: it may return early."""
     end = time + size
     reached = advance(time, size)
     while reached < end:
@@ -119,7 +119,7 @@ class Reals(Protocol):
     def read_slopes(self) -> bool:
         """Fill `values` with derivatives of outputs [unit/s]; of components with `Description.gives_slopes` only.
 
-        False where the component does not tell some of them (fmi2Discard): then `values` mean nothing.
+        False where the component does not return some of them (fmi2Discard): then `values` mean nothing.
         """
 
     def write(self) -> None:
@@ -143,7 +143,7 @@ class Component(Slave, Protocol):
         """Bind Real variables."""
 
     def enter_initialization(self, start_time: float, stop_time: float) -> None:
-        """The first half of `initialize`: from now on, outputs may be read; the component may refuse to tell them."""
+        """The first half of `initialize`: from now on, outputs may be read; the component may refuse to return them."""
 
     def exit_initialization(self) -> None:
         """The other half: the state is what the inputs of now make of it."""

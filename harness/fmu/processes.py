@@ -1,4 +1,4 @@
-"""Processes beside this one: how they start, that none outlives it, and the frames that they exchange."""
+"""Worker processes: start and end, none outlives its parent, and the frames (messages) between them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from typing import Any
 
 from mechanism_fmu.fmu.disk.folders import temporary_folder
 
-#: How numpy's libraries are told how many threads to have, when they are loaded.
+#: Environment variables that give numpy's libraries their number of threads when they are loaded.
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 #: The path of a socket has 103 letters at the most, of which 49 stand behind that of the temporary folder.

@@ -172,7 +172,7 @@ class Units:
         return list(dict.fromkeys([unit, *same, *display]))
 
     def meaning(self, name: str) -> Measure | None:
-        """What a unit means; None when nobody knows it."""
+        """What a unit means; None when it is unknown."""
         if name in self.defined:
             return self.defined[name]
         for owner, names in self.displayed.items():

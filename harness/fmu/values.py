@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 
 from ..errors import UsageError
 from .description import Description, Value, Variable, hint_at
@@ -69,26 +69,6 @@ def real_time_factor(simulated: float, wall: float) -> str:
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 _BARE = re.compile(r"[-+.\deE]+")
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
-
-
-def start_values(assignments: Iterable[str], description: Description) -> dict[str, Value]:
-    """Values by name from assignments such as "tooth_slope_angle=95deg" or "drive_torque=2 N.mm".
-
-    A number without a unit is in the unit of the variable.
-
-    Raises:
-        UsageError: no `=`, unknown or unsettable variable, set twice, or a value that does not fit.
-    """
-    values: dict[str, Value] = {}
-    for assignment in assignments:
-        name, equals, text = assignment.partition("=")
-        name = name.strip()
-        if not equals:
-            raise UsageError(f"'{assignment}' is not a setting; write name=value, e.g. drive_torque='2 N.mm'.")
-        if name in values:
-            raise UsageError(f"'{name}' is set twice; set it once.")
-        values[name] = parse_value(text, settable_variable(name, description), description)
-    return values
 
 
 def settable_variable(name: str, description: Description) -> Variable:

@@ -1,4 +1,4 @@
-"""What is connected to what: names and units of parts, connections checked, with units converted."""
+"""Connections of a machine: names and units of components, checked, with units converted."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ class EventMode(Protocol):
 
     @property
     def pending(self) -> bool:
-        """Whether there is an event that nobody has handled."""
+        """Whether there is an event that is not yet handled."""
 
     def share(self) -> None:
         """Leave events to the machine."""

@@ -1,4 +1,4 @@
-"""What parts get beside continuous signals: initial values, signals that are held, inputs that a table drives."""
+"""Initialization of coupled components, discrete signals that are held, and inputs from a table."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def _same(one: Value, other: Value) -> bool:
     return one == other or (one != one and other != other)
 
 
-# What parts tell each other before the first step, so that each finds its start with the inputs that it will have.
+# What parts exchange before the first step, so that each finds its start with the inputs that it will have.
 
 
 def initialize(
@@ -157,9 +157,9 @@ def initialize(
 ) -> None:
     """Initialize parts, group by group, so that their order within a group does not matter.
 
-    A part that follows others is told what they have come to. The parts of a cycle all enter the initialization mode,
+    A part that follows others is given what they have come to. The parts of a cycle all enter the initialization mode,
     and exchange there until nothing changes, but not more often than connections lie behind each other. An output that
-    a component does not tell there counts as its declared start; without one, what follows it keeps its own.
+    a component does not return there counts as its declared start; without one, what follows it keeps its own.
 
     Args:
         parts: by name.
@@ -178,16 +178,16 @@ def initialize(
         known |= _declared(parts, within)
         for name in group:
             parts[name].component.enter_initialization(start_time, stop_time)
-        told: dict[str, Value] = {}
+        given: dict[str, Value] = {}
         for _ in range(len(within) + 1):
             for name in group:
-                known |= _told_early(parts[name].component, name, within)
+                known |= _early_outputs(parts[name].component, name, within)
             now = {link.target: link.of(known[link.source]) for link in to if link.source in known}
-            changed = {target: value for target, value in now.items() if told.get(target) != value}
+            changed = {target: value for target, value in now.items() if given.get(target) != value}
             if not changed:
                 break
-            _tell(parts, changed)
-            told = now
+            _set_inputs(parts, changed)
+            given = now
         for name in group:
             parts[name].component.exit_initialization()
         for name in group:
@@ -200,8 +200,8 @@ def _declared(parts: Mapping[str, Part], sources: Sequence[str]) -> dict[str, Va
     return {source: start for source, variable in variables.items() if (start := variable.start_value) is not None}
 
 
-def _told_early(component: Component, name: str, sources: Sequence[str]) -> dict[str, Value]:
-    """Outputs in the initialization mode, where a component may refuse to tell them; an end is an end there, too."""
+def _early_outputs(component: Component, name: str, sources: Sequence[str]) -> dict[str, Value]:
+    """Outputs in the initialization mode, where a component may refuse to return them; an end is an end there, too."""
     try:
         return _outputs(component, name, sources)
     except FmuError as error:
@@ -218,7 +218,7 @@ def _outputs(component: Component, name: str, sources: Sequence[str]) -> dict[st
     return {source: value for source, value in values if not (isinstance(value, float) and not math.isfinite(value))}
 
 
-def _tell(parts: Mapping[str, Part], values: Mapping[str, Value]) -> None:
+def _set_inputs(parts: Mapping[str, Part], values: Mapping[str, Value]) -> None:
     for name, part in parts.items():
         own = {own_of(target): value for target, value in values.items() if part_of(target) == name}
         if own:

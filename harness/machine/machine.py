@@ -1,4 +1,4 @@
-"""Components that follow each other's outputs; how they take a step is an algorithm's business."""
+"""Co-simulation of components that follow each other's outputs; an algorithm decides how they take a step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One component of a machine: its connected outputs, its inputs between communication points, how it fared."""
+"""Component in a machine: its connected outputs, extrapolated inputs, states saved and restored, statistics."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Signals:
         self._followed = [(k, names.index(rate)) for k, rate in enumerate(rates) if rate in names]
         self._rates = [k for k, rate in enumerate(rates) if rate and rate not in names]
         self._rate = component.reals([rates[k] for k in self._rates])
-        self._told: list[int] | None = None
+        self._returned: list[int] | None = None
         self._slope = component.reals(())
         self._time = 0
         self._before: tuple[int, Sequence[float]] | None = None
@@ -108,7 +108,7 @@ class Signals:
         return [(now - then) / span for now, then in zip(self.values, before, strict=True)]
 
     def derivatives(self) -> list[float]:
-        """Slopes of now [unit/s]: rates that are outputs, else what the component tells, else from earlier values."""
+        """Slopes of now [unit/s]: rates that are outputs, else what the component returns, else from earlier values."""
         slopes = self.differences()
         for k, rate in self._followed:
             slopes[k] = self._scales[k] * self.values[rate]
@@ -116,14 +116,16 @@ class Signals:
             self._rate.read()
             for k, slope in zip(self._rates, self._rate.values, strict=True):
                 slopes[k] = self._scales[k] * slope
-        if self._told is None:
+        if self._returned is None:
             known = {*self._rates, *(k for k, _ in self._followed)}
-            self._told = [k for k in range(len(self.names)) if k not in known and self._tells(self.names[k])]
-            self._slope = self._component.reals([self.names[k] for k in self._told])
-        if self._told and self._slope.read_slopes():
-            for k, slope in zip(self._told, self._slope.values, strict=True):
+            self._returned = [
+                k for k in range(len(self.names)) if k not in known and self._returns_slope(self.names[k])
+            ]
+            self._slope = self._component.reals([self.names[k] for k in self._returned])
+        if self._returned and self._slope.read_slopes():
+            for k, slope in zip(self._returned, self._slope.values, strict=True):
                 slopes[k] = slope
-        self._known = {k: slopes[k] for k in (*(k for k, _ in self._followed), *self._rates, *self._told)}
+        self._known = {k: slopes[k] for k in (*(k for k, _ in self._followed), *self._rates, *self._returned)}
         self._bend(slopes)
         return slopes
 
@@ -142,7 +144,7 @@ class Signals:
                 bends[k] = 2 * (slope - earlier) * SECOND / (self._time - self._first[0])
                 slopes[k] += bends[k] * since / 2
 
-    def _tells(self, name: str) -> bool:
+    def _returns_slope(self, name: str) -> bool:
         """Whether the component knows an output's derivative; not where it follows an input, whose slope is to come."""
         description = self._component.description
         if not description.gives_slopes or description.variables[name].depends_on != frozenset():

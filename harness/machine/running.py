@@ -1,4 +1,4 @@
-"""A machine from start to stop: what is made ready, the run, cautions, and what came of it."""
+"""Run of a machine from start to stop: preparation, the loop of steps, warnings of its coupling, results."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class Frames:
             signals: names of numbers that move.
             constants: names of those that do not: they are read once.
             stop_time: of the run [s].
-            impacts: another observer, before this one: tells where there were impacts.
+            impacts: another observer, before this one: knows where there were impacts.
         """
         self._readings = readings(machine, [machine.description.variable(name) for name in signals])
         self._names = ["time", *(name for reading in self._readings for name in reading.names)]
@@ -120,7 +120,7 @@ class Frames:
         self._keep(time)
 
     def stepped(self, unit: Observable, time: float) -> None:
-        """Keep a frame when one is due, or an impact has come and there is room for it."""
+        """Keep a frame when one is due, or an impact has come and there is space for it."""
         if time >= (self._number - _SLACK) * self._span:
             self._number = int(time / self._span + _SLACK) + 1
             self._keep(time)
@@ -144,7 +144,7 @@ class Frames:
 
 # What the user of a machine should know before believing its results.
 
-#: A coupling that makes or loses more than this fraction of what passes is told of.
+#: A coupling that makes or loses more than this fraction of what passes is warned of.
 _TOLERATED = 0.05
 
 
@@ -183,7 +183,7 @@ def loop_cautions(machine: Machine, time: float) -> list[LogMessage]:
             "machine",
             f"{machine.unsettled} exchanges ended while a loop without any delay was still changing its inputs "
             f"({inputs}): they, and all that follows them, depend on how often it was gone round. Let one of its "
-            "components tell something that does not follow its inputs at once, such as the motion of an inertia.",
+            "components return something that does not follow its inputs at once, such as the motion of an inertia.",
             time,
         )
     ]
@@ -191,11 +191,11 @@ def loop_cautions(machine: Machine, time: float) -> list[LogMessage]:
 
 def bond_cautions(energies: Mapping[str, BondEnergy], time: float) -> list[LogMessage]:
     """Warnings of couplings that have made or lost much energy until `time` [s]: the steps are too long for them."""
-    told = []
+    warnings = []
     for name, energy in energies.items():
         if abs(energy.made) > _TOLERATED * energy.most:
             did = "made" if energy.made > 0.0 else "lost"
-            told.append(
+            warnings.append(
                 _warning(
                     "machine",
                     f"over the bond '{name}', the coupling itself has {did} {abs(energy.made):.3g} J, where "
@@ -205,7 +205,7 @@ def bond_cautions(energies: Mapping[str, BondEnergy], time: float) -> list[LogMe
                     time,
                 )
             )
-    return told
+    return warnings
 
 
 def _warning(instance: str, text: str, time: float = 0.0) -> LogMessage:

@@ -1,4 +1,4 @@
-"""How a machine takes a step: the algorithms Jacobi, Gauss-Seidel, event-aware and adaptive, and their interface."""
+"""Co-simulation master algorithms of a machine: Jacobi, Gauss-Seidel, event-aware and adaptive."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the parts of a machine hang together, as far as their descriptions say: order, and loops without delay."""
+"""Dependency graph of a machine: order of its components, cycles, and algebraic loops."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ..errors import UsageError
-from ..fmu.description import Description, Terminal, Variable
+from ..fmu.description import Description, Variable
+from ..fmu.terminals import Terminal
 from .connection import Connection, Link, linked, own_of, part_of, units_of_parts
 
 # In which order parts depend on each other.
@@ -66,7 +67,7 @@ def loops(links: Sequence[Link], machine: Description) -> list[list[str]]:
 
     Args:
         links: the machine's connections.
-        machine: description of its parts' variables; an output that tells no dependencies may follow any input.
+        machine: description of its parts' variables; an output that declares no dependencies may follow any input.
     """
     return _dependencies(links, machine)[1]
 
@@ -98,7 +99,7 @@ class Structure:
     """Of a machine, whether its components are there or not.
 
     Attributes:
-        description: of it, as if it were one FMU; a connected input is an output, since nobody else may set it.
+        description: of it, as if it were one FMU; a connected input is an output, since nothing else may set it.
         links: its connections.
         order: names of its parts, each behind those that it follows.
         cycles: groups of parts that follow each other.

@@ -147,7 +147,7 @@
 
     function show() {
       const last = lastUpTo(data.impacts, now);
-      // Standing still, an impact shows for as long as the slider cannot tell it from now.
+      // Standing still, an impact shows for as long as the slider cannot distinguish it from now.
       const least = (end - start) / SLIDER;
       const flashes = (impacts) => {
         const latest = lastUpTo(impacts, now);

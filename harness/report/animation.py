@@ -1,4 +1,4 @@
-"""The mechanism in motion: its shapes for every frame, and a player that plays them in the report."""
+"""Animation of a mechanism: its shapes for every frame, and the player in the report."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ _LEAST_SIZE = 1e-12
 #: More teeth than this are no picture.
 _MOST_TEETH = 10_000
 
-#: A run plays within these times [s] unless told otherwise; the speeds to choose from reach at least from 0.1 to 10.
+#: A run plays within these times [s] by default; the speeds to choose from reach at least from 0.1 to 10.
 _SHORTEST, _LONGEST = 2.0, 20.0
 
 _WHEEL = "#c9d2dc"
@@ -196,7 +196,7 @@ def playing_speeds(span: float) -> tuple[list[float], float]:
 
 
 def decimals(step: float) -> int:
-    """Decimals that tell multiples of `step` > 0 apart."""
+    """Decimals that distinguish multiples of `step` > 0."""
     return max(0, math.ceil(-math.log10(step)))
 
 

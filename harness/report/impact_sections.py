@@ -1,4 +1,4 @@
-"""What the impacts of a run have done: their table, the stress of the worst, damage, and how far parts give way."""
+"""Report of impacts: their table, the stress of the worst, fatigue damage, compliance."""
 
 from __future__ import annotations
 

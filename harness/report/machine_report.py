@@ -262,13 +262,13 @@ def _key_figures(run: MachineRun) -> list[tuple[str, str]]:
 
 def _cautions(run: MachineRun) -> str:
     """What to know before believing the numbers; "" if there is nothing."""
-    told = [f"{caution.instance}: {caution.text}" for caution in run.cautions]
+    warnings = [f"{caution.instance}: {caution.text}" for caution in run.cautions]
     for name, struck in run.by_component.items():
         if struck.objection:
-            told.append(f"{name}: {struck.objection}")
+            warnings.append(f"{name}: {struck.objection}")
         if struck.lost:
-            told.append(f"{name}: {struck.lost} impacts could not be reported by the FMU; take a shorter step.")
-    return section("Before you believe these numbers", points(told), css_class="banner") if told else ""
+            warnings.append(f"{name}: {struck.lost} impacts could not be reported by the FMU; take a shorter step.")
+    return section("Before you believe these numbers", points(warnings), css_class="banner") if warnings else ""
 
 
 def _notes(run: MachineRun) -> str:

@@ -1,4 +1,4 @@
-"""A whole machine in motion, and charts of what was recorded of it."""
+"""Animation of a whole machine, and charts of its recorded signals."""
 
 from __future__ import annotations
 
@@ -62,13 +62,13 @@ def _pictures(run: MachineRun) -> tuple[dict[str, Any] | None, list[str]]:
             reason = drawing.objection or ("There is nothing to draw." if drawing.shapes else "Its FMU has no picture.")
             figures.append(f'<figure><div class="blank">{escape(reason)}</div>{caption}</figure>')
             continue
-        told = _contacts(run, name, table)
-        lamps += [_lamp(contact, table) for contact in told]
+        found = _contacts(run, name, table)
+        lamps += [_lamp(contact, table) for contact in found]
         panels.append(picture | {"size": _SIZE, "impacts": rounded(_struck(run, name), 9)})
         label = f"{name} at the time shown below"
         figures.append(
             f'<figure><svg role="img" aria-label="{escape(label)}"></svg>{caption}'
-            f"{legend(picture['shapes'], [_own(contact) for contact in told])}</figure>"
+            f"{legend(picture['shapes'], [_own(contact) for contact in found])}</figure>"
         )
     if not panels:
         return None, figures
@@ -212,7 +212,7 @@ def _first(values: FloatArray) -> float:
 def _plots(
     run: MachineRun, name: str, variables: Sequence[Variable], curves: dict[str, tuple[FloatArray, FloatArray]]
 ) -> Iterator[str]:
-    """The charts of a component's numbers, as many as it takes to tell the curves apart."""
+    """The charts of a component's numbers, as many as it takes to keep the curves distinct."""
     shown = [v for v in variables if v.type != "Boolean" and not _own_signals(v).startswith(_ELSEWHERE)]
     units = dict.fromkeys(v.unit for v in shown)
     for unit in sorted(units, key=lambda one: list(QUANTITIES).index(one) if one in QUANTITIES else len(QUANTITIES)):

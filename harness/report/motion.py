@@ -1,4 +1,4 @@
-"""A run over time: its quantities, which contacts are active when, modes and transitions, events."""
+"""Charts of a run over time: quantities, active contacts, modes and transitions, events."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .plot import FloatArray, frame_rows, strongest, thin
 
 # Which contacts are active when: Boolean outputs named `<contact>_active`, as bands over time.
 
-#: What Boolean outputs end with that tell of contacts.
+#: What Boolean outputs end with that report contacts.
 SUFFIX = "_active"
 
 #: Gaps shorter than this part of the run are narrower than a pixel, and are not drawn.
@@ -53,7 +53,7 @@ def contacts(run: Run) -> list[Contact]:
 
 
 def contacts_among(outputs: Iterable[Variable]) -> list[Contact]:
-    """The contacts of whose activity some outputs tell."""
+    """The contacts whose activity some outputs report."""
     variables = [v.name for v in outputs if v.type == "Boolean" and v.name.endswith(SUFFIX)]
     return [
         Contact(name.removesuffix(SUFFIX).replace("_", " "), name, COLOURS[i % len(COLOURS)])
@@ -140,7 +140,7 @@ def _band(lane: Contact, spans: FloatArray) -> go.Bar:
 
 
 def _hover(lane: Contact, spans: FloatArray, time: FloatArray, active: npt.NDArray[np.bool_]) -> go.Scatter:
-    """What the pointer tells: bars answer for their end, wherever they are touched; unseen points tell the truth."""
+    """What the pointer shows: bars answer for their end, wherever they are touched; unseen points for their time."""
     number = np.searchsorted(spans[:, 0], time, side="right") - 1
     texts = [
         "active {:.7g} … {:.7g} s".format(*spans[n]) if on else "not active"
@@ -245,7 +245,7 @@ def _is_motion(variable: Variable, run: Run) -> bool:
 def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
     """The curves of a quantity, in the display unit of its first variable.
 
-    Angles count from their start: bodies that point in different directions would leave each other no room.
+    Angles count from their start: bodies that point in different directions would leave each other no space.
     """
     known = run.description.units.displayed.get(unit, {})
     shown = variables[0].display_unit if variables[0].display_unit in known else ""
@@ -284,7 +284,7 @@ _HEADING = "Modes and transitions"
 
 
 def modes_section(run: Run) -> str:
-    """The state charts with how often each transition happened; "" when the FMU does not tell."""
+    """The state charts with how often each transition happened; "" when the FMU describes none."""
     if run.logic.objection:
         return section(_HEADING, note=run.logic.objection)
     logic = run.logic.chosen(run.parameters)
@@ -295,7 +295,7 @@ def modes_section(run: Run) -> str:
         "and / what it resets; how often it happened in this run stands beside it, and what never happened is grey."
     )
     if run.events_lost:
-        note += f" {run.events_lost} events that the FMU could not tell are not counted."
+        note += f" {run.events_lost} events that the FMU could not report are not counted."
     return section(_HEADING, f'<div class="scroll">{diagram(logic, counts_of(logic, run.events))}</div>', note=note)
 
 

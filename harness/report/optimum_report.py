@@ -11,7 +11,8 @@ import pyarrow as pa
 
 from ..designs.by_fmu import InMotion
 from ..designs.optimum_file import Optimum
-from ..designs.search import Best, History, Sensitivity
+from ..designs.search import Best, History
+from ..designs.sensitivity import Sensitivity
 from ..designs.variation import Axis
 from ..fmu import Fmu
 from ..fmu.description import Description, Value
@@ -28,7 +29,7 @@ class Found:
 
     Attributes:
         best: design.
-        near_it: how much each variable matters there; None when nobody knows.
+        near_it: how much each variable matters there; None when it was not asked for.
         history: of the search.
         results: of all designs, as `Store.finish` gives them.
         seen: the best design in motion.

@@ -1,4 +1,4 @@
-"""The look of the reports, and the HTML around the charts."""
+"""HTML and CSS of the reports."""
 
 from __future__ import annotations
 

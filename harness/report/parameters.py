@@ -1,4 +1,4 @@
-"""The settings of a run: parameters and inputs, where their values come from, and the signals that drove inputs."""
+"""Report of parameters and inputs: where their values come from, and the signals that drove inputs."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def parameters_of_designs(
 
     Args:
         task: of the designs.
-        description: of the FMU; it has the values that nobody has set.
+        description: of the FMU; it has the default values.
         varied: value, unit and origin of what differs between designs, by name.
         note: what there is to say.
     """
@@ -115,10 +115,10 @@ def inputs_section(signals: InputSignals | None, description: Description) -> st
     if signals is None:
         return ""
     drawn = [chart(interactive(plot, height=280)) for plot in input_plots(signals, description)]
-    return section("Inputs", charts(*drawn), note=table_told(signals))
+    return section("Inputs", charts(*drawn), note=table_note(signals))
 
 
-def table_told(signals: InputSignals) -> str:
+def table_note(signals: InputSignals) -> str:
     """Which table it was: its name, how long it is, and its digest, in a sentence or two."""
     times = signals.times
     named = f"From the table {signals.file}" if signals.file else "From a table"

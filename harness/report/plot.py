@@ -1,4 +1,4 @@
-"""A chart as data, with as few points as its curve needs, and as plotly's JavaScript takes it."""
+"""Chart data: thinned to the points that its curve needs, and written for plotly's JavaScript."""
 
 from __future__ import annotations
 

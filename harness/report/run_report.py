@@ -20,9 +20,9 @@ from .animation import animation
 from .impact_sections import compliance_section, fatigue_section, impacts_section, severity_section, stress_section
 from .motion import contacts, events_section, modes_section, motion_chart
 from .page import cards, chart, checks_list, page, section, table, versions_section
-from .parameters import Origin, Row, parameters_section, table_told
+from .parameters import Origin, Row, parameters_section, table_note
 
-# Charts above each other on a phone's screen, where there is no room for legends beside them.
+# Charts above each other on a phone's screen, where there is no space for legends beside them.
 
 #: Of a line of a legend, between two charts, and around them all [px].
 _LINE, _GAP, _TOP, _BOTTOM = 17, 34, 10, 46
@@ -163,7 +163,7 @@ def _parameters(run: Run) -> str:
     if not any(row.marked for row in rows):
         note = "All values are the FMU's defaults."
     if run.inputs is not None:
-        note += f" Inputs of the table are shown with their first values. {table_told(run.inputs)}"
+        note += f" Inputs of the table are shown with their first values. {table_note(run.inputs)}"
     return parameters_section(rows, note)
 
 

@@ -1,4 +1,4 @@
-"""Plots as files: the same picture as SVG and as PNG, without a browser (docs/decisions/015-static-figures.md)."""
+"""Charts as SVG and PNG files: the same picture, without a browser (docs/decisions/015-static-figures.md)."""
 
 from __future__ import annotations
 
@@ -142,14 +142,14 @@ def _places(points: Sequence[Point]) -> str:
 
 # One plot on a canvas: axes with round numbers, grid, curves, legend.
 
-#: Room around the axes [px]: for numbers and labels, and on the right for the legend.
+#: Margins around the axes [px]: for numbers and labels, and on the right for the legend.
 _LEFT, _TOP, _BOTTOM, _RIGHT, _LEGEND = 64.0, 34.0, 52.0, 18.0, 124.0
 #: Sizes of texts, and the distance of two entries of the legend [px].
 _TITLE, _LABEL, _NUMBER, _ENTRY = 15.0, 13.0, 12.0, 20.0
 
 _FRAME, _GRID = "#5b6875", "#dfe5ea"
 
-#: Room beyond the curves, as a part of their range.
+#: Margin beyond the curves, as a part of their range.
 _MARGIN = 0.04
 
 
@@ -194,7 +194,7 @@ def ticks(low: float, high: float, intervals: int = 7) -> list[float]:
 
 
 def tick_labels(values: list[float]) -> list[str]:
-    """The same number of decimals for all ticks, as few as tell them apart."""
+    """The same number of decimals for all ticks, as few as distinguish them."""
     step = min(np.diff(values), default=1.0)
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
     return [f"{value:.{decimals}f}".replace("-", "−") for value in values]

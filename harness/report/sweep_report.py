@@ -37,12 +37,12 @@ def animation_of_design(seen: InMotion | None) -> str:
     """The section, with the reason when nothing can be seen; "" when the FMU has no drawing."""
     if seen is None:
         return ""
-    told = seen.told
+    caption = seen.caption
     if seen.run is not None and seen.run.beam is not None:
         struck = seen.run.description.analysis.struck
-        told += f" Its {struck.name if struck else 'beam'}: {beam_theory_note(seen.run.beam)}"
-    drawn = "" if seen.run is None else animation(seen.run, about=told)
-    return drawn or section(HEADING, note=told)
+        caption += f" Its {struck.name if struck else 'beam'}: {beam_theory_note(seen.run.beam)}"
+    drawn = "" if seen.run is None else animation(seen.run, about=caption)
+    return drawn or section(HEADING, note=caption)
 
 
 #: More rows make a page slow; the file has all.

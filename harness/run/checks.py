@@ -1,4 +1,4 @@
-"""Verdicts: what should hold, whether it does, and the numbers behind it; and findings, which fail no run."""
+"""Verdicts (checks) of a run: what should hold, whether it does, and its numbers; and findings, which fail no run."""
 
 from __future__ import annotations
 

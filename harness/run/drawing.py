@@ -1,4 +1,4 @@
-"""How an FMU's mechanism is drawn: `resources/drawing.json`, when the FMU has one."""
+"""Drawing of an FMU's mechanism: `resources/drawing.json`, when the FMU has one."""
 
 from __future__ import annotations
 

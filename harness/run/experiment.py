@@ -1,9 +1,9 @@
-"""One experiment with one FMU: settings in, a run with tables and verdicts out."""
+"""Simulation experiment with one FMU: settings in, a run with tables and verdicts out."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,8 +18,9 @@ from ..analysis.impacts import ImpactCollector
 from ..analysis.stress import DAMAGE_UNITS
 from ..errors import LogMessage, UsageError
 from ..fmu.description import Description, Value
-from ..fmu.instances.common import MessageHandler, discard_message
+from ..fmu.instances.message_log import MessageHandler, discard_message
 from ..fmu.interface import Instances, Observable
+from ..fmu.values import parse_value, settable_variable
 from .checks import Check, run_checks
 from .drawing import Drawing, read_drawing
 from .inputs import InputSignals, check_no_overlap, read_inputs
@@ -68,8 +69,8 @@ class Run:
         drawing: how the mechanism is drawn.
         events: a row for each event, in words (`events.EventCollector`).
         events_lost: events that the FMU could not report.
-        tells_events: whether the FMU reports events at all.
-        logic: the modes and transitions that the FMU tells.
+        reports_events: whether the FMU reports events at all.
+        logic: the modes and transitions that the FMU declares.
         damage: what all impacts together do to the beam; None without a beam or an impact.
         inputs: the signals that drove inputs; None when there were none.
         compliance: how far links give way; () when the FMU declares none, or nothing loads them.
@@ -91,7 +92,7 @@ class Run:
     drawing: Drawing = field(default_factory=Drawing)
     events: pd.DataFrame = field(default_factory=lambda: pd.DataFrame(columns=list(EVENT_UNITS)))
     events_lost: int = 0
-    tells_events: bool = False
+    reports_events: bool = False
     logic: LogicFile = field(default_factory=LogicFile)
     damage: SequenceDamage | None = None
     inputs: InputSignals | None = None
@@ -101,6 +102,11 @@ class Run:
     def tooth(self) -> Beam | None:
         """The beam, by the name that it had before version 0.2."""
         return self.beam
+
+    @property
+    def tells_events(self) -> bool:
+        """`reports_events`, by the name that it had before version 0.2."""
+        return self.reports_events
 
 
 class _ParameterReader:
@@ -205,7 +211,7 @@ def performing(
             drawing=read_drawing(fmu.folder, fmu.description),
             events=event_collector.table(logic),
             events_lost=event_collector.lost,
-            tells_events=event_collector.tells,
+            reports_events=event_collector.reports,
             logic=logic,
             damage=found.damage,
             inputs=inputs,
@@ -213,17 +219,37 @@ def performing(
         )
 
 
-#: So many steps a run has whose step nobody says.
+#: So many steps a run has whose step size is not given.
 _USUAL_STEPS = 1000
+
+
+def start_values(assignments: Iterable[str], description: Description) -> dict[str, Value]:
+    """Values by name from assignments such as "tooth_slope_angle=95deg" or "drive_torque=2 N.mm".
+
+    A number without a unit is in the unit of the variable.
+
+    Raises:
+        UsageError: no `=`, unknown or unsettable variable, set twice, or a value that does not fit.
+    """
+    values: dict[str, Value] = {}
+    for assignment in assignments:
+        name, equals, text = assignment.partition("=")
+        name = name.strip()
+        if not equals:
+            raise UsageError(f"'{assignment}' is not a setting; write name=value, e.g. drive_torque='2 N.mm'.")
+        if name in values:
+            raise UsageError(f"'{name}' is set twice; set it once.")
+        values[name] = parse_value(text, settable_variable(name, description), description)
+    return values
 
 
 def default_times(description: Description, stop_time: float | None, step: float | None) -> tuple[float, float]:
     """Stop time and step [s], from the FMU's default experiment where they are None.
 
-    Where nobody says the step, it is a thousandth of the run, in whole nanoseconds.
+    Where no step size is given, it is a thousandth of the run, in whole nanoseconds.
 
     Raises:
-        UsageError: nobody says the stop time.
+        UsageError: no stop time is given.
     """
     stop_time = description.stop_time if stop_time is None else stop_time
     step = description.step if step is None else step

@@ -26,10 +26,10 @@ _FORMAT = 1
 
 @dataclass(frozen=True)
 class LogicFile:
-    """What an FMU tells about its logic.
+    """What an FMU declares about its logic.
 
     Attributes:
-        contacts: names, in the order of the bits of a mode; () when the FMU tells nothing.
+        contacts: names, in the order of the bits of a mode; () when the FMU declares nothing.
         events: names of events by (guard, subject).
         switches: parameters that choose the variant by being zero (false) or not.
         choices: place of the variant by a text of 0 and 1, one for each switch.
@@ -45,7 +45,7 @@ class LogicFile:
     objection: str = ""
 
     def chosen(self, parameters: Mapping[str, Value]) -> Logic | None:
-        """The logic for parameter values; None when the FMU tells nothing about these."""
+        """The logic for parameter values; None when the FMU declares nothing about these."""
         key = "".join("1" if parameters.get(name) else "0" for name in self.switches)
         return self.variants[self.choices[key]] if key in self.choices else None
 
@@ -149,7 +149,7 @@ class EventCollector:
     """An observer that keeps the events in `events[1].time`, `events[1].guard`, ... after every step.
 
     Attributes:
-        tells: whether the FMU has these variables; one without them has no events to tell.
+        reports: whether the FMU has these variables; one without them has no events to report.
         lost: events that did not fit into the buffer, when the FMU counts all in `event_count`.
     """
 
@@ -157,7 +157,7 @@ class EventCollector:
         self._buffer = Buffer(description, "events", _FIELDS)
         self._counts = _COUNT in description.variables
         self._rows: list[list[Value]] = []
-        self.tells = bool(self._buffer.fields)
+        self.reports = bool(self._buffer.fields)
         self.lost = 0
 
     def started(self, unit: Observable, time: float) -> None:

@@ -188,7 +188,7 @@ class Outcome:
 
 
 def never() -> bool:
-    """Nobody asks the run to stop."""
+    """No request to stop: the run goes on."""
     return False
 
 

@@ -143,8 +143,8 @@ def write_run(run: Run, folder: Path) -> list[Path]:
 
 
 def _events_file(run: Run, folder: Path) -> list[Path]:
-    """events.csv; an FMU that tells no events has none."""
-    if not run.tells_events:
+    """events.csv; an FMU that reports no events has none."""
+    if not run.reports_events:
         return []
     return [write_text(folder / "events.csv", lambda file: run.events.to_csv(file, index=False, lineterminator="\n"))]
 

@@ -1,4 +1,4 @@
-"""Does an FMU keep what it promises? A check of the file, a short life of two instances, its reference results."""
+"""Validation of an FMU: a check of the file, a short life of two instances, its reference results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A model made ready for many designs."""
+"""Batch simulation: a model made ready for many designs."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class Batch:
         """
         batch = cls(*model_of_fmu(path))
         try:
-            batch._prepared  # noqa: B018  (what cannot be traced is better told now)
+            batch._prepared  # noqa: B018  (what cannot be traced is better reported now)
         except MechanismError as error:
             raise NoBatchError(f"Only the FMU itself can run its designs: {error}") from error
         return batch
@@ -116,7 +116,7 @@ class Batch:
                 points and at the end.
             until_impact: whether to stop each design right after its first impact.
             threads: how many; None: as many as this process has processors.
-            progress: told a few times a second how many designs are done, and of how many.
+            progress: called a few times a second with how many designs are done, and of how many.
 
         Raises:
             MechanismError: a name, a length or a time that cannot be.

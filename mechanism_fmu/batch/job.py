@@ -1,4 +1,4 @@
-"""What the threads share: designs, what is asked of each, and where the answers go."""
+"""Job of a batch: designs, what is asked of each, and arrays for the results, shared by threads."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Job:
         impact_field: columns of an impact record that are kept, shape (fields,).
         until_impact: stop right after the first impact.
         values: of the outputs at the end, shape (designs, read).
-        least, greatest: likewise, over the start, the ends of steps and the end; with no rows if nobody asks.
+        least, greatest: likewise, over the start, the ends of steps and the end; with no rows if not asked for.
         impacts: the first impacts of each design, shape (designs, kept, fields).
         reached: time reached [s], shape (designs,).
         pulled: when each guided contact first pulled [s], shape (designs, contacts); infinite: never.

@@ -1,4 +1,4 @@
-"""A model's recorded calculation for many designs at once, and what came of them."""
+"""Parameters to tables for many designs at once: a model's recorded calculation, vectorised."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class BatchResult:
     Attributes:
         designs: what was asked: parameters and inputs by name.
         values: outputs and calculated parameters at the time reached, by name.
-        least, greatest: of the same, over the start, all communication points and the end; empty if nobody asked.
+        least, greatest: of the same, over the start, all communication points and the end; empty if not asked for.
         impact_count: impacts until then.
         impacts: the first impacts of each design, by field as in the FMU's `impacts[k].<field>`, shape (designs, kept);
             NaN where there were fewer.

@@ -1,4 +1,4 @@
-"""The model of an FMU: from the Python sources that travel in it, if they are for the engine that stands here."""
+"""Model of an FMU from the Python sources that travel in it, if they are for the engine that stands here."""
 
 from __future__ import annotations
 
@@ -23,7 +23,6 @@ _LIBRARY = Path(__file__).parents[1]
 _DECISIVE = re.compile(r"(engine|model|tables)/.*\.py|(codes|simulation|tolerances)\.py")
 
 #: The slave file, and what it says to `start.slave_class`.
-_SLAVE = re.compile(r"resources/\w+\.py")
 _START = re.compile(r'= slave_class\("(\w+)", "models\.([\w.]+)"\)')
 
 

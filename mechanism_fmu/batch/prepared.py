@@ -1,4 +1,4 @@
-"""What is the same for all designs of a model, what is asked of them, and which of them cannot be."""
+"""Preparation of a batch: what is the same for all designs, what is asked of them, and which are refused."""
 
 from __future__ import annotations
 
@@ -181,8 +181,8 @@ def columns_of(ready: Prepared, designs: Mapping[str, ArrayLike]) -> dict[str, A
             raise MechanismError(f"{name} has the shape {column.shape}; give one number for each design.")
     lengths = {name: len(column) for name, column in columns.items()}
     if len(set(lengths.values())) != 1:
-        told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
-        raise MechanismError(f"All columns must be of one length, but {told or 'there are none'}.")
+        sizes_given = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        raise MechanismError(f"All columns must be of one length, but {sizes_given or 'there are none'}.")
     return columns
 
 

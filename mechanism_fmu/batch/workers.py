@@ -1,4 +1,4 @@
-"""Threads that share the designs of a job, or one design after the other by way of `Simulation`."""
+"""Threads that run the designs of a job, or one design after the other by way of `Simulation`."""
 
 from __future__ import annotations
 
@@ -92,14 +92,14 @@ class OneByOne:
             np.fmax(job.greatest[design], values, out=job.greatest[design])
 
 
-#: Is told how many designs are done, and how many there are.
+#: Receives how many designs are done, and how many there are.
 Progress = Callable[[int, int], None]
 
 _PERIOD = 0.2
 
 
 def no_callback(_done: int, _all: int) -> None:
-    """Nobody wants to know."""
+    """No callback: progress is not reported."""
 
 
 def run_job(job: Job, mechanism: Mechanism, library: CDLL | None, threads: int, progress: Progress) -> Refusals:
@@ -113,14 +113,14 @@ def run_job(job: Job, mechanism: Mechanism, library: CDLL | None, threads: int, 
         mechanism: of the same structure, for the names in messages.
         library: of the compiled engine; None: just in time.
         threads: how many.
-        progress: told a few times a second.
+        progress: called a few times a second.
     """
     if library is None:
         failures: Refusals = {}
         turn = Lock()
         _share(job, threads, lambda: _one_by_one(job, OneByOne(job, mechanism, None), failures, turn), progress)
         return failures
-    told = job.status.copy()
+    before = job.status.copy()
     whole = as_c(job)
 
     def in_one_call() -> None:
@@ -129,7 +129,7 @@ def run_job(job: Job, mechanism: Mechanism, library: CDLL | None, threads: int, 
 
     _share(job, threads, in_one_call, progress)
     again = OneByOne(job, mechanism, library)
-    return {design: _why(again, design) for design in np.flatnonzero(job.status != told).tolist()}
+    return {design: _why(again, design) for design in np.flatnonzero(job.status != before).tolist()}
 
 
 def _share(job: Job, threads: int, work: Callable[[], None], progress: Progress) -> None:

@@ -38,7 +38,6 @@ from .elements import (
     spatial_link as spatial_link,
     supported_beam as supported_beam,
     tapered_cantilever as tapered_cantilever,
-    tapered_end_moment as tapered_end_moment,
     torsion_shaft as torsion_shaft,
     two_force_member as two_force_member,
 )
@@ -56,13 +55,11 @@ from .responses import (
     Feedback as Feedback,
     PeriodicResponse as PeriodicResponse,
     SpeedSweep as SpeedSweep,
-    Transient as Transient,
     critical_speeds as critical_speeds,
     fed_back as fed_back,
     growth_per_period as growth_per_period,
     periodic_response as periodic_response,
     speed_sweep as speed_sweep,
-    transient as transient,
 )
 from .stretch_rotation import (
     deformed_links as deformed_links,
@@ -104,6 +101,5 @@ from .turn import (
     ElasticPorts as ElasticPorts,
     crank_of as crank_of,
     elastic_ports as elastic_ports,
-    simulated_motion as simulated_motion,
     turn as turn,
 )

@@ -163,22 +163,6 @@ def tapered_cantilever(beam: VaryingBeam, young: float) -> FloatArray:
     return np.array([[axial, 0.0, 0.0], [0.0, across, mixed], [0.0, mixed, turn]])
 
 
-def tapered_end_moment(beam: VaryingBeam, young: float) -> FloatArray:
-    """Flexibility, shape (2, 2), of a beam on two simple supports, for force along it and a moment at its end x = 0.
-
-    F11 = int dx / EA [m/N] and F22 = int (1 - x/l)^2 / EI dx [1/(N m)]: the moment falls linearly to nothing at x = l;
-    eq (7) of Erdman, Sandor and Oakberg, with A and I as functions of x.
-
-    Arguments and errors are those of `tapered_cantilever`.
-    """
-
-    def integrand(x: float) -> FloatArray:
-        area, second_moment = _section(beam, x)
-        return np.array([1.0 / area, (1.0 - x / beam.length) ** 2 / second_moment])
-
-    return np.diag(integral(beam, integrand) / _positive(young))
-
-
 def integral(beam: VaryingBeam, integrand: Callable[[float], FloatArray]) -> FloatArray:
     """Integrals over the length, shape (m,), of m functions of x that are positive in the middle of the beam.
 

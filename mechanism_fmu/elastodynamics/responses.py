@@ -1,10 +1,10 @@
-"""How a bending linkage swings: its periodic steady state, from any state, by feedback, and over a range of speeds."""
+"""Dynamic response of a bending linkage: periodic steady state, transient, by feedback, and over a range of speeds."""
 
 from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,7 +55,7 @@ def periodic_response(cycle: ElasticCycle) -> PeriodicResponse:
 
     u is a trigonometric series that fulfils the equations at 2 H + 1 even times, where M, C, K and p are read off the
     series through their samples; H grows until they are fulfilled at all T given times, to `TOLERANCE`. With more
-    than T / 4 harmonics the samples could no longer tell, so that is where it ends, with a warning.
+    than T / 4 harmonics the samples could no longer resolve the motion, so that is where it ends, with a warning.
 
     Warns:
         UserWarning: T / 4 harmonics are not enough.
@@ -111,95 +111,54 @@ def _left_over(cycle: ElasticCycle, series: ComplexArray) -> float:
     return wrong / bent if bent > 0.0 else 0.0
 
 
-# How a bending linkage swings in from any state: direct integration.
+# Whether a bending linkage settles to its periodic motion: Floquet's multipliers.
 
-
-@dataclass(frozen=True)
-class Transient:
-    """Deviation over some periods.
-
-    Attributes:
-        time: shape (steps + 1,) [s], from 0.
-        displacement, velocity, acceleration: shape (steps + 1, n).
-    """
-
-    time: FloatArray
-    displacement: FloatArray
-    velocity: FloatArray
-    acceleration: FloatArray
-
-
-def transient(
-    cycle: ElasticCycle,
-    steps: int,
-    periods: int = 1,
-    displacement: FloatArray | None = None,
-    velocity: FloatArray | None = None,
-) -> Transient:
-    """Integrate M u'' + C u' + K(t) u = p by Newmark's average acceleration: of second order, stable at any step.
-
-    Args:
-        cycle: the equations.
-        steps: of one period. The shortest natural period that matters should have 20 of them.
-        periods: how many.
-        displacement: u at t = 0, shape (n,); zero unless told.
-        velocity: u' at t = 0, shape (n,); zero unless told.
-
-    Raises:
-        ValueError: there are no steps or periods, or M is singular, so that there is no acceleration to begin with.
-
-    Source: N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959), with
-        beta = 1/4 and gamma = 1/2.
-    """
-    if steps < 1 or periods < 1:
-        raise ValueError(f"{steps} steps of each of {periods} periods: there must be one or more of either.")
-    u, v = (
-        np.zeros(cycle.load.shape[1]) if x is None else np.asarray(x, dtype=float) for x in (displacement, velocity)
-    )
-    found = _integrated(cycle.resampled(steps), periods, u, v)
-    time = np.asarray(cycle.period / steps * np.arange(periods * steps + 1))
-    return Transient(time, *found)
+#: Radau IIA of three stages and fifth order: the weights, of which the last row ends the step, and its instants.
+_SIX = math.sqrt(6.0)
+_RADAU = np.array(
+    [
+        [(88 - 7 * _SIX) / 360, (296 - 169 * _SIX) / 1800, (-2 + 3 * _SIX) / 225],
+        [(296 + 169 * _SIX) / 1800, (88 + 7 * _SIX) / 360, (-2 - 3 * _SIX) / 225],
+        [(16 - _SIX) / 36, (16 + _SIX) / 36, 1 / 9],
+    ]
+)
+_INSTANTS = _RADAU.sum(axis=1)
 
 
 def growth_per_period(cycle: ElasticCycle, steps: int) -> float:
     """By how much a disturbance of the periodic motion grows in a period: the largest Floquet multiplier, as a modulus.
 
     Above 1 the periodic motion is not what a linkage settles to: its own change of stiffness excites it (parametric
-    resonance). Arguments and errors are those of `transient`.
+    resonance). M u'' + C u' + K u = 0 is integrated over the period from each unit state, by Radau IIA: of fifth order,
+    and L-stable, so that modes too fast for the steps die out as if they were damped. Coordinates may lack mass.
+
+    Args:
+        cycle: the equations; its load does not matter.
+        steps: of the period. The slowest mode should have 20 of them in its own.
+
+    Raises:
+        ValueError: there are no steps.
+
+    Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.5.
     """
     if not 1 <= steps < np.inf:
         raise ValueError(f"{steps} steps of a period: there must be one or more.")
-    n = cycle.load.shape[1]
-    unloaded = ElasticCycle(cycle.period, cycle.mass, cycle.damping, cycle.stiffness, np.zeros_like(cycle.load))
-    start = np.eye(2 * n)
-    u, v, _ = _integrated(unloaded.resampled(steps), 1, start[:n], start[n:])
-    return float(np.abs(np.linalg.eigvals(np.vstack([u[-1], v[-1]]))).max())
-
-
-def _integrated(
-    here: ElasticCycle, periods: int, u: FloatArray, v: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """u, v and a at all times; `u` and `v` at the first have the shape (n,), or (n, m) for m motions at once."""
-    h = here.period / here.samples
-    load = here.load if u.ndim == 1 else np.repeat(here.load[:, :, None], u.shape[1], axis=2)
-    effective = np.linalg.inv(4.0 / h**2 * here.mass + 2.0 / h * here.damping + here.stiffness)
-    try:
-        a = np.linalg.solve(here.mass[0], load[0] - here.damping[0] @ v - here.stiffness[0] @ u)
-    except np.linalg.LinAlgError as error:
-        raise ValueError(
-            "a coordinate has no mass, so its acceleration is not known: give it one, or take the periodic response."
-        ) from error
-    count = periods * here.samples + 1
-    states = tuple(np.empty((count, *u.shape)) for _ in range(3))
-    for k in range(count):
-        if k > 0:
-            j = k % here.samples
-            from_u, from_v = 4.0 / h**2 * u + 4.0 / h * v + a, 2.0 / h * u + v
-            new = effective[j] @ (load[j] + here.mass[j] @ from_u + here.damping[j] @ from_v)
-            u, v, a = new, 2.0 / h * new - from_v, 4.0 / h**2 * new - from_u
-        for kept, value in zip(states, (u, v, a), strict=True):
-            kept[k] = value
-    return states[0], states[1], states[2]
+    n, h, stages = cycle.load.shape[1], cycle.period / steps, len(_INSTANTS)
+    angles = 2.0 * math.pi / steps * np.add.outer(np.arange(steps), _INSTANTS)
+    mass, damping, stiffness = (
+        evaluate(coefficients(part), angles.ravel()).reshape(steps, stages, n, n)
+        for part in (cycle.mass, cycle.damping, cycle.stiffness)
+    )
+    once, twice = h * _RADAU, h * h * _RADAU @ _RADAU  # from the accelerations of the stages to v and to u
+    u, v = np.eye(n, 2 * n), np.eye(n, 2 * n, n)
+    for m, c, k in zip(mass, damping, stiffness, strict=True):
+        matrix = np.einsum("iab,ij->iajb", c, once) + np.einsum("iab,ij->iajb", k, twice)
+        matrix[np.arange(stages), :, np.arange(stages), :] += m
+        right = c @ v + k @ (u + h * _INSTANTS[:, None, None] * v)
+        a = -np.linalg.solve(matrix.reshape(stages * n, stages * n), right.reshape(stages * n, 2 * n))
+        a = a.reshape(stages, n, 2 * n)
+        u, v = u + h * v + np.tensordot(twice[-1], a, 1), v + np.tensordot(once[-1], a, 1)
+    return float(np.abs(np.linalg.eigvals(np.vstack([u, v]))).max())
 
 
 # The elastic acceleration fed back into the inertia forces, again and again.
@@ -303,14 +262,22 @@ class SpeedSweep:
 
 
 def speed_sweep(
-    speeds: Iterable[float], cycle_at: Callable[[float], ElasticCycle], coordinates: tuple[int, ...]
+    cycle: ElasticCycle,
+    speed: float,
+    factors: npt.ArrayLike,
+    deviation: Callable[[FloatArray], FloatArray],
+    samples: int | None = None,
+    on_speed: Callable[[int], None] = lambda _: None,
 ) -> SpeedSweep:
-    """Periodic response at each of `speeds` [rad/s].
+    """Largest deviation of the periodic motion, and of the quasi-static one, at `factors` times the speed.
 
     Args:
-        speeds: of the crank.
-        cycle_at: the equations at a speed.
-        coordinates: columns of u whose Euclidean norm is the deviation, such as x and y of the path point.
+        cycle: the equations at `speed`, of a linkage that only inertia loads: see `ElasticCycle.faster`.
+        speed: of the crank [rad/s].
+        factors: of the speed, shape (S,), positive.
+        deviation: from u at the samples of the cycle, shape (T, n), to how far off the path is, shape (T,).
+        samples: of the equations that are solved; those of the cycle unless fewer are given, which takes less time.
+        on_speed: called with the number of the speed that is done.
 
     Warns:
         UserWarning: as of `periodic_response`.
@@ -318,14 +285,11 @@ def speed_sweep(
     Raises:
         ValueError: as of `periodic_response`.
     """
-    rows = []
-    for speed in speeds:
-        cycle = cycle_at(speed)
-        moving = periodic_response(cycle).samples(cycle.samples)
-        rows.append((speed, *(_largest(u[:, coordinates]) for u in (moving, cycle.static()))))
-    speed_column, dynamic, static = np.array(rows).reshape(-1, 3).T
-    return SpeedSweep(speed_column, dynamic, static)
-
-
-def _largest(u: FloatArray) -> float:
-    return float(np.linalg.norm(u, axis=1).max())
+    parts = np.asarray(factors, dtype=float)
+    solved = cycle if samples is None else cycle.resampled(samples)
+    static = deviation(cycle.static()).max()
+    dynamic = []
+    for number, factor in enumerate(parts.tolist()):
+        dynamic.append(deviation(periodic_response(solved.faster(factor)).samples(cycle.samples)).max())
+        on_speed(number)
+    return SpeedSweep(speed * parts, np.array(dynamic), static * parts**2)

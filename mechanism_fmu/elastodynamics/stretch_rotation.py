@@ -70,7 +70,7 @@ def planar_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tupl
 def spatial_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Stretch epsilon [-], shape (...), and angle theta [rad], shape (..., 3), of links by their ends.
 
-    theta is perpendicular to the link: how far it turns about itself, no link vector can tell.
+    theta is perpendicular to the link: how far it turns about itself, no link vector can show.
 
     Arguments and errors are those of `planar_deformation`, in three dimensions.
     """

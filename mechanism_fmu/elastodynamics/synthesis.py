@@ -44,7 +44,7 @@ def judge_quasi_static(cycle: Cycle, place: str, target: FloatArray | None = Non
     Args:
         cycle: over one period.
         place: of the path point, e.g. "arm.end".
-        target: the path that is wanted, shape (times, 2) [m]; unless told, that of the same linkage if it were rigid.
+        target: the path that is wanted, shape (times, 2) [m]; by default that of the same linkage if it were rigid.
 
     Raises:
         LinkageError: there is no such place.

@@ -1,9 +1,8 @@
-"""One turn of a mechanism at constant speed, whatever drives it in a simulation; and the engine's own motion."""
+"""One turn of a mechanism at constant speed, whatever drives it in a simulation."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,7 +19,6 @@ from ..model import (
     Translational,
     polynomial_motion,
 )
-from ..simulation import Simulation
 from .elements import FloatArray, LinkageError
 from .fourier import coefficients, evaluate, even_angles
 from .structure.configuration import Configurations, configurations
@@ -224,7 +222,7 @@ def _angle_drivers(mechanism: Mechanism) -> set[str]:
     return {j.name for j in mechanism.joints if isinstance(j, AngleDriver) and j.body_i == GROUND}
 
 
-# What of a mechanism's inputs and outputs turns its crank, and tells how its members bend.
+# What of a mechanism's inputs and outputs turns its crank, and reports how its members bend.
 
 
 @dataclass(frozen=True)
@@ -267,28 +265,3 @@ def elastic_ports(mechanism: Mechanism) -> ElasticPorts:
     members = {member.name for member in mechanism.members}
     outputs = {port.source: port.name for port in mechanism.outputs if port.source.partition(".")[0] in members}
     return ElasticPorts(crank, of(Torque, "torque"), of(CompliantShaft, "speed"), of(CompliantShaft, "angle"), outputs)
-
-
-# The engine's own motion: what a simulated mechanism does, driven or not.
-
-
-def simulated_motion(
-    mechanism: Mechanism, simulation: Simulation, times: Sequence[float] | FloatArray
-) -> KinematicMotion:
-    """Positions, velocities and accelerations of a simulation of a mechanism at `times` [s], which increase.
-
-    The simulation goes on to the last of them, with its inputs held; in an impact, velocities are those behind it.
-
-    Raises:
-        SimulationError: the motion cannot go on, or the first of the times has passed.
-    """
-    count = 3 * len(mechanism.bodies)
-    rows = []
-    for time in times:
-        simulation.advance(float(time))
-        simulation.read_rates()  # leaves the state and its derivative in the work fields
-        state, rates = simulation.field("y_at"), simulation.field("dy_at")
-        rows.append(np.concatenate([state[: 2 * count], rates[count : 2 * count]]))
-    table = np.array(rows).reshape(-1, 3, count)
-    names = tuple(f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle"))
-    return KinematicMotion(names, np.asarray(times, dtype=float), table[:, 0], table[:, 1], table[:, 2])

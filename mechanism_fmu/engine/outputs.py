@@ -1,4 +1,4 @@
-"""Outputs at the current time, and their derivatives: what each kind reads stands once, in `READINGS`."""
+"""Outputs at the current time, and their derivatives: what each kind of output reads stands once, in `READINGS`."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from .constraints.kinematics import place_bodies, set_instant
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
 from .dynamics.forces import (
+    feed,
     force_reading,
     force_reading_rate,
     kinetic_energy,
@@ -24,7 +25,6 @@ from .dynamics.forces import (
     stored_energy,
     stored_power,
 )
-from .dynamics.inputs import feed
 from .elastic.readings import beam_reading, elastic_reading
 from .elastic.structure import bend
 from .stepping.stepper import state_at_time

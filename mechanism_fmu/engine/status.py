@@ -1,4 +1,4 @@
-"""How an engine call ended, as a number; `ADVICE` says what that means and what to do."""
+"""Status codes of engine calls; `ADVICE` says what each means and what to do."""
 
 OK = 0
 NOT_ASSEMBLED = 1

@@ -1,4 +1,4 @@
-"""Vectors as wholes."""
+"""Vector operations: copy, clear, largest magnitude."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a model to an FMU file, by way of pythonfmu's builder."""
+"""Packaging of a model as an FMU file, by way of pythonfmu's builder."""
 
 from __future__ import annotations
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..model import AngleDriver, CamFlatFollower, Curve, Mechanism, PointFollower
+from ..model.curves.motions import polynomial_motion
 from ..model.joints import HigherPair
-from ..model.motions import polynomial_motion
 from .equations import Equations, FloatArray, KinematicsError
 from .mobility import free_directions
 from .motion import KinematicMotion, analyse

@@ -1,4 +1,4 @@
-"""What a profile is like before it meets a follower: curvature, hollows, jumps."""
+"""Cam profiles by themselves, before they meet a follower: curvature, hollows, jumps."""
 
 from __future__ import annotations
 
@@ -219,5 +219,5 @@ def _jumps(at_ends: list[tuple[float, FloatArray, float, FloatArray]], profile: 
         for order in range(3):
             if abs(after[order] - before[order]) > _JUMP * abs(before[0]):
                 found.append(Jump(begin, order, float(before[order]), float(after[order])))
-                break  # what follows from it is not told again
+                break  # what follows from it is not reported again
     return found

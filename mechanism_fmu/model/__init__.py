@@ -13,6 +13,7 @@ from .analysis import (
     SawtoothWheel,
     SeriesCompliance,
     Strut,
+    TableBeam,
     TrapezoidTooth,
     WedgeTooth,
 )
@@ -20,6 +21,18 @@ from .body import GROUND, Body
 from .compile import MechanismTables, compile_mechanism
 from .contacts import AngleLock, AngleStop, Contact, PointLineContact
 from .curves import Curve, Piece, Term, constant, cosine, sine
+from .curves.motions import (
+    Law,
+    Move,
+    cycloidal,
+    dwell,
+    harmonic_motion,
+    modified_sine,
+    polynomial_345,
+    polynomial_motion,
+    table_motion,
+)
+from .curves.profiles import circle, harmonic_profile, motion_profile, piecewise_profile, slot, spline_profile
 from .drawing import Bar, Disc, Hinge, Shape, Striker, Wheel
 from .errors import MechanismError
 from .findings import Finding
@@ -47,17 +60,6 @@ from .logic import LogicalFunction
 from .mechanism import Mechanism, Settings
 from .members import Disk, LumpedBody, Member, Section, lumped_body
 from .model import Model
-from .motions import (
-    Law,
-    Move,
-    cycloidal,
-    dwell,
-    harmonic_motion,
-    modified_sine,
-    polynomial_345,
-    polynomial_motion,
-    table_motion,
-)
 from .patterns import CircularPattern
 from .port_builders import (
     active_output,
@@ -100,7 +102,6 @@ from .port_builders import (
     whole_output,
 )
 from .ports import Calculated, Input, Output, Parameter
-from .profiles import circle, harmonic_profile, motion_profile, piecewise_profile, slot, spline_profile
 
 __all__ = [
     "EVENT_BUFFER_LENGTH",
@@ -153,6 +154,7 @@ __all__ = [
     "Shape",
     "Striker",
     "Strut",
+    "TableBeam",
     "Term",
     "Translational",
     "TranslationalDriver",

@@ -65,8 +65,47 @@ class RectangularTooth:
     thickness: Quantity | None = None
 
 
+@dataclass(frozen=True)
+class TableBeam:
+    """The beam `mechanism_fmu.stress.TableBeam`, fixed at its root, with any cross section.
+
+    Between the places the section follows monotone cubics. It should change gradually: modes are polynomials along the
+    whole beam, which near a step are off by half of the stress there.
+
+    Attributes:
+        places: distances from the root, ascending from 0 to the tip [m].
+        areas: of the cross section at the places [m2].
+        second_moments: of the cross section there, for bending in the plane of the motion [m4].
+        outer_fibres: distances of the outer fibre from the neutral axis there [m].
+        thickness: as of `WedgeTooth`.
+
+    Raises:
+        MechanismError: the columns differ in length, or have fewer than two rows.
+    """
+
+    places: tuple[Quantity, ...]
+    areas: tuple[Quantity, ...]
+    second_moments: tuple[Quantity, ...]
+    outer_fibres: tuple[Quantity, ...]
+    thickness: Quantity | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what is no table."""
+        rows = [len(column) for column in (self.places, self.areas, self.second_moments, self.outer_fibres)]
+        if min(rows) < 2 or len(set(rows)) > 1:
+            raise MechanismError(
+                f"TableBeam: {', '.join(map(str, rows))} places, areas, second moments and outer fibres; give as many "
+                "of each, at root and tip at least."
+            )
+
+    @property
+    def length(self) -> Quantity:
+        """From root to tip [m]."""
+        return self.places[-1]
+
+
 #: Whatever can be struck.
-StruckBeam = WedgeTooth | TrapezoidTooth | RectangularTooth
+StruckBeam = WedgeTooth | TrapezoidTooth | RectangularTooth | TableBeam
 
 
 @dataclass(frozen=True)
@@ -238,5 +277,7 @@ def _named(label: str, record: object) -> Iterator[tuple[str, str, float | str |
             yield from _named(f"{label}, {type(value).__name__}", value)
         elif str(field.type).startswith("Quantity"):
             yield place, "HeldName", value
+        elif isinstance(value, tuple):
+            yield from ((f"{place}[{k}]", "HeldName", one) for k, one in enumerate(value))
         elif field.type in _NAMED:
             yield place, str(field.type), value

@@ -1,4 +1,4 @@
-"""Members that hang on a hinge and bend under what acts on their tip (`engine.elastic.beam`): their tables."""
+"""Hinged flexible members, loaded at their tips (`engine.elastic`): their tables."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From parts to tables: the one thing that the engine reads."""
+"""Compilation of a mechanism to the tables of numbers that the engine reads."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .. import codes, tables
 from ..tables.declare import Field, Table
 from .beams import beam_data, beam_members, hinge
 from .body import GROUND
-from .check import check
+from .checks.check import check
 from .curves import Curve
 from .functions import is_plain, sqrt
 from .logic import resolve_function, switch

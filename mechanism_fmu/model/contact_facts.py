@@ -1,4 +1,4 @@
-"""What all contacts have: what can be read of them, and what they refuse."""
+"""Properties of all contacts: what can be read of them, and what they refuse."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How an FMU can be drawn: shapes in terms of its own variables, for whoever knows a mechanism only by its FMU.
+"""Drawing of a mechanism: shapes in terms of its FMU's variables, for whoever knows a mechanism only by its FMU.
 
 Lengths are in metres and angles in radians, counter-clockwise positive, from the global x axis unless said.
 """

@@ -1,4 +1,4 @@
-"""What is wrong with numbers, plain or symbolic: conditions, and findings with their texts."""
+"""Findings: conditions on numbers, plain or symbolic, with texts of what is wrong and the way out."""
 
 from __future__ import annotations
 

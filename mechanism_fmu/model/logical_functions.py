@@ -1,9 +1,10 @@
-"""All logical functions of a mechanism: those that every contact, pattern and stop has, and the declared ones."""
+"""Logical functions of a mechanism, those of every contact, pattern and stop and the declared ones; names of events."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .. import codes
 from ..statechart import Definition
 from ..tolerances import (
     MARGIN,
@@ -84,3 +85,37 @@ def _of_contact(contact: Contact) -> Iterator[Definition]:
             f"{PUSHES_WITHIN:g} {force} + {PUSHES_SHARE:g} of the largest",
             f"{name}.force",
         )
+
+
+# Names of events: the quantity that reaches zero, or the logical function that changes.
+
+#: The event of inputs that have changed.
+INPUT = "input"
+
+_OF_CONTACT = {codes.GUARD_GAP: "gap", codes.GUARD_PUSH: "force", codes.GUARD_CLICK: "click"}
+_OF_PATTERN = {codes.GUARD_NEXT: "next", codes.GUARD_PREVIOUS: "previous"}
+
+
+def event_name(mechanism: Mechanism, guard: int, subject: int) -> str:
+    """The name of an event, from the engine's guard (`codes.GUARD_GAP` ...) and its contact, pattern or function."""
+    if guard == codes.GUARD_INPUT:
+        return INPUT
+    if guard == codes.GUARD_FUNCTION:
+        return mechanism.functions[subject].name
+    if guard in _OF_PATTERN:
+        return f"{mechanism.patterns[subject].name}.{_OF_PATTERN[guard]}"
+    return f"{mechanism.contacts[subject].name}.{_OF_CONTACT[guard]}"
+
+
+def event_names(mechanism: Mechanism) -> Iterator[tuple[int, int, str]]:
+    """All (guard, subject, name) that the engine can report of a mechanism, in the order of the guards."""
+    subjects = {
+        **dict.fromkeys(_OF_CONTACT, len(mechanism.contacts)),
+        **dict.fromkeys(_OF_PATTERN, len(mechanism.patterns)),
+        codes.GUARD_FUNCTION: len(mechanism.functions),
+    }
+    for guard in sorted(subjects):
+        for subject in range(subjects[guard]):
+            if guard != codes.GUARD_CLICK or mechanism.contacts[subject].has_memory:
+                yield guard, subject, event_name(mechanism, guard, subject)
+    yield codes.GUARD_INPUT, codes.NONE, INPUT

@@ -1,4 +1,4 @@
-"""Repetition of contacts around a body."""
+"""Circular patterns: repetition of contacts around a body."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the outside sees of a mechanism: parameters, inputs and outputs."""
+"""Ports of a mechanism: parameters, inputs and outputs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The little language of `Output.source`."""
+"""Sources of outputs: the little language of `Output.source`."""
 
 from __future__ import annotations
 

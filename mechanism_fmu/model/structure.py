@@ -1,4 +1,4 @@
-"""A linkage with elastic members as a structure: which nodes it has, and what stands at them (`engine.elastic`).
+"""Elastic linkage as a structure: its nodes, and what stands at them (`engine.elastic`).
 
 Only topology and the numbers of the sections: where the nodes are and what loads them is found in motion.
 """

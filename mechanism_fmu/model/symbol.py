@@ -1,4 +1,4 @@
-"""Numbers that remember how they came about: what a parameters-to-tables function is traced with."""
+"""Symbolic numbers that record how they came about: what a parameters-to-tables function is traced with."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import functions
-from .check_numbers import number_findings
+from .checks.check_numbers import number_findings
 from .compile import Array, MechanismTables, compile_mechanism, compile_tables
 from .errors import MechanismError, place_of
 from .findings import Finding

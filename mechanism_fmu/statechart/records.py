@@ -40,7 +40,7 @@ class Region:
         kind: what it is, in a few words.
         states: "open" and "closed" of a contact, and one state of what only counts.
         start: the state at the start; "" when assembly decides it.
-        is_contact: whether the mode of the mechanism (the names of its closed contacts) tells the state.
+        is_contact: whether the mode of the mechanism (the names of its closed contacts) says the state.
     """
 
     part: str

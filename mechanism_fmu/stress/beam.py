@@ -1,4 +1,4 @@
-"""What the modes need to know of a beam, integrals over it, whether it is slender; and what is refused."""
+"""Beam properties that modes need, integrals over a beam, its slenderness; and what is refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a history of stress to damage: rainflow counting, S-N line, mean stress, Miner's sum."""
+"""Fatigue damage of a stress history: rainflow counting, S-N line, mean stress, Miner's sum."""
 
 from __future__ import annotations
 

@@ -93,7 +93,7 @@ class StressPoint(NamedTuple):
 def largest_stress(field: BendingField) -> StressPoint:
     """The largest |sigma_b| over the length of the tooth and over all times after the impact.
 
-    Every local maximum that the grid cannot tell from the largest is located, and the largest of them is taken.
+    Every local maximum that the grid cannot distinguish from the largest is located, and the largest of them is taken.
     """
     cells = max(_CELLS_OF_LENGTH, _CELLS_OF_MODE * len(field.frequencies))
     x = np.linspace(0.0, field.length, cells + 1)

@@ -46,7 +46,7 @@ def legendre_of_powers(degree: int) -> FloatArray:
     return matrix
 
 
-#: Powers of xi tell little with more of them: each further one costs a digit.
+#: Powers of xi add little with more of them: each further one costs a digit.
 _MOST_TERMS = 10
 
 

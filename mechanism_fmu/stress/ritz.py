@@ -65,7 +65,7 @@ def admissible(terms: int, root: End, tip: End) -> FloatArray:
     """`terms` orthonormal polynomials that fulfil the geometric end conditions, of shape (degree + 1, terms).
 
     Columns are coefficients of the normalised Legendre polynomials of `held`; the n-th is of the lowest degree that has
-    room for n of them. Because the columns are orthonormal, so are the polynomials over xi: this basis is as well
+    n of them. Because the columns are orthonormal, so are the polynomials over xi: this basis is as well
     conditioned as can be, where powers of xi end with twelve. Not to be written to: it is remembered.
 
     Source: J. Shen, Efficient spectral-Galerkin method I, SIAM J. Sci. Comput. 15 (1994): neighbouring Legendre

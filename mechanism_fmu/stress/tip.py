@@ -1,4 +1,4 @@
-"""What a blow does at the tip besides bending: axial stress along the tooth, and Hertz pressure at the contact.
+"""Tip effects of a blow besides bending: axial stress along the tooth, and Hertz pressure at the contact.
 
 Rigid-body impacts have impulses, not forces. A force needs the duration of the contact, which nobody knows who has not
 measured it; `shortest_contact` is a very short one and gives a large force. Neither is a bound: an elastic striker may

@@ -1,4 +1,4 @@
-"""How a table is declared: a class with a line for each column, which is also the view of a block's words.
+"""Declaration of tables: a class with a line for each column, which is also the view of a block's words.
 
     class Joints(Table, rows="joints", prefix="joint_"):
         kind = integer()

@@ -1,4 +1,4 @@
-"""What stands where in an instance's block: header, tables, state, work; and how tables are written into one.
+"""Memory layout of an instance's block: header, tables, state, work; and how tables are written into one.
 
 The tables describe the mechanism and change only with its parameters (an input's value is written into `force_data`);
 the state is everything that a saved state must restore, in one piece; work is scratch that no result depends on.

@@ -1,4 +1,4 @@
-"""Elastic members, the structure that they make, and its scratch."""
+"""Tables of elastic members, of the structure that they make, and its scratch."""
 
 from __future__ import annotations
 

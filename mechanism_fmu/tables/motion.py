@@ -1,4 +1,4 @@
-"""How far the motion has come, the instant that is looked at, and scratch."""
+"""Tables of the motion: time reached, state, the instant that is looked at, and scratch."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The mechanism: its parts, their present state, its ports and settings."""
+"""Tables of the mechanism: its parts, their present state, its ports and settings."""
 
 from __future__ import annotations
 

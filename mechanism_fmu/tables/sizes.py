@@ -1,4 +1,4 @@
-"""How many of each there are, and where the parts of y begin: the first words of a block."""
+"""Sizes of all tables, and where the parts of y begin: the first words of a block."""
 
 from __future__ import annotations
 

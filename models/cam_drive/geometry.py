@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Curve
+from mechanism_fmu.model.curves.motions import Move, dwell
+from mechanism_fmu.model.curves.profiles import motion_profile
 from mechanism_fmu.model.four_bar import angle_between
 from mechanism_fmu.model.functions import Number, atan2, cos, sin, where_positive
-from mechanism_fmu.model.motions import Move, dwell
-from mechanism_fmu.model.profiles import motion_profile
 
 
 def profile(values: SimpleNamespace) -> Curve:

@@ -23,10 +23,10 @@ from mechanism_fmu.model import (
     TorsionSpring,
 )
 from mechanism_fmu.model.body import rotor_body
+from mechanism_fmu.model.curves.profiles import circle
 from mechanism_fmu.model.findings import at_most, first
 from mechanism_fmu.model.four_bar import angle_between
 from mechanism_fmu.model.functions import Number, atan2, cos, sin, sqrt, where_positive
-from mechanism_fmu.model.profiles import circle
 
 from .geometry import Point, follower_angle, move_at, profile, roller_direction, start_angle, timing
 from .ports import INPUTS, OUTPUTS, PARAMETERS, SHAPES, calculated

@@ -154,7 +154,7 @@ PARAMETERS = (
     flag_parameter(
         "unilateral",
         False,
-        "Whether the roller can leave the cam; if not, it is guided and only a warning tells that it would",
+        "Whether the roller can leave the cam; if not, it is guided and only a warning says that it would",
     ),
     fraction_parameter("restitution", 0.0, "Coefficient of restitution of the roller on the cam (unilateral)"),
     joint_friction_parameter(),

@@ -1,4 +1,4 @@
-"""Where the ratchet stands at the start, and what is wrong, or odd, with parameter values."""
+"""Start position of the ratchet, and what is wrong, or odd, with parameter values."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ import pytest
 
 from mechanism_fmu.kinematics import cam_report
 from mechanism_fmu.model import Settings
-from mechanism_fmu.model.profiles import circle
+from mechanism_fmu.model.curves.profiles import circle
 from mechanism_fmu.simulation import Simulation
 from tests.slide_cam import CAM_INERTIA, EGG, FOLLOWER_MASS, SLIDE_CAM, TORQUE, WEIGHT, cam_mechanism
 

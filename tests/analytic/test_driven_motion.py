@@ -23,7 +23,7 @@ from mechanism_fmu.model import (
     XDriver,
     YDriver,
 )
-from mechanism_fmu.model.motions import harmonic_motion
+from mechanism_fmu.model.curves.motions import harmonic_motion
 from mechanism_fmu.simulation import Simulation
 
 ORIGIN, ALONG_X = (0.0, 0.0), (1.0, 0.0)

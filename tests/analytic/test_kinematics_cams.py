@@ -7,8 +7,8 @@ import pytest
 
 from mechanism_fmu.kinematics import cam_report
 from mechanism_fmu.model import GROUND, Body, CamFollower, Mechanism, Revolute
-from mechanism_fmu.model.motions import Move, modified_sine, polynomial_345
-from mechanism_fmu.model.profiles import circle, motion_profile
+from mechanism_fmu.model.curves.motions import Move, modified_sine, polynomial_345
+from mechanism_fmu.model.curves.profiles import circle, motion_profile
 from tests.slide_cam import EGG, SLIDE_CAM, cam_mechanism
 
 STEPS = 72

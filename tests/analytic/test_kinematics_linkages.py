@@ -12,7 +12,7 @@ from benchmarks.slider_crank import SliderCrank
 from mechanism_fmu.kinematics import analyse
 from mechanism_fmu.kinematics.equations import Equations
 from mechanism_fmu.model import GROUND, AngleDriver, Body, Distance, Gears, Mechanism, PointLineContact, Revolute
-from mechanism_fmu.model.motions import harmonic_motion, polynomial_motion, table_motion
+from mechanism_fmu.model.curves.motions import harmonic_motion, polynomial_motion, table_motion
 from models.four_bar.model import MODEL as FOUR_BAR
 from models.slider_crank.model import MODEL as SLIDER_CRANK
 

@@ -15,4 +15,4 @@ def test_examples_print_what_the_page_says():
         with contextlib.redirect_stdout(printed):
             exec(compile(program, PAGE.name, "exec"), names)
         assert printed.getvalue() == expected
-    assert "start" in names
+    assert "torque" in names

@@ -27,7 +27,7 @@ def test_events_beyond_the_buffer_are_counted_and_not_told(instance):
 
     told = [message.text for message in said(one, "logEvents") if "vent" in message.text]
     assert len(told) == 17
-    assert "events of the step to t = 3 s are not told one by one; the last 16 follow." in told[0]
+    assert "events of the step to t = 3 s are not listed one by one; the last 16 follow." in told[0]
     assert int(told[0].split()[0]) + 16 == one["event_count"]
     assert one["events_in_step"] == 16
 

@@ -1,8 +1,6 @@
 """Many designs in one call: the bits of the FMU, design by design."""
 
 import math
-import threading
-import zlib
 from itertools import pairwise
 from pathlib import Path
 
@@ -10,8 +8,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from mechanism_fmu.batch import Batch, NoBatchError
-from mechanism_fmu.fmu.disk.archive import read_entries, write_archive
+from mechanism_fmu.batch import Batch
 from mechanism_fmu.model import MechanismError
 from tests.analytic.cycle import DRIVES, PERIOD
 from tests.fmu.conformance.host import Fmu, Instance
@@ -264,62 +261,6 @@ def test_what_cannot_be_asked_is_refused(ratchets, designs, how, message):
         ratchets.run(designs, **{"times": [0.0, 1.0]} | how)
 
 
-def test_an_fmu_without_python_has_no_fast_path(native_ratchet_fmu):
-    with pytest.raises(NoBatchError, match="holds no Python model"):
-        Batch.of_fmu(native_ratchet_fmu)
-
-
-def test_what_is_no_fmu_has_no_fast_path(tmp_path):
-    (tmp_path / "x.fmu").write_text("x")
-    for name in ("x.fmu", "y.fmu"):
-        with pytest.raises(NoBatchError, match="cannot be read as an FMU"):
-            Batch.of_fmu(tmp_path / name)
-
-
-def test_an_fmu_of_another_engine_has_no_fast_path(ratchet_fmu, tmp_path):
-    entries = read_entries(ratchet_fmu)
-    name = next(name for name in entries if name.endswith("/engine/stepping/step.py"))
-    write_archive(entries | {name: entries[name] + b"\n"}, tmp_path / "Ratchet.fmu")
-    with pytest.raises(NoBatchError, match=r"another state of mechanism_fmu \(engine/stepping/step.py"):
-        Batch.of_fmu(tmp_path / "Ratchet.fmu")
-
-
-def rewritten(ratchet_fmu: Path, folder: Path, name: str, old: bytes, new: bytes) -> Path:
-    """A ratchet with a change in a file of its model."""
-    entries = read_entries(ratchet_fmu)
-    package = next(name for name in entries if name.endswith("/models/ratchet/ports.py")).split("/")[1]
-    other = f"mechanism_fmu_{zlib.crc32(new):012x}"
-    changed = {
-        name.replace(package, other): data.replace(package.encode(), other.encode()) for name, data in entries.items()
-    }
-    name = f"resources/{other}/models/ratchet/{name}"
-    assert old in changed[name]
-    changed[name] = changed[name].replace(old, new)
-    write_archive(changed, folder / "Ratchet.fmu")
-    return folder / "Ratchet.fmu"
-
-
-def test_the_model_is_the_one_in_the_fmu(ratchet_fmu, ratchets, tmp_path):
-    """Not the one of the same name that lies here."""
-    other = Batch.of_fmu(rewritten(ratchet_fmu, tmp_path, "ports.py", b"5.6264", b"9.0"))
-    found = other.run({"friction": [0.0]}, [0.0, 1.0], ["impact_time"])
-    assert found.compiled == "ahead of time"
-    heavier = ratchets.run({"wheel_mass": [9.0]}, [0.0, 1.0], ["impact_time"])
-    assert found.values["impact_time"].tolist() == heavier.values["impact_time"].tolist()
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        (b"MODEL = Model(", b"import no_such_package\nMODEL = Model(", "cannot be imported here: No module named"),
-        (b"    mechanism=mechanism,", b"    mechanism=lambda v: mechanism(v) if v.guided > 0 else None,", "traced"),
-    ],
-)
-def test_a_model_that_cannot_be_used_is_told(ratchet_fmu, tmp_path, old, new, message):
-    with pytest.raises(NoBatchError, match=message):
-        Batch.of_fmu(rewritten(ratchet_fmu, tmp_path, "model.py", old, new))
-
-
 def test_warnings_are_those_of_the_fmu(ratchet, ratchets):
     designs = {
         "pawl_angle_start": [0.0, 3.0, 3.0, 0.0],
@@ -334,35 +275,3 @@ def test_warnings_are_those_of_the_fmu(ratchet, ratchets):
         with Instance(ratchet) as one:
             one.begin(start_values(ratchet, designs, k)).step(1.0)
             assert found.warnings[k] == "\n".join(m.text for m in one.log if m.category == "logStatusWarning")
-
-
-@pytest.mark.parametrize("threads", [1, 2])
-def test_designs_run_in_the_compiled_library_and_nowhere_else(cams, monkeypatch, threads):
-    """One call of it in each thread takes them all; that the numbers are right would not show who made them."""
-    library = cams._engine
-    assert library is not None
-    calls = []
-
-    class Counted:
-        def __getattr__(self, name):
-            return getattr(library, name)
-
-        def engine_many(self, job, block):
-            calls.append(name_of_thread())
-            return library.engine_many(job, block)
-
-    def never(*_):
-        raise AssertionError("a design ran outside the library")
-
-    monkeypatch.setitem(vars(cams), "_engine", Counted())
-    monkeypatch.setattr("mechanism_fmu.batch.workers._one_by_one", never)
-    monkeypatch.setattr("mechanism_fmu.batch.workers.OneByOne.run", never)
-    found = cams.run({"cam_speed_start": np.linspace(40.0, 50.0, 6)}, [0.0, 0.01], threads=threads)
-    assert found.failures == ("",) * 6
-    assert found.compiled == "ahead of time"
-    assert len(calls) == threads
-    assert "MainThread" not in calls
-
-
-def name_of_thread():
-    return threading.current_thread().name

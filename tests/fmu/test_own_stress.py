@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 import models
 from harness.app.cli import main
 from mechanism_fmu.fmu.own.find import write_new
-from mechanism_fmu.stress import STEEL, STEEL_CARD, RectangularTooth, maximum_stress, sequence_damage
+from mechanism_fmu.stress import STEEL, STEEL_CARD, RectangularTooth, TableBeam, maximum_stress, sequence_damage
 
 FLAVOURS = {"pythonfmu": (), "native": ("--flavour", "native"), "native3": ("--flavour", "native", "--fmi", "3")}
 
@@ -74,6 +74,35 @@ def test_a_lever_with_a_beam_on_its_contact_has_stress_and_damage(lever: Path, f
     assert "<h2>Bending stress in the lever</h2>" in report
     assert "uniform bar of length 200 mm and height 10 mm" in report
     assert "tooth" not in re.sub(r"<script.*?</script>|tooth_length|Versions.*", "", report, flags=re.DOTALL)
+
+
+#: The lever, 20 mm wide, its height falling from root to tip.
+PLACES, HEIGHTS = (0.0, 0.06, 0.12, 0.2), (0.012, 0.009, 0.007, 0.006)
+SECTIONS = (
+    tuple(0.02 * h for h in HEIGHTS),
+    tuple(0.02 * h**3 / 12 for h in HEIGHTS),
+    tuple(h / 2 for h in HEIGHTS),
+)
+
+
+def test_a_lever_of_any_section_has_stress_by_its_table(lever: Path) -> None:
+    folder = lever.parent / "tapered"
+    folder.mkdir()
+    given = f"TableBeam({(*PLACES[:-1], 'length')!r}, *{SECTIONS!r}, thickness=0.02)"
+    text = lever.read_text(encoding="utf-8").replace('RectangularTooth("length", 0.01)', given)
+    (folder / "lever.py").write_text(text.replace("RectangularTooth", "TableBeam"), encoding="utf-8")
+    command("build", str(folder / "lever.py"), "-o", str(folder))
+    command("run", str(folder / "lever.fmu"), "--stop-time", "0.5", "-o", str(folder / "result"))
+    impacts = pd.read_csv(folder / "result" / "impacts.csv")
+    beam = TableBeam(PLACES, *SECTIONS)
+    expected = [maximum_stress(beam, STEEL, velocity).stress for velocity in impacts["velocity"]]
+    assert len(impacts) >= 2
+    assert list(impacts["stress_max"]) == pytest.approx(expected, rel=1e-12)
+    summary = json.loads((folder / "result" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["tooth"]["places"] == list(PLACES)
+    damage = sequence_damage(beam, STEEL, STEEL_CARD.strength, impacts["time"], impacts["velocity"])
+    assert summary["fatigue"]["stress"] == pytest.approx(damage.stress, rel=1e-12)
+    assert "beam of length 200 mm" in (folder / "result" / "report.html").read_text(encoding="utf-8")
 
 
 def test_without_a_beam_the_report_says_how_to_have_one(tmp_path: Path) -> None:

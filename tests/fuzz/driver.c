@@ -100,7 +100,7 @@ static void part(void) {
     x->parameters = apart(x->parameters, model.parameters * sizeof(double));
     x->written = apart(x->written, model.parameters * sizeof(double));
     x->findings = apart(x->findings, (model.numbers + 2 * model.inputs) * sizeof(double));
-    x->told_pull = apart(x->told_pull, SIZE(x, contacts));
+    x->logged_pull = apart(x->logged_pull, SIZE(x, contacts));
 }
 
 static void begin(int well);
@@ -125,7 +125,7 @@ static void free_slot(int k) {
 
 static void unmake(void) {
     for (int k = 0; k < SLOTS; k++) free_slot(k);
-    free(x->parameters), free(x->written), free(x->findings), free(x->told_pull);
+    free(x->parameters), free(x->written), free(x->findings), free(x->logged_pull);
     calls++;
     if (fmi == 2) fmi2FreeInstance(x);
     else fmi3FreeInstance(x);

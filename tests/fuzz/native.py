@@ -23,7 +23,7 @@ import fmpy
 
 import mechanism_fmu.fmu.native as native
 import models
-from mechanism_fmu.fmu.native.description3 import tells_impacts
+from mechanism_fmu.fmu.native.description3 import reports_impacts
 from mechanism_fmu.fmu.native.formulas import formulas
 from mechanism_fmu.fmu.native.model_data import model_source
 from mechanism_fmu.fmu.native.objects import compiled_engine
@@ -55,7 +55,7 @@ def can_run() -> bool:
 
 def has_clock(name: str) -> bool:
     """Whether a model has impacts, and so a form with a clock."""
-    return tells_impacts(variables_of(models.load(name).MODEL))
+    return reports_impacts(variables_of(models.load(name).MODEL))
 
 
 def driver(name: str, folder: Path, clocks: bool = False) -> Path:

@@ -10,13 +10,14 @@ from hypothesis import given, strategies as st
 
 from harness.analysis.impacts import ImpactCollector
 from harness.errors import UsageError
-from harness.fmu.description import Description, read_description
-from harness.fmu.values import shown, start_values
+from harness.fmu.description import Description
+from harness.fmu.description_file import read_description
+from harness.fmu.values import shown
 from harness.machine.connection import Connection
 from harness.machine.file.machine_plan import ComponentPlan, Plan, Policy, Source
 from harness.machine.formats.ssp_export import write_ssp
 from harness.machine.formats.ssp_import import import_ssp
-from harness.run.experiment import default_times
+from harness.run.experiment import default_times, start_values
 from harness.run.logic import EventCollector, default_parameters
 from harness.run.master import TimeGrid, recorded_variables
 from harness.run.validate import conformance_grid

@@ -10,7 +10,7 @@ from hypothesis import given, strategies as st
 
 from harness.errors import UsageError
 from harness.fmu import open_fmu
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from mechanism_fmu.fmu.disk.archive import read_entries
 from tests.fuzz.input_bytes import CORPUS, damaged, fuzzed, read_or_refused
 from tests.harness.damaged import DAMAGES, DESCRIPTION, sound

@@ -29,7 +29,7 @@ _PATIENCE = 120.0
 
 
 class Browser:
-    """A chromium that answers commands and tells events.
+    """A chromium that answers commands and reports events.
 
     Args:
         commands, answers: file descriptors of its pipe.
@@ -90,15 +90,15 @@ class Page:
         """Keep errors and requests."""
         if event.get("sessionId") != self.session:
             return
-        method, told = event["method"], event["params"]
+        method, event_data = event["method"], event["params"]
         if method == "Network.requestWillBeSent":
-            self.requests.append(told["request"]["url"])
+            self.requests.append(event_data["request"]["url"])
         elif method == "Runtime.exceptionThrown":
-            self.errors.append(json.dumps(told["exceptionDetails"]))
-        elif (method == "Runtime.consoleAPICalled" and told["type"] in ("error", "assert")) or (
-            method == "Log.entryAdded" and told["entry"]["level"] == "error"
+            self.errors.append(json.dumps(event_data["exceptionDetails"]))
+        elif (method == "Runtime.consoleAPICalled" and event_data["type"] in ("error", "assert")) or (
+            method == "Log.entryAdded" and event_data["entry"]["level"] == "error"
         ):
-            self.errors.append(json.dumps(told))
+            self.errors.append(json.dumps(event_data))
 
     def call(self, method: str, **parameters: Any) -> dict[str, Any]:
         """A command to this page."""

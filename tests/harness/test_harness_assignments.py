@@ -5,7 +5,7 @@ from fake_slave import fake_description
 from hypothesis import given, strategies as st
 
 from harness.errors import UsageError
-from harness.fmu.values import start_values
+from harness.run.experiment import start_values
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 from harness.analysis.stress import DAMAGE_UNITS, HEADINGS, card_of, damage_of_impacts, damage_row, stress_history
 from harness.app.cli import main
-from harness.app.commands.one_run import show_ending
+from harness.app.commands.run_summary import show_ending
 from harness.errors import UsageError
 from harness.fmu import open_fmu
 from harness.fmu.description import Variable

@@ -9,7 +9,7 @@ from typer.testing import CliRunner, Result
 from harness.app.cli import main
 from harness.errors import UsageError
 from harness.fmu import open_fmu
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 
 
 def invoked(*arguments: str | Path) -> Result:

@@ -13,12 +13,14 @@ from fake_slave import FakeFmu, FakeSlave
 
 import models
 from harness.analysis.analyses import Damage, Seen, Stress, Yielding, analysed, analyses_of
+from harness.analysis.stress import beam_of
+from harness.errors import FmuError
 from harness.fmu.declared import FILE, NOTHING, Declared, read_declared
 from harness.report.run_report import run_report
 from harness.run.experiment import Experiment, perform
 from mechanism_fmu.fmu.parts.resources import analysis
 from mechanism_fmu.fmu.parts.variables import variables_of
-from mechanism_fmu.stress import STEEL_CARD
+from mechanism_fmu.stress import STEEL_CARD, TableBeam
 from tests.declared import RATCHET, STRUCK
 
 MODEL = models.load("ratchet").MODEL
@@ -48,6 +50,27 @@ def test_the_ratchet_s_is_read_whole(tmp_path: Path) -> None:
     assert (found.chain.contact, len(found.chain.outputs), len(found.chain.variables)) == (1, 8, 13)
 
 
+TABLE: dict[str, Any] = {
+    "kind": "TableBeam",
+    "places": [0.0, "tooth_length"],
+    "areas": [2e-4, 1e-4],
+    "second_moments": [2e-9, 1e-9],
+    "outer_fibres": [5e-3, "tooth_apex_angle"],
+}
+
+
+def test_a_beam_may_be_a_table_of_numbers_and_variables(tmp_path: Path) -> None:
+    data = copy.deepcopy(DATA)
+    data["analyses"][0]["beam"] = TABLE
+    struck = read(tmp_path, json.dumps(data)).struck
+    assert struck is not None
+    assert struck.variables == ("tooth_length", "tooth_apex_angle")
+    beam = beam_of(struck, {"tooth_length": 0.03, "tooth_apex_angle": 2e-3})
+    assert beam == TableBeam((0.0, 0.03), (2e-4, 1e-4), (2e-9, 1e-9), (5e-3, 2e-3))
+    with pytest.raises(FmuError, match=r"tooth_length and tooth_apex_angle describe no tooth: .* must ascend"):
+        beam_of(struck, {"tooth_length": -0.03, "tooth_apex_angle": 2e-3})
+
+
 WRONG: dict[str, tuple[Callable[[Any], object], str]] = {
     "format": (lambda data: data.update(format=2), "its format is 2, and this harness knows format 1"),
     "no list": (lambda data: data.update(analyses={}), "no list of analyses"),
@@ -56,6 +79,10 @@ WRONG: dict[str, tuple[Callable[[Any], object], str]] = {
     "no beam": (lambda data: data["analyses"][0].update(beam=3), "kind of ImpactStress is None, and no text"),
     "variable": (lambda data: data["analyses"][0]["beam"].update(length="x"), "variable 'x', which the FMU has not"),
     "number": (lambda data: data["analyses"][0]["beam"].update(length=True), "length of ImpactStress is True, neither"),
+    "no table": (lambda data: data["analyses"][0].update(beam=TABLE | {"areas": 3.0}), "is 3.0, and no list"),
+    "table": (lambda data: data["analyses"][0].update(beam=TABLE | {"places": [0, "x"]}), "'x', which the FMU has not"),
+    "column": (lambda data: data["analyses"][0].update(beam=TABLE | {"areas": [0, []]}), "areas of ImpactStress is []"),
+    "no column": (lambda data: data["analyses"][0].update(beam={"kind": "TableBeam"}), "is None, and no list"),
     "word": (lambda data: data["analyses"][0].update(name=""), "name of ImpactStress is '', and no text"),
     "contact": (lambda data: data["analyses"][1].update(contact="face"), "contact of SeriesCompliance is 'face'"),
     "output": (lambda data: data["analyses"][1]["wheel"].update(index="y"), "the variable 'y', which the FMU has not"),

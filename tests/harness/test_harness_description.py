@@ -6,7 +6,8 @@ import pytest
 from damaged import DESCRIPTION, sound
 
 from harness.errors import UsageError
-from harness.fmu.description import Description, read_description
+from harness.fmu.description import Description
+from harness.fmu.description_file import read_description
 from harness.run.validate import conformance_grid
 
 #: By name, the attribute of CoSimulation that says so in FMI 2.0, with what it says.

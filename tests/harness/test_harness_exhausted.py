@@ -22,8 +22,8 @@ FULL = {
     "memory for an array": (MemoryError("Unable to allocate 8 GiB"), "The memory is full."),
     "memory for a process": (OSError(errno.ENOMEM, "Cannot allocate memory"), "The memory is full: "),
     "memory for a library": (ImportError("libx.so: failed to map segment from shared object"), "The memory is full: "),
-    "disk": (OSError(errno.ENOSPC, "No space left on device"), "There is no room for what is printed or written: "),
-    "share of a disk": (OSError(errno.EDQUOT, "Disk quota exceeded"), "There is no room for what is printed"),
+    "disk": (OSError(errno.ENOSPC, "No space left on device"), "There is no space for what is printed or written: "),
+    "share of a disk": (OSError(errno.EDQUOT, "Disk quota exceeded"), "There is no space for what is printed"),
 }
 
 
@@ -68,7 +68,7 @@ def test_a_console_that_takes_nothing_more(tmp_path: Path) -> None:
     with open("/dev/full", "w") as full:
         ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert ended.returncode == 1
-    assert "Error: There is no room for what is printed or written" in ended.stderr
+    assert "Error: There is no space for what is printed or written" in ended.stderr
     assert "Traceback" not in ended.stderr
 
 
@@ -78,7 +78,10 @@ def test_no_room_to_unpack_an_fmu_is_no_damage_of_it(tmp_path: Path, monkeypatch
 
     fmu = sound(tmp_path / "Sound.fmu")
     monkeypatch.setattr(fmpy, "extract", full)
-    with pytest.raises(UsageError, match=r"No space left on device\. Make room there, or set .* TMPDIR"), open_fmu(fmu):
+    with (
+        pytest.raises(UsageError, match=r"space left on device\. Make space there, or set .* TMPDIR"),
+        open_fmu(fmu),
+    ):
         pass
 
 

@@ -13,13 +13,14 @@ from typer.testing import CliRunner
 from harness.app.cli import main
 from harness.errors import FmuError, UsageError
 from harness.fmu import Fmu, open_fmu
-from harness.fmu.description import Value, read_description
+from harness.fmu.description import Value
+from harness.fmu.description_file import read_description
 from harness.fmu.remote import in_own_process
-from harness.fmu.values import start_values
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine
 from harness.machine.running import run_machine
 from harness.machine.stepping import Jacobi
+from harness.run.experiment import start_values
 from harness.run.master import TimeGrid
 from harness.run.validate import validate
 from tests.harness.machine.foreign import in_c

@@ -38,10 +38,10 @@ def seen(fmu: FakeFmu, task: Task = TASK, design: Design | None = DESIGN) -> InM
     return in_motion(fmu, task, design, "the best")  # type: ignore[arg-type]
 
 
-def told(fmu: FakeFmu, design: Design | None = DESIGN) -> str:
+def caption(fmu: FakeFmu, design: Design | None = DESIGN) -> str:
     found = seen(fmu, TASK, design)
     assert found is not None
-    return found.told
+    return found.caption
 
 
 def test_a_design_is_run_as_it_was_but_in_shorter_steps(tmp_path: Path) -> None:
@@ -73,13 +73,13 @@ def test_an_fmu_without_a_drawing_is_not_run() -> None:
 
 def test_a_drawing_that_cannot_be_used_is_told(tmp_path: Path) -> None:
     slave = FakeSlave()
-    assert "cannot be shown: it is no JSON" in told(fmu_of(slave, tmp_path, "{"))
+    assert "cannot be shown: it is no JSON" in caption(fmu_of(slave, tmp_path, "{"))
     assert slave.log == []
 
 
 def test_without_a_good_design_there_is_nothing_to_see(tmp_path: Path) -> None:
     slave = FakeSlave()
-    assert told(fmu_of(slave, tmp_path), None) == "No design ran to its end, so there is none to be seen in motion."
+    assert caption(fmu_of(slave, tmp_path), None) == "No design ran to its end, so there is none to be seen in motion."
     assert slave.log == []
 
 
@@ -95,7 +95,7 @@ def test_a_run_that_takes_too_long_can_be_stopped_and_is_shown_up_to_there(tmp_p
     fmu = fmu_of(FakeSlave(), tmp_path)
     found = in_motion(fmu, TASK, DESIGN, "the best", stop_requested=lambda: next(asked))  # type: ignore[arg-type]
     assert found is not None
-    assert "in steps of 0.005 s, and stopped at 0.15 s." in found.told
+    assert "in steps of 0.005 s, and stopped at 0.15 s." in found.caption
     assert 'class="play"' in animation_of_design(found)
 
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,11 +15,13 @@ from typer.testing import CliRunner
 
 import build_fmu
 from harness.app.cli import main
+from harness.errors import UsageError
 from harness.fmu import open_fmu
 from harness.papers.ked.files import Result, agreement, write_result
-from harness.papers.ked.ked_report import write_ked_report
+from harness.papers.ked.ked_report import ked_report, write_ked_report
+from harness.papers.ked.options import asked
 from harness.papers.ked.solve import prepared, solved, swept
-from harness.papers.ked.tables import cycle_rows, narrow_columns
+from harness.papers.ked.tables import cycle_rows, feedback_sentence, narrow_columns
 
 INCH, POUND_FORCE = 0.0254, 0.45359237 * 9.80665
 SPEED = 500 * math.pi / 30
@@ -136,6 +139,61 @@ def test_rows_for_people_are_in_millimetres_and_megapascals(solution):
     narrow = shown.without(narrow_columns(solution))
     kept = ["phi [deg]", "dev qs [mm]", "dev ed [mm]", "crank_bar [MPa]", "torque [N.m]"]
     assert narrow.headings == [*kept, "shake F [N]", "shake M [N.m]"]
+
+
+def test_speeds_that_are_asked_for_are_a_file_and_peak_at_a_critical_speed(result, turned, tmp_path):
+    """Harmonic 8 of the crank meets the first mode at 590 rpm: (K7) of docs/elastodynamics-dynamics.md."""
+    speeds = asked(speeds=("530 rpm", "650 rpm", 25)).speeds
+    assert speeds[0] * 30 / math.pi == pytest.approx(530)
+    done = []
+    sweep = swept(turned, SPEED, lambda text, part: done.append((text, part)), speeds)
+    assert done[-1] == ("Speed 25 of 25", 1.0)
+    files = write_result(replace(result, sweep=sweep, speeds_asked=True), tmp_path)
+    table = pd.read_csv(files[2])
+    assert files[2].name == "speeds.csv"
+    np.testing.assert_allclose(table["crank_speed [rad/s]"], speeds, rtol=1e-12)
+    magnification = table["elastodynamic_deviation [m]"] / table["quasi_static_deviation [m]"]
+    critical = result.solution.critical[0, 7]
+    assert critical * 30 / math.pi == pytest.approx(590, abs=0.5)
+    assert table["crank_speed [rad/s]"][magnification.argmax()] == pytest.approx(critical, rel=0.03)
+
+
+def test_the_report_marks_the_critical_speeds_within_the_sweep(result):
+    found = result.solution
+    shown = ked_report(result)
+    assert "critical, mode 1" in shown
+    assert "critical, mode 3" not in shown  # its eighth harmonic is at 12,762 rpm
+    assert found.critical[2, 7] > result.sweep.speed[-1]
+
+
+@pytest.mark.parametrize(
+    ("speeds", "said"),
+    [
+        (("0", "800 rpm", 3), "a positive speed, a larger one"),
+        (("800 rpm", "200 rpm", 3), "a positive speed, a larger one"),
+        (("200 rpm", "nan", 3), "nan"),
+        (("200 rpm", "8 m", 3), "8 m"),
+        (("200 rpm", "800 rpm", 1), "1 of them cannot be; give 2 to 1000"),
+        (("200 rpm", "800 rpm", 1001), "1001 of them cannot be"),
+    ],
+)
+def test_speeds_that_cannot_be_are_refused(speeds, said):
+    with pytest.raises(UsageError, match=said):
+        asked(speeds=speeds)
+
+
+def test_disturbances_die_out_as_fast_as_another_integrator_has_it(solution):
+    # 0.304634: an integrator of another kind, in tests/unit/elastodynamics/test_stability.py
+    assert solution.growth == pytest.approx(0.304634, rel=1e-5)
+
+
+def test_the_papers_feedback_settles_at_low_speed_and_stalls_at_500_rpm(mechanism, solution):
+    assert not solution.feedback.converged
+    assert "settles to 0.064 of the quasi-static deviation after 3 rounds and no further" in feedback_sentence(solution)
+    slow = solved(prepared(mechanism, SPEED / 10, 0.02, 36), SPEED / 10, 0.02, 36)
+    assert slow.feedback.converged
+    assert slow.feedback.largest_deviation == pytest.approx(slow.dynamic.largest_deviation, rel=1e-4)
+    assert re.search(r"settles in \d rounds, with", feedback_sentence(slow))
 
 
 @pytest.mark.parametrize("change", [{"mass": 2.0}, {"inertia": 0.1}])

@@ -188,13 +188,15 @@ def test_limits_alone_are_verdicts(plain):
 
 
 def test_verdicts_of_a_turn_change_at_their_limits(plain):
-    """The limits themselves are kept: 1e-9 of the power, 1e-8 of the force on the frame and of the motion."""
-    rigid = replace(plain.rigid, power_gap=1e-9, shaking_gap=1e-8)
-    assert [check.passed for check in solution_checks(replace(plain, rigid=rigid, residual=1e-8, jump=0.0))] == [
-        True
-    ] * 3
-    rigid = replace(plain.rigid, power_gap=1.01e-9, shaking_gap=1.01e-8)
-    assert not any(check.passed for check in solution_checks(replace(plain, rigid=rigid, residual=1.01e-8, jump=0.0)))
+    """The limits: 1e-9 of the power, 1e-8 of the force on the frame and of the motion, 1e-6 of what may grow."""
+
+    def passed(**numbers: float) -> list[bool]:
+        rigid = replace(plain.rigid, power_gap=0.1 * numbers["force"], shaking_gap=numbers["force"])
+        found = replace(plain, rigid=rigid, residual=numbers["force"], jump=0.0, growth=numbers["growth"])
+        return [check.passed for check in solution_checks(found)]
+
+    assert passed(force=1e-8, growth=1 + 0.99e-6) == [True] * 4
+    assert passed(force=1.01e-8, growth=1 + 1.01e-6) == [False] * 4
     assert solution_checks(replace(plain, residual=1e-3, jump=1e-3))[2].passed
 
 

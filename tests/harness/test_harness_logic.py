@@ -177,7 +177,7 @@ def test_the_report_shows_the_chart_with_counts_and_the_events(tmp_path: Path) -
     )
     html = modes_section(run)
     assert html.count("×1") == 2
-    assert "16 events that the FMU could not tell" in html
+    assert "16 events that the FMU could not report" in html
     table = events_section(run)
     assert "<td>slope+face</td>" in table
     assert "16 more did not fit" in table
@@ -187,6 +187,6 @@ def test_the_report_shows_the_chart_with_counts_and_the_events(tmp_path: Path) -
 
 def test_an_fmu_that_tells_nothing_has_no_file_and_no_section(tmp_path: Path) -> None:
     run = perform(FakeFmu(FakeSlave()), Experiment(1.0, 0.1))  # type: ignore[arg-type]
-    assert not EventCollector(run.description).tells
+    assert not EventCollector(run.description).reports
     assert (modes_section(run), events_section(run)) == ("", "")
     assert "events.csv" not in {path.name for path in write_run(run, tmp_path)}

@@ -16,7 +16,7 @@ from harness.app.commands import machine_performed
 from harness.app.commands.machine_run import summary
 from harness.errors import FmuError
 from harness.fmu import Fmu
-from harness.fmu.instances.common import MessageHandler
+from harness.fmu.instances.message_log import MessageHandler
 from harness.machine import running
 from harness.machine.connection import Connection
 from harness.machine.file.machine_plan import BondPlan, ComponentPlan, Plan, Policy, Recording, Scheme, Source

@@ -13,7 +13,8 @@ from cheap_designs import VALLEY, Place, axis
 from fake_slave import FakeFmu, FakeSlave
 
 from harness.designs.optimum_file import CONTINUOUS, MIXED, Around, Constraint, Goal, Optimum
-from harness.designs.search import Best, History, InterruptedSearchError, NoIndicesError, search, sensitivity
+from harness.designs.search import Best, History, InterruptedSearchError, search
+from harness.designs.sensitivity import NoIndicesError, sensitivity
 from harness.designs.store import Store, identity
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.designs.variation import Axis

@@ -7,7 +7,7 @@ import pytest
 
 from harness.errors import FmuError
 from harness.fmu import open_fmu
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from harness.run.validate import ReferenceResults, farthest, read_reference, validate
 from mechanism_fmu.fmu.disk.archive import read_entries, write_archive
 

@@ -10,7 +10,8 @@ from fake_slave import FakeFmu, FakeSlave, fake_description
 
 from harness.designs.by_fmu import InMotion
 from harness.designs.optimum_file import Constraint, Goal, Optimum
-from harness.designs.search import Best, History, Sensitivity
+from harness.designs.search import Best, History
+from harness.designs.sensitivity import Sensitivity
 from harness.designs.task import Design, Quantity, Result, Task, When
 from harness.report.optimum_report import Found, optimum_report
 from harness.report.sweep_report import sweep_report

@@ -48,7 +48,7 @@ def ending(folder: Path) -> tuple[str, float]:
 def test_a_well_behaved_run(run: Run, tmp_path: Path) -> None:
     code, out, err = run(tmp_path, 0)
     assert (code, err) == (0, "")
-    assert "The FMU does not tell of impacts." in out
+    assert "The FMU reports no impacts." in out
     assert ending(tmp_path) == ("completed", 1.0)
 
 

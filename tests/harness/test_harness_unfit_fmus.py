@@ -9,7 +9,7 @@ import pytest
 
 from harness.errors import FmuError, UsageError
 from harness.fmu import open_fmu
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from tests.harness.machine.foreign import in_c
 from tests.once import once
 

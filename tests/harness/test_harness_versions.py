@@ -8,11 +8,11 @@ from mechanism_fmu import __version__
 
 
 def test_a_result_says_what_made_it() -> None:
-    told = versions(Path("build/Fake.fmu"), fake_description())
-    assert (told["FMU"], told["GUID of the FMU"]) == ("Fake.fmu", "{guid}")
-    assert told["mechanism_fmu"] == __version__
-    assert {"numpy", "scipy", "pandas", "fmpy", "plotly", "pillow", "pyarrow", "rainflow", "optuna"} <= set(told)
-    assert all(told.values())
+    found = versions(Path("build/Fake.fmu"), fake_description())
+    assert (found["FMU"], found["GUID of the FMU"]) == ("Fake.fmu", "{guid}")
+    assert found["mechanism_fmu"] == __version__
+    assert {"numpy", "scipy", "pandas", "fmpy", "plotly", "pillow", "pyarrow", "rainflow", "optuna"} <= set(found)
+    assert all(found.values())
 
 
 def test_a_table_has_values_in_display_units() -> None:

@@ -121,7 +121,7 @@ def _references(ssp: Path, signals: Sequence[str]) -> list[tuple[str, int]]:
     """Value references by the names of signals."""
     from xml.etree import ElementTree
 
-    from harness.fmu.description import read_description
+    from harness.fmu.description_file import read_description
     from harness.machine.formats.ssp_xml import tag
 
     place = ssp.with_suffix(".files")

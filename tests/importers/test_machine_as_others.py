@@ -16,7 +16,7 @@ import build_fmu
 from harness.app.commands.machine_exchange import baked_machine
 from harness.errors import UsageError
 from harness.fmu import Fmu, open_fmu
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from harness.machine.connection import Connection
 from harness.machine.file.machine_plan import ComponentPlan, Plan, Policy, Source
 from harness.machine.file.read_file import components, read_plan

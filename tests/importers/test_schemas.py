@@ -16,7 +16,7 @@ from lxml import etree
 
 import build_fmu
 import models
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from harness.machine.file.read_file import components, read_plan
 from harness.machine.formats.ssp_export import write_ssp
 from harness.toml_file import TomlFile

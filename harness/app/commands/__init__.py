@@ -1,1 +1,1 @@
-"""What the commands do; each returns its exit code."""
+"""Implementation of the commands; each returns its exit code."""

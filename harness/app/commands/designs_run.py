@@ -1,4 +1,4 @@
-"""What the commands `sweep` and `optimise` do."""
+"""Commands `sweep` and `optimise`: many designs run, their table and report written."""
 
 from __future__ import annotations
 
@@ -12,16 +12,8 @@ from rich.markup import escape
 from ...designs import sweep as sweeps
 from ...designs.by_fmu import design_with_largest
 from ...designs.optimum_file import Optimum, read_optimum
-from ...designs.search import (
-    Best,
-    History,
-    InterruptedSearchError,
-    NoIndicesError,
-    Sensitivity,
-    best_of,
-    search,
-    sensitivity,
-)
+from ...designs.search import Best, History, InterruptedSearchError, best_of, search
+from ...designs.sensitivity import NoIndicesError, Sensitivity, sensitivity
 from ...designs.store import Store, contents, failures, identity, numbers_of
 from ...designs.sweep import Progress, Sweep, range_cells, read_sweep
 from ...designs.workers import Executor
@@ -193,8 +185,8 @@ def _ending_of_search(
 
     table = store.finish()
     asked, failed = len(history.designs), len(failures(table))
-    told = f", {failed} failed (status and message are in {store.table_file.name})" if failed else ""
-    console.print(f"{asked} designs, {min(history.earlier, asked)} of them there before{told}.", soft_wrap=True)
+    of_which = f", {failed} failed (status and message are in {store.table_file.name})" if failed else ""
+    console.print(f"{asked} designs, {min(history.earlier, asked)} of them there before{of_which}.", soft_wrap=True)
     description = optimum.axes[0].description
     values = best.design.values.items()
     rows = [[name, shown(value, name, description), "free"] for name, value in values]

@@ -1,4 +1,4 @@
-"""What `sweep` and `optimise` share: the FMU, who runs the designs, the bar, and the design to be seen."""
+"""Shared by `sweep` and `optimise`: the FMU, the executor of the designs, progress, and the design shown in motion."""
 
 from __future__ import annotations
 

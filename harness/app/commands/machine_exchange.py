@@ -12,8 +12,9 @@ import build_fmu
 from mechanism_fmu.fmu.disk.archive import write_archive
 
 from ...errors import UsageError
-from ...fmu.description import Description, read_description
-from ...fmu.instances.common import discard_message
+from ...fmu.description import Description
+from ...fmu.description_file import read_description
+from ...fmu.instances.message_log import discard_message
 from ...fmu.instances.workspace import temporary_folder
 from ...machine.file.machine_plan import Scheme, Source
 from ...machine.formats.baking import GAINS, Baking, Numbers, baking
@@ -126,8 +127,8 @@ def import_file(path: Path, folder: Path | None) -> int:
             with prepared(str(found.file)):
                 pass
         except UsageError as error:  # what is in the folder will be gone
-            told = str(error).replace(f"{place}{os.sep}", "")
-            raise UsageError(told if f"'{path}'" in told else f"'{path}' was not imported: {told}") from error
+            reason = str(error).replace(f"{place}{os.sep}", "")
+            raise UsageError(reason if f"'{path}'" in reason else f"'{path}' was not imported: {reason}") from error
         _move(place, folder)
     console.print(f"Written to {escape(str(folder))}: {escape(found.file.name)} and its FMUs.", soft_wrap=True)
     console.print(f"mechanism-fmu machine run {folder / found.file.name}", soft_wrap=True, markup=False)

@@ -1,4 +1,4 @@
-"""A machine's run, under the eyes of the user."""
+"""Run of a machine with a progress display: observers, interruption, and the record of the run."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ def pictured(drawings: Mapping[str, Drawing], descriptions: Mapping[str, Descrip
                 constant += [f"{part}.{name}"] if name in drawn else []
             elif (
                 name in drawn
-                or _told_of_contacts(drawing, name, variable.type)
+                or _is_contact_state(drawing, name, variable.type)
                 or _counts(counter, name, variable.type)
             ):
                 moving.append(f"{part}.{name}")
     return moving, constant
 
 
-def _told_of_contacts(drawing: Drawing, name: str, kind: str) -> bool:
+def _is_contact_state(drawing: Drawing, name: str, kind: str) -> bool:
     return bool(drawing.shapes) and kind == "Boolean" and name.endswith(SUFFIX)
 
 
@@ -64,7 +64,7 @@ _MOST_MESSAGES = 1000
 
 
 class _Beginning:
-    """An observer that tells whether there is anything to keep."""
+    """An observer that shows whether there is anything to keep."""
 
     def __init__(self) -> None:
         self.reached = False
@@ -168,7 +168,7 @@ def perform(machine: Prepared, folder: Path) -> MachineRun:
         outcome = replace(outcome, ending=Ending.FAILED, error=recording.refused)
     found, energies = impacts.by_component(card), bonds.energies()
     # those of a step to the impact are among the notes
-    told = [] if plan.policy.scheme is Scheme.EVENT_AWARE else cautions(algorithm)
+    of_steps = [] if plan.policy.scheme is Scheme.EVENT_AWARE else cautions(algorithm)
     return MachineRun(
         machine=machine,
         outcome=outcome,
@@ -184,5 +184,5 @@ def perform(machine: Prepared, folder: Path) -> MachineRun:
         messages=said.messages,
         drawings=drawings,
         seen=frames.seen(),
-        cautions=[*told, *loop_cautions(unit, outcome.final_time), *bond_cautions(energies, outcome.final_time)],
+        cautions=[*of_steps, *loop_cautions(unit, outcome.final_time), *bond_cautions(energies, outcome.final_time)],
     )

@@ -1,4 +1,4 @@
-"""From the file of a machine to its plan, its components' FMUs, built where need be, and their instances."""
+"""Preparation of a machine's run: its file read, its components' FMUs found or built, and their instances."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ import build_fmu
 
 from ...errors import UsageError
 from ...fmu import Fmu, open_fmu
-from ...fmu.description import Description, hint_at, read_description
-from ...fmu.instances.common import MessageHandler
+from ...fmu.description import Description, hint_at
+from ...fmu.description_file import read_description
+from ...fmu.instances.message_log import MessageHandler
 from ...fmu.instances.workspace import temporary_folder
 from ...fmu.interface import Component
 from ...fmu.remote import TIME_LIMIT, in_own_process
@@ -59,7 +60,7 @@ def prepared(
         in_process: whether components of which the file does not say it have no process of their own.
 
     Raises:
-        UsageError: there is none, or the file has mistakes, all of which are told.
+        UsageError: there is none, or the file has mistakes, all of which are listed.
         typer.Exit: an FMU cannot be built; the reason has been said.
     """
     file = TomlFile.read(machine_file(name))

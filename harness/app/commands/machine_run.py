@@ -32,13 +32,13 @@ from ..terminal import (
     FAILED,
     INTERRUPTED,
     console,
+    name_earlier_files,
     show_error,
     show_files,
     show_note,
     show_table,
     show_warning,
     show_wide_table,
-    tell_of_earlier_files,
 )
 from .machine_performed import perform
 from .machine_ready import machine_file, prepared
@@ -165,7 +165,7 @@ def run_file(
             try:
                 run = perform(machine, folder)
             except HarnessError:
-                tell_of_earlier_files(folder)
+                name_earlier_files(folder)
                 raise
             return _ending(run, write_files(run, folder), folder)
 

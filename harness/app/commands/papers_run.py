@@ -1,4 +1,4 @@
-"""What the commands `ked` and `reproduce` do."""
+"""Commands `ked` and `reproduce`: elastodynamics of a linkage, and the papers' rows."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ from mechanism_fmu.elastodynamics import LinkageError, crank_of, with_friction
 from ...errors import UsageError
 from ...fmu import Fmu, open_fmu
 from ...fmu.description import Description, Value
-from ...fmu.values import start_values
 from ...papers.ked.files import Result, agreement, write_result
 from ...papers.ked.ked_report import write_ked_report
 from ...papers.ked.options import Asked, quantity
@@ -26,6 +25,7 @@ from ...papers.ked.solve import Turn, prepared, solved, swept
 from ...papers.ked.synthesis import bounds_of, synthesised
 from ...papers.ked.tables import (
     cycle_rows,
+    feedback_sentence,
     flywheel_sentence,
     frame_sentence,
     frequency_rows,
@@ -48,6 +48,7 @@ from ...papers.reproduce.papers_page import (
 from ...papers.reproduce.perform import Reproduction, chosen, perform
 from ...papers.reproduce.row import Document, Row
 from ...run.checks import all_passed
+from ...run.experiment import start_values
 from ...run.results import prepare_folder, write_text
 from ..execution import alone_in
 from ..terminal import FAILED, console, show_checks, show_files, show_progress, show_table
@@ -56,7 +57,7 @@ from ..terminal import FAILED, console, show_checks, show_files, show_progress, 
 
 
 def run_reproduce(asked: Sequence[str], folder: Path) -> int:
-    """Work the rows, tell and write what comes of it, and return the exit code."""
+    """Work the rows, show and write what comes of it, and return the exit code."""
     chosen(asked)
     with alone_in(folder, waits=False), ExitStack() as stack:
         opened: list[Fmu] = []
@@ -129,7 +130,7 @@ def run_ked(
     folder: Path | None,
     asked: Asked | None = None,
 ) -> int:
-    """Bend a linkage over a turn, tell and write what comes of it, and return the exit code.
+    """Bend a linkage over a turn, show and write what comes of it, and return the exit code.
 
     Args:
         model: name of a ready-made one, or file.
@@ -138,7 +139,7 @@ def run_ked(
         damping: ratio of every mode.
         settings: parameters, "name=value unit".
         folder: for the results.
-        asked: limits, synthesis, flywheel and friction.
+        asked: limits, synthesis, flywheel, friction and speeds.
 
     Raises:
         UsageError: something of it cannot be; the message says what and what to do.
@@ -186,12 +187,12 @@ def _result(
     synthesis = None
     searching = 0.6 if asked.synthesise else 0.0
     if asked.synthesise:
-        told = fmu.description
+        description = fmu.description
         synthesis = synthesised(
-            bounds_of(asked.vary, described, parameters, told),
+            bounds_of(asked.vary, described, parameters, description),
             described,
             parameters,
-            told,
+            description,
             prepared(described(parameters), speed, damping, samples).place,
             speed,
             damping,
@@ -207,8 +208,9 @@ def _result(
     compared = found if plain is None else plain
     agreed = replace(agreement(fmu, mechanism, compared, parameters), frictionless=plain is not None)
     begun = searching + 0.2 * (1.0 - searching)
-    sweep = swept(turned, speed, lambda text, done: progress(text, begun + (1.0 - begun) * done))
-    return Result(fmu, fmu.description.text, parameters, found, sweep, agreed, asked.limits, synthesis, plain)
+    sweep = swept(turned, speed, lambda text, done: progress(text, begun + (1.0 - begun) * done), asked.speeds)
+    text, drawn_only = fmu.description.text, asked.speeds is None
+    return Result(fmu, text, parameters, found, sweep, agreed, asked.limits, synthesis, plain, not drawn_only)
 
 
 def _described(model: str, parameters: Mapping[str, Value]) -> Any:
@@ -234,7 +236,7 @@ def _refuse_rigid(mechanism: Any, model: str) -> None:
     """Refuse a mechanism without members.
 
     Raises:
-        UsageError: it has none; the message tells which models have.
+        UsageError: it has none; the message names the models that have.
     """
     if mechanism.members:
         return
@@ -318,7 +320,12 @@ def _show_turn(result: Result) -> None:
         f"energy that it has given beyond its mean varies by {torque.energy:.4g} J.",
         soft_wrap=True,
     )
-    for sentence in (frame_sentence(found), friction_sentence(found), flywheel_sentence(found)):
+    for sentence in (
+        frame_sentence(found),
+        friction_sentence(found),
+        flywheel_sentence(found),
+        feedback_sentence(found),
+    ):
         if sentence:
             console.print(sentence, soft_wrap=True)
     show_checks(result.checks)

@@ -1,47 +1,29 @@
-"""What instances of FMUs have in common, whichever version of FMI they speak."""
+"""Co-simulation slave of an FMU, in common for FMI 2.0 and 3.0: values, initialization, steps, states, errors."""
 
 from __future__ import annotations
 
 import math
 import os
 from abc import ABC, abstractmethod
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from ctypes import c_int, c_size_t, c_uint, c_void_p
-from dataclasses import dataclass, replace
-from functools import partial
+from ctypes import c_int, c_void_p
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
 from fmpy.fmi1 import FMICallException
 
-from ...errors import FmuError, LogMessage, Status, UsageError
+from ...errors import FmuError, LogMessage, Status
 from ..description import Description, Value
 from ..interface import whole_step
 from ..values import integer_range
-from .reals import Batch, Call, ElementReals, RawReals, batches, doubles, nothing
+from .message_log import MessageHandler, MessageLog, reason_in
+from .reals import FROM_C, Batch, ElementReals, RawReals, batches, raw_reals
 from .workspace import libraries_in, listed
 
-#: Receives every message of an FMU at once.
-MessageHandler = Callable[[LogMessage], None]
-
-#: What pythonfmu adds to the FMU's own message when it turns a Python exception into the status Fatal.
-_WRAPPER_SAYS = "Fatal py exception encountered"
-#: Of messages that tell of no problem no more are kept: some FMUs log every call.
-_MOST_CHATTER = 1000
-#: Nor more of each status that tells of one; what comes behind them is counted.
-_MOST_COMPLAINTS = 1000
-#: So many of them are the reason of a refusal.
-_MOST_REASONS = 20
-#: No more letters of a message are kept.
-_LONGEST_TEXT = 5000
 #: So often in a row an FMU may return from a step without having moved.
 _MOST_RETURNS = 100
-
-
-def discard_message(_message: LogMessage) -> None:
-    """Leave a message to those who read `FmuSlave.messages`."""
 
 
 @dataclass(frozen=True)
@@ -82,19 +64,15 @@ class FmuSlave(ABC):
         """
         self.description = description
         self.name = name
-        self.messages: list[LogMessage] = []
-        self._on_message = on_message
+        self._message_log = MessageLog(name, on_message)
+        self.messages = self._message_log.messages
         self._time = 0.0
         self._early: float | None = None
         self._returns = 0
         self._short_of: float | None = None
         self._shorts = 0
         self._initialized = False
-        self._silent_since: int | None = None
         self._fatal = False
-        self._chatter = 0
-        self._complaints: Counter[int] = Counter()
-        self._left_out = 0
         self._known_batches: dict[tuple[str, ...], list[Batch]] = {}
         self._instance = self._loaded(folder)
         self._make_instance()
@@ -114,7 +92,7 @@ class FmuSlave(ABC):
         """Values of variables, in the order of `names`: one FMI call for each type."""
         values: list[Value] = [0.0] * len(names)
         for batch in self._batches(tuple(names)):
-            numbers, convert = self._get(batch), _FROM_C[batch.type]
+            numbers, convert = self._get(batch), FROM_C[batch.type]
             for place, offset in zip(batch.places, batch.offsets, strict=True):
                 values[place] = convert(numbers[offset])
         return values
@@ -135,13 +113,11 @@ class FmuSlave(ABC):
         """
         self._time, self._early = start_time, None
         self._enter(start_time, stop_time)
-        self._silent_since = len(self.messages)
+        self._message_log.hold()
 
     def exit_initialization(self) -> None:
         """Leave the initialization mode."""
-        since, self._silent_since = self._silent_since, None
-        for message in self.messages[since:]:
-            self._on_message(message)
+        self._message_log.show_held()
         self._exit()
 
     def step(self, time: float, size: float) -> None:
@@ -151,7 +127,7 @@ class FmuSlave(ABC):
     def advance(self, time: float, size: float) -> float:
         """Take a step, or a part of it where the FMU returns early; the time reached [s].
 
-        After an early return the FMU is asked to go on from the very time that it told, though the master may have
+        After an early return the FMU is asked to go on from the very time that it returned, though the master may have
         rounded it to its clock.
         """
         end = time + size
@@ -173,12 +149,13 @@ class FmuSlave(ABC):
         if self._initialized:
             self._initialized = False
             self._call(f"{self._FMI}Terminate", self._instance.terminate)
-            self._tell_left_out()
+            self._message_log.report_left_out(self._time)
 
     def reset(self) -> None:
         """Back to the state just after the instantiation."""
         self._call(f"{self._FMI}Reset", self._instance.reset)
-        self._initialized, self._early, self._silent_since = False, None, None
+        self._initialized, self._early = False, None
+        self._message_log.end_hold()
 
     def save(self, state: SavedState | None = None) -> SavedState:
         """A snapshot of the whole state, in the place of one that is given; give it back with `free_state`.
@@ -215,7 +192,8 @@ class FmuSlave(ABC):
         """Terminate if need be, free the instance and unload the library.
 
         After the status Fatal nothing more may be asked of an FMU (FMI 2.0, section 2.1.3), and an FMU of pythonfmu
-        0.7.0 that does not repair its wrapper, as ours do, crashes the process then. A little memory is lost instead.
+        0.7.0 that does not repair its wrapper, as this project's do, crashes the process then. A little memory
+        is lost instead.
         """
         if not self._fatal:
             with suppress(FmuError):
@@ -227,31 +205,19 @@ class FmuSlave(ABC):
         """What to raise for a call that was answered by `status`, with what the FMU has said since message `said`."""
         answer = Status(status)
         self._fatal = self._fatal or answer is Status.FATAL
-        self._tell_left_out()
+        self._message_log.report_left_out(self._time)
         error = self._error(f"{function}, status {answer.name.lower()}", answer, self.messages[said:])
-        if self._silent_since is not None:
-            del self.messages[said:]
+        self._message_log.forget_held(said)
         return error
 
     def failure(self, function: str, reason: str) -> FmuError:
-        """What to raise for an answer that the FMU finds good, but nobody can go on from."""
+        """What to raise for an answer that the FMU finds good, but from which the run cannot go on."""
         text = f"{self.name} failed {self._when()} ({function}): {reason}."
         return FmuError(text, instance=self.name, time=self._time if self._initialized else None)
 
-    def no_slopes(self, names: Sequence[str]) -> UsageError:
-        """What to raise for slopes of inputs where `Description.takes_slopes` says that there are none."""
-        return UsageError(
-            f"{self.name} takes no slopes of inputs, here of {', '.join(names)}: FMUs of FMI 3.0 do not, nor those of "
-            "FMI 2.0 without canInterpolateInputs. Write values before each step instead."
-        )
-
     def quietly(self, call: Callable[[], int]) -> int:
-        """Call a function of the FMU; what it says is kept, but shown to nobody."""
-        on_message, self._on_message = self._on_message, discard_message
-        try:
-            return call()
-        finally:
-            self._on_message = on_message
+        """Call a function of the FMU; what it says is kept, but not shown."""
+        return self._message_log.quietly(call)
 
     @abstractmethod
     def _load(self, **where: str) -> Any:
@@ -270,30 +236,8 @@ class FmuSlave(ABC):
         """Leave it."""
 
     def _raw_reals(self, names: Sequence[str], functions: tuple[str, str, str, str], *last: Any) -> RawReals:
-        """Variables that are single numbers of double precision.
-
-        Args:
-            names: theirs.
-            functions: those that get and set values, get derivatives of outputs, and set those of inputs.
-            last: what this version of FMI gives them behind all else.
-        """
-        count = len(names)
-        numbers, room = doubles(count)
-        references = (c_uint * count)(*(self.description.variable(name).reference for name in names))
-        plain = c_void_p(self._instance.component), references, c_size_t(count)
-        first = (c_int * count)(*[1] * count)
-
-        def call(name: str, *arguments: Any) -> Call:
-            return Call(name, partial(self._raw(name), *plain, *arguments, room, *last) if count else nothing)
-
-        get, put, get_slopes, put_slopes = functions
-        calls = (
-            call(get),
-            call(put),
-            call(get_slopes, first) if self.description.gives_slopes else None,
-            call(put_slopes, first) if self.description.takes_slopes else None,
-        )
-        return RawReals(self, names, (numbers, room), calls)
+        """As `raw_reals`."""
+        return raw_reals(self, c_void_p(self._instance.component), names, functions, last)
 
     def _returned(self, begin: float, reached: float, end: float) -> float:
         """Note where the FMU has returned from a step; the time reached."""
@@ -369,7 +313,7 @@ class FmuSlave(ABC):
             self._known_batches[names] = batches(names, self.description)
         return self._known_batches[names]
 
-    def _raw(self, name: str, *types: Any) -> Callable[..., int]:
+    def raw(self, name: str, *types: Any) -> Callable[..., int]:
         """A function of the library, called without detour; without `types`, for arguments that are of C already."""
         function = self._instance.dll[name]
         function.restype = c_int
@@ -378,35 +322,9 @@ class FmuSlave(ABC):
         raw: Callable[..., int] = function
         return raw
 
-    def _told(self, status: int, category: bytes | None, raw: bytes | None, escaped: str) -> None:
+    def _logged(self, status: int, category: bytes | None, raw: bytes | None, escaped: str) -> None:
         """Keep a message of the FMU, unless there have been too many; `escaped` is what is doubled in it."""
-        if status not in (Status.OK, Status.PENDING):
-            if self._complaints[Status(status)] >= _MOST_COMPLAINTS:
-                self._left_out += 1
-                return
-            self._complaints[Status(status)] += 1
-        name = (category or b"")[:_LONGEST_TEXT].decode("utf-8", errors="replace")
-        text = _shortened(raw or b"").replace(2 * escaped, escaped)
-        message = LogMessage(instance=self.name, time=self._time, status=Status(status), category=name, text=text)
-        if not message.needs_attention:
-            self._chatter += 1
-            if self._chatter == _MOST_CHATTER:
-                message = replace(message, text=f"{text} (More messages of this kind are not kept.)")
-            elif self._chatter > _MOST_CHATTER:
-                return
-        self.messages.append(message)
-        if self._silent_since is None:
-            self._on_message(message)
-
-    def _tell_left_out(self) -> None:
-        """Say how many messages were not kept since this was last said."""
-        count, self._left_out = self._left_out, 0
-        if count:
-            kept = f"the first {_MOST_COMPLAINTS} of a kind are kept"
-            text = f"{count} more messages of this instance were left out; {kept}."
-            message = LogMessage(self.name, self._time, Status.WARNING, "", text)
-            self.messages.append(message)
-            self._on_message(message)
+        self._message_log.add(self._time, status, category, raw, escaped)
 
     def _call(self, name: str, function: Callable[..., Any], *arguments: Any) -> Any:
         said = len(self.messages)
@@ -421,29 +339,5 @@ class FmuSlave(ABC):
 
     def _error(self, problem: str, status: Status, messages: Sequence[LogMessage]) -> FmuError:
         time = self._time if self._initialized else None
-        worst_first = sorted((m for m in messages if m.needs_attention), key=lambda m: -m.status)
-        ordered = worst_first if len(worst_first) > _MOST_REASONS else [m for m in messages if m.needs_attention]
-        said = [message.text.strip() for message in ordered]
-        own = [text for text in said if not text.startswith(_WRAPPER_SAYS)] or said
-        if len(own) > _MOST_REASONS:
-            own = [*own[:_MOST_REASONS], f"(And {len(own) - _MOST_REASONS} messages more.)"]
-        text = f"{self.name} failed {self._when()} ({problem}): {' '.join(own) or 'it gave no reason.'}"
+        text = f"{self.name} failed {self._when()} ({problem}): {reason_in(messages)}"
         return FmuError(text, instance=self.name, time=time, status=status, messages=messages)
-
-
-def _shortened(raw: bytes) -> str:
-    """The text of a message; of a very long one the beginning, with how much is left out."""
-    text = raw[: 4 * _LONGEST_TEXT].decode("utf-8", errors="replace")
-    if len(raw) <= _LONGEST_TEXT or (len(text) <= _LONGEST_TEXT and len(raw) <= 4 * _LONGEST_TEXT):
-        return text
-    kept = text[:_LONGEST_TEXT]
-    return f"{kept} (... {len(raw) - len(kept.encode())} more bytes of this message are left out.)"
-
-
-_FROM_C: dict[str, Callable[[Any], Value]] = {
-    "Real": float,
-    "Integer": int,
-    "Boolean": bool,
-    "String": lambda raw: raw if isinstance(raw, str) else (raw or b"").decode("utf-8"),
-    "Binary": lambda raw: (raw or b"").hex(),
-}

@@ -1,4 +1,4 @@
-"""FMUs by way of fmpy: extract, instantiate, and always clean up."""
+"""FMU files by way of fmpy: extracted, instantiated, and always cleaned up."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from pathlib import Path
 import fmpy
 
 from ...errors import NO_ROOM, UsageError
-from ..description import Description, damaged, read_description
-from .common import FmuSlave, MessageHandler, discard_message
+from ..description import Description
+from ..description_file import damaged, read_description
+from .common import FmuSlave
 from .fmi2 import Fmi2Slave
 from .fmi3 import Fmi3Slave
+from .message_log import MessageHandler, discard_message
 from .workspace import require_library, temporary_folder
 
 
@@ -42,7 +44,7 @@ class Fmu:
             name: of the instance.
             on_message: receives its messages.
             early_return: whether an FMU of FMI 3.0 may end steps at its events, for `FmuSlave.advance`. What it then
-                tells of its last step, such as a list of impacts, is about the part of it that was taken last.
+                reports of its last step, such as a list of impacts, is about the part of it that was taken last.
 
         Raises:
             UsageError: it has clocks that tick by time.
@@ -89,7 +91,7 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
         except Exception as error:
             if isinstance(error, OSError) and error.errno in NO_ROOM:
                 raise UsageError(
-                    f"'{path}' cannot be unpacked into '{folder.parent}': {error.strerror}. Make room there, or set "
+                    f"'{path}' cannot be unpacked into '{folder.parent}': {error.strerror}. Make space there, or set "
                     "the environment variable TMPDIR to another folder."
                 ) from error
             raise damaged(path, error) from error

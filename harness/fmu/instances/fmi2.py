@@ -50,8 +50,8 @@ class Fmi2Slave(FmuSlave):
 
     def _instantiate(self) -> None:
         self._instance.instantiate(visible=False, callbacks=self._callbacks(), loggingOn=True)
-        step = self._raw("fmi2DoStep", c_void_p, c_double, c_double, c_int)
-        # Without states, nobody goes back.
+        step = self.raw("fmi2DoStep", c_void_p, c_double, c_double, c_int)
+        # Without saved states, no step is taken back.
         self._no_way_back = int(not self.description.saves_state)
         self._step = partial(step, c_void_p(self._instance.component))
 
@@ -76,7 +76,7 @@ class Fmi2Slave(FmuSlave):
         """
         if status == Status.DISCARD and not self._ends():
             reached = c_double(begin)
-            ask = self._raw("fmi2GetRealStatus")
+            ask = self.raw("fmi2GetRealStatus")
             answer = self.quietly(
                 partial(ask, c_void_p(self._instance.component), fmi2LastSuccessfulTime, byref(reached))
             )
@@ -88,7 +88,7 @@ class Fmi2Slave(FmuSlave):
     def _ends(self) -> bool:
         """Whether the FMU wants the simulation to end."""
         ends = c_int(0)
-        ask = self._raw("fmi2GetBooleanStatus")
+        ask = self.raw("fmi2GetBooleanStatus")
         answer = self.quietly(partial(ask, c_void_p(self._instance.component), fmi2Terminated, byref(ends)))
         return answer <= Status.WARNING and ends.value != 0
 
@@ -105,7 +105,7 @@ class Fmi2Slave(FmuSlave):
         return callbacks
 
     def _log(self, _environment: Any, _instance: Any, status: int, category: bytes | None, text: bytes | None) -> None:
-        self._told(status, category, text, "%")
+        self._logged(status, category, text, "%")
 
     def _get(self, batch: Batch) -> list[Any]:
         name = _NAMES.get(batch.kind, batch.kind)
@@ -114,15 +114,15 @@ class Fmi2Slave(FmuSlave):
             return texts
         if batch.bound is None:
             count = len(batch.references)
-            room = ((c_double if name == "Real" else c_int) * count)()
-            where = c_void_p(self._instance.component), (c_uint * count)(*batch.references), c_size_t(count), room
-            batch.bound = partial(self._raw(f"fmi2Get{name}"), *where), room
-        call, room = batch.bound
+            numbers = ((c_double if name == "Real" else c_int) * count)()
+            where = c_void_p(self._instance.component), (c_uint * count)(*batch.references), c_size_t(count), numbers
+            batch.bound = partial(self.raw(f"fmi2Get{name}"), *where), numbers
+        call, numbers = batch.bound
         said = len(self.messages)
         status = call()
         if status > Status.WARNING:
             raise self.refusal(f"fmi2Get{name}", status, said)
-        return list(room)
+        return list(numbers)
 
     def _set(self, batch: Batch, numbers: Sequence[Value]) -> None:
         name = _NAMES.get(batch.kind, batch.kind)

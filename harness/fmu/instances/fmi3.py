@@ -13,7 +13,8 @@ from fmpy.fmi3 import FMU3Slave
 
 from ...errors import FmuError
 from ..description import Description, Value
-from .common import FmuSlave, MessageHandler, SavedState
+from .common import FmuSlave, SavedState
+from .message_log import MessageHandler
 from .reals import Batch, ElementReals, RawReals
 
 # The event mode of an instance of FMI 3.0: who handles an event, and when (FMI 3.0, section 4.2.1).
@@ -51,7 +52,7 @@ class EventMode:
 
     Attributes:
         shared: whether a machine handles events.
-        pending: whether there is one that nobody has handled.
+        pending: whether there is one that is not yet handled.
         inside: whether the instance is in event mode.
         announced: when the FMU wants event mode next [s]; None: it has not said so (nextEventTime).
     """
@@ -238,10 +239,10 @@ class Fmi3Slave(FmuSlave):
             earlyReturnAllowed=self._may_return,
             logMessage=self._log,
         )
-        step = self._raw("fmi3DoStep", c_void_p, c_double, c_double, c_bool, *[c_void_p] * 4)
+        step = self.raw("fmi3DoStep", c_void_p, c_double, c_double, c_bool, *[c_void_p] * 4)
         self._step = partial(step, c_void_p(self._instance.component))
         results = self._event, self._ends, self._early_return, self._reached
-        # Without states, nobody goes back.
+        # Without saved states, no step is taken back.
         self._rest: tuple[Any, ...] = not self.description.saves_state, *(byref(result) for result in results)
 
     def _enter(self, start_time: float, stop_time: float) -> None:
@@ -281,7 +282,7 @@ class Fmi3Slave(FmuSlave):
         return reached
 
     def _log(self, _environment: Any, status: int, category: bytes | None, text: bytes | None) -> None:
-        self._told(status, category, text, "#")
+        self._logged(status, category, text, "#")
 
     def _get(self, batch: Batch) -> list[Any]:
         name = _NAMES.get(batch.kind, batch.kind)

@@ -1,12 +1,13 @@
-"""Variables of an FMU: one call for each type, and real ones that are bound once."""
+"""Value access of an FMU: variables grouped into one FMI call for each type, and Real ones that are bound once."""
 
 from __future__ import annotations
 
 import math
 from array import array
 from collections.abc import Callable, Mapping, MutableSequence, Sequence
-from ctypes import Array, c_double
+from ctypes import Array, c_double, c_int, c_size_t, c_uint, c_void_p
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, Protocol
 
 from ...errors import FmuError, LogMessage, Status, UsageError
@@ -60,6 +61,16 @@ def batches(names: Sequence[str], description: Description) -> list[Batch]:
     return list(found.values())
 
 
+#: From what fmpy returns for a variable, by its type.
+FROM_C: dict[str, Callable[[Any], Value]] = {
+    "Real": float,
+    "Integer": int,
+    "Boolean": bool,
+    "String": lambda raw: raw if isinstance(raw, str) else (raw or b"").decode("utf-8"),
+    "Binary": lambda raw: (raw or b"").hex(),
+}
+
+
 # Real variables of an FMU, bound once: their numbers lie in arrays that the FMU reads and fills itself.
 
 #: Statuses beyond it are refusals; a plain number, which is compared fast.
@@ -68,6 +79,9 @@ _WARNING = int(Status.WARNING)
 
 class Owner(Protocol):
     """The instance whose variables they are."""
+
+    name: str
+    description: Description
 
     @property
     def messages(self) -> list[LogMessage]:
@@ -79,11 +93,11 @@ class Owner(Protocol):
     def failure(self, function: str, reason: str) -> FmuError:
         """What to raise for an answer that cannot be used."""
 
-    def no_slopes(self, names: Sequence[str]) -> UsageError:
-        """What to raise for slopes of inputs that it does not take."""
-
     def quietly(self, call: Callable[[], int]) -> int:
         """Call a function without showing what it says."""
+
+    def raw(self, name: str) -> Callable[..., int]:
+        """A function of the library."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +113,7 @@ Numbers = tuple["array[float]", "Array[c_double]"]
 
 
 def doubles(count: int) -> Numbers:
-    """Room for so many numbers."""
+    """So many numbers."""
     numbers = array("d", bytes(8 * count))
     return numbers, (c_double * count).from_buffer(numbers)
 
@@ -107,6 +121,14 @@ def doubles(count: int) -> Numbers:
 def nothing() -> int:
     """Nothing is asked for: no call."""
     return int(Status.OK)
+
+
+def no_slopes(instance: str, names: Sequence[str]) -> UsageError:
+    """What to raise for slopes of inputs where `Description.takes_slopes` says that there are none."""
+    return UsageError(
+        f"{instance} takes no slopes of inputs, here of {', '.join(names)}: FMUs of FMI 3.0 do not, nor those of "
+        "FMI 2.0 without canInterpolateInputs. Write values before each step instead."
+    )
 
 
 class RawReals:
@@ -162,7 +184,7 @@ class RawReals:
             raise self._owner.refusal(self._put.name, status, said)
 
     def read_slopes(self) -> bool:
-        """Fill `values` with derivatives of outputs [unit/s]; False where the FMU does not tell some of them."""
+        """Fill `values` with derivatives of outputs [unit/s]; False where the FMU does not give some of them."""
         call = self._get_slopes
         if call is None:
             return False
@@ -186,7 +208,7 @@ class RawReals:
         """
         call = self._put_slopes
         if call is None:
-            raise self._owner.no_slopes(self._names)
+            raise no_slopes(self._owner.name, self._names)
         said = len(self._messages)
         status = call.function()
         if status > _WARNING:
@@ -199,11 +221,44 @@ class RawReals:
                 raise self._owner.failure(call.name, f"{name} is {value}, which is no finite number")
 
 
+def raw_reals(
+    owner: Owner, instance: c_void_p, names: Sequence[str], functions: tuple[str, str, str, str], last: Sequence[Any]
+) -> RawReals:
+    """Variables that are single numbers of double precision.
+
+    Args:
+        owner: the instance.
+        instance: it, as the functions of the FMU know it.
+        names: of the variables.
+        functions: those that get and set values, get derivatives of outputs, and set those of inputs.
+        last: what this version of FMI gives them behind all else.
+    """
+    count = len(names)
+    numbers, raw = doubles(count)
+    references = (c_uint * count)(*(owner.description.variable(name).reference for name in names))
+    plain = instance, references, c_size_t(count)
+    first = (c_int * count)(*[1] * count)
+
+    def call(name: str, *arguments: Any) -> Call:
+        return Call(name, partial(owner.raw(name), *plain, *arguments, raw, *last) if count else nothing)
+
+    get, put, get_slopes, put_slopes = functions
+    calls = (
+        call(get),
+        call(put),
+        call(get_slopes, first) if owner.description.gives_slopes else None,
+        call(put_slopes, first) if owner.description.takes_slopes else None,
+    )
+    return RawReals(owner, names, (numbers, raw), calls)
+
+
 # Real variables of an FMU that are elements of arrays, or not of double precision: bound without haste.
 
 
 class Accessible(Protocol):
     """The instance whose variables they are."""
+
+    name: str
 
     def get(self, names: Sequence[str]) -> list[Value]:
         """Values of variables."""
@@ -213,9 +268,6 @@ class Accessible(Protocol):
 
     def failure(self, function: str, reason: str) -> FmuError:
         """What to raise for an answer that cannot be used."""
-
-    def no_slopes(self, names: Sequence[str]) -> UsageError:
-        """What to raise for slopes of inputs that it does not take."""
 
 
 class ElementReals:
@@ -256,4 +308,4 @@ class ElementReals:
         Raises:
             UsageError: always.
         """
-        raise self._owner.no_slopes(self._names)
+        raise no_slopes(self._owner.name, self._names)

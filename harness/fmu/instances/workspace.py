@@ -1,4 +1,4 @@
-"""The folder of an extracted FMU, and which of its libraries runs here."""
+"""Folder of an extracted FMU, and its libraries for this platform."""
 
 from __future__ import annotations
 
@@ -87,7 +87,8 @@ def temporary_folder() -> Iterator[Path]:
             folder = stack.enter_context(folders.temporary_folder(_plain_place()))
         except OSError as error:
             raise UsageError(
-                f"No temporary folder can be made ({error}); set the environment variable TMPDIR to a folder with room."
+                f"No temporary folder can be made ({error}); set the environment variable TMPDIR to a folder with "
+                "space."
             ) from error
         yield folder
 

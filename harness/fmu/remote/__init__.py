@@ -3,7 +3,7 @@
 Two FMUs of pythonfmu whose scripts have the same name, for instance, cannot be in one process.
 
 - `process`: starts and ends it; `far_side`: what runs there
-- `near_side`: what a machine has of it (an `interface.Component`), with as few round trips as can be
+- `near_side`: the client (proxy), an `interface.Component` for the machine, with as few round trips as can be
 - `link` and `protocol`: how requests and replies go; the trouble that a process may make
 """
 

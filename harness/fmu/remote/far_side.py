@@ -1,8 +1,8 @@
-"""What a process does that has one component: it obeys the machine's process (`remote`) until that says "end".
+"""Server of a remote component: its process answers the machine's process (`remote`) until that says "end".
 
 A request is plain data (`wire`, `plain`) of
 
-- orders: what is to be done first, as (name, arguments ...); nobody waits for each of them;
+- orders: what is to be done first, as (name, arguments ...); no reply is sent to each of them;
 - call: "enter_initialization", "exit_initialization", "advance", "terminate", "look", "end", ..., with its arguments;
 - wanted: numbers of the questions that are to be answered with the reply.
 
@@ -24,7 +24,7 @@ from typing import Any, Protocol
 
 from ...errors import LogMessage
 from ..description import Description
-from ..instances.common import MessageHandler
+from ..instances.message_log import MessageHandler
 from ..interface import Component, Reals
 from ..processes import BrokenFrameError, Wire, serve_only
 from .protocol import Numbers, Types, packed_answer, packed_error, packed_messages
@@ -44,7 +44,7 @@ class Opener(Protocol):
         """Of the component: known here, and not asked of it."""
 
     def __call__(self, on_message: MessageHandler, /) -> AbstractContextManager[Component]:
-        """A component that tells its messages to the given function."""
+        """A component that passes its messages to the given function."""
 
 
 def serve(end: socket.socket, name: str, opener: Opener, folder: Path | None) -> None:
@@ -60,7 +60,7 @@ def serve(end: socket.socket, name: str, opener: Opener, folder: Path | None) ->
     signal.signal(signal.SIGTERM, signal.SIG_IGN)  # sent to all of a group: the one that leads ends this one
     try:
         _have_component(Wire(end), name, opener)
-    except (EOFError, ConnectionError):  # nobody is there any more
+    except (EOFError, ConnectionError):  # the client is gone
         leader.join()
 
 
@@ -147,8 +147,8 @@ class _Servant:
             return reals.values
 
         def read_slopes() -> tuple[bool, Sequence[float]]:
-            told = reals.read_slopes()
-            return told, reals.values
+            known = reals.read_slopes()
+            return known, reals.values
 
         self._questions[number] = kind, types, read if kind == "read" else read_slopes
 

@@ -1,4 +1,4 @@
-"""The connection to the process of a component: requests go, replies come, and its trouble is told."""
+"""Connection to the process of a component: requests go, replies come, and its failures are reported."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from multiprocessing.process import BaseProcess
 from typing import Any
 
 from ...errors import FmuError, HarnessError, LogMessage, Status
-from ..instances.common import MessageHandler
+from ..instances.message_log import MessageHandler
 from ..processes import BrokenFrameError, LateFrameError, Wire
 from .far_side import WRITES, Request
 from .protocol import Numbers, Question, read_error, read_messages
@@ -19,7 +19,7 @@ _PATIENCE = 5.0
 
 
 class Link:
-    """The near side of the connection.
+    """The client's end of the connection.
 
     Attributes:
         name: of the part.

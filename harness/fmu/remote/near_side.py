@@ -1,4 +1,4 @@
-"""What a machine has of a component in another process, with as few round trips as can be: one a step."""
+"""Client (proxy) of a component in another process, with as few round trips as can be: one a step."""
 
 from __future__ import annotations
 
@@ -127,10 +127,10 @@ class RemoteReals:
         self.values[:] = self._trips.ask("read", self._names)
 
     def read_slopes(self) -> bool:
-        """Fill `values` with derivatives of outputs [unit/s]; False where the component does not tell some of them."""
-        told, slopes = self._trips.ask("read_slopes", self._names)
+        """Fill `values` with derivatives of outputs [unit/s]; False where some of them are not returned."""
+        known, slopes = self._trips.ask("read_slopes", self._names)
         self.values[:] = slopes
-        return bool(told)
+        return bool(known)
 
     def write(self) -> None:
         """Set the variables to `values`, before the next call."""
@@ -159,7 +159,7 @@ class RemoteEventMode:
     """What a machine has of it (a `machine.events.EventMode`).
 
     Attributes:
-        pending: whether there is an event that nobody has handled.
+        pending: whether there is an event that is not yet handled.
     """
 
     def __init__(self, link: Link, trips: RoundTrips) -> None:
@@ -169,14 +169,14 @@ class RemoteEventMode:
 
     def advance(self, time: float, size: float) -> float:
         """Take a step as `RemoteComponent.advance`, and learn whether it ended with an event."""
-        told = self._trips.step("advance_to_event", time, size)
+        reply = self._trips.step("advance_to_event", time, size)
         try:
-            if type(told) is not list or len(told) != 2 or type(told[1]) is not bool:
+            if type(reply) is not list or len(reply) != 2 or type(reply[1]) is not bool:
                 raise BrokenFrameError("it does not say where its step has ended, and whether with an event")
-            reached = number(told[0])
+            reached = number(reply[0])
         except BrokenFrameError as error:
             raise self._link.broken("advance", str(error)) from None
-        self.pending = told[1]
+        self.pending = reply[1]
         return reached
 
     def share(self) -> None:
@@ -203,10 +203,10 @@ class RemoteEventMode:
         """Which of some output clocks tick now."""
         if not clocks:
             return []
-        told = self._trips.call("event", "active", list(clocks))
-        if type(told) is not list or not set(map(str, told)) <= set(clocks):
+        reply = self._trips.call("event", "active", list(clocks))
+        if type(reply) is not list or not set(map(str, reply)) <= set(clocks):
             raise self._link.broken("active", "it names clocks that were not asked for")
-        return [clock for clock in clocks if clock in told]
+        return [clock for clock in clocks if clock in reply]
 
     def activate(self, clocks: Sequence[str]) -> None:
         """Let input clocks tick."""
@@ -218,10 +218,10 @@ class RemoteEventMode:
 
 
 class RemoteComponent:
-    """The near side of it (a `machine.component.Component`).
+    """Client (proxy) of a remote component (an `interface.Component`).
 
-    What is written, saved or restored goes with the next call that needs a reply; a refusal of it is therefore told
-    with that call.
+    What is written, saved or restored goes with the next call that needs a reply; a refusal of it is therefore raised
+    by that call.
 
     Attributes:
         description: of the component.

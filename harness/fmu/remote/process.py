@@ -11,8 +11,8 @@ from typing import Any
 
 from .. import Fmu
 from ..description import Description
-from ..instances.common import MessageHandler, discard_message
 from ..instances.fmi3 import uses_event_mode
+from ..instances.message_log import MessageHandler, discard_message
 from ..processes import Wire, starting_from
 from . import far_side
 from .far_side import Opener

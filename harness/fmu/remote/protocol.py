@@ -1,4 +1,4 @@
-"""What goes between the process of a component and the one that leads: plain data, questions and answers."""
+"""Protocol between client and server of a remote component: plain data, requests and replies."""
 
 from __future__ import annotations
 
@@ -244,7 +244,7 @@ def question(number: int, kind: str, variables: Sequence[Variable]) -> Question:
 
 
 def _follows(variables: Iterable[Variable]) -> frozenset[str] | None:
-    """The variables whose setting changes some of these; None: nobody says, so any may."""
+    """The variables whose setting changes some of these; None: not declared, so any may."""
     names: set[str] = set()
     for variable in variables:
         if variable.settable:

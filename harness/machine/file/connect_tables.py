@@ -1,11 +1,12 @@
-"""The tables [[connect]] and [[bond]], and terminals as connections."""
+"""Connections and power bonds of a machine's file: the tables [[connect]] and [[bond]], and terminals."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
 from ...errors import UsageError
-from ...fmu.description import Description, Member, Terminal, Variable
+from ...fmu.description import Description, Variable
+from ...fmu.terminals import Member, Terminal
 from ...toml_file import Section, TomlFile, as_text, parsed
 from ..connection import Connection, linked, own_of, part_of
 from .machine_plan import BondPlan
@@ -169,7 +170,7 @@ def _offset(section: Section, target: Variable | None, description: Description)
     if given is None:
         return 0.0
     if target is None:
-        return 0.0  # what is wrong with the target is told elsewhere
+        return 0.0  # what is wrong with the target is reported elsewhere
     unit = Variable("offset", -1, "Real", "input", unit=target.unit)
     value = parsed(section, "offset", as_text(given), unit, description)
     return None if value is None else float(value)
@@ -182,7 +183,7 @@ def _checked(
     known: Collection[str],
     names: Collection[str],
 ) -> bool:
-    """Whether a connection can be; if components are there that are not described, nobody knows, and it cannot."""
+    """Whether a connection can be; if components are there that are not described, it is unknown, and it cannot."""
     ends = {"from": connection.source, "to": connection.target, "rate": connection.rate}
     sound = True
     for key, end in ends.items():

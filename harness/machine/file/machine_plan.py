@@ -1,4 +1,4 @@
-"""What the file of a machine says, and what a command changes in it for one run."""
+"""Contents of a machine's file, and what a command changes in it for one run."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from mechanism_fmu.fmu.disk.user_cache import was_built_here
 
 from ...errors import UsageError
 from ...fmu.description import Description, Value, Variable
-from ...fmu.values import parse_value, start_values
+from ...fmu.values import parse_value
+from ...run.experiment import start_values
 from ...run.master import TimeGrid
 from ..connection import Connection
 from ..part import Extrapolation
@@ -51,8 +52,8 @@ class ComponentPlan:
     Attributes:
         name: in the machine.
         source: of its FMU.
-        process: whether it runs in a process of its own; None: nobody has said.
-        time_limit: for each of its calls, in a process of its own [s]; None: nobody has said.
+        process: whether it runs in a process of its own; None: the file does not say.
+        time_limit: for each of its calls, in a process of its own [s]; None: the file does not say.
         values: start values of its parameters and free inputs, in their units.
     """
 

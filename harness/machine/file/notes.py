@@ -1,4 +1,4 @@
-"""What is to be said of a machine that is no mistake."""
+"""Notes on a machine that are no mistakes: cycles, algebraic loops, free inputs, missing units, held signals."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def notes(plan: Plan, descriptions: Mapping[str, Description], driven: Sequence[
         for cycle in machine.cycles
     ]
     found += [
-        f"{', '.join(loop)} follow each other at once, as far as the FMUs tell: a loop without any delay. It is gone "
-        "round a few times at each communication point, and not solved."
+        f"{', '.join(loop)} follow each other at once, as far as the FMUs declare: a loop without any delay. It is "
+        "gone round a few times at each communication point, and not solved."
         for loop in machine.loops
     ]
     found += _free_inputs(plan, machine.description, driven)
@@ -78,16 +78,17 @@ def _apart(plan: Plan) -> list[str]:
 
 
 def _without_units(connections: Sequence[Connection], machine: Description) -> list[str]:
-    told: dict[str, str] = {}
+    guessed: dict[str, str] = {}
     for connection in connections:
         source, target = machine.variables[connection.source], machine.variables[connection.target]
         if source.type == target.type == "Real" and bool(source.unit) is not bool(target.unit):
             bare, other = (target, source) if source.unit else (source, target)
-            told[bare.name] = f"{bare.name} ({other.unit}, as {other.name})"
+            guessed[bare.name] = f"{bare.name} ({other.unit}, as {other.name})"
         rate = machine.variables.get(connection.rate)
         if rate is not None and source.unit and not rate.unit:
-            told[rate.name] = f"{rate.name} ({source.unit}/s)"
-    return [f"No unit is known of {', '.join(told.values())}: that of what it goes with was taken."] if told else []
+            guessed[rate.name] = f"{rate.name} ({source.unit}/s)"
+    names = ", ".join(guessed.values())
+    return [f"No unit is known of {names}: that of what it goes with was taken."] if guessed else []
 
 
 def _pushed(bond: BondPlan) -> str:

@@ -1,4 +1,4 @@
-"""What other tools would leave out of a machine, put into copies of its FMUs (docs/decisions/029-baked-machines.md).
+"""FMUs with numbers baked in: parameters and gains that other tools leave out (docs/decisions/029-baked-machines.md).
 
 Parameters become start values. What a connection does to a signal, its gain and offset and the conversion of units,
 is done by the FMU that gets it. FMUs of others stay as they are: a component of gains stands before them.

@@ -1,4 +1,4 @@
-"""From a plan to an .ssp file."""
+"""Export of a machine as an SSP file (.ssp)."""
 
 from __future__ import annotations
 

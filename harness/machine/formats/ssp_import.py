@@ -1,4 +1,4 @@
-"""From an .ssp file to a folder with a machine's file and its FMUs."""
+"""Import of an SSP file (.ssp): a folder with a machine's file and its FMUs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from ...errors import UsageError
-from ...fmu.description import Description, Value, read_description
+from ...fmu.description import Description, Value
+from ...fmu.description_file import read_description
 from ...fmu.values import parse_value, settable_variable
 from ...run.results import write_bytes, write_text
 from ..connection import Connection, kind_of, linked

@@ -1,4 +1,4 @@
-"""What an .ssp file says, as it says it."""
+"""System structure description of an SSP file: components, connectors and connections, as they are written."""
 
 from __future__ import annotations
 

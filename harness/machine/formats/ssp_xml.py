@@ -53,10 +53,10 @@ def root(name: str, attributes: Mapping[str, str]) -> Element:
     return Element(tag(name), dict(attributes))
 
 
-def annotation(parent: Element, kind: str, room: str) -> Element:
-    """A new annotation of a kind among those of an element, `room` being the prefix of their list."""
-    found = parent.find(tag(f"{room}:Annotations"))
-    found = child(parent, f"{room}:Annotations") if found is None else found
+def annotation(parent: Element, kind: str, prefix: str) -> Element:
+    """A new annotation of a kind among those of an element, `prefix` being that of their list."""
+    found = parent.find(tag(f"{prefix}:Annotations"))
+    found = child(parent, f"{prefix}:Annotations") if found is None else found
     return child(found, "ssc:Annotation", {"type": kind})
 
 
@@ -82,13 +82,13 @@ def value_element(parent: Element, value: Value, variable: Variable) -> None:
     child(parent, f"ssv:{kind}", {"value": value, "unit": variable.unit or None})
 
 
-def unit_elements(parent: Element, room: str, names: Iterable[str], description: Description) -> None:
+def unit_elements(parent: Element, prefix: str, names: Iterable[str], description: Description) -> None:
     """The units with these names."""
     meanings = {name: description.units.defined.get(name) or parse_unit(name) for name in dict.fromkeys(names)}
     known = {name: meaning for name, meaning in meanings.items() if meaning is not None}
     if not known:
         return
-    units = child(parent, f"{room}:Units")
+    units = child(parent, f"{prefix}:Units")
     for name, meaning in known.items():
         unit = child(units, "ssc:Unit", {"name": name})
         exponents = {base: n for base, n in zip(BASE_UNITS, meaning.exponents, strict=True) if n}

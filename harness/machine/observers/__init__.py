@@ -1,1 +1,1 @@
-"""Who looks on while a machine runs: energies of couplings, impacts, chosen signals, statistics."""
+"""Observers of a machine's run: energies of couplings, impacts, recorded signals, statistics."""

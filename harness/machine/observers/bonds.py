@@ -1,4 +1,4 @@
-"""The energy that a coupling makes or loses: what one part gives is not just what the other takes.
+"""Energy balance of a power bond: what one part gives is not just what the other takes.
 
 A bond is two connections: a flow (a speed) or a displacement (an angle) one way, and an effort (a torque, a force)
 the other way. Each part knows the other's quantity only as it was extrapolated from communication points, so that the
@@ -44,7 +44,7 @@ def effort_taken(_size: float, u0: float, u1: float, y0: float, y1: float) -> fl
     return (u0 + u1) / 2 * (y1 - y0)
 
 
-def effort_told(_size: float, u0: float, u1: float, y0: float, y1: float) -> float:
+def effort_returned(_size: float, u0: float, u1: float, y0: float, y1: float) -> float:
     """The input is a displacement, the output an effort."""
     return (y0 + y1) / 2 * (u1 - u0)
 
@@ -56,16 +56,16 @@ class Port:
         energy: so far [J].
     """
 
-    def __init__(self, part: Part, taken: str, told: str, piece: Piece, scale: float) -> None:
-        """Look at a part's input `taken` and its output `told`; a piece of energy times `scale` is in J."""
+    def __init__(self, part: Part, taken: str, given: str, piece: Piece, scale: float) -> None:
+        """Look at a part's input `taken` and its output `given`; a piece of energy times `scale` is in J."""
         self._place = part.targets.index(taken)
         self._inputs = part.inputs.values
         self._slopes = part.slopes.values if part.takes_slopes else None
-        self._output = part.component.reals([told])
+        self._output = part.component.reals([given])
         # Inputs that are set may change it at once, unless the component says that none does.
         # So may an event, which is handled at a communication point.
         by_event = event_mode_of(part.component) is not None
-        self._follows = by_event or part.component.description.variables[told].depends_on != frozenset()
+        self._follows = by_event or part.component.description.variables[given].depends_on != frozenset()
         self._impacts = ImpactTimes(part.component)
         self._jumps = self._impacts.reports and piece is not effort_taken  # a displacement does not jump
         self._piece, self._scale = piece, scale
@@ -132,8 +132,8 @@ class Bond:
         flow: speed or displacement, from the driving part to the driven one.
         effort: back, with the sign that it has on the driving part.
         reaction: what the output behind `effort` is: the effort that acts on the driven part, as the shafts of this
-            project tell it, so that the driving part must get its negative; or (True) the reaction to it, which acts on
-            the driving part as it is.
+            project return it, so that the driving part must get its negative; or (True) the reaction to it, which
+            acts on the driving part as it is.
     """
 
     flow: Connection
@@ -234,7 +234,7 @@ def _ends(machine: Machine, name: str, bond: Bond) -> tuple[Port, Port]:
     # What moves against the effort gives energy.
     turned = -1.0 if bond.reaction else 1.0
     giving = effort_taken if works[0] else power
-    taking = effort_told if works[1] else power
+    taking = effort_returned if works[1] else power
     watchers = [watched(machine, part).watchers for part in (driving, driven)]
     giver = Port(machine.parts[driving], own_of(effort.target), own_of(flow.source), giving, -scales[0])
     taker = Port(machine.parts[driven], own_of(flow.target), own_of(effort.source), taking, turned * scales[1])

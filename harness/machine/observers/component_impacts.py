@@ -50,9 +50,9 @@ class ImpactTimes:
         return math.ceil(self._time.values[0] * SECOND)
 
 
-# How often a run repeats what a machine is for: what damage by 1,000 cycles is told of.
+# How often a run repeats what a machine is for: what damage by 1,000 cycles is reported for.
 
-#: So many cycles the damage is told for.
+#: So many cycles the damage is reported for.
 THOUSAND = 1000
 
 
@@ -93,7 +93,7 @@ def cycles_of(component: str, counter: str, seen: pd.DataFrame) -> Cycles:
 
 _LOST = "impacts_lost"
 
-#: The columns before those that the components tell, with their units.
+#: The columns before those that the components report, with their units.
 _FIRST = {"component": ""}
 
 
@@ -130,7 +130,7 @@ class Impacts:
         """Look on at each component that has a buffer of impacts, before the machine's first step.
 
         Raises:
-            UsageError: two components tell the same of an impact in different units.
+            UsageError: two components report the same of an impact in different units.
         """
         self._watches: dict[str, _Watch] = {}
         self.units: dict[str, str] = dict(_FIRST)
@@ -181,8 +181,8 @@ class _Watch:
     """A `watched.Watcher` that keeps the impacts of one component.
 
     Attributes:
-        units: of what is told of an impact, and of its stress; {} when the component reports none.
-        rows: what was told of each impact.
+        units: of what is reported of an impact, and of its stress; {} when the component reports none.
+        rows: what was reported of each impact.
         component: that is asked.
     """
 

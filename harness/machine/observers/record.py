@@ -1,4 +1,4 @@
-"""Chosen signals of a machine, recorded to a file while it runs, whatever happens to it."""
+"""Recorder of a machine's signals: to a file while it runs, whatever happens to it."""
 
 from __future__ import annotations
 
@@ -245,7 +245,7 @@ class Recorder:
             signals: names, in the order of the columns; None: all inputs and outputs that are numbers.
             every: so many communication points become one row; 1: the end of each step, also those that an algorithm
                 adds between them.
-            impacts: another observer, before this one: tells where there were impacts.
+            impacts: another observer, before this one: knows where there were impacts.
 
         Raises:
             UsageError: a signal that does not exist or is no number, or the disk refuses.

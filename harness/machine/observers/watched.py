@@ -1,4 +1,4 @@
-"""Looking on at every step of a component, those that are taken back, too; and how the components fared.
+"""Observation of every step of a component, those that are taken back, too; and statistics of its steps.
 
 An observer sees a machine at communication points only. But an algorithm may take several steps in between, and what
 an FMU says of its last step is then gone; or it may take steps back, and what was seen in them never happened.

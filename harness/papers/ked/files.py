@@ -18,7 +18,7 @@ from ...run.results import versions, write_binary, write_json, write_with_units
 from .options import Limits
 from .solution import Bent, Rigid, Solution, solution_checks
 from .synthesis import Synthesised
-from .tables import cycle_table
+from .tables import cycle_table, speeds_table
 
 # The FMU's elastic outputs beside the calculation: the same linkage, in the same positions, by another way.
 
@@ -113,7 +113,7 @@ def _expected(found: Solution, ports: ElasticPorts) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Result:
-    """All that there is to tell.
+    """All results of a turn.
 
     Attributes:
         fmu: of the mechanism.
@@ -125,6 +125,7 @@ class Result:
         limits: that were asked for.
         synthesis: the search for the lightest design, whose turn this is; None: none was asked for.
         frictionless: the same turn with the mechanism's own friction only, where other friction was asked for.
+        speeds_asked: whether the speeds of the sweep were asked for.
     """
 
     fmu: Fmu
@@ -136,6 +137,7 @@ class Result:
     limits: Limits = field(default_factory=Limits)
     synthesis: Synthesised | None = None
     frictionless: Solution | None = None
+    speeds_asked: bool = False
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -152,13 +154,17 @@ class Result:
 def write_result(result: Result, folder: Path) -> list[Path]:
     """Write cycle.csv (units in its headings), cycle.parquet (the same, plain names) and summary.json, in SI units.
 
+    Beside them speeds.csv, when there were speeds to be looked at.
+
     Raises:
         UsageError: the disk refuses.
     """
     table, units = cycle_table(result.solution)
+    speeds = [write_with_units(*speeds_table(result.sweep), folder / "speeds.csv")] if result.speeds_asked else []
     return [
         write_with_units(table, units, folder / "cycle.csv"),
         write_binary(folder / "cycle.parquet", lambda file: table.to_parquet(file, index=False)),
+        *speeds,
         write_json(folder / "summary.json", summary(result, units)),
     ]
 
@@ -186,6 +192,8 @@ def summary(result: Result, units: dict[str, str]) -> dict[str, Any]:
             )
         ],
         "critical_speeds": found.critical[: found.modes].tolist(),
+        "floquet_multiplier": found.growth,
+        "feedback": asdict(found.feedback),
         "sweep": {name: values.tolist() for name, values in vars(result.sweep).items()},
         "agreement_with_fmu": asdict(result.agreement),
         "units": units,

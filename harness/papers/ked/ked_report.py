@@ -17,6 +17,7 @@ from .solution import Solution
 from .tables import (
     Shown,
     cycle_rows,
+    feedback_sentence,
     flywheel_sentence,
     frame_sentence,
     frequency_rows,
@@ -72,7 +73,11 @@ def ked_report(result: Result) -> str:
             note="Of the linkage frozen in each position. A critical speed of h = 1, 2, ... is where that multiple of "
             "the crank's speed meets the mean frequency of the mode.",
         ),
-        section("Largest over the turn", _table(largest_rows(found), numeric=(1, 2, 3, 5))),
+        section(
+            "Largest over the turn",
+            _table(largest_rows(found), numeric=(1, 2, 3, 5)),
+            note=feedback_sentence(found),
+        ),
         section(
             "The turn",
             _table(cycle_rows(found), long=True),
@@ -198,9 +203,25 @@ def _sweep(result: Result) -> Plot:
         [
             Curve("quasi-static", rpm, 1e3 * sweep.static, _STATIC),
             Curve("elastodynamic", rpm, 1e3 * sweep.dynamic, _DYNAMIC),
+            *_critical(result),
         ],
         from_zero=True,
     )
+
+
+def _critical(result: Result) -> list[Curve]:
+    """Upright lines at the critical speeds of the lowest modes, as far as they lie within the sweep."""
+    sweep, found = result.sweep, result.solution
+    top = 1e3 * max(sweep.dynamic.max(), sweep.static.max())
+    lines = []
+    for mode in range(min(_MODES, found.modes)):
+        speeds = found.critical[mode]
+        within = speeds[(speeds >= sweep.speed[0]) & (speeds <= sweep.speed[-1])] * 30 / math.pi
+        if within.size:
+            gap = np.full(len(within), np.nan)
+            x, y = np.column_stack([within, within, gap]), np.column_stack([0.0 * within, 0.0 * within + top, gap])
+            lines.append(Curve(f"critical, mode {mode + 1}", x.ravel(), y.ravel(), COLOURS[2 + mode]))
+    return lines
 
 
 def _table(shown: Shown, numeric: tuple[int, ...] | None = None, long: bool = False) -> str:

@@ -1,4 +1,4 @@
-"""What an engineer asks of a turn besides: limits, the lightest design within them, a flywheel, friction."""
+"""Design limits of a turn, the lightest design within them, flywheel, and joint friction."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from ...errors import UsageError
 from ...fmu.description import Description, Variable
@@ -16,6 +18,8 @@ from .judged_by import JudgedBy
 if TYPE_CHECKING:
     from .solution import Bent, Solution
 
+#: More speeds than any curve shows.
+_MOST_SPEEDS = 1000
 #: A reference that no variable of an FMU has.
 _NO_REFERENCE = -1
 
@@ -66,6 +70,7 @@ class Asked:
         fluctuation: coefficient of fluctuation that a flywheel is to keep to; None: no flywheel.
         friction: coefficient of friction of all joints; None: that of the mechanism.
         pin_radius: of all pins [m]; None: not given.
+        speeds: of the crank at which the largest deviation is looked at [rad/s]; None: some around its own.
     """
 
     limits: Limits = field(default_factory=Limits)
@@ -74,6 +79,7 @@ class Asked:
     fluctuation: float | None = None
     friction: float | None = None
     pin_radius: float | None = None
+    speeds: tuple[float, ...] | None = None
 
 
 def asked(
@@ -85,6 +91,7 @@ def asked(
     fluctuation: float | None = None,
     friction: float | None = None,
     pin_radius: str | None = None,
+    speeds: tuple[str, str, int] | None = None,
 ) -> Asked:
     """The options of the command line, understood.
 
@@ -118,7 +125,24 @@ def asked(
     if pin_radius is not None and friction is None:
         raise UsageError("--pin-radius is where friction acts in pins; add its coefficient, e.g. --friction 0.1.")
     radius = _positive("--pin-radius", pin_radius, "m", "5 mm")
-    return Asked(limits, synthesise, tuple(vary), fluctuation, friction, radius)
+    return Asked(limits, synthesise, tuple(vary), fluctuation, friction, radius, _speeds(speeds))
+
+
+def _speeds(asked_for: tuple[str, str, int] | None) -> tuple[float, ...] | None:
+    """Even speeds from one to another [rad/s]."""
+    if asked_for is None:
+        return None
+    *ends, count = asked_for
+    unit = Description("", "", "", {})
+    slowest, fastest = (quantity("--speeds", str(end), "rad/s", unit, "rpm") for end in ends)
+    if not 0.0 < slowest < fastest < math.inf:
+        raise UsageError(
+            f"--speeds {' '.join(map(str, asked_for))}: give a positive speed, a larger one, and how many, "
+            'e.g. "200 rpm" "800 rpm" 61.'
+        )
+    if not 2 <= count <= _MOST_SPEEDS:
+        raise UsageError(f"--speeds: {count} of them cannot be; give 2 to {_MOST_SPEEDS}, both ends among them.")
+    return tuple(np.linspace(slowest, fastest, count).tolist())
 
 
 def quantity(name: str, text: str, unit: str, description: Description, display_unit: str = "") -> float:

@@ -1,4 +1,4 @@
-"""What a turn of a bending linkage comes to."""
+"""Results of a turn of a bending linkage."""
 
 from __future__ import annotations
 
@@ -110,6 +110,23 @@ class Rigid:
 
 
 @dataclass(frozen=True)
+class FedBack:
+    """Elastic accelerations fed back into the inertia forces, from the quasi-static solution on.
+
+    Attributes:
+        converged: whether that has settled.
+        rounds: how many there were.
+        change: the least change of a round, in parts of the quasi-static deviation.
+        largest_deviation: of the place then, of all calculated angles [m].
+    """
+
+    converged: bool
+    rounds: int
+    change: float
+    largest_deviation: float
+
+
+@dataclass(frozen=True)
 class Solution:
     """A turn at constant speed.
 
@@ -124,6 +141,8 @@ class Solution:
         frequency_range: the least and the largest of all calculated angles, shape (modes, 2) [Hz].
         critical: speeds at which harmonic h of the crank meets mode i, shape (modes, harmonics) [rad/s].
         residual: what is left of the equations of the periodic motion.
+        growth: of a disturbance of the periodic motion in a turn, its largest Floquet multiplier.
+        feedback: the paper's way to that motion, as far as it goes.
         jump: what the largest step of friction from one angle to the next would bend the linkage by, in the same parts.
         notes: what is to be said of the calculation.
     """
@@ -140,6 +159,8 @@ class Solution:
     frequency_range: FloatArray
     critical: FloatArray
     residual: float
+    growth: float
+    feedback: FedBack
     jump: float
     notes: tuple[str, ...]
 
@@ -161,6 +182,8 @@ class Solution:
 
 #: What is left of the power balance, and of the equations of the periodic motion, at most.
 _POWER, _RESIDUAL = 1e-9, 1e-8
+#: A disturbance of the periodic motion may grow in a turn by this at most, beside 1: without damping it stays as it is.
+_GROWTH = 1e-6
 #: By how much the two ways to the force on the frame may differ: the accelerations' series is through 360 angles.
 _SHAKING = 1e-8
 
@@ -184,5 +207,10 @@ def solution_checks(found: Solution) -> tuple[Check, ...]:
             f"The periodic motion fulfils its equations at all angles{where}",
             found.residual <= most,
             f"{found.residual:.1e} of the motion is left; limit {most:.2g}",
+        ),
+        Check(
+            "A disturbance of the periodic motion does not grow",
+            found.growth <= 1.0 + _GROWTH,
+            f"in a turn it becomes {found.growth:.3g} of what it was, the largest Floquet multiplier; limit 1",
         ),
     )

@@ -1,10 +1,10 @@
-"""From the description of a mechanism to what a turn of it comes to."""
+"""Elastodynamic solution of a turn, from the description of a mechanism to its results."""
 
 from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -24,7 +24,9 @@ from mechanism_fmu.elastodynamics import (
     deflection_of,
     elastic_cycle,
     elastic_ports,
+    fed_back,
     flywheel,
+    growth_per_period,
     instantaneous_modes,
     joint_forces,
     momentum_shaking,
@@ -32,6 +34,7 @@ from mechanism_fmu.elastodynamics import (
     periodic_response,
     quasi_static,
     shaking,
+    speed_sweep,
     stress_of,
     system_forces,
     torque_fluctuation,
@@ -40,7 +43,7 @@ from mechanism_fmu.elastodynamics import (
 )
 
 from ...errors import UsageError
-from .solution import Bent, FloatArray, Largest, Rigid, Solution
+from .solution import Bent, FedBack, FloatArray, Largest, Rigid, Solution
 
 #: The turn is calculated at so many angles at least: the series through them is to be exact.
 _LEAST = 360
@@ -53,6 +56,8 @@ _JUMPS = (
     "Coulomb friction jumps where the slip of a joint turns around; at these angles the series of the periodic motion "
     "cannot fulfil its equations. Deviation and stress follow from it all the same: more angles change them little"
 )
+#: Steps by which a disturbance is followed: so many in a period of the slowest mode, as far as that goes in a turn.
+_A_PERIOD, _MOST_STEPS = 20, 4000
 #: Angles of the equations there: enough for five digits of a curve, in a quarter of the time.
 _COARSE = 180
 
@@ -141,27 +146,49 @@ def solved(turned: Turn, speed: float, damping: float, samples: int, fluctuation
         frequency_range=np.column_stack([modes.hertz.min(axis=0), modes.hertz.max(axis=0)]),
         critical=critical_speeds(modes, _HARMONICS),
         residual=response.residual,
+        growth=growth_per_period(turned.equations, _steps(turned.equations, float(modes.hertz[:, 0].max()))),
+        feedback=_fed_back(turned),
         jump=_jump(turned, moving),
         notes=(*unlike_bodies(cycle.configurations.linkage.mechanism), *notes),
     )
 
 
-def swept(turned: Turn, speed: float, progress: Callable[[str, float], None]) -> SpeedSweep:
-    """Largest deviations at speeds around one.
+def swept(
+    turned: Turn, speed: float, progress: Callable[[str, float], None], speeds: Sequence[float] | None = None
+) -> SpeedSweep:
+    """Largest deviations at `speeds` [rad/s], or else at speeds around one.
 
     Raises:
         UsageError: at one of them there is no periodic motion.
     """
-    factors = np.linspace(_SLOWEST, _FASTEST, _SPEEDS)
-    coarse = turned.equations.resampled(_COARSE)
-    static = np.linalg.norm(turned.deflection(turned.equations.static())[:, :2], axis=1).max()
-    dynamic = []
-    for number, factor in enumerate(factors.tolist()):
-        response, _notes = _periodic(coarse.faster(factor))
-        moving = turned.deflection(response.samples(turned.equations.samples))
-        dynamic.append(np.linalg.norm(moving[:, :2], axis=1).max())
-        progress(f"Speed {number + 1} of {_SPEEDS}", (number + 1) / _SPEEDS)
-    return SpeedSweep(speed * factors, np.array(dynamic), static * factors**2)
+    factors = np.linspace(_SLOWEST, _FASTEST, _SPEEDS) if speeds is None else np.asarray(speeds) / speed
+
+    def deviation(u: FloatArray) -> FloatArray:
+        return np.asarray(np.linalg.norm(turned.deflection(u)[:, :2], axis=1))
+
+    def done(number: int) -> None:
+        progress(f"Speed {number + 1} of {len(factors)}", (number + 1) / len(factors))
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # what is left of the equations at the speed itself has its verdict
+        try:
+            return speed_sweep(turned.equations, speed, factors, deviation, _COARSE, done)
+        except ValueError as error:
+            raise UsageError(str(error)) from error
+
+
+def _steps(equations: ElasticCycle, hertz: float) -> int:
+    """Steps of the turn, so that the slowest mode has enough of them in each of its own periods."""
+    wanted = _A_PERIOD * hertz * equations.period
+    return max(equations.samples, math.ceil(min(wanted, _MOST_STEPS)))
+
+
+def _fed_back(turned: Turn) -> FedBack:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # that it does not converge is said in its own words
+        found = fed_back(turned.equations)
+    deviation = np.linalg.norm(turned.deflection(found.displacement)[:, :2], axis=1)
+    return FedBack(found.converged, len(found.changes), float(found.changes.min()), float(deviation.max()))
 
 
 def _periodic(equations: ElasticCycle) -> tuple[PeriodicResponse, tuple[str, ...]]:

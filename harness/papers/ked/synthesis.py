@@ -34,7 +34,7 @@ from .solution import FloatArray, Solution
 
 #: Steps of the turn at which designs are judged during the search; the result is calculated anew, finer.
 _SAMPLES = 180
-#: Bounds of a depth unless told, in parts of its value.
+#: Bounds of a depth by default, in parts of its value.
 _LEAST, _LARGEST = 0.25, 4.0
 #: By this part a parameter is changed to see what it does.
 _NUDGE = 1e-3
@@ -88,41 +88,41 @@ class Synthesised:
         return {bound.name: float(value) for bound, value in zip(self.bounds, self.design, strict=True)}
 
 
-def bounds_of(vary: Sequence[str], describe: Describe, given: Mapping[str, Value], told: Description) -> list[Bounds]:
+def bounds_of(vary: Sequence[str], describe: Describe, given: Mapping[str, Value], fmu: Description) -> list[Bounds]:
     """The parameters to be varied: those named, or those that change nothing but the depths of members.
 
     Args:
         vary: "NAME=LEAST..LARGEST", with units.
         describe: the mechanism for parameters.
         given: parameters that differ from the model's defaults.
-        told: of the FMU.
+        fmu: its description.
 
     Raises:
         UsageError: a parameter is not known, changes more than sections, or its bounds cannot be; or there is none.
     """
     if vary:
-        found = [_understood(text, told) for text in vary]
+        found = [_understood(text, fmu) for text in vary]
         twice = {bound.name for bound in found if sum(other.name == bound.name for other in found) > 1}
         if twice:
             raise UsageError(f"'{min(twice)}' is varied twice; vary it once.")
         for bound in found:
-            _require_sections_only(bound.name, describe, given, told)
+            _require_sections_only(bound.name, describe, given, fmu)
         return found
-    depths = [name for name in _numbers(told) if _depths_of(name, describe, given, told)]
+    depths = [name for name in _numbers(fmu) if _depths_of(name, describe, given, fmu)]
     if not depths:
         raise UsageError(
             "No parameter of this model changes the depths of members and nothing else; name those that may change, "
             "e.g. --vary 'bar_depth=5..40 mm'."
         )
-    now = {name: _at(name, given, told) for name in depths}
-    return [_within(Bounds(name, _LEAST * at, _LARGEST * at), told) for name, at in now.items()]
+    now = {name: _at(name, given, fmu) for name in depths}
+    return [_within(Bounds(name, _LEAST * at, _LARGEST * at), fmu) for name, at in now.items()]
 
 
 def synthesised(
     bounds: Sequence[Bounds],
     describe: Describe,
     given: Mapping[str, Value],
-    told: Description,
+    fmu: Description,
     place: str,
     speed: float,
     damping: float,
@@ -143,7 +143,7 @@ def synthesised(
     assert limits.stress is not None
     names = [bound.name for bound in bounds]
     least, largest = (np.array([getattr(bound, end) for bound in bounds]) for end in ("least", "largest"))
-    first = np.clip([_at(name, given, told) for name in names], least, largest)
+    first = np.clip([_at(name, given, fmu) for name in names], least, largest)
     judged, angle = 0, np.zeros(0)
 
     def judge(design: FloatArray, by: JudgedBy = limits.judged_by) -> Judgement:
@@ -212,58 +212,58 @@ def _first_found(tries: Sequence[Callable[[], Synthesis]], otherwise: FloatArray
     return otherwise
 
 
-def _understood(text: str, told: Description) -> Bounds:
+def _understood(text: str, fmu: Description) -> Bounds:
     """Bounds as the user writes them: "arm_depth=5..20 mm"; a lower one without a unit has that of the upper one."""
     name, equals, ends = text.partition("=")
     least, dots, largest = ends.partition("..")
     name = name.strip()
     if not equals or not dots:
         raise UsageError(f"--vary '{text}' is no range; write NAME=LEAST..LARGEST, e.g. 'arm_depth=5..20 mm'.")
-    variable = settable_variable(name, told)
+    variable = settable_variable(name, fmu)
     if variable.type != "Real" or variable.causality != "parameter":
         raise UsageError(f"'{name}' is no real parameter, so it cannot be varied.")
     unit = re.sub(r"^[\s\d.eE+-]*", "", largest)
     if re.fullmatch(r"[\s\d.eE+-]+", least):
         least = f"{least.strip()} {unit}"
-    low, high = (float(parse_value(end.strip(), variable, told)) for end in (least, largest))
+    low, high = (float(parse_value(end.strip(), variable, fmu)) for end in (least, largest))
     if not low < high:
         raise UsageError(f"--vary '{text}': the lower bound must be below the upper one.")
     return Bounds(name, low, high)
 
 
-def _numbers(told: Description) -> list[str]:
-    return [variable.name for variable in told.of("parameter") if variable.type == "Real"]
+def _numbers(fmu: Description) -> list[str]:
+    return [variable.name for variable in fmu.of("parameter") if variable.type == "Real"]
 
 
-def _at(name: str, given: Mapping[str, Value], told: Description) -> float:
-    return float(given.get(name, told.variable(name).start or 0.0))
+def _at(name: str, given: Mapping[str, Value], fmu: Description) -> float:
+    return float(given.get(name, fmu.variable(name).start or 0.0))
 
 
-def _within(bounds: Bounds, told: Description) -> Bounds:
+def _within(bounds: Bounds, fmu: Description) -> Bounds:
     """Inside the limits of the parameter."""
-    variable = told.variable(bounds.name)
+    variable = fmu.variable(bounds.name)
     least = bounds.least if variable.minimum is None else max(bounds.least, variable.minimum)
     largest = bounds.largest if variable.maximum is None else min(bounds.largest, variable.maximum)
     return Bounds(bounds.name, least, largest)
 
 
-def _resized(name: str, describe: Describe, given: Mapping[str, Value], told: Description) -> Any:
+def _resized(name: str, describe: Describe, given: Mapping[str, Value], fmu: Description) -> Any:
     """What of the mechanism a small change of a parameter changes."""
-    at, most = _at(name, given, told), told.variable(name).maximum
+    at, most = _at(name, given, fmu), fmu.variable(name).maximum
     nudged = at * (1.0 + _NUDGE) if most is None or at * (1.0 + _NUDGE) <= most else at * (1.0 - _NUDGE)
     return None if at == nudged else resized_members(describe(given), describe({**given, name: nudged}))
 
 
-def _depths_of(name: str, describe: Describe, given: Mapping[str, Value], told: Description) -> bool:
-    found = _resized(name, describe, given, told)
+def _depths_of(name: str, describe: Describe, given: Mapping[str, Value], fmu: Description) -> bool:
+    found = _resized(name, describe, given, fmu)
     return found is not None and bool(found.depths)
 
 
-def _require_sections_only(name: str, describe: Describe, given: Mapping[str, Value], told: Description) -> None:
-    found = _resized(name, describe, given, told)
+def _require_sections_only(name: str, describe: Describe, given: Mapping[str, Value], fmu: Description) -> None:
+    found = _resized(name, describe, given, fmu)
     if found is not None and found.members:
         return
-    fit = [one for one in _numbers(told) if (sized := _resized(one, describe, given, told)) and sized.members]
+    fit = [one for one in _numbers(fmu) if (sized := _resized(one, describe, given, fmu)) and sized.members]
     raise UsageError(
         f"'{name}' is no size of a section: --synthesise leaves the path, the material and all other masses as they "
         f"are. These can be varied: {', '.join(fit) or 'none'}."

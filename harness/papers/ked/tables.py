@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from mechanism_fmu.elastodynamics import SpeedSweep
+
 from ...fmu.description import Description
 from ...fmu.values import in_display_unit
 from .solution import Rigid, Solution
@@ -74,6 +76,12 @@ def _frame_columns(rigid: Rigid) -> dict[str, tuple[object, str]]:
     if rigid.flywheel is not None:
         columns["crank_speed_with_flywheel"] = rigid.flywheel.speed, "rad/s"
     return columns
+
+
+def speeds_table(sweep: SpeedSweep) -> tuple[pd.DataFrame, dict[str, str]]:
+    """Largest deviations by the crank's speed, in SI units, and the unit of each column."""
+    units = {"crank_speed": "rad/s", "quasi_static_deviation": "m", "elastodynamic_deviation": "m"}
+    return pd.DataFrame(dict(zip(units, (sweep.speed, sweep.static, sweep.dynamic), strict=True))), units
 
 
 def cycle_rows(found: Solution) -> Shown:
@@ -172,6 +180,18 @@ def frame_sentence(found: Solution) -> str:
     return (
         f"On the frame: shaking force up to {force.value:.4g} N at {force.degrees:g} deg; shaking moment about "
         f"({x:g}, {y:g}) mm up to {moment.value:.4g} N.m at {moment.degrees:g} deg."
+    )
+
+
+def feedback_sentence(found: Solution) -> str:
+    """How far the paper's way to the periodic motion goes."""
+    fed, what = found.feedback, "Fed back into the inertia forces, the elastic acceleration"
+    deviation = f"with a largest deviation of {1e3 * fed.largest_deviation:.5g} mm"
+    if fed.converged:
+        return f"{what} settles in {fed.rounds} rounds, {deviation}."
+    return (
+        f"{what} settles to {fed.change:.2g} of the quasi-static deviation after {fed.rounds} rounds and no further, "
+        f"{deviation}; the periodic motion is found without it."
     )
 
 

@@ -1,4 +1,4 @@
-"""What several rows need: the study, the ratchet at its impact, the path generator; how far numbers are off."""
+"""Shared data of several rows: the study, the ratchet at its impact, the path generator; and differences of numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the documents leave open and what this project takes, each with what it does to the numbers."""
+"""Choices: what the documents leave open and what this project takes, each with what it does to the numbers."""
 
 from __future__ import annotations
 
@@ -186,7 +186,7 @@ CHOICES = (
         "Pennestrì, sections 4, 5",
         "Reading of v_I.",
         "“sudden variation of its velocity … follows from (7)”",
-        ("mechanism_fmu/engine/contacts/records.py",),
+        ("mechanism_fmu/engine/contacts/impact.py",),
         _velocity,
     ),
     Row(

@@ -235,7 +235,7 @@ ASSUMPTIONS = (
         "Pennestrì, section 5.1",
         "ω(t_I+) is monitored, the rate before the impact is not.",
         "“the angular velocity of ratchet wheel after impact”",
-        ("mechanism_fmu/engine/contacts/records.py",),
+        ("mechanism_fmu/engine/contacts/impact.py",),
         _at_rest,
     ),
     Row(

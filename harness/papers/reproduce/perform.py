@@ -1,4 +1,4 @@
-"""From ids to results: which rows are asked for, and their findings one after the other."""
+"""Evaluation of rows: which are asked for, and their findings one after the other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A row of the page: what a document says, and what became of it."""
+"""One row of the comparison: what a document says, and what became of it."""
 
 from __future__ import annotations
 

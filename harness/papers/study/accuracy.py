@@ -1,4 +1,4 @@
-"""What the paper says of the accuracy of its tooth, against finite elements and against its own first mode.
+"""Accuracy of the paper's tooth, against finite elements and against its own first mode, as the paper states it.
 
 Source of the claims: Pennestrì, Valentini, Vita, section 5.1.
 """

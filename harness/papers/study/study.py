@@ -23,7 +23,7 @@ from ...run.results import settings, versions, write_json, write_with_units
 from .accuracy import accuracy_findings
 from .wheels import BASE_CASE, SLOPE_ANGLES_DEG, TOOTH_COUNTS, WHEEL_UNITS, Wheel, study_checks
 
-# The rim of a toothed wheel, as the drawing in its FMU tells it.
+# The rim of a toothed wheel, as the drawing in its FMU has it.
 
 #: The places of corners: (x, y) [m], shape (corners,) each.
 Outline = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
@@ -177,13 +177,13 @@ def ratchet_study(fmu: Instances, on_wheel: Callable[[int, int], None]) -> Study
         rims=tuple(rims),
         parameters={name: tuple(case[name] for case in made) for name in made[0]},
         base_case=runs[cases.index(BASE_CASE)],
-        warnings=tuple(map(_told_once, warnings.values())),
+        warnings=tuple(map(_listed_once, warnings.values())),
         checks=study_checks(wheels),
         findings=accuracy_findings(wheels),
     )
 
 
-def _told_once(said: list[tuple[str, Wheel]]) -> str:
+def _listed_once(said: list[tuple[str, Wheel]]) -> str:
     """A warning that differs in its numbers only, with the wheels it was said about: the first one's text for all."""
     first = said[0][0]
     same = "; ".join(str(wheel) for text, wheel in said if text == first)

@@ -1,4 +1,4 @@
-"""What joints and rigid bodies ask of the displacements of the places, G w = 0, and which are free: w = Z u."""
+"""Compatibility: constraints of joints and rigid bodies on the displacements, G w = 0, and free ones: w = Z u."""
 
 from __future__ import annotations
 
@@ -140,8 +140,9 @@ def _choice(
     pivots = np.abs(np.diag(triangle))
     if rows.shape[0] > rows.shape[1] or pivots[-1] <= _DEPENDENT * pivots[0]:
         raise LinkageError(
-            f"The rows of {', '.join(dict.fromkeys(owners))} say the same of rigid parts: their forces cannot be told "
-            "apart. Take one of them out, or give members to the bodies between them; `mobility` names such rows."
+            f"The rows of {', '.join(dict.fromkeys(owners))} say the same of rigid parts: their forces cannot be "
+            "distinguished. Take one of them out, or give members to the bodies between them; `mobility` names such "
+            "rows."
         )
     following = sorted(order[: len(rows)].tolist())
     return following, [k for k in range(rows.shape[1]) if k not in following]

@@ -1,4 +1,4 @@
-"""Where the rigid bodies are in all configurations, and what joints ask of small displacements there."""
+"""Poses of the rigid bodies in all configurations, and constraints of joints on small displacements there."""
 
 from __future__ import annotations
 

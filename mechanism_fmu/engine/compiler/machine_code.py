@@ -1,4 +1,4 @@
-"""How numba's machine code is made as whole programs, and kept in files that are read only as they were written."""
+"""Machine code by numba, made as whole programs and cached in files that are read only as they were written."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class CheckedFiles(IndexDataCacheFile):
 
 
 def check_files(function: Any) -> None:
-    """Let a function that numba has been told to keep be read by `CheckedFiles`."""
+    """Let a function that numba is to keep be read by `CheckedFiles`."""
     function._cache._cache_file.__class__ = CheckedFiles
 
 

@@ -1,4 +1,4 @@
-"""All constraint rows of the mechanism at one instant."""
+"""All constraint rows of the mechanism at one instant: joints, drivers, contacts; a point against a line, an angle."""
 
 from __future__ import annotations
 
@@ -16,8 +16,58 @@ from ..vectors import clear
 from .joints.drivers import angle_driver, distance_driver, translational_driver, x_driver, y_driver
 from .joints.gears import gears, internal_gears, rack_and_pinion
 from .joints.pins_and_slides import distance, revolute, revolute_translational, translational
-from .point_line import angle_row, point_line
 from .profile_row import profile_row
+
+# The relative angle of two bodies against a given one: one row.
+
+
+@jit
+def angle_row(at: Pose, rows: Rows, row: int, i: int, j: int, angle: Array) -> None:
+    """Write the row s = phi_i - phi_j - angle[0]: s_q = [.., 1, .., -1], s' = phi_i' - phi_j', gamma = 0."""
+    keep_small()
+    rows.residual[row] = at.phi[i] - at.phi[j] - angle[0]
+    rows.residual_rate[row] = at.phi_rate[i] - at.phi_rate[j]
+    rows.gamma[row] = 0.0
+    rows.jacobian[row, 3 * i + 2] = 1.0
+    rows.jacobian[row, 3 * j + 2] = -1.0
+
+
+# A point of one body against a line fixed in another: the gap s, one row (Pennestrì et al., Fig. 1).
+
+
+@jit
+def point_line(at: Pose, rows: Rows, row: int, i: int, j: int, point: Array, line: Array) -> None:
+    """Write the row s = n.(r_i^P - r_j) - n'.p' of `point` in body i and `line` = (point p', normal n') in body j.
+
+    With n = A_j n', a = A_i s_i, e = r_i + a - r_j and its rate e', u = phi_j':
+    s_q = [n, n.Ra, -n, (R n).e], s' = n.e' + u (R n).e, gamma = n.a phi_i'^2 + n.e u^2 - 2 u (R n).e'.
+    """
+    keep_small()
+    ax = at.cosine[i] * point[0] - at.sine[i] * point[1]
+    ay = at.sine[i] * point[0] + at.cosine[i] * point[1]
+    nx = at.cosine[j] * line[2] - at.sine[j] * line[3]
+    ny = at.sine[j] * line[2] + at.cosine[j] * line[3]
+    ui, uj = at.phi_rate[i], at.phi_rate[j]
+    ex = at.x[i] + ax - at.x[j]
+    ey = at.y[i] + ay - at.y[j]
+    ex_rate = at.x_rate[i] - ay * ui - at.x_rate[j]
+    ey_rate = at.y_rate[i] + ax * ui - at.y_rate[j]
+    along = nx * ey - ny * ex
+    rows.residual[row] = nx * ex + ny * ey - line[2] * line[0] - line[3] * line[1]
+    rows.residual_rate[row] = nx * ex_rate + ny * ey_rate + uj * along
+    rows.gamma[row] = (
+        (nx * ax + ny * ay) * ui * ui + (nx * ex + ny * ey) * uj * uj - 2.0 * uj * (nx * ey_rate - ny * ex_rate)
+    )
+    entry = rows.jacobian[row]
+    entry[3 * i] = nx
+    entry[3 * i + 1] = ny
+    entry[3 * i + 2] = ny * ax - nx * ay
+    entry[3 * j] = -nx
+    entry[3 * j + 1] = -ny
+    entry[3 * j + 2] = along
+
+
+# The rows of joints, drivers and contacts, by their kinds.
 
 #: The rows of every joint, by the name of its kind; those of the first two, which are frequent, are compiled for speed.
 FREQUENT = {"revolute": revolute, "translational": translational}

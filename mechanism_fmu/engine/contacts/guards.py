@@ -11,8 +11,7 @@ from ...tables.parts import Contacts, Functions, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import MARGIN
 from ..compiler.subset import jit, keep_small
-from ..constraints.point_line import point_line
-from ..constraints.rows import contact_row, spare_row, tangent_row
+from ..constraints.rows import contact_row, point_line, spare_row, tangent_row
 from ..profiles.nearest import find_nearest, is_searched
 
 # Where the contacts stand now: the present copy of a pattern, the present angle of a stop or lock.

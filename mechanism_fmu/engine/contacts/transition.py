@@ -1,4 +1,4 @@
-"""What happens at an event, and which contacts no longer touch behind a step."""
+"""Transition at an event, the record of it, and contacts that no longer touch behind a step."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ from ..dynamics.acceleration import LEAST_DRIFT, mend
 from ..dynamics.forces import kinetic_energy
 from .complementarity import COUNT, push_forces
 from .guards import can_open, gap, place_contact, place_pattern
-from .impact import MOST_ROUNDS, strike
-from .records import complete_impacts, keep_event, mode_number
+from .impact import MOST_ROUNDS, complete_impacts, make_space, strike
 
 # Contacts that no longer touch.
 
@@ -210,3 +209,40 @@ def _progress(block: Array) -> int:
     if now.counters[codes.PILE] > MOST_PILED:
         return status.CHATTERING
     return status.OK
+
+
+# Records of events within the communication step.
+
+
+@jit
+def keep_event(block: Array, guard: int, subject: int, old_mode: float, impulse: float) -> None:
+    """Record an event at STEP_END; when the buffer is full, the oldest is lost."""
+    keep_small()
+    now = Course(block)
+    now.counters[codes.COUNT_EVENTS] += 1
+    place = now.counters[codes.EVENTS_IN_STEP]
+    if place == codes.EVENT_BUFFER_LENGTH:
+        make_space(now.events)
+        place -= 1
+    else:
+        now.counters[codes.EVENTS_IN_STEP] = place + 1
+    record = now.events[place]
+    record[codes.EVENT_TIME] = now.clock[codes.STEP_END]
+    record[codes.EVENT_GUARD] = guard
+    record[codes.EVENT_SUBJECT] = subject
+    record[codes.EVENT_OLD_MODE] = old_mode
+    record[codes.EVENT_NEW_MODE] = mode_number(block)
+    record[codes.EVENT_IMPULSE] = impulse
+
+
+@jit
+def mode_number(block: Array) -> float:
+    """The mode of the mechanism: the sum of 2^c over its closed contacts c."""
+    mode = Contacts(block).mode
+    number = 0.0
+    bit = 1.0
+    for c in range(mode.shape[0]):
+        if mode[c] == codes.CLOSED:
+            number += bit
+        bit *= 2.0
+    return number

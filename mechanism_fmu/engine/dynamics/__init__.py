@@ -1,1 +1,1 @@
-"""From forces and rows to accelerations and multipliers: eqs (2) and (3), by a minimum-norm solve."""
+"""Equations of motion: accelerations and multipliers from forces and rows, eqs (2) and (3), by minimum norm."""

@@ -1,4 +1,4 @@
-"""What a force element is to the engine, and what elements have in common."""
+"""Interface of force elements to the engine, and what they have in common."""
 
 from __future__ import annotations
 

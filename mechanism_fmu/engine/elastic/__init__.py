@@ -1,1 +1,1 @@
-"""How far elastic members give way under the inertia of the rigid motion: quasi-static, by the flexibility approach."""
+"""Deflection of elastic members under the inertia of the rigid motion: quasi-static, by the flexibility approach."""

@@ -1,4 +1,4 @@
-"""What can be read of elastic members, after `structure.bend`."""
+"""Outputs of elastic members, after `structure.bend`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves at a place: profiles of cams and slots, motions of drivers (see `mechanism_fmu.model.curves`)."""
+"""Evaluation of curves: profiles of cams and slots, motions of drivers (see `mechanism_fmu.model.curves`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contact coordinates: kept where two profiles are nearest to each other, and found there where that is not known.
+"""Contact coordinates of two profiles: kept where they are nearest to each other, and searched where that is unknown.
 
 A closed pair is followed, and so is an open one of convex profiles, whose nearest points are the only ones. With a
 hollow there may be several places; an open pair is then looked at everywhere, each time that its gap is asked for.

@@ -1,4 +1,4 @@
-"""Profiles that run into each other where they do not touch."""
+"""Interference of profiles: where they run into each other beside their contact."""
 
 from __future__ import annotations
 

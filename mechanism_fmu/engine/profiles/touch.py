@@ -1,4 +1,4 @@
-"""Where two profiles touch: points of a profile, and the geometry of a pair of curves, one in each body.
+"""Contact geometry of two profiles: points of a profile, and a pair of curves, one in each body.
 
 The pair's contact coordinates say which point of each curve is looked at: C_i = r_i + a on body i, C_j = r_j + b on
 body j, a = A_i (s_i + rho_i e(alpha_i)) and b likewise. One of the two curves may be a mere point, or curve j a line.

@@ -1,1 +1,1 @@
-"""From the start guess to a mechanism that is assembled and ready to begin."""
+"""Assembly and initialization: from the start guess to a mechanism that is ready to begin."""

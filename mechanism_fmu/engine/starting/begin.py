@@ -1,4 +1,4 @@
-"""The beginning: from the start guess to a mechanism that is assembled, checked and ready to move."""
+"""Initialization: from the start guess to a mechanism that is assembled, checked and ready to move."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from ..compiler.subset import entry, jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, spare_row
 from ..contacts.guards import gap
-from ..contacts.records import clear_impact, clear_records
-from ..dynamics.inputs import set_time, take_inputs
+from ..contacts.impact import clear_impact, clear_records
+from ..dynamics.forces import set_time, take_inputs
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
 from ..vectors import clear
@@ -114,7 +114,7 @@ def _contacts_begin(block: Array, at: Pose) -> bool:
 
 @jit
 def _blame(block: Array, contact: int, distance: float) -> None:
-    """Tell which contact is inside, and its gap [m or rad]: PENDING_SUBJECT and the spare row's residual."""
+    """Report which contact is inside, and its gap [m or rad]: PENDING_SUBJECT and the spare row's residual."""
     Course(block).counters[codes.PENDING_SUBJECT] = contact
     Rows(block).residual[spare_row(block)] = distance
 
@@ -123,7 +123,7 @@ def _blame(block: Array, contact: int, distance: float) -> None:
 def _close_rates(block: Array, at: Pose) -> bool:
     """Whether the start rates agree with the active rows, after those of coordinates that are not held have given way.
 
-    Without held coordinates nothing tells which rates are meant, and all stay as they are given.
+    Without held coordinates it is not known which rates are meant, and all stay as they are given.
     """
     keep_small()
     n = Sizes(block).coordinates

@@ -1,4 +1,4 @@
-"""Where inside a step the first event happens.
+"""Event location: where inside a step the first event happens.
 
 The rule. On a step from t0 to t1, a guard w fires at the first t in (t0, t1] at which w <= 0 and before which w > 0.
 Open at t0: what has fired at the end of one step does not fire again at the start of the next. Closed at t1: no zero
@@ -29,7 +29,7 @@ from ..constraints.rows import row_count
 from ..contacts.complementarity import push_ratio
 from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
 from ..dynamics.acceleration import derivative
-from ..dynamics.inputs import set_time
+from ..dynamics.forces import set_time
 from .interpolation import interpolate
 from .runge_kutta import try_step
 

@@ -14,7 +14,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.rows import row_count
 from ..contacts.complementarity import push_ratio
 from ..dynamics.acceleration import derivative
-from ..dynamics.inputs import set_time
+from ..dynamics.forces import set_time
 from .interpolation import write_dense
 from .singular import independence
 

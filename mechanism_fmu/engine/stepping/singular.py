@@ -15,7 +15,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
-from ..dynamics.inputs import set_time
+from ..dynamics.forces import set_time
 from ..dynamics.minimum_norm import orthogonalise
 from .interpolation import interpolate
 

@@ -15,7 +15,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..contacts.transition import release
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, derivative, mend
-from ..dynamics.inputs import set_time
+from ..dynamics.forces import set_time
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import copy

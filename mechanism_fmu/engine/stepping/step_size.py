@@ -1,4 +1,4 @@
-"""How large a step is: its limits, and the control of its error."""
+"""Step size control: limits of a step, and the control of its error."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .runge_kutta import scaled_error, try_step
 
 # How far a step may go, however accurate it is: to where slopes of inputs end, and not over what a driver does.
 #
-# Nobody knows an input beyond the end of its slope. A mechanism at rest needs no step at all: it would stride over a
+# An input is unknown beyond the end of its slope. A mechanism at rest needs no step at all: it would stride over a
 # short motion of a driver without noticing, since none of its stages falls into it.
 
 #: A step that comes so near to the end of a slope or of a piece goes there.

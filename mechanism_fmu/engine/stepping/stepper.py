@@ -3,7 +3,7 @@
 The engine takes steps of its own, with dense output, and may be ahead of the time that the outside has reached
 (TIME <= STEP_END): the trajectory then does not depend on the communication step at all. When an input changes, what
 lies ahead is dropped and the motion goes on from TIME. Only a step in which an input has a slope ends at the target,
-because nobody knows the input beyond.
+because the input beyond is unknown.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from ...tables.motion import Course, Stages
 from ...tables.parts import Contacts, Options, Ports
 from .. import status
 from ..compiler.subset import entry, jit, keep_small
-from ..contacts.records import clear_records
+from ..contacts.impact import clear_records
 from ..contacts.transition import release, transit
 from ..dynamics.acceleration import derivative
-from ..dynamics.inputs import feed, inputs_changed, set_time, show_reached, take_inputs
+from ..dynamics.forces import feed, inputs_changed, set_time, show_reached, take_inputs
 from ..vectors import copy
 from .interpolation import interpolate
 from .runge_kutta import initial_step_size, try_step

@@ -101,7 +101,7 @@ else:
 
 # Which names of a zip archive may be unpacked: none that leads out of the folder, and none that a disk refuses.
 
-#: Bytes of one part of a path, and of a whole one: what common file systems take, with room for a folder before it.
+#: Bytes of one part of a path, and of a whole one: what common file systems take, with space for a folder before it.
 _LONGEST_PART, _LONGEST_PATH = 255, 2000
 _SHOWN = 60
 

@@ -35,8 +35,8 @@ def keep(path: Path, contents: bytes, *, program: bool = False) -> None:
 def is_whole(path: Path) -> bool:
     """Whether a file is as it was kept."""
     try:
-        told = _beside(path).read_text(encoding="ascii").strip()
-        return hashlib.sha256(path.read_bytes()).hexdigest() == told
+        digest = _beside(path).read_text(encoding="ascii").strip()
+        return hashlib.sha256(path.read_bytes()).hexdigest() == digest
     except (OSError, ValueError):
         return False
 

@@ -1,4 +1,4 @@
-"""What an instance tells through the FMI logger while it runs."""
+"""Log messages of impacts, events and pulling contacts, as an instance writes them to the FMI logger while it runs."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ class Message(NamedTuple):
 
 
 class News:
-    """Keeps count of what has been told.
+    """Keeps count of what has been logged.
 
     Args:
-        simulation: all that has happened to it so far counts as told.
+        simulation: all that has happened to it so far counts as logged.
     """
 
     def __init__(self, simulation: Simulation | None = None) -> None:
@@ -74,7 +74,7 @@ def _events(simulation: Simulation, new: int) -> Iterator[Message]:
     known = simulation.events_in_step()
     if new > len(known):
         yield Message(
-            f"{new - len(known)} events of the step to t = {simulation.time:.9g} s are not told one by one; the last "
+            f"{new - len(known)} events of the step to t = {simulation.time:.9g} s are not listed one by one; the last "
             f"{len(known)} follow.",
             Fmi2Status.ok,
             "logEvents",

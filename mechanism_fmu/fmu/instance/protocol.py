@@ -152,12 +152,20 @@ def fmi_call(method: _Method) -> _Method:
     return guarded  # type: ignore[return-value]
 
 
-#: References to a text while `Told.release` looks at it: the list's, the variable's, the argument's.
+def place_of(error: Exception) -> str:
+    """Where an exception was raised, as " at file:line"; "" where that is not known."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    return "" if trace is None else f" at {trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}"
+
+
+#: References to a text while `PassedTexts.release` looks at it: the list's, the variable's, the argument's.
 _HELD_HERE = 3
 
 
-class Told:
-    """The texts that the wrapper has passed on to the host's log.
+class PassedTexts:
+    """Log messages that the wrapper has passed on to the host.
 
     The wrapper (pythonfmu 0.7.0) takes a reference to the text of each message and never releases it, so that a long
     run with many impacts would grow without end.

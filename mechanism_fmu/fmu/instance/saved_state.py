@@ -149,8 +149,8 @@ class Admissible:
                 return "it counts an impact without a contact"
         for record in self._field(state, "events")[: counters[codes.EVENTS_IN_STEP]]:
             guard, subject = int(record[codes.EVENT_GUARD]), int(record[codes.EVENT_SUBJECT])
-            told = guard in SUBJECTS or guard == codes.GUARD_INPUT
-            if not told or not self._fits(guard, subject):
+            known = guard in SUBJECTS or guard == codes.GUARD_INPUT
+            if not known or not self._fits(guard, subject):
                 return f"its event {guard} cannot be about {subject}"
         return None
 
@@ -196,7 +196,7 @@ class SavedState:
 
 
 def fingerprint(parts: Sequence[str]) -> bytes:
-    """16 bytes that tell models (and engine layouts) apart."""
+    """16 bytes that distinguish models (and engine layouts)."""
     return hashlib.sha256("\0".join(parts).encode()).digest()[:16]
 
 

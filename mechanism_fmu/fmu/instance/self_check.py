@@ -1,12 +1,16 @@
-"""Whether a mechanism can start with its default values: asked once, when its FMU is built."""
+"""Start of a mechanism with its default values: the check when its FMU is built, and the engine compiled before it."""
 
 from __future__ import annotations
 
+import functools
+import gc
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
-from ...model import MechanismError
+from ...engine.run import compiled_library
+from ...model import MechanismError, Model
+from ...simulation import Simulation
 
 
 class StartError(MechanismError):
@@ -38,3 +42,20 @@ def require_numbers(values: Mapping[str, float]) -> None:
     for name, value in values.items():
         if not math.isfinite(value):
             raise MechanismError(f"{name} is {value} there, which is not a finite number.")
+
+
+@functools.cache
+def compile_engine(model: Model) -> None:
+    """Compile the engine, or load it from the cache: in the constructor, never in the first step."""
+    if compiled_library() is not None:
+        return
+    collects = gc.isenabled()
+    gc.disable()  # the compiler makes millions of small objects and keeps them: looking for garbage costs a tenth
+    try:
+        with start_explained():
+            simulation = Simulation(model.build(model.values()))
+        simulation.advance(1e-3)
+        simulation.read()
+    finally:
+        if collects:
+            gc.enable()

@@ -1,9 +1,8 @@
-"""The co-simulation slave: FMI calls on one side, a `Simulation` on the other. No dynamics here."""
+"""FMI 2.0 co-simulation slave (pythonfmu): FMI calls on one side, a `Simulation` on the other. No dynamics here."""
 
 from __future__ import annotations
 
 import functools
-import gc
 import math
 import weakref
 from collections.abc import Sequence
@@ -29,16 +28,17 @@ from .protocol import (
     TIGHTEST,
     Experiment,
     FmiError,
+    PassedTexts,
     Phase,
-    Told,
     experiment,
     fmi_call,
+    place_of,
     require,
     step_target,
     survive_release,
 )
 from .saved_state import Admissible, CheckedState, Contents, SavedState, SavedStateError, check_contents
-from .self_check import require_numbers, start_explained
+from .self_check import compile_engine, require_numbers, start_explained
 
 _SETTABLE = {
     "input": (Phase.INSTANTIATED, Phase.INITIALIZATION, Phase.STEPPING),
@@ -57,7 +57,7 @@ class MechanismSlave(Fmi2Slave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        _compile_engine(self.model)
+        compile_engine(self.model)
         self.modelName = self.model.name
         self.description = self.model.description
         self._phase = Phase.INSTANTIATED
@@ -68,7 +68,7 @@ class MechanismSlave(Fmi2Slave):
         self._simulation: Simulation | None = None
         self._values: list[float] | None = None
         self._news = News()
-        self._told = Told()
+        self._passed = PassedTexts()
         self._instances.add(self)
 
     # --- life cycle --------------------------------------------------------------------------------------------------
@@ -97,7 +97,7 @@ class MechanismSlave(Fmi2Slave):
         for warning in self.model.warned(values):
             self.log(warning, Fmi2Status.warning)
         self._phase = Phase.STEPPING
-        self._tell()
+        self._report_news()
 
     @fmi_call
     def do_step(self, current_time: float, step_size: float) -> bool:
@@ -113,7 +113,7 @@ class MechanismSlave(Fmi2Slave):
             self.log(f"{self.instance_name}: {spent}", Fmi2Status.discard, "logStatusDiscard")
             return False  # fmi2Discard
         finally:
-            self._tell()
+            self._report_news()
         return True
 
     @fmi_call
@@ -231,21 +231,18 @@ class MechanismSlave(Fmi2Slave):
     def log(self, msg: str, status: Fmi2Status = Fmi2Status.ok, category: str | None = None, debug: Any = None) -> None:
         """Log a plain text: the FMI logger takes it for a printf format, in which % must be doubled."""
         if not self.log_queue:
-            self._told.release()
+            self._passed.release()
         # A string of its own, which nobody else holds: the wrapper's reference to it will be released.
         text = "".join((msg.replace("%", "%%"), " "))[:-1]
         super().log(text, status, category)
-        self._told.add(text)
+        self._passed.add(text)
 
     def report(self, error: Exception) -> None:
         """Log an exception: as it is when it was meant for the user, with its type and place when it was not."""
         if isinstance(error, (FmiError, MechanismError, SimulationError, SavedStateError)):
             self.log(f"{self.instance_name}: {error}", Fmi2Status.error)
             return
-        trace = error.__traceback__
-        while trace is not None and trace.tb_next is not None:
-            trace = trace.tb_next
-        place = "" if trace is None else f" at {trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}"
+        place = place_of(error)
         self.log(
             f"{self.instance_name}: internal error {type(error).__name__}: {error}{place}; please report it.",
             Fmi2Status.error,
@@ -323,7 +320,7 @@ class MechanismSlave(Fmi2Slave):
                 raise FmiError(f"{variable.name} (value reference {reference}) is of type {variable.type}, not {kind}.")
         return places
 
-    def _tell(self) -> None:
+    def _report_news(self) -> None:
         for message in self._news.since_last(self._prepared()):
             self.log(*message)
 
@@ -350,20 +347,3 @@ def make_slave_class(model: Model) -> type[MechanismSlave]:
         "__doc__": model.description,
     }
     return type(model.name, (MechanismSlave,), members)
-
-
-@functools.cache
-def _compile_engine(model: Model) -> None:
-    """Compile the engine, or load it from the cache: in the constructor, never in the first step."""
-    if compiled_library() is not None:
-        return
-    collects = gc.isenabled()
-    gc.disable()  # the compiler makes millions of small objects and keeps them: looking for garbage costs a tenth
-    try:
-        with start_explained():
-            simulation = Simulation(model.build(model.values()))
-        simulation.advance(1e-3)
-        simulation.read()
-    finally:
-        if collects:
-            gc.enable()

@@ -79,7 +79,7 @@ class Again:
     clocked: bool = False
 
 
-def tells_impacts(variables: Sequence[Variable]) -> bool:
+def reports_impacts(variables: Sequence[Variable]) -> bool:
     """Whether there can be a clock: an output says that there was an impact."""
     return any(variable.source == _IMPACT_FLAG for variable in variables)
 
@@ -117,7 +117,7 @@ def variables3(model: Model, clocks: bool = False) -> tuple[Variable3, ...]:
         MechanismError: two of them have the same name, or there are no impacts for a clock.
     """
     variables = variables_of(model)
-    if clocks and not tells_impacts(variables):
+    if clocks and not reports_impacts(variables):
         raise MechanismError(
             f"{model.name} has no output that says whether there was an impact, and so no clock; build it without "
             "--clocks."
@@ -176,7 +176,7 @@ def _variables3(variables: Sequence[Variable], clocks: bool) -> Iterator[Variabl
     behind = FIRST_REFERENCE + len(variables)
     time = Variable("time", behind, "Real", "independent", "continuous", None, "Time", "s")
     yield Variable3(time.name, time.description, time.value_reference, "Float64", time)
-    if not clocks or not tells_impacts(variables):
+    if not clocks or not reports_impacts(variables):
         return
     clock = behind + 1
     scalar = Variable(_CLOCK, clock, "Boolean", "output", "discrete", None, "Ticks at an impact")

@@ -1,4 +1,4 @@
-"""From the engine's intermediate code to an object file for each platform.
+"""Object files for each platform from the engine's intermediate code (LLVM).
 
     python -m mechanism_fmu.fmu.native.emit FOLDER      writes FOLDER/<target>.o
 

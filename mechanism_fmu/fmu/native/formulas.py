@@ -1,4 +1,4 @@
-"""A model's formulas as C: from parameter values to the tables in an instance's block, and to what is wrong or odd."""
+"""Generated C formulas of a model: from parameter values to tables in an instance's block, and to findings."""
 
 from __future__ import annotations
 

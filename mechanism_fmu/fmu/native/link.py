@@ -1,4 +1,4 @@
-"""From objects and C files to shared libraries for all platforms, with the tools of the `ziglang` wheel."""
+"""Linking of shared libraries for all platforms from objects and C files, with the tools of the `ziglang` wheel."""
 
 from __future__ import annotations
 

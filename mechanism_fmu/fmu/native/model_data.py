@@ -1,4 +1,4 @@
-"""model.c: a model as constants for the C surface, and its formulas."""
+"""Generated model.c: a model as constants for the C surface, and its formulas."""
 
 from __future__ import annotations
 

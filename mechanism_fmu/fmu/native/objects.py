@@ -126,7 +126,7 @@ def compiled_engine(report: Report = silently) -> Engine:
     Whoever asks while another process compiles it waits for what that makes.
 
     Args:
-        report: is told what comes next, and which part of the whole is done (0..1).
+        report: is called with what comes next, and which part of the whole is done (0..1).
 
     Raises:
         MechanismError: the compilation failed, with what it printed.

@@ -1,4 +1,4 @@
-"""From a model to a native FMU, started once where it is built: no Python on the target."""
+"""Packaging of a model as a native FMU, started once where it is built: no Python on the target."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be known of a user's model before its FMU is built: mistakes, and what looks like one."""
+"""Examination of a user's model before its FMU is built: mistakes, and what looks like one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which file is meant, and a file to begin with."""
+"""The user's model file: which one is meant, and a template to begin with."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What went wrong in a user's file: where, in plain words, and the way out."""
+"""Error messages for a user's model file: where the mistake is, in plain words, and the way out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From what the user wrote on the command line to a module that can be built."""
+"""User's model file made ready to be built: from the command line to an imported module."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def prepare(text: str, native: bool, warn: Callable[[str], None]) -> tuple[Modul
     Args:
         text: the path as it was written.
         native: see `examine`.
-        warn: is told each warning.
+        warn: is called with each warning.
 
     Returns:
         The module that holds `MODEL`, and the file.

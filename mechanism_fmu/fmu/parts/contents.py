@@ -1,4 +1,4 @@
-"""What the FMU of a model holds in every flavour, and which source files it needs."""
+"""Contents of a model's FMU in every flavour, and the source files that it needs."""
 
 from __future__ import annotations
 

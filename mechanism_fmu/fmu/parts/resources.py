@@ -1,4 +1,4 @@
-"""What travels in an FMU for tools: its drawing, its logic, which variables make up a shaft, what can be analysed."""
+"""Resource files of an FMU for tools: its drawing, its logic, terminals of its shafts, analyses that it declares."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement
 from ...model import GROUND, CompliantShaft, ImpactStress, Mechanism, MechanismError, Model, Parameter, Torque
 from ...model.analysis import Analysis, check_analysis
 from ...model.drawing import check_drawing
-from ...model.event_names import event_names
+from ...model.logical_functions import event_names
 from ...model.transitions import logic_of
 from ...statechart import Logic
 from ...statechart.records import encode

@@ -1,4 +1,4 @@
-"""What all joints have: their row of numbers, the forces that can be read of them, and what they refuse."""
+"""Base of all joints: their row of numbers, the constraint forces that can be read of them, and what they refuse."""
 
 from __future__ import annotations
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..body import GROUND, Point
-from ..check_curves import least_value
 from ..curves import Curve
+from ..curves.check_curves import least_value
 from ..findings import Finding, positive, refuse_unless
 from ..functions import Number
 from .base import Effort, JointFacts, unit_vector

@@ -94,9 +94,9 @@ def energy_outputs(kinetic: str, spring: str, work: str, lost: str, nominal: flo
     return tuple(Output(name, source, description, "J", nominal=nominal) for name, source, description in ledger)
 
 
-# Outputs that tell of impacts and events: of the last one, and of all those of the last communication step.
+# Outputs that report impacts and events: of the last one, and of all those of the last communication step.
 #
-# What is told of one impact is a tuple of fields. A field is an `Output` without its place: the name is that after
+# What is reported of one impact is a tuple of fields. A field is an `Output` without its place: the name is that after
 # "impact_" or "impacts[k].", the source that after "impact." or "impacts[k]." (see `Output`), and "{impact}" in the
 # description is replaced by which impact it is:
 #
@@ -110,8 +110,8 @@ def impact_outputs(what: str, fields: Sequence[Output]) -> tuple[Output, ...]:
 
     Args:
         what: whose impacts, e.g. "Impacts of the driver on its backstop".
-        fields: what is told of each, with "{impact}" in the descriptions, besides its time, its instant (a counter: all
-            impacts of one instant have the same) and the energy that all impacts of this instant lost [J].
+        fields: what is reported of each, with "{impact}" in the descriptions, besides its time, its instant (a counter:
+            all impacts of one instant have the same) and the energy that all impacts of this instant lost [J].
     """
     time = Output("time", "time", "Time, {impact}", "s")
     instant = whole_output("instant", "instant", "Number of the instant, the same for all its impacts, {impact}")

@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from harness.fmu.description import Description, Variable
-from harness.fmu.instances.common import discard_message
 from harness.fmu.instances.fmi2 import Fmi2Slave
+from harness.fmu.instances.message_log import discard_message
 
 VARIABLES = {name: Variable(name, k, "Real", "output", fmi_type="Real") for k, name in enumerate(("a", "b"))}
 

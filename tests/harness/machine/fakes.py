@@ -14,7 +14,7 @@ from typing import Any
 
 from harness.errors import FmuError, LogMessage, Status
 from harness.fmu.description import Description, Value, Variable
-from harness.fmu.instances.common import MessageHandler
+from harness.fmu.instances.message_log import MessageHandler
 from tests.declared import TEETH
 from tests.harness.fake_slave import UNITS
 

@@ -6,7 +6,9 @@ from functools import partial
 from pathlib import Path
 
 import pandas as pd
+from typer.testing import CliRunner
 
+from harness.app.cli import main
 from harness.fmu import open_fmu
 from harness.machine.file.machine_plan import Plan
 from harness.machine.file.read_file import components, read_plan
@@ -120,3 +122,10 @@ def references(plan: Plan, signals: Sequence[str] = SIGNALS) -> Mapping[str, tup
 def _file(path: Path | None) -> Path:
     assert path is not None
     return path
+
+
+def invoke(*arguments: str | Path) -> tuple[int, str]:
+    """Exit code and text of a command `machine ...`."""
+    result = CliRunner().invoke(main, ["machine", *(str(a) for a in arguments)])
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    return result.exit_code, " ".join(result.output.split())

@@ -10,7 +10,8 @@ from fmpy.validation import validate_fmu
 
 from harness.errors import UsageError
 from harness.fmu import open_fmu
-from harness.fmu.description import Description, read_description
+from harness.fmu.description import Description
+from harness.fmu.description_file import read_description
 from harness.machine.connection import Link
 from harness.machine.file.machine_plan import Plan
 from harness.machine.formats import gains

@@ -13,7 +13,7 @@ from harness.app.cli import main
 from harness.designs.task import UnknownQuantityError, When, quantity
 from harness.errors import FmuError
 from harness.fmu import Fmu, open_fmu
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from harness.fmu.remote import in_own_process
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine

@@ -7,7 +7,7 @@ import pytest
 
 from harness.errors import FmuError
 from harness.fmu import Fmu, open_fmu
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from harness.fmu.instances.common import FmuSlave
 from harness.fmu.interface import Observable
 from harness.machine.machine import Machine

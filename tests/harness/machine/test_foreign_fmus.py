@@ -16,7 +16,8 @@ import pytest
 from harness.app.commands.machine_ready import instantiated, prepared
 from harness.errors import FmuError
 from harness.fmu import open_fmu
-from harness.fmu.instances.common import FmuSlave, discard_message
+from harness.fmu.instances.common import FmuSlave
+from harness.fmu.instances.message_log import discard_message
 from harness.fmu.interface import Observable
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine

@@ -19,7 +19,7 @@ from hypothesis import given, strategies as st
 
 from harness.errors import FmuError, HarnessError
 from harness.fmu.description import Description, Variable
-from harness.fmu.instances.common import MessageHandler
+from harness.fmu.instances.message_log import MessageHandler
 from harness.fmu.processes import MOST_BYTES, BrokenFrameError, LateFrameError, Wire
 from harness.fmu.remote import remote
 from harness.fmu.remote.protocol import Numbers, Question, Types, packed_answer, question, read_error, read_messages

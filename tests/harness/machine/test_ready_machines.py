@@ -9,7 +9,7 @@ import pytest
 
 import build_fmu
 from harness.fmu import open_fmu
-from harness.fmu.description import read_description
+from harness.fmu.description_file import read_description
 from harness.machine.file.machine_plan import Plan, Source
 from harness.machine.file.read_file import components, read_plan
 from harness.machine.formats.container import Part, write_container

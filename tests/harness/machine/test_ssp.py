@@ -11,7 +11,8 @@ from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv
 
 from harness.errors import UsageError
-from harness.fmu.description import Description, read_description
+from harness.fmu.description import Description
+from harness.fmu.description_file import read_description
 from harness.machine.connection import Connection
 from harness.machine.file.machine_plan import Plan, Source
 from harness.machine.formats.ssp_export import write_ssp

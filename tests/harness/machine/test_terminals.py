@@ -7,7 +7,8 @@ import pytest
 
 import models
 from harness.errors import UsageError
-from harness.fmu.description import FILE, Member, read_description, read_terminals
+from harness.fmu.description_file import read_description
+from harness.fmu.terminals import FILE, Member, read_terminals
 from harness.machine.connection import Connection
 from harness.machine.file.machine_plan import Plan
 from mechanism_fmu.fmu.disk.archive import read_entries, write_archive

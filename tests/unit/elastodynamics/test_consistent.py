@@ -10,7 +10,7 @@ from mechanism_fmu.elastodynamics.elastic_cycle import instantaneous_modes
 from mechanism_fmu.elastodynamics.structure.masses import beam_mass, consistent_load, consistent_mass
 from mechanism_fmu.kinematics import analyse
 from mechanism_fmu.model import GROUND, AngleDriver, Body, Mechanism, Member, Revolute, Section
-from mechanism_fmu.model.motions import polynomial_motion
+from mechanism_fmu.model.curves.motions import polynomial_motion
 
 SECTION, YOUNG, DENSITY, LENGTH = Section.rectangle(0.02, 0.01), 210e9, 7850.0, 0.5
 

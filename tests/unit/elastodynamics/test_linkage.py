@@ -29,7 +29,7 @@ from mechanism_fmu.model import (
     Section,
     XDriver,
 )
-from mechanism_fmu.model.motions import polynomial_motion
+from mechanism_fmu.model.curves.motions import polynomial_motion
 
 MECHANISM = PathGenerator().mechanism()
 SECTION = Section.rectangle(0.01, 0.02)

@@ -12,11 +12,10 @@ from mechanism_fmu.elastodynamics import (
     configurations,
     linkage,
     quasi_static,
-    simulated_motion,
     torque_fluctuation,
 )
 from mechanism_fmu.elastodynamics.structure.places import named_place
-from mechanism_fmu.kinematics import analyse
+from mechanism_fmu.kinematics import KinematicMotion, analyse
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -31,7 +30,7 @@ from mechanism_fmu.model import (
     Translational,
     lumped_body,
 )
-from mechanism_fmu.model.motions import harmonic_motion, polynomial_motion
+from mechanism_fmu.model.curves.motions import harmonic_motion, polynomial_motion
 from mechanism_fmu.simulation import Simulation
 
 #: The crank is speeded up from a start that is none of the oracle's.
@@ -79,6 +78,19 @@ def slider_crank(friction, damping):
         outputs=(Output("torque", "drive.torque", "", "1"), Output("force", "guide.force", "", "1")),
         members=(*crank.members, *rod.members),
     )
+
+
+def simulated_motion(mechanism, simulation, times):
+    """The engine's own motion at `times`, its accelerations among it."""
+    count, rows = 3 * len(mechanism.bodies), []
+    for time in times:
+        simulation.advance(float(time))
+        simulation.read_rates()  # leaves the state and its derivative in the work fields
+        state, rates = simulation.field("y_at"), simulation.field("dy_at")
+        rows.append(np.concatenate([state[: 2 * count], rates[count : 2 * count]]))
+    table = np.array(rows).reshape(-1, 3, count)
+    names = tuple(f"{body.name}.{c}" for body in mechanism.bodies for c in ("x", "y", "angle"))
+    return KinematicMotion(names, np.asarray(times, dtype=float), table[:, 0], table[:, 1], table[:, 2])
 
 
 def by_the_engine(mechanism, times):

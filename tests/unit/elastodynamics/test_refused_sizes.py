@@ -24,9 +24,7 @@ from mechanism_fmu.elastodynamics import (
     spatial_link,
     supported_beam,
     tapered_cantilever,
-    tapered_end_moment,
     torsion_shaft,
-    transient,
     turn,
     two_force_member,
     with_friction,
@@ -65,7 +63,6 @@ ELEMENTS += [
     ("polar_moment", lambda x: torsion_shaft(1.0, x, 8e10)),
     ("shear_modulus", lambda x: torsion_shaft(1.0, 1e-9, x)),
     ("modulus", lambda x: tapered_cantilever(BEAM, x)),
-    ("modulus", lambda x: tapered_end_moment(BEAM, x)),
     ("height", lambda x: replace(TOOTH, height=x)),
     ("root_thickness", lambda x: replace(TOOTH, root_thickness=x)),
     ("contact_thickness", lambda x: replace(TOOTH, contact_thickness=x)),
@@ -132,10 +129,6 @@ def test_what_a_cycle_cannot_take_is_refused(configured: object) -> None:
     for bad in (0, -1):
         with pytest.raises(ValueError, match=f"^{bad} harmonics: ask for one or more"):
             critical_speeds(modes, bad)
-        with pytest.raises(ValueError, match=f"^{bad} steps of each of 1 periods"):
-            transient(moving, bad)
-        with pytest.raises(ValueError, match=f"^36 steps of each of {bad} periods"):
-            transient(moving, 36, bad)
         with pytest.raises(ValueError, match=f"^{bad} steps of a period: there must be one or more"):
             growth_per_period(moving, bad)
     for moment in (shaking, momentum_shaking):

@@ -17,28 +17,30 @@ def test_critical_speeds_are_mean_frequencies_over_harmonics():
 def test_sweep_of_one_mass_is_its_magnification_and_peaks_where_it_must():
     theta = 2 * math.pi / 66 * np.arange(66)
 
-    def cycle_at(speed):
-        # Natural frequency 10 rad/s, 5 % of damping, a load of twice the crank's frequency.
-        stiffness, load = np.full((66, 1, 1), 100.0), 100.0 * np.cos(2 * theta)[:, None]
-        return ElasticCycle(2 * math.pi / speed, [[1.0]], [[1.0]], stiffness, load)
-
+    # Natural frequency 10 rad/s, 5 % of damping, a load of twice the crank's frequency, which grows with its square.
+    stiffness, load = np.full((66, 1, 1), 100.0), 100.0 * np.cos(2 * theta)[:, None]
+    at_5 = ElasticCycle(2 * math.pi / 5.0, [[1.0]], [[1.0]], stiffness, load)
     speeds = np.linspace(2.0, 8.0, 25)
-    found = speed_sweep(speeds, cycle_at, (0,))
+    done = []
+    found = speed_sweep(at_5, 5.0, speeds / 5.0, lambda u: np.abs(u[:, 0]), on_speed=done.append)
+    assert done == list(range(25))
     r = 2 * speeds / 10
     exact = 1 / np.hypot(1 - r**2, 2 * 0.05 * r)
     # The largest of 66 samples misses the peak by less than 1 - cos(2 * 2 pi / 132).
-    np.testing.assert_allclose(found.dynamic, exact, rtol=1 - math.cos(4 * math.pi / 132) + 1e-9)
-    np.testing.assert_allclose(found.static, 1.0, rtol=1e-12)
+    quasi_static = (speeds / 5.0) ** 2
+    np.testing.assert_allclose(found.dynamic, quasi_static * exact, rtol=1 - math.cos(4 * math.pi / 132) + 1e-9)
+    np.testing.assert_allclose(found.static, quasi_static, rtol=1e-12)
     critical = critical_speeds(instantaneous_modes(np.array([[[100.0]]]), np.eye(1)), 2)[0, 1]
-    assert speeds[found.dynamic.argmax()] == critical == 5.0
+    assert speeds[(found.dynamic / found.static).argmax()] == critical == 5.0
 
 
 def test_the_path_generator_peaks_within_a_few_percent_of_a_critical_speed():
     cycle = four_bar.cycle(500, 180)
     mean = critical_speeds(instantaneous_modes(cycle.stiffness, cycle.mass), 10)[0] * 30 / math.pi
     near = mean[7]  # harmonic 8 of the crank meets the first frequency
-    at_500, speeds = four_bar.cycle(500, 300), near * math.pi / 30 * np.array([0.94, 1.0, 1.06])
-    found = speed_sweep(speeds, lambda speed: at_500.faster(speed * 30 / math.pi / 500), (0, 1))
+    factors = near / 500 * np.array([0.94, 1.0, 1.06])
+    found = speed_sweep(four_bar.cycle(500, 300), 500 * math.pi / 30, factors, lambda u: np.hypot(u[:, 0], u[:, 1]))
+    np.testing.assert_allclose(found.speed, near * math.pi / 30 * np.array([0.94, 1.0, 1.06]))
     magnification = found.dynamic / found.static
     assert magnification.argmax() == 1
 

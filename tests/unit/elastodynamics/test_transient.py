@@ -1,10 +1,13 @@
+"""Direct integration, which the benchmark sets beside the periodic motion, is right itself, and ends in it."""
+
 import math
 
 import numpy as np
 import pytest
 
+from benchmarks.newmark import transient
 from mechanism_fmu.elastodynamics.elastic_cycle import ElasticCycle
-from mechanism_fmu.elastodynamics.responses import growth_per_period, periodic_response, transient
+from mechanism_fmu.elastodynamics.responses import periodic_response
 from tests import bending_four_bar as four_bar
 
 
@@ -56,21 +59,6 @@ def test_the_end_of_the_transient_is_the_periodic_motion_to_second_order():
         errors.append(np.abs(found - expected.samples(steps)).max())
     assert errors[1] < 2e-3 * np.abs(found).max()
     assert math.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
-
-
-def test_disturbances_of_a_constant_system_die_out_at_its_own_rate():
-    assert growth_per_period(swinging(0.05), 400) == pytest.approx(math.exp(-10 * 0.05), rel=1e-3)
-
-
-@pytest.mark.parametrize(("detuning", "grows"), [(0.0, True), (0.3, False)])
-def test_stiffness_that_changes_at_twice_the_natural_frequency_makes_it_swing(detuning, grows):
-    # Mathieu's first region: omega^2 (1 + e cos 2 omega t) grows by exp(e omega t / 4), if not detuned by e omega / 4.
-    omega, e = 10.0, 0.2
-    period = math.pi / omega / (1 + detuning)
-    stiffness = omega**2 * (1 + e * np.cos(2 * math.pi / 32 * np.arange(32)))
-    cycle = ElasticCycle(period, [[1.0]], [[0.0]], stiffness[:, None, None], np.zeros((32, 1)))
-    expected = math.exp(e * omega * period / 4) if grows else 1.0
-    assert growth_per_period(cycle, 400) == pytest.approx(expected, rel=2e-3)
 
 
 def test_what_cannot_be_integrated_is_refused():

@@ -21,7 +21,7 @@ from mechanism_fmu.model import (
     Torque,
     Translational,
 )
-from mechanism_fmu.model.profiles import circle, harmonic_profile
+from mechanism_fmu.model.curves.profiles import circle, harmonic_profile
 from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tables.layout import field_of
 from mechanism_fmu.tables.sizes import sizes_of

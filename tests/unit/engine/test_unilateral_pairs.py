@@ -14,8 +14,8 @@ from scipy.optimize import brentq
 
 from mechanism_fmu.model import AngleDriver, MechanismError
 from mechanism_fmu.model.curves import constant, cosine
-from mechanism_fmu.model.motions import polynomial_motion
-from mechanism_fmu.model.profiles import circle, piecewise_profile
+from mechanism_fmu.model.curves.motions import polynomial_motion
+from mechanism_fmu.model.curves.profiles import circle, piecewise_profile
 from mechanism_fmu.simulation import Simulation, SimulationError
 from tests.slide_cam import FOLLOWER_MASS, SLIDE_CAM, WEIGHT, cam_mechanism
 

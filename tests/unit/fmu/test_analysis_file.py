@@ -19,6 +19,7 @@ from mechanism_fmu.model import (
     Output,
     RectangularTooth,
     Revolute,
+    TableBeam,
     TrapezoidTooth,
     impact_outputs,
     length_parameter,
@@ -80,8 +81,35 @@ REFUSED = {
     "no such field": (ImpactStress("stop", BEAM, jump="speed"), r"records of impacts 'speed'; name one .*velocity"),
     "no such slenderness": (ImpactStress("stop", BEAM, slenderness="slim"), "calculated parameter 'slim'"),
     "no number": (ImpactStress("stop", RectangularTooth("length", float("nan"))), "height = nan is not a finite"),
+    "no such variable in a table": (
+        ImpactStress("stop", TableBeam((0.0, "length"), (1e-4, "a"), (1e-9, 1e-9), (5e-3, 5e-3))),
+        r"TableBeam, areas\[1\]: the model has no parameter or calculated parameter 'a'",
+    ),
+    "no number in a table": (
+        ImpactStress("stop", TableBeam((0.0, "length"), (1e-4, float("inf")), (1e-9, 1e-9), (5e-3, 5e-3))),
+        r"areas\[1\] = inf is not a finite number",
+    ),
+    "a table of another length": (ImpactStress("stop", TableBeam((0.0, 0.3), *3 * [(1e-4, 1e-4)])), "0.3 m long, but"),
     "another length": (ImpactStress("stop", TrapezoidTooth(0.3, 0.1, 0.0)), "0.3 m long, but 'arm' has tooth_length"),
 }  # fmt: skip
+
+
+def test_a_table_is_as_it_is_declared_and_the_length_its_last_place() -> None:
+    table = TableBeam((0.0, 0.1, "length"), (2e-4, 1e-4, 1e-4), (2e-9, 1e-9, 1e-9), (5e-3, 4e-3, 4e-3))
+    (entry,) = json.loads(declared(ImpactStress("stop", table))[ANALYSIS])["analyses"]
+    assert entry["beam"] == {
+        "kind": "TableBeam",
+        "places": [0.0, 0.1, "length"],
+        "areas": [2e-4, 1e-4, 1e-4],
+        "second_moments": [2e-9, 1e-9, 1e-9],
+        "outer_fibres": [5e-3, 4e-3, 4e-3],
+    }
+
+
+@pytest.mark.parametrize("columns", [((0.0, 0.2), (1.0, 1.0), (1.0,), (1.0, 1.0)), ((), (), (), ()), ((0.2,),) * 4])
+def test_columns_that_are_no_table_are_refused(columns: tuple[tuple[float, ...], ...]) -> None:
+    with pytest.raises(MechanismError, match="give as many of each, at root and tip at least"):
+        TableBeam(*columns)
 
 
 @pytest.mark.parametrize("case", REFUSED)

@@ -9,7 +9,7 @@ from fmpy.validation import validate_fmu
 from pendulum import MODEL
 
 import models
-from mechanism_fmu.fmu.native.description3 import model_description3, outputs_again, tells_impacts, variables3
+from mechanism_fmu.fmu.native.description3 import model_description3, outputs_again, reports_impacts, variables3
 from mechanism_fmu.fmu.parts.model_description import to_bytes
 from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.model import Mechanism, MechanismError, Model, Output, Parameter
@@ -220,7 +220,7 @@ def test_numbered_outputs_that_make_no_array_make_none(outputs: tuple[Output, ..
 def test_without_impacts_there_is_no_clock() -> None:
     model = with_outputs(Output("when", "impact.time", "Time of the last impact", "s"))
 
-    assert not tells_impacts(variables_of(model))
+    assert not reports_impacts(variables_of(model))
     with pytest.raises(MechanismError, match="no clock; build it without --clocks"):
         variables3(model, clocks=True)
 

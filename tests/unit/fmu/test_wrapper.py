@@ -2,7 +2,7 @@ import sys
 
 import pytest
 
-from mechanism_fmu.fmu.instance.protocol import Told, fmi_call, survive_release
+from mechanism_fmu.fmu.instance.protocol import PassedTexts, fmi_call, survive_release
 
 
 class Slave:
@@ -79,12 +79,12 @@ def test_references_are_added_one_by_one():
 
 def test_texts_that_the_wrapper_holds_are_released_and_others_are_not():
     """The wrapper's reference is one that nobody gives back."""
-    told = Told()
-    told.add("".join(["held by ", "nobody else"]))
+    passed = PassedTexts()
+    passed.add("".join(["held by ", "nobody else"]))
     held = "".join(["held by ", "the wrapper"])
     survive_release(held)  # what the wrapper does: one reference more
-    told.add(held)
+    passed.add(held)
     before = sys.getrefcount(held)
-    told.release()
-    assert sys.getrefcount(held) == before - 2  # the wrapper's, and that of `told`
+    passed.release()
+    assert sys.getrefcount(held) == before - 2  # the wrapper's, and that of `passed`
     assert held == "held by the wrapper"

@@ -8,8 +8,8 @@ import pytest
 
 from mechanism_fmu.kinematics import KinematicsError, SingularConfigurationError, analyse
 from mechanism_fmu.model import GROUND, AngleDriver, Body, Mechanism, MechanismError, Revolute, Term, XDriver
-from mechanism_fmu.model.motions import harmonic_motion, polynomial_motion
-from mechanism_fmu.model.profiles import piecewise_profile
+from mechanism_fmu.model.curves.motions import harmonic_motion, polynomial_motion
+from mechanism_fmu.model.curves.profiles import piecewise_profile
 from models.four_bar.model import MODEL
 from tests.parallel_cranks import parallel_cranks, turning
 from tests.slide_cam import cam_mechanism

@@ -10,8 +10,8 @@ from mechanism_fmu.kinematics import KinematicsError, cam_report, profile_report
 from mechanism_fmu.kinematics.profiles import radius_of
 from mechanism_fmu.model import AngleDriver
 from mechanism_fmu.model.curves import Curve, Piece, Term, constant
-from mechanism_fmu.model.motions import harmonic_motion
-from mechanism_fmu.model.profiles import circle, harmonic_profile, piecewise_profile, slot
+from mechanism_fmu.model.curves.motions import harmonic_motion
+from mechanism_fmu.model.curves.profiles import circle, harmonic_profile, piecewise_profile, slot
 from tests.slide_cam import EGG, SLIDE_CAM, cam_mechanism
 
 SLIDES = profile_report(SLIDE_CAM)

@@ -7,7 +7,7 @@ from hypothesis import example, given, settings, strategies as st
 from recorded import said
 
 from mechanism_fmu.model import Finding, MechanismError, Parameter, findings as c
-from mechanism_fmu.model.check_numbers import number_findings
+from mechanism_fmu.model.checks.check_numbers import number_findings
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.findings import literal, messages
 from mechanism_fmu.model.symbol import Limits, Recorder

@@ -33,7 +33,7 @@ from mechanism_fmu.model import (
     spline_profile,
     table_motion,
 )
-from mechanism_fmu.model.check_numbers import number_findings
+from mechanism_fmu.model.checks.check_numbers import number_findings
 from mechanism_fmu.model.compile import compile_tables
 from mechanism_fmu.model.findings import messages
 from mechanism_fmu.model.trace import trace

@@ -22,7 +22,7 @@ from mechanism_fmu.model import (
     polynomial_motion,
     table_motion,
 )
-from mechanism_fmu.model.check_numbers import number_findings
+from mechanism_fmu.model.checks.check_numbers import number_findings
 from mechanism_fmu.model.findings import messages
 from mechanism_fmu.model.trace import trace
 

@@ -39,7 +39,7 @@ from mechanism_fmu.model import (
     YDriver,
     characteristic,
 )
-from mechanism_fmu.model.check_numbers import number_findings
+from mechanism_fmu.model.checks.check_numbers import number_findings
 from mechanism_fmu.model.compile import compile_mechanism, compile_tables
 from mechanism_fmu.model.findings import messages
 from mechanism_fmu.model.forces import (

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from mechanism_fmu.model.check_curves import curve_findings, least_value
 from mechanism_fmu.model.curves import Curve, Piece, Term
+from mechanism_fmu.model.curves.check_curves import curve_findings, least_value
 from mechanism_fmu.model.findings import messages
 
 START, SPAN = 0.5, 3.0

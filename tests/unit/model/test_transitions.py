@@ -20,7 +20,7 @@ from mechanism_fmu.model import (
     PointLineContact,
     Revolute,
 )
-from mechanism_fmu.model.event_names import event_names
+from mechanism_fmu.model.logical_functions import event_names
 from mechanism_fmu.model.transitions import logic_of, transition_diagram, transition_table
 from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.statechart import ANY, taken

@@ -1,4 +1,4 @@
-"""What the ME451 slides say of cams and slots beside the five steps: tangents, assumptions, g_j."""
+"""Cams and slots of the ME451 slides beside the five steps: tangents, assumptions, g_j."""
 
 from __future__ import annotations
 

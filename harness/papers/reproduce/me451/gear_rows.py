@@ -1,4 +1,4 @@
-"""What the ME451 slides say of composite joints, gears and racks beside the five steps."""
+"""Composite joints, gears and racks of the ME451 slides beside the five steps."""
 
 from __future__ import annotations
 

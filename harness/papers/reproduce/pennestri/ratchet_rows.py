@@ -246,7 +246,7 @@ ROWS = (
         "section 5",
         "v_I is the velocity of the free end less that of the fixed end.",
         "in words",
-        ("mechanism_fmu/engine/contacts/records.py",),
+        ("mechanism_fmu/engine/contacts/impact.py",),
         _velocity,
         f"{RUN} --stop-time 1.2",
     ),

@@ -1,4 +1,4 @@
-"""The textbook's rows of higher pairs, with the contact coordinates among the coordinates."""
+"""Constraint rows of higher pairs (cams), with the contact coordinates among the coordinates."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows of drivers."""
+"""Constraint rows of drivers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows of gears, and of rack and pinion."""
+"""Constraint rows of gears, and of rack and pinion."""
 
 from __future__ import annotations
 

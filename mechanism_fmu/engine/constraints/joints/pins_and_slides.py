@@ -1,4 +1,4 @@
-"""Rows of pins, slides, rods between two pins, and pins in guides."""
+"""Constraint rows of pins (revolute), slides (translational), rods between two pins, and pins in guides."""
 
 from __future__ import annotations
 

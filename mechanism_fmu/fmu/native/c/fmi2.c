@@ -35,7 +35,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         x->logger = (void *)host->logger;
         x->environment = host->componentEnvironment;
     }
-    x->categories = ~0u; /* a refusal to exist is told in any case */
+    x->categories = ~0u; /* a refusal to exist is logged in any case */
     Status status = OK;
     if (type != fmi2CoSimulation)
         status = refuse(x, "fmi2Instantiate: built for co-simulation only; it has no Model Exchange interface.");
@@ -217,7 +217,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real current_time, fmi2Real size, fmi
     if (step_target(x, "fmi2DoStep", current_time, size, &target) != OK) return fmi2Error;
     Status status = begin_step(x, target);
     if (status == OK) status = go_on(x, target, CODE_STOP_AT_TARGET);
-    tell_news(x);
+    log_news(x);
     return (fmi2Status)status;
 }
 

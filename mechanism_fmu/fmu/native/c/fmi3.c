@@ -39,7 +39,7 @@ static Instance *instance(const char *name, fmi3InstanceEnvironment environment,
         x->logger = (void *)log;
         x->environment = environment;
     }
-    x->categories = ~0u; /* a refusal to exist is told in any case */
+    x->categories = ~0u; /* a refusal to exist is logged in any case */
     return x;
 }
 
@@ -132,8 +132,8 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_def
 }
 
 /* Remember whether there was an impact: then the clock ticks in the event mode that follows. */
-static void note_impacts(Instance *x, int64_t told_before) {
-    x->head.clock = x->event_mode && COUNTERS(x)[CODE_COUNT_IMPACTS] != told_before;
+static void note_impacts(Instance *x, int64_t count_before) {
+    x->head.clock = x->event_mode && COUNTERS(x)[CODE_COUNT_IMPACTS] != count_before;
 }
 
 /* --- left limits: at an impact, outputs are those before it until fmi3UpdateDiscreteStates --- */
@@ -410,7 +410,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
             if (*impacts == seen || (!stops && time_of(x) < target)) forget_left(x);
         }
     }
-    tell_news(x);
+    log_news(x);
     note_impacts(x, before);
     /* What has no more internal steps ends early where the host allows that, and is discarded where not. */
     if (status == DISCARD && x->early_return && time_of(x) > begun) status = OK;

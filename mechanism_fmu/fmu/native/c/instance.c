@@ -28,8 +28,8 @@ Instance *make_instance(const char *name, int fmi, void *(*allocate)(size_t, siz
     x->written = x->parameters + model.parameters;
     x->findings = x->written + model.parameters;
     x->block = x->findings + model.numbers + 2 * model.inputs;
-    x->told_pull = (unsigned char *)(x->block + model.words);
-    x->name = (char *)(x->told_pull + contacts);
+    x->logged_pull = (unsigned char *)(x->block + model.words);
+    x->name = (char *)(x->logged_pull + contacts);
     if (length) memcpy(x->name, name, length);
     x->name[length] = 0;
     reset(x);
@@ -176,8 +176,8 @@ Status prepare(Instance *x) {
     if (outcome == STATUS_OK) outcome = mechanism_go_on(x->block, words, x->head.start_time, CODE_STOP_AT_TARGET);
     memcpy(FIELD(x, input_slopes), slopes, model.inputs * sizeof(double));
     if (outcome != STATUS_OK) return failed(x, outcome);
-    forget_news(x); /* while it is not prepared, nothing counts as told */
-    x->told_impacts = x->told_events = x->told_lost = 0;
+    forget_news(x); /* while it is not prepared, nothing counts as logged */
+    x->logged_impacts = x->logged_events = x->logged_lost = 0;
     x->head.prepared = 1;
     return OK;
 }
@@ -190,7 +190,7 @@ Status initialized(Instance *x) {
         say(x, WARNING, "logStatusWarning", model.warnings[k].text, n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]);
     }
     x->head.phase = STEPPING;
-    tell_news(x);
+    log_news(x);
     return OK;
 }
 

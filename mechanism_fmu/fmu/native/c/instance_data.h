@@ -44,8 +44,8 @@ struct Instance {
     double *findings;
     double *block;
     int outputs_read;
-    int64_t told_impacts, told_events, told_lost;
-    unsigned char *told_pull;
+    int64_t logged_impacts, logged_events, logged_lost;
+    unsigned char *logged_pull;
 };
 
 /* No frame may be larger than a page of the stack (4 kB): Windows would need a run-time library to grow the stack. */

@@ -1,4 +1,4 @@
-/* What an instance tells the host. */
+/* Log messages of an instance to the host. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -64,14 +64,14 @@ Status give_up(const Instance *x, const char *format, ...) {
 
 void forget_news(Instance *x) {
     const int64_t *counters = COUNTERS(x);
-    x->told_impacts = counters[CODE_COUNT_IMPACTS];
-    x->told_events = counters[CODE_COUNT_EVENTS];
-    x->told_lost = counters[CODE_COUNT_LOST];
+    x->logged_impacts = counters[CODE_COUNT_IMPACTS];
+    x->logged_events = counters[CODE_COUNT_EVENTS];
+    x->logged_lost = counters[CODE_COUNT_LOST];
     for (size_t c = 0; c < SIZE(x, contacts); c++)
-        x->told_pull[c] = x->head.prepared && FIELD(x, pull_time)[c] <= time_of(x);
+        x->logged_pull[c] = x->head.prepared && FIELD(x, pull_time)[c] <= time_of(x);
 }
 
-/* Append to a text that has room for `size` bytes. */
+/* Append to a text that has space for `size` bytes. */
 static void append(char *text, size_t size, const char *more) {
     size_t length = strlen(text);
     snprintf(text + length, size - length, "%s", more);
@@ -97,7 +97,7 @@ static void name_event(int guard, int subject, char *text, size_t size) {
     else snprintf(text, size, "%s.%s", model.contacts[subject].name, of_contact);
 }
 
-static void tell_impacts(Instance *x) {
+static void log_impacts(Instance *x) {
     size_t columns = SIZE(x, record);
     for (int64_t k = 0; k < COUNTERS(x)[CODE_COUNT_IN_STEP]; k++) {
         const double *record = FIELD(x, impacts) + (size_t)k * columns;
@@ -108,12 +108,12 @@ static void tell_impacts(Instance *x) {
 }
 
 /* The events that are new; of a step with many, the last ones. */
-static void tell_events(Instance *x, int64_t new_events) {
+static void log_events(Instance *x, int64_t new_events) {
     if (!x->log || !(x->categories & bit_of("logEvents"))) return;
     int64_t known = COUNTERS(x)[CODE_EVENTS_IN_STEP];
     if (new_events > known)
         say(x, OK, "logEvents",
-            "%lld events of the step to t = %.9g s are not told one by one; the last %lld follow.",
+            "%lld events of the step to t = %.9g s are not listed one by one; the last %lld follow.",
             (long long)(new_events - known), time_of(x), (long long)known);
     for (int64_t k = 0; k < known; k++) {
         const double *record = FIELD(x, events) + k * CODE_EVENT_COLUMNS;
@@ -125,17 +125,17 @@ static void tell_events(Instance *x, int64_t new_events) {
     }
 }
 
-void tell_news(Instance *x) {
+void log_news(Instance *x) {
     const int64_t *counters = COUNTERS(x);
-    if (counters[CODE_COUNT_IMPACTS] != x->told_impacts) tell_impacts(x);
-    if (counters[CODE_COUNT_EVENTS] != x->told_events) tell_events(x, counters[CODE_COUNT_EVENTS] - x->told_events);
-    if (counters[CODE_COUNT_LOST] != x->told_lost)
+    if (counters[CODE_COUNT_IMPACTS] != x->logged_impacts) log_impacts(x);
+    if (counters[CODE_COUNT_EVENTS] != x->logged_events) log_events(x, counters[CODE_COUNT_EVENTS] - x->logged_events);
+    if (counters[CODE_COUNT_LOST] != x->logged_lost)
         say(x, WARNING, "logStatusWarning",
             "%lld impacts of the step to t = %.9g s did not fit into impacts[1..%d] and are lost to the outside (the "
             "motion is right); use a shorter communication step.",
-            (long long)(counters[CODE_COUNT_LOST] - x->told_lost), time_of(x), CODE_IMPACT_BUFFER_LENGTH);
+            (long long)(counters[CODE_COUNT_LOST] - x->logged_lost), time_of(x), CODE_IMPACT_BUFFER_LENGTH);
     for (size_t c = 0; c < SIZE(x, contacts); c++)
-        if (FIELD(x, pull_time)[c] <= time_of(x) && !x->told_pull[c])
+        if (FIELD(x, pull_time)[c] <= time_of(x) && !x->logged_pull[c])
             say(x, WARNING, "logStatusWarning",
                 "From t = %.6g s the guided contact %s pulls: it holds the bodies together where a real contact would "
                 "open. The motion from here on is the guided model's, as in the paper.",

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from .curves import Curve, Piece, Term, constant, cosine, plain_places, sine, spline_pieces
-from .functions import Number
+from ..functions import Number
 from .motions import Law, Move, cycloidal, moves_to_pieces
+from .pieces import Curve, Piece, Term, constant, cosine, plain_places, sine, spline_pieces
 
 _TURN = 2 * math.pi
 

@@ -1,14 +1,14 @@
-"""What cannot be right of the numbers of curves, as findings."""
+"""Validation of the numbers of curves, as findings."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
 
-from ..codes import AMPLITUDE
-from .curves import Curve, Piece
-from .findings import Finding, finite, first, literal, not_negative, plain, positive, refuse_unless, size
-from .functions import Number, cos, is_plain, sin, where_positive
+from ...codes import AMPLITUDE
+from ..findings import Finding, finite, first, literal, not_negative, plain, positive, refuse_unless, size
+from ..functions import Number, cos, is_plain, sin, where_positive
+from .pieces import Curve, Piece
 
 #: Rounding is allowed this much, of 1 and the value at a join, or of the period.
 _ROUNDING = 1e-9

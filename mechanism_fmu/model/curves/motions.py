@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from .curves import Curve, Piece, Term, constant, plain_places, sine, spline_pieces
-from .errors import MechanismError
-from .functions import Number, is_plain, where_positive
+from ..errors import MechanismError
+from ..functions import Number, is_plain, where_positive
+from .pieces import Curve, Piece, Term, constant, plain_places, sine, spline_pieces
 
 # Standard motion laws of cams: how a rise is spread over an angle (Norton, Cam Design and Manufacturing Handbook).
 

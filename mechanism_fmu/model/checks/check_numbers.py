@@ -1,15 +1,15 @@
-"""What cannot be right of a mechanism's numbers, as findings: asked of plain numbers, and traced for native FMUs."""
+"""Validation of a mechanism's numbers, as findings: of plain numbers, and traced for native FMUs."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields
 
-from .body import GROUND, Body
-from .check_curves import curve_findings
-from .contacts import Contact
-from .curves import Curve
-from .findings import (
+from ..body import GROUND, Body
+from ..contacts import Contact
+from ..curves import Curve
+from ..curves.check_curves import curve_findings
+from ..findings import (
     Finding,
     finite,
     finite_not_negative,
@@ -20,11 +20,11 @@ from .findings import (
     refuse_unless,
     within,
 )
-from .forces import ForceElement
-from .joints import Joint
-from .mechanism import Mechanism, Settings, curve_owners
-from .members import Disk, Member
-from .patterns import CircularPattern
+from ..forces import ForceElement
+from ..joints import Joint
+from ..mechanism import Mechanism, Settings, curve_owners
+from ..members import Disk, Member
+from ..patterns import CircularPattern
 
 # What cannot be right of elastic members and disks: of their numbers, as findings, and of what they are part of.
 

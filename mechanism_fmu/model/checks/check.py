@@ -1,21 +1,21 @@
-"""What cannot be right is refused here, by name and with the way out."""
+"""Validation of a mechanism's structure: what cannot be right is refused, by name and with the way out."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import Any
 
-from .. import codes
-from .body import GROUND
+from ... import codes
+from ..body import GROUND
+from ..contacts import Contact, PointLineContact
+from ..curves import Curve
+from ..errors import MechanismError
+from ..findings import messages
+from ..logic import resolve_function, switch
+from ..mechanism import Mechanism, curve_owners
+from ..ports import Calculated, Input, Output
+from ..sources import resolve_output
 from .check_numbers import check_members, number_findings
-from .contacts import Contact, PointLineContact
-from .curves import Curve
-from .errors import MechanismError
-from .findings import messages
-from .logic import resolve_function, switch
-from .mechanism import Mechanism, curve_owners
-from .ports import Calculated, Input, Output
-from .sources import resolve_output
 
 # What cannot be right of the structure of contacts and logical functions.
 

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from .errors import MechanismError
-from .findings import plain
-from .functions import Number, is_plain
+from ..errors import MechanismError
+from ..findings import plain
+from ..functions import Number, is_plain
 
 # Functions of one variable: the profiles of cams and slots, and the motions of drivers.
 #
