@@ -68,6 +68,7 @@ from .joints import (
     XDriver as XDriver,
     YDriver as YDriver,
 )
+from .laws import characteristic as characteristic
 from .logic import LogicalFunction as LogicalFunction
 from .mechanism import Mechanism as Mechanism, Settings as Settings
 from .members import (

@@ -61,7 +61,7 @@ def _check_beside(member: Member, mechanism: Mechanism) -> None:
                 f"{member.name!r}, where {' and '.join(OF_BEAM)} would be wrong; let the member end at the point of a "
                 f"PointLineContact (give `member.end` to it)."
             )
-    for force in mechanism.forces:
+    for force in mechanism.elements:
         if force.acts == "at points" and member.body in (force.body, force.reaction):
             raise MechanismError(
                 f"{type(force).__name__} {force.name!r} acts at a point of body {member.body!r}, where "

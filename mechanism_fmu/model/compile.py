@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
-from itertools import chain
+from itertools import chain, count
 from typing import Any
 
 import numpy as np
@@ -37,12 +37,12 @@ def unknown_names(mechanism: Mechanism) -> tuple[str, ...]:
     ]
     names += ["the work done", "the energy lost"]
     names += [f"the contact point of {contact.name}" for contact in mechanism.contacts for _ in range(contact.alphas)]
-    names += [f"the state of {force.name}" for force in mechanism.forces for _ in range(force.own)]
+    names += [f"the state of {force.name}" for force in mechanism.elements for _ in range(force.own)]
     return tuple(names)
 
 
 def _acting_on(mechanism: Mechanism, body: str) -> str:
-    forces = [force.name for force in mechanism.forces if body in (force.body, getattr(force, "reaction", None))]
+    forces = [force.name for force in mechanism.elements if body in (force.body, getattr(force, "reaction", None))]
     contacts = [c.name for c in mechanism.contacts if body in (c.body_i, c.body_j)]
     return f" ({', '.join((*forces, *contacts))} act on it)" if forces or contacts else ""
 
@@ -93,7 +93,7 @@ def compile_mechanism(mechanism: Mechanism) -> MechanismTables:
 def compile_tables(mechanism: Mechanism) -> MechanismTables:
     """Write a mechanism as tables, unchecked: what cannot be right is refused by `check`. Numbers may be symbolic."""
     bodies = {body.name: i for i, body in enumerate(mechanism.bodies)} | {GROUND: len(mechanism.bodies)}
-    forces = {force.name: i for i, force in enumerate(mechanism.forces)}
+    forces = {force.name: i for i, force in enumerate(mechanism.elements)}
     contacts = mechanism.contacts
     patterns = {pattern.name: i for i, pattern in enumerate(mechanism.patterns)}
     functions = {function.name: i for i, function in enumerate(mechanism.functions)}
@@ -104,8 +104,12 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     first_rows = np.cumsum([0, *(joint.rows for joint in mechanism.joints)])
     first_contact_rows = np.cumsum([0, *(contact.rows for contact in contacts)])
     first_alphas = np.cumsum([0, *(contact.alphas for contact in contacts)])
-    first_own = np.cumsum([0, *(force.own for force in mechanism.forces)])
+    first_own = np.cumsum([0, *(force.own for force in mechanism.elements)])
     curves = [curve for _, curve in curve_owners(mechanism)]
+    laws = [force.operations() for force in mechanism.elements]
+    law_ends = np.cumsum([0, *map(len, laws)])
+    by_table = [isinstance(force.law, Curve) for force in mechanism.elements]
+    energies = count(len(curves) - sum(by_table))  # they are the last curves
     first_pieces = np.cumsum([0, *(len(curve.pieces) for curve in curves)])
     pieces = [piece for curve in curves for piece in curve.pieces]
     first_terms = np.cumsum([0, *(len(piece.terms) for piece in pieces)])
@@ -141,8 +145,21 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                 ),
                 columns(
                     tables.Forces,
-                    mechanism.forces,
-                    own=[n if f.own else codes.NONE for f, n in _pairs(mechanism.forces, first_own)],
+                    mechanism.elements,
+                    own=[n if f.own else codes.NONE for f, n in _pairs(mechanism.elements, first_own)],
+                    law=law_ends[:-1].tolist(),
+                    law_end=law_ends[1:].tolist(),
+                    curve=[next(energies) if has_table else codes.NONE for has_table in by_table],
+                ),
+                columns(
+                    tables.Operations,
+                    kind=[operation.code for law in laws for operation in law],
+                    operands=[
+                        [first + operand for operand in operation.operands]
+                        for law, first in _pairs(laws, law_ends.tolist())
+                        for operation in law
+                    ],
+                    value=[operation.value for law in laws for operation in law],
                 ),
                 columns(
                     tables.Contacts,
@@ -177,7 +194,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                 columns(
                     tables.Ports,
                     input_force=[forces[force] for force, _ in targets],
-                    input_column=[mechanism.forces[forces[force]].columns[entry] for force, entry in targets],
+                    input_column=[mechanism.elements[forces[force]].columns[entry] for force, entry in targets],
                     input_start=[i.start for i in mechanism.inputs],
                     input_factor=[i.factor for i in mechanism.inputs],
                     input_offset=[i.offset for i in mechanism.inputs],

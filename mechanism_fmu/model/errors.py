@@ -1,4 +1,7 @@
-"""The one error of the model room."""
+"""The one error of the model room, and where in the user's own code an error arose."""
+
+import traceback
+from pathlib import Path
 
 
 class MechanismError(ValueError):
@@ -6,3 +9,10 @@ class MechanismError(ValueError):
 
     The message names the part, the value and the limit, and says what to do; it is meant for the user as it is.
     """
+
+
+def place_of(error: Exception) -> str:
+    """Where in the code of a user of this library an error came from: file, line and its text."""
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if Path(__file__).parent not in Path(frame.filename).parents] or list(frames)
+    return f"{own[-1].filename}, line {own[-1].lineno} ({own[-1].line})"

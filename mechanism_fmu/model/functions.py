@@ -1,7 +1,8 @@
-"""Elementary functions for parameters-to-tables functions.
+"""Elementary functions for parameters-to-tables functions and for laws of force.
 
 They take floats, and any symbolic number that brings the method of the same name (CasADi's do), so that a model's
-formulas can be evaluated, differentiated or traced without being written twice.
+formulas can be evaluated, differentiated or traced without being written twice. `exp`, `log`, `tanh` and `power` take
+floats and the arguments of laws (`laws.law_operations`), but no parameters.
 """
 
 from __future__ import annotations
@@ -11,7 +12,23 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["Number", "atan2", "cos", "sin", "sqrt", "tan", "where_positive"]
+__all__ = [
+    "Number",
+    "atan2",
+    "cos",
+    "exp",
+    "log",
+    "maximum",
+    "minimum",
+    "power",
+    "sin",
+    "smoothstep",
+    "sqrt",
+    "tan",
+    "tanh",
+    "where",
+    "where_positive",
+]
 
 #: A float, or a symbolic stand-in for one.
 Number = Any
@@ -22,7 +39,14 @@ def is_plain(x: object) -> bool:
     return isinstance(x, (int, float, np.number, np.bool_))
 
 
+def _law(*operands: Number) -> Any:
+    """The law that one of the operands belongs to, or None."""
+    return next((x.law for x in operands if hasattr(x, "law")), None)
+
+
 def _apply(name: str, x: Number) -> Number:
+    if hasattr(x, "law"):
+        return x.law.apply(name, x)
     method = getattr(x, name, None)
     return getattr(math, name)(x) if method is None else method()
 
@@ -47,8 +71,32 @@ def sqrt(x: Number) -> Number:
     return _apply("sqrt", x)
 
 
+def exp(x: Number) -> Number:
+    """Exponential of `x`."""
+    return _apply("exp", x)
+
+
+def log(x: Number) -> Number:
+    """Natural logarithm of `x` > 0."""
+    return _apply("log", x)
+
+
+def tanh(x: Number) -> Number:
+    """Hyperbolic tangent of `x`: a smooth step from -1 to 1."""
+    return _apply("tanh", x)
+
+
+def power(base: Number, exponent: Number) -> Number:
+    """`base` >= 0 to a power."""
+    law = _law(base, exponent)
+    return math.pow(base, exponent) if law is None else law.apply("power", base, exponent)
+
+
 def atan2(y: Number, x: Number) -> Number:
     """Angle [rad] of the point (x, y), in (-pi, pi]."""
+    law = _law(y, x)
+    if law is not None:
+        return law.apply("atan2", y, x)
     if hasattr(x, "arctan2") and not hasattr(y, "arctan2"):
         y = y + 0 * x  # a float beside a symbol becomes a symbol
     method = getattr(y, "arctan2", None)
@@ -57,7 +105,37 @@ def atan2(y: Number, x: Number) -> Number:
 
 def where_positive(condition: Number, positive: Number, otherwise: Number) -> Number:
     """`positive` where `condition > 0`, else `otherwise`: a choice of values, never of structure."""
+    law = _law(condition, positive, otherwise)
+    if law is not None:
+        return law.apply("where_positive", condition, positive, otherwise)
     method = getattr(condition, "where_positive", None)
     if method is None:
         return positive if condition > 0 else otherwise
     return method(positive, otherwise)
+
+
+def where(condition: Any, positive: Number, otherwise: Number) -> Number:
+    """`positive` where a comparison such as `x > 0.1` holds, else `otherwise`: in laws, where nothing may branch."""
+    if hasattr(condition, "choose"):
+        return condition.choose(positive, otherwise)
+    if isinstance(condition, bool | np.bool_):
+        condition = 1.0 if condition else 0.0
+    return where_positive(condition, positive, otherwise)
+
+
+def minimum(a: Number, b: Number) -> Number:
+    """The lesser of two numbers."""
+    law = _law(a, b)
+    return where_positive(b - a, a, b) if law is None else law.apply("minimum", a, b)
+
+
+def maximum(a: Number, b: Number) -> Number:
+    """The greater of two numbers."""
+    law = _law(a, b)
+    return where_positive(a - b, a, b) if law is None else law.apply("maximum", a, b)
+
+
+def smoothstep(x: Number, low: Number, high: Number) -> Number:
+    """0 up to `low`, 1 from `high` on, and 3 u^2 - 2 u^3 between, u = (x - low)/(high - low): its slope has no jump."""
+    u = minimum(maximum((x - low) / (high - low), 0.0), 1.0)
+    return u * u * (3.0 - 2.0 * u)

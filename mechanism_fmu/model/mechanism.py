@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 from types import SimpleNamespace
 
 from .body import Body
 from .contacts import Contact
 from .curves import Curve
-from .forces import ForceElement
+from .forces import Force, ForceElement
 from .functions import Number
 from .joints import Joint
 from .logic import LogicalFunction
@@ -51,6 +52,8 @@ class Mechanism:
         inputs, outputs, calculated: what the outside sees.
         held: coordinates, as "<body>.x|y|angle", that assembly must not move, nor their rates.
         settings: how the engine integrates; where none are given, a `Model` takes those among its parameters.
+        gravity: acceleration (gx, gy) [m/s2], e.g. (0.0, -9.80665), that gives every body its weight, whose work counts
+            as work done. None, and no weights, by default, as in Pennestri et al.
         members, disks: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics` and outputs
             that read them; the motion does without. The mechanism becomes a structure when its held and driven
             coordinates stand still.
@@ -67,12 +70,23 @@ class Mechanism:
     calculated: tuple[Calculated, ...] = ()
     held: tuple[str, ...] = ()
     settings: Settings = DEFAULT_SETTINGS
+    gravity: tuple[Number, Number] | None = None
     members: tuple[Member, ...] = ()
     disks: tuple[Disk, ...] = ()
 
+    @cached_property
+    def elements(self) -> tuple[ForceElement, ...]:
+        """The force elements, and behind them the weights of all bodies where there is gravity."""
+        if self.gravity is None:
+            return self.forces
+        x, y = self.gravity
+        weights = [Force(f"{body.name}.weight", body.name, (body.mass * x, body.mass * y)) for body in self.bodies]
+        return (*self.forces, *weights)
+
 
 def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:
-    """The motions of drivers, then the profiles of contacts, as the tables number them, each with its part's name."""
+    """Motions of drivers, profiles of contacts, energies of springs, as the tables number them, each with its part."""
     motions = [(joint.name, joint.motion) for joint in mechanism.joints]
     profiles = [(contact.name, profile) for contact in mechanism.contacts for profile in contact.profiles]
-    return [(name, curve) for name, curve in (*motions, *profiles) if curve is not None]
+    energies = [(force.name, force.energy()) for force in mechanism.elements]
+    return [(name, curve) for name, curve in (*motions, *profiles, *energies) if curve is not None]

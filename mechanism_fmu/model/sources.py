@@ -133,7 +133,7 @@ def _common_sources(mechanism: Mechanism) -> Iterator[str]:
         yield from (f"{contact.name}.{quantity}" for quantity in contact.readings)
         yield f"impact.impulse:{contact.name}"
     yield from (f"{pattern.name}.index" for pattern in mechanism.patterns)
-    for force in mechanism.forces:
+    for force in mechanism.elements:
         yield from (f"{force.name}.{quantity}" for quantity in force.quantities)
     for joint in mechanism.joints:
         yield from (f"{joint.name}.{quantity}" for quantity in joint.efforts)
@@ -207,7 +207,7 @@ def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, in
 
 
 def _of_force(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
-    for place, force in enumerate(mechanism.forces):
+    for place, force in enumerate(mechanism.elements):
         if force.name == part and quantity in force.quantities:
             return codes.FORCE_READING, place, list(force.quantities).index(quantity)
     return None

@@ -72,7 +72,7 @@ def structure(mechanism: Mechanism) -> Structure:
             f"Elastic members: contact {mechanism.contacts[0].name!r} opens and closes, but the structure must "
             f"stay the same; read elastic members of linkages without contacts."
         )
-    for force in mechanism.forces:
+    for force in mechanism.elements:
         if force.acts == "at points":
             raise MechanismError(
                 f"Elastic members: {type(force).__name__} {force.name!r} acts at points of its bodies, which loads no "
@@ -201,7 +201,7 @@ def _shared(nodes: Structure, lumps: list[tuple[int, Number, Number]]) -> Iterat
 
 
 def _couples(mechanism: Mechanism, nodes: Structure) -> Iterator[tuple[int, int, int]]:
-    for k, force in enumerate(mechanism.forces):
+    for k, force in enumerate(mechanism.elements):
         for body, against, sign in ((force.body, force.reaction, 1), (force.reaction, force.body, -1)):
             if force.acts == "torque" and body != GROUND:
                 yield k, _turned(mechanism, nodes, body, against, force), sign

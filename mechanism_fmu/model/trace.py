@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 import operator
-import traceback
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,7 +14,7 @@ import numpy as np
 from . import functions
 from .checks.check_numbers import number_findings
 from .compile import Array, MechanismTables, compile_mechanism, compile_tables
-from .errors import MechanismError
+from .errors import MechanismError, place_of
 from .findings import Finding
 from .functions import Number
 from .mechanism import Mechanism
@@ -124,20 +122,13 @@ def trace(model: Model) -> Trace:
         tables = compile_tables(mechanism)
         objections, warnings = tuple(model.objections(values)), tuple(model.warnings(values))
     except (ArithmeticError, AttributeError, MechanismError, TypeError, ValueError) as error:
-        raise MechanismError(f"{model.name} cannot be traced, {_place(error)}: {error}") from error
+        raise MechanismError(f"{model.name} cannot be traced, {place_of(error)}: {error}") from error
     _check_structure(model, tables.columns, plain.columns)
     # What depends on no parameter, or only on one whose limits exclude it, is not asked again.
     problems = tuple(f for f in number_findings(mechanism) if isinstance(f.applies, Symbol))
     traced = Trace(model, mechanism, tuple(recorder.operations), tables, objections, problems, warnings)
     _check_numbers(traced, plain)
     return traced
-
-
-def _place(error: Exception) -> str:
-    """Where in the model's own code an error came from."""
-    frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if Path(__file__).parent not in Path(frame.filename).parents] or list(frames)
-    return f"{own[-1].filename}, line {own[-1].lineno} ({own[-1].line})"
 
 
 def _check_numbers(traced: Trace, plain: MechanismTables) -> None:

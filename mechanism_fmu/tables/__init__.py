@@ -26,6 +26,7 @@ from .parts import (
     Forces as Forces,
     Functions as Functions,
     Joints as Joints,
+    Operations as Operations,
     Options as Options,
     Patterns as Patterns,
     Ports as Ports,

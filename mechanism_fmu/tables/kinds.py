@@ -1,4 +1,4 @@
-"""The kinds of joints and force elements, and what stands in a row of each, for model and engine.
+"""The kinds of joints, force elements and operations, and what stands in a row of each, for model and engine.
 
 A line a kind: its name, and the columns of its row of the table, in order; `point.x` is the first entry of the part's
 `point`. The kind's number is its place here, so that a new one comes last.
@@ -54,7 +54,13 @@ FORCES = Kinds(
     force="x y",
     slip_clutch="stiffness damping limit speed",
     dc_motor="constant resistance inductance voltage gain integral_gain anti_windup speed",
-    spring_damper="point.x point.y reaction_point.x reaction_point.y stiffness damping free_length preload",
+    spring_damper="point.x point.y reaction_point.x reaction_point.y stiffness damping free_length preload side",
+    torsion_spring_damper="stiffness damping free_angle preload side",
+    point_force="point.x point.y x y turns",
+    bushing="point.x point.y reaction_point.x reaction_point.y stiffness_x stiffness_y damping_x damping_y "
+    "torsional_stiffness torsional_damping free_angle",
+    nonlinear_spring="point.x point.y reaction_point.x reaction_point.y",
+    nonlinear_torsion_spring="",
 )
 
 JOINTS = Kinds(
@@ -70,4 +76,28 @@ JOINTS = Kinds(
     angle_driver="",
     distance_driver="point_i.x point_i.y point_j.x point_j.y",
     translational_driver="point_i.x point_i.y point_j.x point_j.y direction_i.x direction_i.y",
+)
+
+#: The operations of a law that a user has written: each has a result, and its operands are those of earlier ones.
+OPERATIONS = Kinds(
+    constant="",
+    length="",
+    rate="",
+    add="a b",
+    subtract="a b",
+    multiply="a b",
+    divide="a b",
+    negate="a",
+    minimum="a b",
+    maximum="a b",
+    where_positive="condition positive otherwise",
+    sqrt="a",
+    sin="a",
+    cos="a",
+    tan="a",
+    atan2="y x",
+    exp="a",
+    log="a",
+    tanh="a",
+    power="base exponent",
 )

@@ -43,13 +43,28 @@ class Curves(Table, prefix="curve_"):
 
 
 class Forces(Table, rows="forces", prefix="force_"):
-    """The force elements; `data` holds what inputs write, `own` says which of the own states is an element's first."""
+    """The force elements; `data` holds what inputs write, `own` says which of the own states is an element's first.
+
+    A nonlinear one has a law: the operations from `law` up to `law_end`, or the curve of its energy.
+    """
 
     kind = integer()
     body = integer()
     reaction = integer()
     own = integer()
+    law = integer()
+    law_end = integer()
+    curve = integer()
     data = real(FORCES.width)
+
+
+class Operations(Table, rows="operations", prefix="operation_"):
+    """What laws of the user's own do, one after the other: `tables.kinds.OPERATIONS`, and of a constant its value."""
+
+    kind = integer()
+    operands = integer(3)
+    value = real()
+    result = real(work=True)
 
 
 class Contacts(Table, rows="contacts", prefix="contact_"):

@@ -39,6 +39,7 @@ class Sizes:
     terms = _given()
     alphas = _given()  # contact coordinates
     own = _given()  # states of force elements' own
+    operations = _given()  # of laws of force
     held = _given()
     inputs = _given()
     outputs = _given()

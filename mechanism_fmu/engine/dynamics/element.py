@@ -42,6 +42,15 @@ def turn(block: Array, k: int, torque: float) -> None:
 
 
 @jit
+def push(block: Array, body: int, px: float, py: float, fx: float, fy: float) -> None:
+    """Let a force act on a body at (px, py) from its centre of mass."""
+    force = Loads(block).force
+    force[3 * body] += fx
+    force[3 * body + 1] += fy
+    force[3 * body + 2] += px * fy - py * fx
+
+
+@jit
 def relative_angle(block: Array, at: Pose, k: int) -> float:
     """Angle of the body of element `k` from its reaction [rad]."""
     table = Forces(block)
@@ -55,3 +64,25 @@ def relative_speed(block: Array, at: Pose, k: int) -> float:
     table = Forces(block)
     speed: float = at.phi_rate[table.body[k]] - at.phi_rate[table.reaction[k]]
     return speed
+
+
+@jit
+def acting(side: float, stretch: float) -> float:
+    """The stretch of a spring that may be one-sided: 0 where it is on the side on which the spring does nothing."""
+    return 0.0 if side != 0.0 and side * stretch <= 0.0 else stretch
+
+
+@jit
+def spring_force(
+    stiffness: float, damping: float, preload: float, side: float, stretch: float, rate: float
+) -> tuple[float, float, float]:
+    """Force or torque against the stretch of a spring-damper, and the powers that come in and are lost [W].
+
+    A one-sided one does nothing on the other side, and never acts the other way.
+    """
+    if side != 0.0:
+        if side * stretch <= 0.0:
+            return 0.0, 0.0, 0.0
+        if side * (stiffness * stretch + damping * rate + preload) < 0.0:
+            return 0.0, 0.0, -stiffness * stretch * rate  # it would hold back: what it has stored is lost
+    return stiffness * stretch + damping * rate + preload, -preload * rate, damping * rate * rate

@@ -16,11 +16,16 @@ from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import set_instant
 from ..vectors import clear
-from . import own_states, point_forces, torsional
+from . import bushing, own_states, point_forces, torsional
 from .element import Element
 
 #: Every force element of the engine, by the name of its kind.
-ELEMENTS: dict[str, Element] = {**torsional.ELEMENTS, **point_forces.ELEMENTS, **own_states.ELEMENTS}
+ELEMENTS: dict[str, Element] = {
+    **torsional.ELEMENTS,
+    **point_forces.ELEMENTS,
+    **bushing.ELEMENTS,
+    **own_states.ELEMENTS,
+}
 
 
 def _function(role: str, arguments: str, otherwise: str) -> Any:
@@ -40,8 +45,8 @@ _read_rate = _function("read_rate", "block, at, k, dy, which", "math.nan")
 def apply_forces(block: Array, at: Pose, y: Array, dy: Array) -> tuple[float, float]:
     """Write the generalised forces F [N, N m] to `loads.force`; return the powers given and lost [W].
 
-    Given: by torques, forces, shafts, the driven ends of clutches, the supplies of motors, and the preloads of springs
-    (the linear part of a spring stores energy instead). Lost: in dampers, clutches and the windings of motors.
+    Given: by torques, forces, shafts, the driven ends of clutches, the supplies of motors, the preloads of springs and
+    laws of the user's own (the linear part of a spring stores energy instead). Lost: in dampers, clutches and windings.
     Derivatives of own states go to their place in `dy`, shape (unknowns,).
     """
     clear(Loads(block).force)

@@ -1,4 +1,4 @@
-"""Force elements at points of bodies: a force at the centre of mass, and a spring-damper between two points."""
+"""Force elements at points of bodies: forces, and springs between two points."""
 
 from __future__ import annotations
 
@@ -11,17 +11,22 @@ from ...tables.motion import Loads, Pose
 from ...tables.parts import Forces
 from ..compiler.subset import jit, keep_small
 from ..vectors import turned
-from .element import Element
+from .element import Element, acting, push, spring_force
+from .laws import by_law, law_energy
 
 X, Y = FORCES.places("force")
 _FORCE = FORCES.number("force")
-POINT_X, POINT_Y, REACTION_X, REACTION_Y, STIFFNESS, DAMPING, FREE_LENGTH, PRELOAD = FORCES.places("spring_damper")
-#: What is read of a spring-damper.
+POINT_X, POINT_Y, REACTION_X, REACTION_Y, STIFFNESS, DAMPING, FREE_LENGTH, PRELOAD, SIDE = FORCES.places(
+    "spring_damper"
+)
+FORCE_X, FORCE_Y, TURNS = FORCES.places("point_force")[2:]
+_NONLINEAR = FORCES.number("nonlinear_spring")
+#: What is read of an element along the line between two points; else its power.
 LENGTH, RATE, FORCE = range(3)
 
 
 class Line(NamedTuple):
-    """Between the points of a spring-damper, in the global frame.
+    """Between the points of a spring, in the global frame.
 
     a and b from the centres of mass to the points [m]; the unit vector from the point of the body to that of the
     reaction; the length [m] and its rate [m/s]. Where the points meet, the vector is that of their relative velocity,
@@ -65,17 +70,52 @@ def weight(block: Array, body: int) -> tuple[float, float]:
 
 
 @jit
-def _spring_damper(
+def _point_force(
     block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float, lost: float
 ) -> tuple[float, float]:
-    """Stores the energy of its linear part; the work of its preload is given."""
+    keep_small()
+    i = Forces(block).body[k]
+    fx, fy, px, py = _applied(block, at, k)
+    push(block, i, px, py, fx, fy)
+    return given + _power_at(at, i, px, py, fx, fy), lost
+
+
+@jit
+def _applied(block: Array, at: Pose, k: int) -> tuple[float, float, float, float]:
+    """Force of a point force, and where it acts from the centre of mass, in global directions."""
+    data = Forces(block).data[k]
+    i = Forces(block).body[k]
+    px, py = turned(at, i, data[POINT_X], data[POINT_Y])
+    fx, fy = data[FORCE_X], data[FORCE_Y]
+    if data[TURNS] > 0.0:
+        fx, fy = turned(at, i, fx, fy)
+    return fx, fy, px, py
+
+
+@jit
+def _power_at(at: Pose, body: int, px: float, py: float, fx: float, fy: float) -> float:
+    """Power of a force on a body at (px, py) from its centre of mass [W]."""
+    rate = at.phi_rate[body]
+    power: float = fx * (at.x_rate[body] - py * rate) + fy * (at.y_rate[body] + px * rate)
+    return power
+
+
+@jit
+def _read_point_force(block: Array, at: Pose, k: int, _y: Array, _which: int) -> float:
+    fx, fy, px, py = _applied(block, at, k)
+    power: float = _power_at(at, Forces(block).body[k], px, py, fx, fy)
+    return power
+
+
+@jit
+def _between(block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float, lost: float) -> tuple[float, float]:
+    """Stores the energy of its linear part, or of its table; the work of its preload, or of its law, is given."""
     keep_small()
     table = Forces(block)
-    data = table.data[k]
     i = table.body[k]
     j = table.reaction[k]
     line = _line(block, at, k)
-    pull = _pull(data, line)
+    pull, comes_in, goes = _pull(block, k, line)
     fx = pull * line.ux
     fy = pull * line.uy
     force = Loads(block).force
@@ -85,12 +125,12 @@ def _spring_damper(
     force[3 * j] -= fx
     force[3 * j + 1] -= fy
     force[3 * j + 2] -= line.bx * fy - line.by * fx
-    return given - data[PRELOAD] * line.speed, lost + data[DAMPING] * line.speed * line.speed
+    return given + comes_in, lost + goes
 
 
 @jit
 def _line(block: Array, at: Pose, k: int) -> Line:
-    """The line between the points of a spring-damper."""
+    """The line between the points of a spring."""
     keep_small()
     table = Forces(block)
     data = table.data[k]
@@ -117,18 +157,25 @@ def _line(block: Array, at: Pose, k: int) -> Line:
 
 
 @jit
-def _pull(data: Array, line: Line) -> float:
-    """Force that pulls the points together [N]; none where they rest in one place, as it has no direction there."""
+def _pull(block: Array, k: int, line: Line) -> tuple[float, float, float]:
+    """Force that pulls the points together [N], and the powers that come in and are lost [W].
+
+    Where the points rest in one place there is none, as it has no direction there.
+    """
+    keep_small()
     if line.ux == 0.0 and line.uy == 0.0:
-        return 0.0
-    pull: float = data[STIFFNESS] * (line.length - data[FREE_LENGTH]) + data[DAMPING] * line.speed + data[PRELOAD]
-    return pull
+        return 0.0, 0.0, 0.0
+    if Forces(block).kind[k] == _NONLINEAR:
+        return by_law(block, k, line.length, line.speed)
+    data = Forces(block).data[k]
+    stretch = line.length - data[FREE_LENGTH]
+    return spring_force(data[STIFFNESS], data[DAMPING], data[PRELOAD], data[SIDE], stretch, line.speed)
 
 
 @jit
 def _spring_damper_energy(block: Array, at: Pose, k: int, _y: Array) -> float:
     data = Forces(block).data[k]
-    stretch = _line(block, at, k).length - data[FREE_LENGTH]
+    stretch = acting(data[SIDE], _line(block, at, k).length - data[FREE_LENGTH])
     energy: float = 0.5 * data[STIFFNESS] * stretch * stretch
     return energy
 
@@ -137,24 +184,37 @@ def _spring_damper_energy(block: Array, at: Pose, k: int, _y: Array) -> float:
 def _spring_damper_power(block: Array, at: Pose, k: int, _y: Array, _dy: Array) -> float:
     data = Forces(block).data[k]
     line = _line(block, at, k)
-    power: float = data[STIFFNESS] * (line.length - data[FREE_LENGTH]) * line.speed
+    power: float = data[STIFFNESS] * acting(data[SIDE], line.length - data[FREE_LENGTH]) * line.speed
     return power
 
 
 @jit
-def _read_spring_damper(block: Array, at: Pose, k: int, _y: Array, which: int) -> float:
+def _table_energy(block: Array, at: Pose, k: int, _y: Array) -> float:
+    energy: float = law_energy(block, k, _line(block, at, k).length)[0]
+    return energy
+
+
+@jit
+def _table_power(block: Array, at: Pose, k: int, _y: Array, _dy: Array) -> float:
+    line = _line(block, at, k)
+    power: float = law_energy(block, k, line.length)[1] * line.speed
+    return power
+
+
+@jit
+def _read_between(block: Array, at: Pose, k: int, _y: Array, which: int) -> float:
     keep_small()
-    data = Forces(block).data[k]
     line = _line(block, at, k)
     if which == LENGTH:
         return line.length
     if which == RATE:
         return line.speed
-    return _pull(data, line)
+    pull: float = _pull(block, k, line)[0]
+    return pull if which == FORCE else -pull * line.speed
 
 
 @jit
-def _read_spring_damper_rate(block: Array, at: Pose, k: int, _dy: Array, which: int) -> float:
+def _read_between_rate(block: Array, at: Pose, k: int, _dy: Array, which: int) -> float:
     if which == LENGTH:
         return _line(block, at, k).speed
     return math.nan
@@ -162,11 +222,7 @@ def _read_spring_damper_rate(block: Array, at: Pose, k: int, _dy: Array, which: 
 
 ELEMENTS = {
     "force": Element(_force),
-    "spring_damper": Element(
-        _spring_damper,
-        _spring_damper_energy,
-        _spring_damper_power,
-        _read_spring_damper,
-        _read_spring_damper_rate,
-    ),
+    "point_force": Element(_point_force, read=_read_point_force),
+    "spring_damper": Element(_between, _spring_damper_energy, _spring_damper_power, _read_between, _read_between_rate),
+    "nonlinear_spring": Element(_between, _table_energy, _table_power, _read_between, _read_between_rate),
 }

@@ -6,7 +6,7 @@ import math
 import re
 import types
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
@@ -50,7 +50,7 @@ def check_mechanism(mechanism: object) -> None:
         raise MechanismError(f"the function of MODEL returns {what}; end it with: return Mechanism(bodies=..., ...)")
     _refuse(_whole(mechanism))
     values = (getattr(mechanism, field.name) for field in fields(mechanism))
-    parts = (part for value in values if isinstance(value, tuple) for part in value if not isinstance(part, str))
+    parts = (part for value in values if isinstance(value, tuple) for part in value if is_dataclass(part))
     _refuse(problem for part in parts for problem in _part(part))
 
 

@@ -86,12 +86,12 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         label = f"Logical function {literal(repr(function.name))}"
         text = f"{label}: its limit {{:g}} is not finite; give a finite one as below."
         yield refuse_unless(finite(function.below), text, function.below)
-    for force in mechanism.forces:
+    for force in mechanism.elements:
         yield from force.findings()
     for joint in mechanism.joints:
         text = f"Joint {literal(repr(joint.name))}: {joint.friction_name} = {{:g}} must be finite and not negative."
         yield refuse_unless(finite_not_negative(joint.friction), text, joint.friction)
-    for part in (*mechanism.joints, *mechanism.forces, *mechanism.contacts, *mechanism.patterns):
+    for part in (*mechanism.joints, *mechanism.elements, *mechanism.contacts, *mechanism.patterns):
         yield from _not_finite(part)
     for port in mechanism.inputs:
         text = f"Input {literal(repr(port.name))}: start = {{:g}} is not finite."
@@ -118,7 +118,8 @@ def _not_finite(part: Joint | ForceElement | Contact | CircularPattern) -> tuple
     for field in fields(part):
         value = getattr(part, field.name)
         numbers = value if isinstance(value, tuple) else (value,)
-        if field.name not in _ASKED_FOR and not any(isinstance(n, str | Curve | None) for n in numbers):
+        asked = field.name in _ASKED_FOR or callable(value)
+        if not asked and not any(isinstance(n, str | Curve | None) for n in numbers):
             shown = "({:g}, {:g})" if isinstance(value, tuple) else "{:g}"
             text = f"{label}: {field.name} = {shown} is not finite; give finite numbers."
             found.append(refuse_unless(finite(*numbers), text, *numbers))

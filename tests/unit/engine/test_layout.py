@@ -20,6 +20,7 @@ GIVEN = {
     "terms": 9,
     "alphas": 3,
     "own": 2,
+    "operations": 3,
     "held": 1,
     "inputs": 6,
     "outputs": 7,

@@ -121,7 +121,7 @@ def test_forces():
     ]
     assert list(TABLES.force_body) == [1, 0, 0, 1, 0]
     assert list(TABLES.force_reaction) == [0, 2, 1, 2, 2]
-    assert TABLES.force_data.shape == (5, 8)
+    assert TABLES.force_data.shape == (5, FORCES.width)
     np.testing.assert_array_equal(TABLES.force_data[:, 4:], 0.0)
     np.testing.assert_array_equal(
         TABLES.force_data[:, :4],
@@ -233,8 +233,8 @@ def test_states_of_forces_own():
     tables = compile_mechanism(mechanism)
     assert list(tables.force_own) == [0, codes.NONE, 1, 3]
     assert tables.own == 4
-    np.testing.assert_array_equal(tables.force_data[0], [1, 2, 3, 4, 0, 0, 0, 0])
-    np.testing.assert_array_equal(tables.force_data[2], [1, 2, 3, 4, 5, 6, 7, 8])
+    np.testing.assert_array_equal(tables.force_data[0], [1, 2, 3, 4] + [0] * (FORCES.width - 4))
+    np.testing.assert_array_equal(tables.force_data[2, :8], [1, 2, 3, 4, 5, 6, 7, 8])
     assert list(tables.input_column) == [7, 2]
     assert list(tables.output_kind) == [codes.FORCE_READING] * 4
     assert list(tables.output_index) == [2, 2, 2, 3]
@@ -286,7 +286,7 @@ def test_structure_is_integer_and_numbers_are_floats():
 def test_a_single_free_body_has_tables_of_the_right_width():
     tables = compile_mechanism(Mechanism(bodies=(Body("stone", 1.0, 1.0, (0.0, 1.0, math.pi)),)))
     assert tables.joint_data.shape == (0, 9)
-    assert tables.force_data.shape == (0, 8)
+    assert tables.force_data.shape == (0, FORCES.width)
     assert tables.contact_data.shape == (0, 6)
     assert tables.contact_value.shape == (0, codes.CONTACT_VALUES)
     assert tables.pattern_data.shape == (0, 6)

@@ -37,20 +37,26 @@ from mechanism_fmu.model import (
     TranslationalDriver,
     XDriver,
     YDriver,
+    characteristic,
 )
 from mechanism_fmu.model.checks.check_numbers import number_findings
 from mechanism_fmu.model.compile import compile_mechanism, compile_tables
 from mechanism_fmu.model.findings import messages
 from mechanism_fmu.model.forces import (
+    Bushing,
     CompliantShaft,
     Damper,
     DCMotor,
     Force,
     ForceElement,
+    NonlinearSpring,
+    NonlinearTorsionSpring,
+    PointForce,
     SlipClutch,
     SpringDamper,
     Torque,
     TorsionSpring,
+    TorsionSpringDamper,
 )
 from mechanism_fmu.model.joints import Joint
 from mechanism_fmu.model.trace import trace
@@ -90,6 +96,11 @@ FORCE_ELEMENTS = (
     SlipClutch("clutch", "a"),
     DCMotor("motor", "a"),
     SpringDamper("strut", "a", (0.0, 0.0), "b", (0.0, 0.0)),
+    TorsionSpringDamper("stop", "a"),
+    PointForce("push", "a"),
+    Bushing("bushing", "a", (0.0, 0.0), "b", (0.0, 0.0)),
+    NonlinearSpring("gas", "a", (0.0, 0.0), "b", (0.0, 0.0), law=lambda x, v: x + v),
+    NonlinearTorsionSpring("coil", "a", law=characteristic([(0.0, 0.0), (1.0, 1.0)])),
 )
 
 
@@ -316,4 +327,4 @@ def test_every_force_element_is_among_the_examples_and_says_how_it_acts():
     for force in FORCE_ELEMENTS:
         act = ELEMENTS[force.row].act
         source = inspect.getsource(getattr(act, "py_func", act))
-        assert ("turn(block, k" in source) == (force.acts == "torque")
+        assert ("turn(block, k" in source) == (force.acts == "torque" or isinstance(force, Bushing))

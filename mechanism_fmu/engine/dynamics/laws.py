@@ -1,0 +1,173 @@
+"""Laws of force of the user's own: their operations carried out (see `mechanism_fmu.model.laws`), or their table."""
+
+from __future__ import annotations
+
+import math
+
+from ...tables.declare import Array
+from ...tables.kinds import OPERATIONS
+from ...tables.parts import Forces, Operations
+from ..compiler.by_kind import by_kind
+from ..compiler.subset import jit, keep_small
+from ..profiles.curves import curve
+
+_CONSTANT = OPERATIONS.number("constant")
+_LENGTH = OPERATIONS.number("length")
+_RATE = OPERATIONS.number("rate")
+
+
+@jit
+def _add(a: float, b: float, _c: float) -> float:
+    return a + b
+
+
+@jit
+def _subtract(a: float, b: float, _c: float) -> float:
+    return a - b
+
+
+@jit
+def _multiply(a: float, b: float, _c: float) -> float:
+    return a * b
+
+
+@jit
+def _divide(a: float, b: float, _c: float) -> float:
+    return a / b
+
+
+@jit
+def _negate(a: float, _b: float, _c: float) -> float:
+    return -a
+
+
+@jit
+def _minimum(a: float, b: float, _c: float) -> float:
+    return a if a < b else b
+
+
+@jit
+def _maximum(a: float, b: float, _c: float) -> float:
+    return a if a > b else b
+
+
+@jit
+def _where_positive(a: float, b: float, c: float) -> float:
+    return b if a > 0.0 else c
+
+
+# Functions have no value outside their domain, where plain Python would raise: what is not chosen may lie there.
+
+
+@jit
+def _sqrt(a: float, _b: float, _c: float) -> float:
+    return math.sqrt(a) if a >= 0.0 else math.nan
+
+
+@jit
+def _sin(a: float, _b: float, _c: float) -> float:
+    return math.sin(a)
+
+
+@jit
+def _cos(a: float, _b: float, _c: float) -> float:
+    return math.cos(a)
+
+
+@jit
+def _tan(a: float, _b: float, _c: float) -> float:
+    return math.tan(a)
+
+
+@jit
+def _atan2(a: float, b: float, _c: float) -> float:
+    return math.atan2(a, b)
+
+
+@jit
+def _exp(a: float, _b: float, _c: float) -> float:
+    return math.exp(a) if a < 709.0 else math.inf
+
+
+@jit
+def _log(a: float, _b: float, _c: float) -> float:
+    return math.log(a) if a > 0.0 else math.nan
+
+
+@jit
+def _tanh(a: float, _b: float, _c: float) -> float:
+    return math.tanh(a)
+
+
+@jit
+def _power(a: float, b: float, _c: float) -> float:
+    if a > 0.0:
+        return math.pow(a, b)
+    return 0.0 if a == 0.0 and b > 0.0 else math.nan
+
+
+_result = by_kind(
+    OPERATIONS.numbered(
+        {
+            "add": _add,
+            "subtract": _subtract,
+            "multiply": _multiply,
+            "divide": _divide,
+            "negate": _negate,
+            "minimum": _minimum,
+            "maximum": _maximum,
+            "where_positive": _where_positive,
+            "sqrt": _sqrt,
+            "sin": _sin,
+            "cos": _cos,
+            "tan": _tan,
+            "atan2": _atan2,
+            "exp": _exp,
+            "log": _log,
+            "tanh": _tanh,
+            "power": _power,
+        }
+    ),
+    "a, b, c",
+    "math.nan",
+)
+
+
+@jit
+def _carried_out(block: Array, first: int, end: int, length: float, rate: float) -> float:
+    """The result of the last of the operations from `first` up to `end`."""
+    table = Operations(block)
+    result = table.result
+    for n in range(first, end):
+        kind = table.kind[n]
+        if kind == _CONSTANT:
+            result[n] = table.value[n]
+        elif kind == _LENGTH:
+            result[n] = length
+        elif kind == _RATE:
+            result[n] = rate
+        else:
+            of = table.operands[n]
+            result[n] = _result(kind, result[of[0]], result[of[1]], result[of[2]])
+    value: float = result[end - 1]
+    return value
+
+
+@jit
+def by_law(block: Array, k: int, length: float, rate: float) -> tuple[float, float, float]:
+    """Force or torque of the law of element `k`, and the powers that come in and are lost [W]: nothing is lost."""
+    keep_small()
+    table = Forces(block)
+    if table.law[k] == table.law_end[k]:
+        return law_energy(block, k, length)[1], 0.0, 0.0
+    pull = _carried_out(block, table.law[k], table.law_end[k], length, rate)
+    return pull, -pull * rate, 0.0
+
+
+@jit
+def law_energy(block: Array, k: int, length: float) -> tuple[float, float]:
+    """Energy of a law that is a table [J], and its derivative, which is the force or torque; of others zero."""
+    if Forces(block).curve[k] < 0:
+        return 0.0, 0.0
+    energy, slope, _, _ = curve(block, Forces(block).curve[k], length)
+    return energy, slope

@@ -1,0 +1,40 @@
+"""Force elements, by what they act on; a new one is a class here and a function in `mechanism_fmu.engine.dynamics`."""
+
+from .at_points import Bushing, Force, PointForce, SpringDamper
+from .base import Element as Element, Quantity as Quantity
+from .by_law import NonlinearSpring, NonlinearTorsionSpring
+from .driven import DCMotor, SlipClutch
+from .torsional import CompliantShaft, Damper, Torque, TorsionSpring, TorsionSpringDamper
+
+__all__ = [
+    "Bushing",
+    "CompliantShaft",
+    "DCMotor",
+    "Damper",
+    "Force",
+    "NonlinearSpring",
+    "NonlinearTorsionSpring",
+    "PointForce",
+    "SlipClutch",
+    "SpringDamper",
+    "Torque",
+    "TorsionSpring",
+    "TorsionSpringDamper",
+]
+
+#: Any force element.
+ForceElement = (
+    Torque
+    | TorsionSpring
+    | Damper
+    | CompliantShaft
+    | Force
+    | SlipClutch
+    | DCMotor
+    | SpringDamper
+    | TorsionSpringDamper
+    | PointForce
+    | Bushing
+    | NonlinearSpring
+    | NonlinearTorsionSpring
+)

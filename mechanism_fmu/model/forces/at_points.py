@@ -1,0 +1,177 @@
+"""Forces at points of bodies: a force at the centre of mass or anywhere, a spring-damper and a bushing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from ..body import GROUND, Point
+from ..errors import MechanismError
+from ..functions import Number
+from .base import Element, OneSided, Quantity, side_of
+
+
+@dataclass(frozen=True)
+class Force(Element):
+    """A force at the centre of mass of `body`, constant in the global frame, e.g. its weight.
+
+    Attributes:
+        name: unique within the mechanism.
+        body: name of the body.
+        force: (fx, fy) [N]; an `Input` may write "<name>.x" and "<name>.y". Its work counts as work done.
+    """
+
+    row: ClassVar = "force"
+    writable: ClassVar = ("x", "y")
+    acts: ClassVar = "at centre"
+    reaction: ClassVar[str] = GROUND
+
+    name: str
+    body: str
+    force: tuple[Number, Number] = (0.0, 0.0)
+
+    def data(self) -> tuple[Number, ...]:
+        """The element's row of the table `force_data`."""
+        return self.force
+
+
+@dataclass(frozen=True)
+class SpringDamper(Element):
+    """A spring, a damper and a constant force side by side between two points (ME451's TSDA).
+
+    With the distance l of the points, the force that pulls them together is
+
+        f = stiffness (l - free_length) + damping l' + preload.
+
+    One-sided "stretched", it is there only where l > free_length, and only pulls: a rope. One-sided "compressed", it is
+    there only where l < free_length, and only pushes: a bumper. The energy of the linear part counts as spring energy,
+    the work of the preload as work done on the mechanism, and the rest as lost. Where the points meet, the force acts
+    along their relative velocity; where they rest there, it has no direction and vanishes.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies (or `GROUND`).
+        point, reaction_point: the points, in the frame of each body [m].
+        stiffness: [N/m], >= 0.
+        free_length: [m], >= 0: at which the linear part vanishes.
+        damping: [N s/m], >= 0.
+        preload: constant part of the force [N], pulling positive; an actuator where an `Input` writes
+            "<name>.preload".
+        one_sided: "no", "stretched" or "compressed".
+
+    Raises:
+        MechanismError: `one_sided` is another word.
+    """
+
+    row: ClassVar = "spring_damper"
+    writable: ClassVar = ("preload",)
+    quantities: ClassVar = {
+        "length": Quantity("m", "Distance of the points"),
+        "speed": Quantity("m/s", "Rate of the distance of the points"),
+        "force": Quantity("N", "Force that pulls the points together", ("preload",)),
+        "power": Quantity("W", "Power that the bodies get", ("preload",)),
+    }
+    acts: ClassVar = "at points"
+    not_negative: ClassVar = {"stiffness": "N/m", "free_length": "m", "damping": "N.s/m"}
+
+    name: str
+    body: str
+    point: Point
+    reaction: str
+    reaction_point: Point
+    stiffness: Number = 0.0
+    free_length: Number = 0.0
+    damping: Number = 0.0
+    preload: Number = 0.0
+    one_sided: OneSided = "no"
+
+    @property
+    def side(self) -> float:
+        """Of the table `force_data`: 0, or the sign of the stretches at which it acts."""
+        return side_of(self, self.one_sided)
+
+
+@dataclass(frozen=True)
+class PointForce(Element):
+    """A force at any point of `body`, with directions that are global or turn with the body.
+
+    Attributes:
+        name: unique within the mechanism.
+        body: name of the body.
+        point: where it acts, in the frame of the body [m].
+        force: (fx, fy) [N]; an `Input` may write "<name>.x" and "<name>.y". Its work counts as work done.
+        frame: "global" or "body": the frame of its directions.
+
+    Raises:
+        MechanismError: `frame` is another word.
+    """
+
+    row: ClassVar = "point_force"
+    writable: ClassVar = ("x", "y")
+    quantities: ClassVar = {"power": Quantity("W", "Power that the body gets", ("x", "y"))}
+    acts: ClassVar = "at points"
+    reaction: ClassVar[str] = GROUND
+
+    name: str
+    body: str
+    point: Point = (0.0, 0.0)
+    force: tuple[Number, Number] = (0.0, 0.0)
+    frame: Literal["global", "body"] = "global"
+
+    def data(self) -> tuple[Number, ...]:
+        """The element's row of the table `force_data`."""
+        if self.frame not in ("global", "body"):
+            raise MechanismError(f"PointForce {self.name!r}: frame = {self.frame!r} is neither global nor body.")
+        return (*self.point, *self.force, float(self.frame == "body"))
+
+
+@dataclass(frozen=True)
+class Bushing(Element):
+    """A rubber bushing: a spring and a damper for each direction of the frame of `reaction`, and for the angle.
+
+    With the point of `body` at (x, y) from that of `reaction`, in the frame of `reaction`, and the relative angle a
+    less `free_angle`, the bushing acts on `body` at its point with (-stiffness_x x - damping_x x', -stiffness_y y -
+    damping_y y') and the torque -torsional_stiffness a - torsional_damping a'. Its reaction acts at the same place, so
+    that momenta are kept however far it gives way.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies (or `GROUND`).
+        point, reaction_point: the points, in the frame of each body [m].
+        stiffness_x, stiffness_y: [N/m], >= 0; damping_x, damping_y: [N s/m], >= 0.
+        torsional_stiffness: [N m/rad], >= 0; torsional_damping: [N m s/rad], >= 0.
+        free_angle: relative angle without torque [rad].
+    """
+
+    row: ClassVar = "bushing"
+    quantities: ClassVar = {
+        "x": Quantity("m", "Deflection along x of the reaction's frame"),
+        "y": Quantity("m", "Deflection along y of the reaction's frame"),
+        "angle": Quantity("rad", "Twist"),
+        "force_x": Quantity("N", "Force on the body along x of the reaction's frame"),
+        "force_y": Quantity("N", "Force on the body along y of the reaction's frame"),
+        "torque": Quantity("N.m", "Torque on the body"),
+        "power": Quantity("W", "Power that the bodies get"),
+    }
+    acts: ClassVar = "at points"
+    not_negative: ClassVar = {
+        "stiffness_x": "N/m",
+        "stiffness_y": "N/m",
+        "damping_x": "N.s/m",
+        "damping_y": "N.s/m",
+        "torsional_stiffness": "N.m/rad",
+        "torsional_damping": "N.m.s/rad",
+    }
+
+    name: str
+    body: str
+    point: Point
+    reaction: str
+    reaction_point: Point
+    stiffness_x: Number = 0.0
+    stiffness_y: Number = 0.0
+    damping_x: Number = 0.0
+    damping_y: Number = 0.0
+    torsional_stiffness: Number = 0.0
+    torsional_damping: Number = 0.0
+    free_angle: Number = 0.0

@@ -1,0 +1,123 @@
+"""What all force elements have: a class says what it is, what may be written into it or read of it, what it refuses.
+
+What an element does is in `mechanism_fmu.engine.dynamics`; the two meet in a row of numbers (`tables.kinds.FORCES`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, ClassVar, Literal, NamedTuple
+
+from ...tables.kinds import FORCES
+from ..curves import Curve
+from ..errors import MechanismError
+from ..findings import Finding, finite_positive, literal, not_negative, refuse_unless
+from ..functions import Number
+from ..laws import LawOperation, law_operations, potential
+
+
+class Quantity(NamedTuple):
+    """What an `Output` can read of a part, with the source "<part>.<name of the quantity>".
+
+    Attributes:
+        unit: SI unit.
+        description: one line for the user.
+        feedthrough: entries of the part, as in `writable`, on which the value depends at the same instant.
+    """
+
+    unit: str
+    description: str
+    feedthrough: tuple[str, ...] = ()
+
+
+class Element:
+    """What all force elements have.
+
+    Attributes:
+        row: name of the kind in `tables.kinds.FORCES`, whose columns are numbers of the element.
+        writable: entries that an `Input` may write, with the target "<element>.<entry>".
+        quantities: what an `Output` may read, by name, in the order of the engine's `Element.read`.
+        own: how many first-order states of its own it has.
+        acts: as a torque, at the centre of mass, or at points of the bodies; the last loads no elastic member.
+        positive, not_negative: units of the numbers that must be so.
+        law: how its force follows from its length and rate: a function of both, a curve over the length, or None.
+    """
+
+    row: ClassVar[str]
+    writable: ClassVar[tuple[str, ...]] = ()
+    quantities: ClassVar[Mapping[str, Quantity]] = {}
+    own: ClassVar = 0
+    acts: ClassVar[Literal["torque", "at centre", "at points"]]
+    positive: ClassVar[Mapping[str, str]] = {}
+    not_negative: ClassVar[Mapping[str, str]] = {}
+    law: Callable[[Number, Number], Number] | Curve | None = None
+
+    name: str
+
+    @property
+    def kind(self) -> int:
+        """The element's entry in the table `force_kind`."""
+        return FORCES.number(self.row)
+
+    @property
+    def columns(self) -> dict[str, int]:
+        """The columns of `force_data` that an `Input` may write, by entry."""
+        return {entry: FORCES.columns(self.row).index(entry) for entry in self.writable}
+
+    def data(self) -> tuple[Number, ...]:
+        """The element's row of the table `force_data`."""
+        return tuple(self._number(*column.split(".")) for column in FORCES.columns(self.row))
+
+    def _number(self, field: str, axis: str = "") -> Number:
+        value: Any = getattr(self, field)
+        return value["xy".index(axis)] if axis else value
+
+    def operations(self) -> tuple[LawOperation, ...]:
+        """What its law does, where that is a function; () else.
+
+        Raises:
+            MechanismError: it cannot be recorded.
+        """
+        law = self.law
+        return () if law is None or isinstance(law, Curve) else law_operations(law, self._label)
+
+    def energy(self) -> Curve | None:
+        """The energy of its law over the length or angle, where that is a curve.
+
+        Raises:
+            MechanismError: the curve has none.
+        """
+        return potential(self.law, self._label) if isinstance(self.law, Curve) else None
+
+    @property
+    def _label(self) -> str:
+        return f"{type(self).__name__} {self.name!r}"
+
+    def findings(self) -> Iterator[Finding]:
+        """Every problem that its numbers can have, but for those that are not finite."""
+        label = f"{type(self).__name__} {literal(repr(self.name))}"
+        for what, unit in self.positive.items():
+            text = f"{label}: {what} = {{:g}} {unit}, but it must be positive and finite."
+            yield refuse_unless(finite_positive(getattr(self, what)), text, getattr(self, what))
+        for what, unit in self.not_negative.items():
+            text = f"{label}: {what} = {{:g}} {unit}, but it must not be negative."
+            yield refuse_unless(not_negative(getattr(self, what)), text, getattr(self, what))
+
+
+#: Whether a spring acts on both sides of its free length or angle, or only where it is longer or shorter.
+OneSided = Literal["no", "stretched", "compressed"]
+
+_SIDES: Mapping[str, float] = {"no": 0.0, "stretched": 1.0, "compressed": -1.0}
+
+
+def side_of(element: Element, one_sided: str) -> float:
+    """What stands in the column `side`: 0, or the sign of the stretches and forces that there are.
+
+    Raises:
+        MechanismError: there is no such word.
+    """
+    if one_sided not in _SIDES:
+        raise MechanismError(
+            f"{type(element).__name__} {element.name!r}: one_sided = {one_sided!r} is none of {', '.join(_SIDES)}."
+        )
+    return _SIDES[one_sided]

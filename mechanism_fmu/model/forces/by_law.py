@@ -1,0 +1,72 @@
+"""Springs whose force follows from a function of the user's own, or from a table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+from ..body import GROUND, Point
+from ..curves import Curve
+from ..laws import Law
+from .base import Element, Quantity
+
+
+@dataclass(frozen=True)
+class NonlinearSpring(Element):
+    """A force between two points by a law: of their distance and its rate, as a function or a table.
+
+    A table (`characteristic`, or any `Curve` of polynomials up to the fourth degree) gives the force over the length;
+    its energy counts as spring energy, 0 at the table's first point. A function `def law(length, rate): ...` may depend
+    on both; what it takes and gives counts as work done on the mechanism. Where the points meet, the force acts along
+    their relative velocity; where they rest there, it has no direction and vanishes.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies (or `GROUND`).
+        point, reaction_point: the points, in the frame of each body [m].
+        law: force [N] that pulls the points together, over their distance [m] and its rate [m/s].
+    """
+
+    row: ClassVar = "nonlinear_spring"
+    quantities: ClassVar = {
+        "length": Quantity("m", "Distance of the points"),
+        "speed": Quantity("m/s", "Rate of the distance of the points"),
+        "force": Quantity("N", "Force that pulls the points together"),
+        "power": Quantity("W", "Power that the bodies get"),
+    }
+    acts: ClassVar = "at points"
+
+    name: str
+    body: str
+    point: Point
+    reaction: str
+    reaction_point: Point
+    law: Law | Curve = field(kw_only=True)
+
+
+@dataclass(frozen=True)
+class NonlinearTorsionSpring(Element):
+    """A torque between two bodies by a law: of their relative angle and its rate, as a function or a table.
+
+    The torque on `body` is -law, as that of a `TorsionSpring`: a law that grows with the angle drives back. Tables,
+    functions and energy as of `NonlinearSpring`.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
+        law: torque [N m] against the angle, over phi - phi_reaction [rad] and its rate [rad/s].
+    """
+
+    row: ClassVar = "nonlinear_torsion_spring"
+    quantities: ClassVar = {
+        "angle": Quantity("rad", "Relative angle of the bodies"),
+        "speed": Quantity("rad/s", "Rate of the relative angle"),
+        "torque": Quantity("N.m", "Torque on the body"),
+        "power": Quantity("W", "Power that the bodies get"),
+    }
+    acts: ClassVar = "torque"
+
+    name: str
+    body: str
+    reaction: str = GROUND
+    law: Law | Curve = field(kw_only=True)

@@ -1,0 +1,160 @@
+"""Torques between two bodies: torque, springs, damper, and a shaft that is turned from outside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..body import GROUND
+from ..functions import Number
+from .base import Element, OneSided, Quantity, side_of
+
+
+@dataclass(frozen=True)
+class Torque(Element):
+    """A torque on `body`, counter-clockwise positive, with its reaction on `reaction`.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
+        torque: [N m]; usually written by an `Input` with target "<name>.torque".
+    """
+
+    row: ClassVar = "torque"
+    acts: ClassVar = "torque"
+    writable: ClassVar = ("torque",)
+
+    name: str
+    body: str
+    reaction: str = GROUND
+    torque: Number = 0.0
+
+
+@dataclass(frozen=True)
+class TorsionSpring(Element):
+    """A torsion spring: torque on `body` = -(stiffness * (phi - phi_reaction - free_angle) + preload).
+
+    The energy of the linear part counts as spring energy; the work of the preload, which an input may change at any
+    time, counts as work done on the mechanism.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
+        stiffness: [N m/rad], >= 0.
+        free_angle: relative angle [rad] at which the linear part vanishes.
+        preload: constant part of the torque that opposes positive rotation of `body` [N m].
+    """
+
+    row: ClassVar = "torsion_spring"
+    acts: ClassVar = "torque"
+    writable: ClassVar = ("preload",)
+    not_negative: ClassVar = {"stiffness": "N.m/rad"}
+
+    name: str
+    body: str
+    reaction: str = GROUND
+    stiffness: Number = 0.0
+    free_angle: Number = 0.0
+    preload: Number = 0.0
+
+
+@dataclass(frozen=True)
+class Damper(Element):
+    """A viscous damper: torque on `body` = -damping * (phi' - phi_reaction'). What it takes counts as energy lost.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
+        damping: [N m s/rad], >= 0.
+    """
+
+    row: ClassVar = "damper"
+    acts: ClassVar = "torque"
+    not_negative: ClassVar = {"damping": "N.m.s/rad"}
+
+    name: str
+    body: str
+    reaction: str = GROUND
+    damping: Number = 0.0
+
+
+@dataclass(frozen=True)
+class CompliantShaft(Element):
+    """A shaft whose other end is moved from outside.
+
+    Torque on `body` = stiffness * (angle - (phi - phi_reaction)) + damping * (speed - (phi' - phi_reaction')). All of
+    it counts as work done on the mechanism.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
+        stiffness: [N m/rad], >= 0.
+        damping: [N m s/rad], >= 0.
+        angle: of the driven end [rad]; usually written by an `Input` with target "<name>.angle".
+        speed: of the driven end [rad/s]; usually written by an `Input` with target "<name>.speed".
+    """
+
+    row: ClassVar = "shaft"
+    acts: ClassVar = "torque"
+    writable: ClassVar = ("angle", "speed")
+    quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the shaft on its body", ("angle", "speed"))}
+    not_negative: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
+
+    name: str
+    body: str
+    reaction: str = GROUND
+    stiffness: Number = 0.0
+    damping: Number = 0.0
+    angle: Number = 0.0
+    speed: Number = 0.0
+
+
+@dataclass(frozen=True)
+class TorsionSpringDamper(Element):
+    """A torsion spring, a damper and a constant torque side by side (ME451's RSDA); with an end stop's one side.
+
+    With the angle phi - phi_reaction, the torque on `body` is -m,
+
+        m = stiffness (angle - free_angle) + damping angle' + preload.
+
+    One-sided "stretched", it is there only where angle > free_angle, and never negative: an elastic end stop, which
+    does not hold back; "compressed" likewise, where angle < free_angle. The energy of the linear part counts as spring
+    energy, the work of the preload as work done on the mechanism, and the rest as lost.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
+        stiffness: [N m/rad], >= 0.
+        free_angle: relative angle [rad] at which the linear part vanishes.
+        damping: [N m s/rad], >= 0.
+        preload: constant part of m [N m]; an `Input` may write "<name>.preload".
+        one_sided: "no", "stretched" or "compressed".
+
+    Raises:
+        MechanismError: `one_sided` is another word.
+    """
+
+    row: ClassVar = "torsion_spring_damper"
+    acts: ClassVar = "torque"
+    writable: ClassVar = ("preload",)
+    quantities: ClassVar = {
+        "angle": Quantity("rad", "Relative angle of the bodies"),
+        "speed": Quantity("rad/s", "Rate of the relative angle"),
+        "torque": Quantity("N.m", "Torque on the body", ("preload",)),
+        "power": Quantity("W", "Power that the bodies get", ("preload",)),
+    }
+    not_negative: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
+
+    name: str
+    body: str
+    reaction: str = GROUND
+    stiffness: Number = 0.0
+    free_angle: Number = 0.0
+    damping: Number = 0.0
+    preload: Number = 0.0
+    one_sided: OneSided = "no"
+
+    @property
+    def side(self) -> float:
+        """Of the table `force_data`: 0, or the sign of the stretches at which it acts."""
+        return side_of(self, self.one_sided)
