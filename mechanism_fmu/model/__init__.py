@@ -19,7 +19,7 @@ from .analysis import (
     TrapezoidTooth as TrapezoidTooth,
     WedgeTooth as WedgeTooth,
 )
-from .body import GROUND as GROUND, Body as Body
+from .body import GROUND as GROUND, Body as Body, End as End
 from .compile import MechanismTables as MechanismTables, compile_mechanism as compile_mechanism
 from .contacts import (
     AngleLock as AngleLock,
@@ -82,5 +82,19 @@ from .model import Model as Model
 from .patterns import CircularPattern as CircularPattern
 from .port_builders import *  # noqa: F403
 from .ports import Calculated as Calculated, Input as Input, Output as Output, Parameter as Parameter
+from .quantities import cm as cm, deg as deg, mm as mm, quantity as quantity, rpm as rpm
+from .sketch import FourBarPoints as FourBarPoints, dyad as dyad, four_bar_points as four_bar_points
+from .solids import (
+    ALUMINIUM as ALUMINIUM,
+    BRASS as BRASS,
+    POM as POM,
+    STEEL as STEEL,
+    CircularHole as CircularHole,
+    Material as Material,
+    bar as bar,
+    disc as disc,
+    plate as plate,
+    rigid_body as rigid_body,
+)
 
 __all__ = [name for name, value in list(globals().items()) if not (name.startswith("_") or isinstance(value, _Module))]

@@ -2,23 +2,83 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 
+from .errors import MechanismError
 from .functions import Number, cos, sin
-
-# Rigid bodies.
-
-#: The name of the fixed frame: use it wherever a body is asked for.
-GROUND = "ground"
+from .quantities import quantity
 
 #: A point or a vector (x, y) [m] in the frame of a body, from its centre of mass, or in the global frame.
 Point = tuple[Number, Number]
 
+# Ends: where parts are attached.
+
 
 @dataclass(frozen=True)
-class Body:
+class End:
+    """A point of a body, or a straight line of it, that a part is attached to: `body.at(x, y)`, `body.line(...)`.
+
+    Attributes:
+        body: name of the body (or `GROUND`).
+        point: from the centre of mass, in directions that turn with the body [m].
+        direction: of the line, likewise, of any length > 0; None of a point. Its left is the open side of a contact.
+    """
+
+    body: str
+    point: Point
+    direction: Point | None = None
+
+
+class Frame:
+    """What can be built on: a frame of a body, or the fixed one, in which points are given."""
+
+    def _end(self, point: Point, direction: Point | None = None) -> End:
+        raise NotImplementedError
+
+    def at(self, x: Number, y: Number) -> End:
+        """The point (x, y) [m] of the frame in which the body was drawn, as numbers or texts such as "5 mm".
+
+        Raises:
+            MechanismError: a text is no length.
+        """
+        return self._end((quantity(x, "m", "at: x"), quantity(y, "m", "at: y")))
+
+    def line(self, point: Point, direction: Point | None = None, *, angle: Number | None = None) -> End:
+        """The straight line through a point [m] along a direction, of any length > 0, or at an angle [rad].
+
+        Raises:
+            MechanismError: a text is no length or angle, or not one of direction and angle is given.
+        """
+        if (direction is None) == (angle is None):
+            raise MechanismError("line: it takes a direction (dx, dy) or an angle, one of the two.")
+        if direction is None:
+            angle = quantity(angle, "rad", "line: angle")
+            direction = (cos(angle), sin(angle))
+        return self._end((quantity(point[0], "m", "line: x"), quantity(point[1], "m", "line: y")), direction)
+
+
+class Ground(str, Frame):
+    """The name of the fixed frame, whose points are global: `GROUND.at(x, y)`."""
+
+    __slots__ = ()
+
+    def _end(self, point: Point, direction: Point | None = None) -> End:
+        return End(self, point, direction)
+
+
+#: The fixed frame: use it wherever a body is asked for. It is a text, "ground".
+GROUND = Ground("ground")
+
+# Rigid bodies.
+
+
+@dataclass(frozen=True)
+class Body(Frame):
     """A rigid body of the plane; its coordinates are (x, y) of the centre of mass and the angle phi.
+
+    The frame in which it is drawn, that of `at`, turns with it; `centre` says where its centre of mass is there. By
+    what one knows of a body: `bar`, `plate`, `disc`, `rigid_body`.
 
     Attributes:
         name: unique within the mechanism.
@@ -30,6 +90,9 @@ class Body:
         tooth_length: length l of its teeth as beams [m], > 0, if it has any. Every impact that changes its speed then
             has the impact velocity of the stress recovery, v_I = l (phid after - phid before). Only one body of a
             mechanism that reports v_I has teeth.
+        centre: the centre of mass in the frame in which the body is drawn [m].
+        outline: corners of its shape in that frame [m], for drawings; of a bar its two ends.
+        radius: by which its shape reaches beyond the outline [m]; the outline of a disc is its centre.
     """
 
     name: str
@@ -38,6 +101,53 @@ class Body:
     start: tuple[Number, Number, Number] = (0.0, 0.0, 0.0)
     start_rate: tuple[Number, Number, Number] = (0.0, 0.0, 0.0)
     tooth_length: Number | None = None
+    centre: Point = field(default=(0.0, 0.0), compare=False, kw_only=True)
+    outline: tuple[Point, ...] = field(default=(), compare=False, kw_only=True)
+    radius: Number = field(default=0.0, compare=False, kw_only=True)
+
+    def _end(self, point: Point, direction: Point | None = None) -> End:
+        x, y = self.centre
+        return End(self.name, (point[0] - x, point[1] - y), direction)
+
+    @property
+    def corners(self) -> tuple[End, ...]:
+        """The corners of its outline."""
+        return tuple(self._end(point) for point in self.outline)
+
+    @property
+    def a(self) -> End:
+        """The first corner of its outline: of a bar, the end where it begins."""
+        return self._corner(0, "a")
+
+    @property
+    def b(self) -> End:
+        """The second corner of its outline: of a bar, its other end."""
+        return self._corner(1, "b")
+
+    def _corner(self, number: int, what: str) -> End:
+        if len(self.outline) <= number:
+            raise MechanismError(f"Body {self.name!r} has no end {what}: it was not made by bar; write at(x, y).")
+        return self._end(self.outline[number])
+
+    @property
+    def x(self) -> str:
+        """The name of the coordinate x of its centre of mass [m], for `held` and outputs."""
+        return f"{self.name}.x"
+
+    @property
+    def y(self) -> str:
+        """The name of the coordinate y of its centre of mass [m], for `held` and outputs."""
+        return f"{self.name}.y"
+
+    @property
+    def angle(self) -> str:
+        """The name of its angle [rad], for `held` and outputs."""
+        return f"{self.name}.angle"
+
+    @property
+    def speed(self) -> str:
+        """The name of its angular speed [rad/s], for outputs."""
+        return f"{self.name}.speed"
 
 
 # Bodies whose numbers are the parameters of `port_builders.part_parameters`: where they start, and how fast.

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
 from .. import codes
+from .attached import Attached
 from .body import Point
 from .findings import (
     Finding,
@@ -25,7 +26,7 @@ from .functions import Number
 _UNIT_LENGTH = 1e-9
 
 
-class ContactFacts:
+class ContactFacts(Attached):
     """What all contacts have.
 
     Attributes:

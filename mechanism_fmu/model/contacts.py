@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from .. import codes
+from .attached import Slot
 from .body import Point
 from .contact_facts import ContactFacts, no_unit_length
 from .curves import Curve
@@ -23,7 +24,7 @@ from .functions import Number
 from .joints import HigherPair
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class PointLineContact(ContactFacts):
     """A point of one body against a straight line fixed in another (Pennestrì et al., Fig. 1).
 
@@ -52,6 +53,7 @@ class PointLineContact(ContactFacts):
     rows: ClassVar[int] = 1
     alphas: ClassVar[int] = 0
     profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
+    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "line_point", "normal", "normal"))
 
     name: str
     body_i: str
@@ -99,7 +101,7 @@ class _OfAngles(ContactFacts):
         return f"{self.body_i!r} is", f"rad beyond its stop on {self.body_j!r}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class AngleStop(_OfAngles):
     """A stop for the relative angle of two bodies, with the memory of a ratchet: gap s = phi_i - phi_j - latched angle.
 
@@ -129,6 +131,8 @@ class AngleStop(_OfAngles):
     guided: ClassVar[Number] = False
     pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
+    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
+    units: ClassVar = {"angle": "rad", "pitch": "rad"}
 
     name: str
     body_i: str
@@ -143,7 +147,7 @@ class AngleStop(_OfAngles):
         return (self.angle, 0.0 if self.pitch is None else self.pitch)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class AngleLock(_OfAngles):
     """A lock that a logical function closes, as the locking arc of a Geneva drive.
 
@@ -169,6 +173,8 @@ class AngleLock(_OfAngles):
     friction: ClassVar[Number] = 0.0
     guided: ClassVar[Number] = False
     pattern: ClassVar[str | None] = None
+    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
+    units: ClassVar = {"angle": "rad", "pitch": "rad"}
 
     name: str
     body_i: str

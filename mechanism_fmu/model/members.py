@@ -6,7 +6,9 @@ The motion is that of rigid bodies; what bends is read by outputs (`engine.elast
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
+from .attached import Attached, Slot
 from .body import Point
 from .findings import length
 from .functions import Number, is_plain
@@ -32,8 +34,8 @@ class Section:
         return cls(width * depth, width * depth * depth * depth / 12, depth)
 
 
-@dataclass(frozen=True)
-class Member:
+@dataclass(frozen=True, init=False)
+class Member(Attached):
     """A straight elastic beam of constant section, a part of a body.
 
     Members of one body that end in the same point are welded there; joints and disks of a body with members stand at
@@ -48,6 +50,9 @@ class Member:
         density: [kg/m3], >= 0; 0 makes it massless.
     """
 
+    slots: ClassVar = (Slot("body", "start", name="start"), Slot("body", "end", name="end"))
+    units: ClassVar = {"young": "Pa", "density": "kg/m3"}
+
     name: str
     body: str
     start: Point
@@ -57,8 +62,8 @@ class Member:
     density: Number
 
 
-@dataclass(frozen=True)
-class Disk:
+@dataclass(frozen=True, init=False)
+class Disk(Attached):
     """A lump of mass that turns with a body, whose mass and inertia it is a part of.
 
     Attributes:
@@ -68,6 +73,9 @@ class Disk:
         mass: [kg], >= 0.
         inertia: about its own centre [kg m2], >= 0.
     """
+
+    slots: ClassVar = (Slot("body", "point"),)
+    units: ClassVar = {"mass": "kg", "inertia": "kg.m2"}
 
     name: str
     body: str

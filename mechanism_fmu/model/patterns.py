@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
+from .attached import Attached, Slot
 from .body import Point
 from .contact_facts import no_unit_length
 from .findings import Finding, both, finite, literal, not_zero, refuse_unless, true_or_false
 from .functions import Number
 
 
-@dataclass(frozen=True)
-class CircularPattern:
+@dataclass(frozen=True, init=False)
+class CircularPattern(Attached):
     """Teeth or slots that repeat around the centre of a body; the engine keeps the copy that is near a point.
 
     Copy k of every contact of the pattern is the contact's own line, turned by k * pitch. Between the copies 0 and 1
@@ -29,6 +31,9 @@ class CircularPattern:
         boundary_normal: unit normal of the boundary, towards copy 1.
         enabled: whether the contacts repeat; a number, so that a parameter can switch it off.
     """
+
+    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "boundary_point", "boundary_normal", "normal"))
+    units: ClassVar = {"pitch": "rad"}
 
     name: str
     body_i: str

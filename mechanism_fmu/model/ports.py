@@ -6,9 +6,17 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .functions import Number
+from .quantities import quantity
 
 #: The FMI type of a variable.
 VariableType = Literal["Real", "Integer", "Boolean"]
+
+
+def _numbers_of(port: Parameter | Input) -> None:
+    for what in ("start", "minimum", "maximum"):
+        value = getattr(port, what)
+        if isinstance(value, str):
+            object.__setattr__(port, what, quantity(value, port.unit, f"{port.name}: {what}"))
 
 
 @dataclass(frozen=True)
@@ -17,12 +25,15 @@ class Parameter:
 
     Attributes:
         name: FMI name.
-        start: default value, in `unit`.
+        start: default value, in `unit`; it and the limits may be texts with another unit of the kind, "200 mm".
         unit: SI unit, e.g. "m", "rad", "kg.m2", "1".
         minimum, maximum: inclusive limits, in `unit`; a value outside is refused.
         type: FMI type.
         description: one line for the user.
         display_unit: e.g. "deg"; None for the SI unit itself.
+
+    Raises:
+        MechanismError: a text is no number with a unit of this kind.
     """
 
     name: str
@@ -33,6 +44,10 @@ class Parameter:
     maximum: float | None = None
     type: VariableType = "Real"
     display_unit: str | None = None
+
+    def __post_init__(self) -> None:
+        """Texts with units become numbers."""
+        _numbers_of(self)
 
 
 @dataclass(frozen=True)
@@ -56,6 +71,10 @@ class Input:
     display_unit: str | None = None
     factor: float = 1.0
     offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Texts with units become numbers."""
+        _numbers_of(self)
 
 
 @dataclass(frozen=True)

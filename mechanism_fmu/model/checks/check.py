@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ... import codes
 from ..body import GROUND
 from ..contacts import Contact, PointLineContact
 from ..curves import Curve
@@ -140,12 +139,6 @@ def _curves(mechanism: Mechanism) -> Iterator[str]:
     for owner, curve in curve_owners(mechanism):
         if not curve.pieces:
             yield f"The curve of {owner!r} has no pieces; give at least one."
-        longest = max((len(term.polynomial) for piece in curve.pieces for term in piece.terms), default=0)
-        if longest > codes.AMPLITUDE:
-            yield (
-                f"The curve of {owner!r} has a polynomial of {longest} coefficients; {codes.AMPLITUDE} is the most: "
-                f"give several pieces."
-            )
 
 
 def _ports(mechanism: Mechanism) -> Iterator[str]:

@@ -138,6 +138,9 @@ def _body(body: Body) -> Iterator[Finding]:
     start = (*body.start, *body.start_rate)
     text = f"{label}: start ({{:g}}, {{:g}}, {{:g}}) or start_rate ({{:g}}, {{:g}}, {{:g}}) is not finite."
     yield refuse_unless(finite(*start), text, *start)
+    text = f"{label}: its centre ({{:g}}, {{:g}}) m or radius {{:g}} m is not finite; give finite ones."
+    shape = (*body.centre, body.radius)
+    yield refuse_unless(finite(*shape), text, *shape)
 
 
 def _settings(settings: Settings) -> Iterator[Finding]:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ...codes import AMPLITUDE
 from ..errors import MechanismError
 from ..findings import plain
 from ..functions import Number, is_plain
@@ -29,12 +30,28 @@ class Term:
         amplitude: of the harmonic, in the unit of the curve.
         frequency: angular, [1/unit of the variable], e.g. [rad/s].
         phase: [rad].
+
+    Raises:
+        MechanismError: one of them is of the wrong kind, or there are more than six coefficients.
     """
 
     polynomial: tuple[Number, ...] = ()
     amplitude: Number = 0.0
     frequency: Number = 0.0
     phase: Number = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse arguments of the wrong kind here, where the traceback still points at the line that gives them."""
+        _require_tuple(self, "polynomial", "coefficients, constant first: Term((1.0, 2.0))")
+        for k, coefficient in enumerate(self.polynomial):
+            _require_number(f"Term: coefficient {k} of the polynomial", coefficient)
+        if len(self.polynomial) > AMPLITUDE:
+            raise MechanismError(
+                f"Term: a polynomial of {len(self.polynomial)} coefficients; {AMPLITUDE} is the most: give several "
+                "pieces."
+            )
+        for what in ("amplitude", "frequency", "phase"):
+            _require_number(f"Term: {what}", getattr(self, what))
 
     def data(self) -> tuple[Number, ...]:
         """The term's row of the table `term_data`."""
@@ -44,10 +61,21 @@ class Term:
 
 @dataclass(frozen=True)
 class Piece:
-    """A piece of a curve, from `start` to the start of the next one: the sum of its terms."""
+    """A piece of a curve, from `start` to the start of the next one: the sum of its terms.
+
+    Raises:
+        MechanismError: `start` is no number, or `terms` is no tuple of `Term`s.
+    """
 
     start: Number
     terms: tuple[Term, ...]
+
+    def __post_init__(self) -> None:
+        """Refuse arguments of the wrong kind, as `Term` does."""
+        _require_number("Piece: start", self.start)
+        _require_tuple(self, "terms", "terms: Piece(0.0, (constant(1.0),))")
+        for number, term in enumerate(self.terms, start=1):
+            _require_kind(f"Piece: entry {number} of terms", term, Term, "constant(1.0) or Term((1.0, 2.0))")
 
 
 @dataclass(frozen=True)
@@ -60,12 +88,43 @@ class Curve:
         start: where the range of a profile begins; of a periodic curve, of the period.
         span: the length of that range.
         periodic: whether it repeats itself.
+
+    Raises:
+        MechanismError: `pieces` is no tuple of `Piece`s, or start or span is no number.
     """
 
     pieces: tuple[Piece, ...]
     start: Number = 0.0
     span: Number = 0.0
     periodic: bool = False
+
+    def __post_init__(self) -> None:
+        """Refuse arguments of the wrong kind, as `Term` does."""
+        _require_tuple(self, "pieces", "pieces: Curve((Piece(0.0, (constant(1.0),)),))")
+        for number, piece in enumerate(self.pieces, start=1):
+            _require_kind(f"Curve: entry {number} of pieces", piece, Piece, "Piece(0.0, (constant(1.0),))")
+        for what in ("start", "span"):
+            _require_number(f"Curve: {what}", getattr(self, what))
+
+
+def _require_tuple(record: Term | Piece | Curve, name: str, entries: str) -> None:
+    value = getattr(record, name)
+    if isinstance(value, list):
+        object.__setattr__(record, name, tuple(value))
+    elif not isinstance(value, tuple):
+        what = f"{type(record).__name__}: {name} is {value!r}"
+        raise MechanismError(f"{what}, but it must be a tuple of {entries}; one entry needs its comma.")
+
+
+def _require_kind(what: str, value: Any, kind: type, example: str) -> None:
+    if not isinstance(value, kind):
+        raise MechanismError(f"{what} is {value!r}, but it must be a {kind.__name__}, e.g. {example}.")
+
+
+def _require_number(what: str, value: Any) -> None:
+    # Symbolic numbers are of any class; what is certainly none is refused.
+    if value is None or isinstance(value, str | tuple | list | dict | set | Term | Piece | Curve) or callable(value):
+        raise MechanismError(f"{what} is {value!r}, but it must be a number.")
 
 
 def constant(value: Number) -> Term:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
+from ..attached import Slot
 from ..body import GROUND, Point
 from ..errors import MechanismError
 from ..functions import Number
 from .base import Element, OneSided, Quantity, side_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Force(Element):
     """A force at the centre of mass of `body`, constant in the global frame, e.g. its weight.
 
@@ -25,6 +26,7 @@ class Force(Element):
     writable: ClassVar = ("x", "y")
     acts: ClassVar = "at centre"
     reaction: ClassVar[str] = GROUND
+    slots: ClassVar = (Slot("body"),)
 
     name: str
     body: str
@@ -35,7 +37,7 @@ class Force(Element):
         return self.force
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class SpringDamper(Element):
     """A spring, a damper and a constant force side by side between two points (ME451's TSDA).
 
@@ -73,6 +75,8 @@ class SpringDamper(Element):
     }
     acts: ClassVar = "at points"
     not_negative: ClassVar = {"stiffness": "N/m", "free_length": "m", "damping": "N.s/m"}
+    slots: ClassVar = (Slot("body", "point"), Slot("reaction", "reaction_point"))
+    units: ClassVar = {**not_negative, "preload": "N"}
 
     name: str
     body: str
@@ -91,7 +95,7 @@ class SpringDamper(Element):
         return side_of(self, self.one_sided)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class PointForce(Element):
     """A force at any point of `body`, with directions that are global or turn with the body.
 
@@ -111,6 +115,7 @@ class PointForce(Element):
     quantities: ClassVar = {"power": Quantity("W", "Power that the body gets", ("x", "y"))}
     acts: ClassVar = "at points"
     reaction: ClassVar[str] = GROUND
+    slots: ClassVar = (Slot("body", "point"),)
 
     name: str
     body: str
@@ -125,7 +130,7 @@ class PointForce(Element):
         return (*self.point, *self.force, float(self.frame == "body"))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Bushing(Element):
     """A rubber bushing: a spring and a damper for each direction of the frame of `reaction`, and for the angle.
 
@@ -162,6 +167,8 @@ class Bushing(Element):
         "torsional_stiffness": "N.m/rad",
         "torsional_damping": "N.m.s/rad",
     }
+    slots: ClassVar = (Slot("body", "point"), Slot("reaction", "reaction_point"))
+    units: ClassVar = {**not_negative, "free_angle": "rad"}
 
     name: str
     body: str

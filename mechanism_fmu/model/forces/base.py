@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar, Literal, NamedTuple
 
 from ...tables.kinds import FORCES
+from ..attached import Attached
 from ..curves import Curve
 from ..errors import MechanismError
 from ..findings import Finding, finite_positive, literal, not_negative, refuse_unless
@@ -30,7 +31,7 @@ class Quantity(NamedTuple):
     feedthrough: tuple[str, ...] = ()
 
 
-class Element:
+class Element(Attached):
     """What all force elements have.
 
     Attributes:

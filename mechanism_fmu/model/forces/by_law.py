@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar
 
+from ..attached import Slot
 from ..body import GROUND, Point
 from ..curves import Curve
 from ..laws import Law
 from .base import Element, Quantity
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class NonlinearSpring(Element):
     """A force between two points by a law: of their distance and its rate, as a function or a table.
 
@@ -35,6 +36,7 @@ class NonlinearSpring(Element):
         "power": Quantity("W", "Power that the bodies get"),
     }
     acts: ClassVar = "at points"
+    slots: ClassVar = (Slot("body", "point"), Slot("reaction", "reaction_point"))
 
     name: str
     body: str
@@ -44,7 +46,7 @@ class NonlinearSpring(Element):
     law: Law | Curve = field(kw_only=True)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class NonlinearTorsionSpring(Element):
     """A torque between two bodies by a law: of their relative angle and its rate, as a function or a table.
 
@@ -65,6 +67,7 @@ class NonlinearTorsionSpring(Element):
         "power": Quantity("W", "Power that the bodies get"),
     }
     acts: ClassVar = "torque"
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
 
     name: str
     body: str

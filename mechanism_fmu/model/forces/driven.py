@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..attached import Slot
 from ..body import GROUND
 from ..functions import Number
 from .base import Element, Quantity
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class SlipClutch(Element):
     """A clutch or brake with Coulomb friction: it holds up to a torque, and slips beyond.
 
@@ -36,6 +37,8 @@ class SlipClutch(Element):
     positive: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
     not_negative: ClassVar = {"limit": "N.m"}
     own: ClassVar = 1
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    units: ClassVar = {**positive, **not_negative, "speed": "rad/s"}
 
     name: str
     body: str
@@ -46,7 +49,7 @@ class SlipClutch(Element):
     speed: Number = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class DCMotor(Element):
     """A direct-current motor between two bodies, with a PI controller of its speed whose voltage is limited.
 
@@ -89,6 +92,8 @@ class DCMotor(Element):
         "anti_windup": "rad/(V.s)",
     }
     own: ClassVar = 2
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    units: ClassVar = {**positive, **not_negative, "constant": "N.m/A", "speed": "rad/s"}
 
     name: str
     body: str

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..attached import Slot
 from ..body import GROUND
 from ..functions import Number
 from .base import Element, OneSided, Quantity, side_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Torque(Element):
     """A torque on `body`, counter-clockwise positive, with its reaction on `reaction`.
 
@@ -23,6 +24,8 @@ class Torque(Element):
     row: ClassVar = "torque"
     acts: ClassVar = "torque"
     writable: ClassVar = ("torque",)
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    units: ClassVar = {"torque": "N.m"}
 
     name: str
     body: str
@@ -30,7 +33,7 @@ class Torque(Element):
     torque: Number = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class TorsionSpring(Element):
     """A torsion spring: torque on `body` = -(stiffness * (phi - phi_reaction - free_angle) + preload).
 
@@ -49,6 +52,8 @@ class TorsionSpring(Element):
     acts: ClassVar = "torque"
     writable: ClassVar = ("preload",)
     not_negative: ClassVar = {"stiffness": "N.m/rad"}
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    units: ClassVar = {**not_negative, "free_angle": "rad", "preload": "N.m"}
 
     name: str
     body: str
@@ -58,7 +63,7 @@ class TorsionSpring(Element):
     preload: Number = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Damper(Element):
     """A viscous damper: torque on `body` = -damping * (phi' - phi_reaction'). What it takes counts as energy lost.
 
@@ -71,6 +76,8 @@ class Damper(Element):
     row: ClassVar = "damper"
     acts: ClassVar = "torque"
     not_negative: ClassVar = {"damping": "N.m.s/rad"}
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    units: ClassVar = not_negative
 
     name: str
     body: str
@@ -78,7 +85,7 @@ class Damper(Element):
     damping: Number = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class CompliantShaft(Element):
     """A shaft whose other end is moved from outside.
 
@@ -99,6 +106,8 @@ class CompliantShaft(Element):
     writable: ClassVar = ("angle", "speed")
     quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the shaft on its body", ("angle", "speed"))}
     not_negative: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    units: ClassVar = {**not_negative, "angle": "rad", "speed": "rad/s"}
 
     name: str
     body: str
@@ -109,7 +118,7 @@ class CompliantShaft(Element):
     speed: Number = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class TorsionSpringDamper(Element):
     """A torsion spring, a damper and a constant torque side by side (ME451's RSDA); with an end stop's one side.
 
@@ -144,6 +153,8 @@ class TorsionSpringDamper(Element):
         "power": Quantity("W", "Power that the bodies get", ("preload",)),
     }
     not_negative: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    units: ClassVar = {**not_negative, "free_angle": "rad", "preload": "N.m"}
 
     name: str
     body: str

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import ClassVar, NamedTuple
 
 from ...tables.kinds import JOINTS
+from ..attached import Attached
 from ..body import Point
 from ..findings import Finding, finite_positive, length, literal, refuse_unless
 from ..functions import Number, where_positive
@@ -34,7 +35,7 @@ class Effort(NamedTuple):
     unit: str = "N"
 
 
-class JointFacts:
+class JointFacts(Attached):
     """What all joints have.
 
     Attributes:

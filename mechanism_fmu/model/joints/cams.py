@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ... import codes
+from ..attached import Slot
 from ..body import Point
 from ..contact_facts import ContactFacts
 from ..curves import Curve
@@ -48,7 +49,7 @@ class ProfileContact(ContactFacts):
 # A cam against a follower with a profile of its own.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class CamFollower(ProfileContact):
     """Two profiles touch each other (ME451, cam-follower).
 
@@ -75,6 +76,7 @@ class CamFollower(ProfileContact):
     kind: ClassVar[int] = codes.CAM_FOLLOWER
     rows: ClassVar[int] = 3
     alphas: ClassVar[int] = 2
+    slots: ClassVar = (Slot("body_i", "centre_i"), Slot("body_j", "centre_j"))
 
     name: str
     body_i: str
@@ -101,7 +103,7 @@ class CamFollower(ProfileContact):
 # A cam against a follower with a flat face.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class CamFlatFollower(ProfileContact):
     """A profile touches a straight face (ME451, cam-flat-faced follower).
 
@@ -131,6 +133,7 @@ class CamFlatFollower(ProfileContact):
     kind: ClassVar[int] = codes.CAM_FLAT_FOLLOWER
     rows: ClassVar[int] = 2
     alphas: ClassVar[int] = 1
+    slots: ClassVar = (Slot("body_i", "centre_i"), Slot("body_j", "point_j", "direction_j"))
 
     name: str
     body_i: str
@@ -161,7 +164,7 @@ class CamFlatFollower(ProfileContact):
 # A point on a profile, as a pin in a curved slot.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class PointFollower(ProfileContact):
     """A point of body i stays on a profile of body j (ME451, point-follower).
 
@@ -183,6 +186,7 @@ class PointFollower(ProfileContact):
     kind: ClassVar[int] = codes.POINT_FOLLOWER
     rows: ClassVar[int] = 2
     alphas: ClassVar[int] = 1
+    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "centre_j"))
 
     name: str
     body_i: str

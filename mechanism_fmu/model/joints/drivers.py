@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..attached import Slot
 from ..body import GROUND, Point
 from ..curves import Curve
 from ..curves.check_curves import least_value
@@ -16,7 +17,7 @@ from .base import Effort, JointFacts, unit_vector
 # What drivers between two points have in common.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class PointDriver(JointFacts):
     """A driver of point P of body j against point P of body i.
 
@@ -28,6 +29,7 @@ class PointDriver(JointFacts):
     """
 
     friction: ClassVar[Number] = 0.0
+    slots: ClassVar = (Slot("body_j", "point_j"), Slot("body_i", "point_i"))
 
     name: str
     body_j: str
@@ -44,7 +46,7 @@ class PointDriver(JointFacts):
 # Driver of x.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class XDriver(PointDriver):
     """Point P_j moves in x as a function of time prescribes (ME451, absolute and relative x driver).
 
@@ -66,7 +68,7 @@ class XDriver(PointDriver):
 # Driver of y.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class YDriver(PointDriver):
     """Point P_j moves in y as a function of time prescribes (ME451, absolute and relative y driver).
 
@@ -88,7 +90,7 @@ class YDriver(PointDriver):
 # Driver of an angle.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class AngleDriver(JointFacts):
     """A body turns as a function of time prescribes (ME451, absolute and relative angle driver).
 
@@ -110,6 +112,7 @@ class AngleDriver(JointFacts):
     row: ClassVar = "angle_driver"
     efforts: ClassVar = {"torque": Effort(0, unit="N.m")}
     friction: ClassVar[Number] = 0.0
+    slots: ClassVar = (Slot("body_j"), Slot("body_i"))
 
     name: str
     body_j: str
@@ -124,7 +127,7 @@ class AngleDriver(JointFacts):
 # Driver of a distance.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class DistanceDriver(PointDriver):
     """Two points keep the distance that a function of time prescribes (ME451, absolute and relative distance driver).
 
@@ -154,7 +157,7 @@ class DistanceDriver(PointDriver):
 # Driver along an axis.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class TranslationalDriver(JointFacts):
     """Point P_j moves along an axis of body i as a function of time prescribes (ME451, translational driver).
 
@@ -178,6 +181,7 @@ class TranslationalDriver(JointFacts):
     efforts: ClassVar = {"force": Effort(0)}
     axes: ClassVar = ("axis_i",)
     friction: ClassVar[Number] = 0.0
+    slots: ClassVar = (Slot("body_j", "point_j"), Slot("body_i", "point_i", "axis_i"))
 
     name: str
     body_j: str

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..attached import Slot
 from ..body import Point
 from ..curves import Curve
 from ..findings import Finding, plain, refuse_unless
@@ -15,7 +16,7 @@ from .base import Effort, JointFacts
 # What external and internal gears have in common.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class GearPair(JointFacts):
     """Two gears, as of `Gears`."""
 
@@ -23,6 +24,8 @@ class GearPair(JointFacts):
     sizes: ClassVar = ("radius_i", "radius_j")
     motion: ClassVar[Curve | None] = None
     friction: ClassVar[Number] = 0.0
+    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
+    units: ClassVar = {"radius_i": "m", "angle_i": "rad", "radius_j": "m", "angle_j": "rad"}
 
     name: str
     body_i: str
@@ -42,7 +45,7 @@ class GearPair(JointFacts):
 # External gears.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Gears(GearPair):
     """Two external gears whose pitch circles roll on each other (ME451, gears, convex-convex).
 
@@ -74,7 +77,7 @@ class Gears(GearPair):
 # A ring and a gear inside it.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class InternalGears(GearPair):
     """A ring, body i, and a gear inside it, body j, whose pitch circles roll on each other (ME451, concave-convex).
 
@@ -111,7 +114,7 @@ class InternalGears(GearPair):
 # Rack and pinion.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class RackAndPinion(JointFacts):
     """A rack, body i, on which the pitch circle of a pinion, body j, rolls (ME451, rack and pinion).
 
@@ -145,6 +148,12 @@ class RackAndPinion(JointFacts):
     rows: ClassVar = 2
     motion: ClassVar[Curve | None] = None
     friction: ClassVar[Number] = 0.0
+    slots: ClassVar = (
+        Slot("body_i", "point_i", "direction_i", "angle"),
+        Slot("body_j", "point_j"),
+        Slot("body_i", "origin_i", name="origin_i"),
+    )
+    units: ClassVar = {"direction_i": "rad", "radius_j": "m", "angle_j": "rad"}
 
     name: str
     body_i: str

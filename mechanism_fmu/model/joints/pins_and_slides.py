@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..attached import Slot
 from ..body import Point
 from ..curves import Curve
 from ..findings import length
@@ -14,7 +15,7 @@ from .base import Effort, JointFacts, unit_vector
 # Revolute joint.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Revolute(JointFacts):
     """A pin: point P of `body_i` and point P of `body_j` coincide (ME451, revolute).
 
@@ -38,6 +39,8 @@ class Revolute(JointFacts):
     friction_name: ClassVar = "friction_radius"
     rows: ClassVar = 2
     motion: ClassVar[Curve | None] = None
+    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
+    units: ClassVar = {"friction_radius": "m"}
 
     name: str
     body_i: str
@@ -59,7 +62,7 @@ class Revolute(JointFacts):
 # Translational joint.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Translational(JointFacts):
     """A slider: the bodies keep their relative angle and slide along a common axis (ME451, translational).
 
@@ -87,6 +90,7 @@ class Translational(JointFacts):
     axes: ClassVar = ("axis_i", "axis_j")
     rows: ClassVar = 2
     motion: ClassVar[Curve | None] = None
+    slots: ClassVar = (Slot("body_i", "point_i", "axis_i"), Slot("body_j", "point_j", "axis_j"))
 
     name: str
     body_i: str
@@ -110,7 +114,7 @@ class Translational(JointFacts):
 # Revolute-revolute composite joint.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Distance(JointFacts):
     """A massless rod with a pin at either end (ME451, revolute-revolute composite).
 
@@ -134,6 +138,8 @@ class Distance(JointFacts):
     sizes: ClassVar = ("distance",)
     motion: ClassVar[Curve | None] = None
     friction: ClassVar[Number] = 0.0
+    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
+    units: ClassVar = {"distance": "m"}
 
     name: str
     body_i: str
@@ -155,7 +161,7 @@ class Distance(JointFacts):
 # Revolute-translational composite joint.
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class RevoluteTranslational(JointFacts):
     """A pin of `body_j` in a straight guide of `body_i`, with a massless slider between (ME451, of that name).
 
@@ -181,6 +187,8 @@ class RevoluteTranslational(JointFacts):
     axes: ClassVar = ("axis_i",)
     motion: ClassVar[Curve | None] = None
     friction: ClassVar[Number] = 0.0
+    slots: ClassVar = (Slot("body_i", "point_i", "axis_i"), Slot("body_j", "point_j"))
+    units: ClassVar = {"distance": "m"}
 
     name: str
     body_i: str

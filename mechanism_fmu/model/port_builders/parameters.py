@@ -3,45 +3,51 @@
 from __future__ import annotations
 
 from ..ports import Input, Parameter
+from ..quantities import quantity
 
-# Parameters by what they measure, with the limits that keep the numerics sound; `start` is in the SI unit.
+# Parameters by what they measure, with the limits that keep the numerics sound; `start` is in the SI unit, or a text
+# with a unit, such as "200 mm".
 
 
-def length_parameter(name: str, start: float, description: str, minimum: float = 1e-6) -> Parameter:
+def length_parameter(name: str, start: float | str, description: str, minimum: float = 1e-6) -> Parameter:
     """A length [m], from `minimum` to 1 km; not zero if nothing else is said."""
-    return Parameter(name, start, description, "m", minimum, 1e3)
+    return Parameter(name, quantity(start, "m", f"{name}: start"), description, "m", minimum, 1e3)
 
 
 def angle_parameter(
-    name: str, start: float, description: str, minimum: float = -1e3, maximum: float = 1e3
+    name: str, start: float | str, description: str, minimum: float = -1e3, maximum: float = 1e3
 ) -> Parameter:
     """An angle [rad], shown in degrees."""
-    return Parameter(name, start, description, "rad", minimum, maximum, display_unit="deg")
+    return Parameter(
+        name, quantity(start, "rad", f"{name}: start"), description, "rad", minimum, maximum, display_unit="deg"
+    )
 
 
-def speed_parameter(name: str, start: float, description: str) -> Parameter:
+def speed_parameter(name: str, start: float | str, description: str) -> Parameter:
     """An angular velocity [rad/s], shown in rpm."""
-    return Parameter(name, start, description, "rad/s", -1e6, 1e6, display_unit="rpm")
+    return Parameter(
+        name, quantity(start, "rad/s", f"{name}: start"), description, "rad/s", -1e6, 1e6, display_unit="rpm"
+    )
 
 
-def mass_parameter(name: str, start: float, description: str) -> Parameter:
+def mass_parameter(name: str, start: float | str, description: str) -> Parameter:
     """A mass [kg], not zero."""
-    return Parameter(name, start, description, "kg", 1e-12, 1e6)
+    return Parameter(name, quantity(start, "kg", f"{name}: start"), description, "kg", 1e-12, 1e6)
 
 
-def inertia_parameter(name: str, start: float, description: str) -> Parameter:
+def inertia_parameter(name: str, start: float | str, description: str) -> Parameter:
     """A moment of inertia [kg.m2], not zero."""
-    return Parameter(name, start, description, "kg.m2", 1e-12, 1e6)
+    return Parameter(name, quantity(start, "kg.m2", f"{name}: start"), description, "kg.m2", 1e-12, 1e6)
 
 
-def stiffness_parameter(name: str, start: float, description: str) -> Parameter:
+def stiffness_parameter(name: str, start: float | str, description: str) -> Parameter:
     """Stiffness of a torsion spring [N.m/rad], which may be zero."""
-    return Parameter(name, start, description, "N.m/rad", 0.0, 1e6)
+    return Parameter(name, quantity(start, "N.m/rad", f"{name}: start"), description, "N.m/rad", 0.0, 1e6)
 
 
-def torque_parameter(name: str, start: float, description: str) -> Parameter:
+def torque_parameter(name: str, start: float | str, description: str) -> Parameter:
     """A torque [N.m]."""
-    return Parameter(name, start, description, "N.m", -1e6, 1e6)
+    return Parameter(name, quantity(start, "N.m", f"{name}: start"), description, "N.m", -1e6, 1e6)
 
 
 def fraction_parameter(name: str, start: float, description: str) -> Parameter:

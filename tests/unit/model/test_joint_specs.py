@@ -218,10 +218,6 @@ REFUSALS = {
     "rack to nowhere": (joint(RACK, direction_i=math.inf), ["RackAndPinion 'rack'", "not finite"]),
     "motion not a number": (joint(TURN, motion=BROKEN), ["The curve of 'turn'", "not finite"]),
     "motion of nothing": (joint(TURN, motion=Curve(())), ["The curve of 'turn'", "no pieces", "at least one"]),
-    "motion of the seventh degree": (
-        joint(TURN, motion=Curve((Piece(0.0, (Term((0.0,) * 8),)),))),
-        ["'turn'", "8 coefficients", "6 is the most", "several pieces"],
-    ),
     "motion that repeats at once": (joint(TURN, motion=replace(SWING, span=0.0)), ["'turn'", "span = 0", "positive"]),
     "motion that turns back in time": (
         joint(TURN, motion=Curve((Piece(1.0, (Term((1.0,)),)), Piece(0.5, (Term((1.0,)),))))),

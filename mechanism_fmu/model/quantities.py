@@ -1,0 +1,66 @@
+"""Numbers with units, as they stand in a description: `mm(5)`, "5 mm"; what is kept is the number in SI units."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+from ..units import FMI, UnreadableUnitError
+from .errors import MechanismError
+from .functions import Number
+
+_WRITTEN = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S*)\s*")
+
+
+def mm(value: Number) -> Number:
+    """Millimetres as [m]."""
+    return value * 1e-3
+
+
+def cm(value: Number) -> Number:
+    """Centimetres as [m]."""
+    return value * 1e-2
+
+
+def deg(value: Number) -> Number:
+    """Degrees as [rad]."""
+    return value * (math.pi / 180)
+
+
+def rpm(value: Number) -> Number:
+    """Revolutions a minute as [rad/s]."""
+    return value * (math.pi / 30)
+
+
+def quantity(value: Any, unit: str, what: str = "quantity") -> Number:
+    """A number in an SI unit: "5 mm" with "m" is 0.005; what is no text is in that unit already, and stays as it is.
+
+    Args:
+        value: a number, which may be symbolic, or a text such as "5 mm", "20 N/mm" or "1000rpm".
+        unit: SI unit, as FMI writes it.
+        what: the quantity is of, for the message.
+
+    Raises:
+        MechanismError: the text is no number with a unit, or the unit is of another kind.
+    """
+    if not isinstance(value, str):
+        return value
+    example = "e.g. 0.5 or '0.5'" if unit == "1" else f"e.g. 0.5, or with a unit, '0.5 {unit}'"
+    written = _WRITTEN.fullmatch(value)
+    if written is None:
+        raise MechanismError(
+            f"{what} wants {_said(unit)}, got {value!r}, which is no number with a unit; give {example}."
+        )
+    try:
+        given = FMI.read(written[2] or "1")
+    except UnreadableUnitError as error:
+        raise MechanismError(f"{what} wants {_said(unit)}, got {value!r}: {error}") from error
+    wanted = FMI.read(unit)
+    if given.exponents != wanted.exponents:
+        raise MechanismError(f"{what} wants {_said(unit)}, got {value!r}; give {example}.")
+    return float(written[1]) * (given.factor / wanted.factor)
+
+
+def _said(unit: str) -> str:
+    return "a plain number" if unit == "1" else unit

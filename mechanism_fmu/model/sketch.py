@@ -1,0 +1,85 @@
+"""Points of a sketch in closed form: where two links meet, and a four-bar linkage, open or crossed."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+from .body import Point
+from .errors import MechanismError
+from .four_bar import root
+from .functions import Number, cos, sin
+from .quantities import quantity
+
+
+def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["left", "right"] = "left") -> Point:
+    """The point at a distance from each of two points: the pin in which two links meet.
+
+    With the distance d of the points and u = (d^2 + from_a^2 - from_b^2)/(2 d^2), it is a + u (b - a) +- h R (b - a),
+    h^2 = from_a^2/d^2 - u^2. Where the links do not reach each other, it is the point of the line nearest to that; what
+    is left open, assembly says.
+
+    Args:
+        a: one point [m].
+        b: the other point [m]; it must not be the same.
+        from_a: distance from a [m].
+        from_b: distance from b [m].
+        side: on which side of the way from a to b.
+
+    Raises:
+        MechanismError: `side` is another word, or a text is no length.
+    """
+    if side not in ("left", "right"):
+        raise MechanismError(f"dyad: side = {side!r} is neither left nor right.")
+    first, second = quantity(from_a, "m", "dyad: from_a"), quantity(from_b, "m", "dyad: from_b")
+    x, y = b[0] - a[0], b[1] - a[1]
+    square = x * x + y * y
+    along = (square + first * first - second * second) / (2 * square)
+    across = root(first * first / square - along * along)
+    if side == "right":
+        across = -across
+    return a[0] + along * x - across * y, a[1] + along * y + across * x
+
+
+class FourBarPoints(NamedTuple):
+    """The pins of a four-bar linkage [m]: fixed hinge and pin of the crank, pin and fixed hinge of the rocker."""
+
+    crank_hinge: Point
+    crank_pin: Point
+    rocker_pin: Point
+    rocker_hinge: Point
+
+
+def four_bar_points(
+    crank_hinge: Point,
+    rocker_hinge: Point,
+    *,
+    crank: Number,
+    coupler: Number,
+    rocker: Number,
+    angle: Number,
+    branch: Literal["open", "crossed"] = "open",
+) -> FourBarPoints:
+    """The pins of a four-bar linkage for an angle of its crank.
+
+    Args:
+        crank_hinge: the fixed hinge of the crank [m].
+        rocker_hinge: the fixed hinge of the rocker [m].
+        crank: its length [m].
+        coupler: its length [m].
+        rocker: its length [m].
+        angle: of the crank, from the global x axis [rad].
+        branch: "open" where the rocker's pin is to the left of the way from the crank pin to the rocker's hinge, else
+            "crossed"; as of the ready-made model.
+
+    Raises:
+        MechanismError: `branch` is another word, or a text is no such quantity.
+    """
+    if branch not in ("open", "crossed"):
+        raise MechanismError(f"four_bar_points: branch = {branch!r} is neither open nor crossed.")
+    turned = quantity(angle, "rad", "four_bar_points: angle")
+    long = quantity(crank, "m", "four_bar_points: crank")
+    pin = (crank_hinge[0] + long * cos(turned), crank_hinge[1] + long * sin(turned))
+    side: Literal["left", "right"] = "left" if branch == "open" else "right"
+    return FourBarPoints(
+        crank_hinge, pin, dyad(pin, rocker_hinge, from_a=coupler, from_b=rocker, side=side), rocker_hinge
+    )

@@ -1,0 +1,369 @@
+"""Bodies by what one knows of them: a bar between two points, a plate with holes, a disc, or any body where it stands.
+
+Points and dimensions are those of a drawing: each body has a frame of its own, in which `at` counts, and which lies
+where the sketch has it at the start. Mass, centre of mass and inertia follow. Numbers may be symbolic, or texts with
+units, such as "5 mm".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple, Protocol
+
+from .body import Body, Point
+from .errors import MechanismError
+from .findings import length as length_of
+from .functions import Number, atan2, cos, is_plain, sin, where_positive
+from .members import Section
+from .quantities import quantity
+
+# Materials.
+
+
+class Dense(Protocol):
+    """What a body may be made of: anything with a density."""
+
+    @property
+    def density(self) -> Number:
+        """[kg/m3]."""
+
+
+@dataclass(frozen=True)
+class Material:
+    """What bodies are made of.
+
+    Attributes:
+        density: [kg/m3], > 0.
+        young: modulus of elasticity E [Pa], > 0, for `Member`.
+    """
+
+    density: Number
+    young: Number
+
+
+#: Usual values, of handbooks: steel as in `mechanism_fmu.stress`; EN AW alloys by EN 1999-1-1, 3.2.5; CuZn39Pb3; POM-C.
+STEEL = Material(7850.0, 2.06e11)
+ALUMINIUM = Material(2700.0, 7.0e10)
+BRASS = Material(8470.0, 9.7e10)
+POM = Material(1410.0, 2.8e9)
+
+# Areas, by Green's theorem.
+
+
+class CircularHole(NamedTuple):
+    """A round hole of a plate: its centre and radius [m]."""
+
+    centre: Point
+    radius: Number
+
+
+class Area(NamedTuple):
+    """Moments of a plane area.
+
+    Attributes:
+        area: A [m2].
+        first: integrals of x and y over it [m3].
+        polar: integral of x^2 + y^2 over it [m4].
+    """
+
+    area: Number
+    first: Point
+    polar: Number
+
+    def without(self, hole: Area) -> Area:
+        """What is left when another area is taken out of it."""
+        (x, y), (x_hole, y_hole) = self.first, hole.first
+        return Area(self.area - hole.area, (x - x_hole, y - y_hole), self.polar - hole.polar)
+
+
+def polygon(corners: Sequence[Point]) -> Area:
+    """The area inside a polygon whose edges do not cross, with its corners [m] in either sense.
+
+    By Green's theorem, with c = x_k y_k+1 - x_k+1 y_k: A = sum c/2, integral x = sum c (x_k + x_k+1)/6,
+    integral x^2 = sum c (x_k^2 + x_k x_k+1 + x_k+1^2)/12.
+    """
+    area: Number = 0.0
+    x_moment: Number = 0.0
+    y_moment: Number = 0.0
+    polar: Number = 0.0
+    for (x, y), (u, v) in pairwise([*corners, corners[0]]):
+        cross = x * v - u * y
+        area = area + cross / 2
+        x_moment = x_moment + cross * (x + u) / 6
+        y_moment = y_moment + cross * (y + v) / 6
+        polar = polar + cross * (x * x + x * u + u * u + y * y + y * v + v * v) / 12
+    side = where_positive(area, 1.0, -1.0)  # the corners may stand clockwise
+    return Area(side * area, (side * x_moment, side * y_moment), side * polar)
+
+
+def circle_area(centre: Point, radius: Number) -> Area:
+    """The area inside a circle with its centre and radius [m]."""
+    (x, y), square = centre, radius * radius
+    area = math.pi * square
+    return Area(area, (x * area, y * area), area * (square / 2 + x * x + y * y))
+
+
+# Bodies.
+
+
+def bar(
+    name: str,
+    a: Point,
+    b: Point,
+    *,
+    mass: Number | None = None,
+    section: Section | None = None,
+    material: Dense | None = None,
+    length: Number | None = None,
+    centre: Point | None = None,
+    inertia: Number | None = None,
+    velocity: tuple[Number, Number] = (0.0, 0.0),
+    speed: Number = 0.0,
+    tooth_length: Number | None = None,
+) -> Body:
+    """A straight bar; its frame stands at `a` with the x axis towards `b`, its ends are `.a` and `.b`.
+
+    Args:
+        name: unique within the mechanism.
+        a: where it begins at the start, in the global frame [m]: a sketch, from which assembly closes the joints.
+        b: where it ends, likewise.
+        mass: [kg]; or, in its place, `section` and `material`.
+        section: its cross section, with a `material`.
+        material: of the bar, with a `section`.
+        length: between its ends [m], where the sketch is not to scale; the distance of a and b unless given.
+        centre: of mass, in its frame [m]; in the middle unless given.
+        inertia: about its centre of mass [kg m2]; mass length^2/12 unless given, with a section also that one's own,
+            density second_moment length.
+        velocity: of its end a at the start [m/s]; where a coordinate is held, the rates of all others follow.
+        speed: angular, at the start [rad/s].
+        tooth_length: as of `Body`.
+
+    Raises:
+        MechanismError: neither a mass nor section and material are given, or both; or a text is no such quantity.
+    """
+    label = f"bar {name!r}"
+    begin, end = _point(a, label, "a"), _point(b, label, "b")
+    way = (end[0] - begin[0], end[1] - begin[1])
+    long = length_of(way) if length is None else quantity(length, "m", f"{label}: length")
+    if (mass is None) == (section is None) or (section is None) != (material is None):
+        raise MechanismError(f"{label}: give its mass, or else section and material, from which the mass follows.")
+    own: Number | None = None
+    if section is not None and material is not None:
+        mass = material.density * section.area * long
+        own = material.density * section.second_moment * long
+    mass = quantity(mass, "kg", f"{label}: mass")
+    if inertia is None:
+        inertia = mass * long * long / 12 if own is None else mass * long * long / 12 + own
+    return _body(
+        name,
+        mass,
+        quantity(inertia, "kg.m2", f"{label}: inertia"),
+        (long / 2, 0.0) if centre is None else _point(centre, label, "centre"),
+        _Start(begin, atan2(way[1], way[0]), velocity, speed, label),
+        ((0.0, 0.0), (long, 0.0)),
+        tooth_length=tooth_length,
+    )
+
+
+def plate(
+    name: str,
+    outline: Sequence[Point],
+    *,
+    holes: Iterable[CircularHole | Sequence[Point]] = (),
+    thickness: Number | None = None,
+    material: Dense | None = None,
+    mass: Number | None = None,
+    at: Point = (0.0, 0.0),
+    angle: Number = 0.0,
+    velocity: tuple[Number, Number] = (0.0, 0.0),
+    speed: Number = 0.0,
+    tooth_length: Number | None = None,
+) -> Body:
+    """A plate of constant thickness, drawn in a frame of its own; `.corners` are those of its outline.
+
+    Args:
+        name: unique within the mechanism.
+        outline: its corners in its frame, in either sense [m]; the edges must not cross each other.
+        holes: what is cut out, inside the outline and apart from each other: a `CircularHole`, or corners.
+        thickness: [m], with a `material`; or, in place of both, `mass`.
+        material: of the plate.
+        mass: of the plate with its holes [kg].
+        at: where the origin of its frame is at the start, in the global frame [m].
+        angle: of its frame, at the start [rad].
+        velocity: of the origin of its frame at the start [m/s]; as of `bar`.
+        speed: angular, at the start [rad/s].
+        tooth_length: as of `Body`.
+
+    Raises:
+        MechanismError: there is no area; neither or both of mass and thickness with material are given; or a text is no
+            such quantity.
+    """
+    label = f"plate {name!r}"
+    corners = _corners(outline, label, "outline")
+    # Integrals count from a corner: from an origin far away, differences of large numbers would take the digits.
+    (x_first, y_first) = corners[0]
+
+    def seen(point: Point) -> Point:
+        return point[0] - x_first, point[1] - y_first
+
+    left = polygon([seen(corner) for corner in corners])
+    for number, hole in enumerate(holes, start=1):
+        what = f"hole {number}"
+        if isinstance(hole, CircularHole):
+            middle = seen(_point(hole.centre, label, f"centre of {what}"))
+            left = left.without(circle_area(middle, quantity(hole.radius, "m", f"{label}: radius of {what}")))
+        else:
+            left = left.without(polygon([seen(corner) for corner in _corners(hole, label, what)]))
+    if is_plain(left.area) and not left.area > 0.0:
+        raise MechanismError(
+            f"{label} has an area of {left.area + 0.0:g} m2, but it must be positive; look at its corners."
+        )
+    total = _mass(label, mass, thickness, material, left.area)
+    x, y = left.first[0] / left.area, left.first[1] / left.area
+    inertia = total * (left.polar / left.area - (x * x + y * y))
+    start = _Start(at, angle, velocity, speed, label)
+    centre = x + x_first, y + y_first
+    return _body(name, total, inertia, centre, start, tuple(corners), tooth_length=tooth_length)
+
+
+def disc(
+    name: str,
+    at: Point = (0.0, 0.0),
+    *,
+    radius: Number,
+    bore: Number = 0.0,
+    thickness: Number | None = None,
+    material: Dense | None = None,
+    mass: Number | None = None,
+    angle: Number = 0.0,
+    velocity: tuple[Number, Number] = (0.0, 0.0),
+    speed: Number = 0.0,
+    tooth_length: Number | None = None,
+) -> Body:
+    """A disc or ring; its frame stands in its centre.
+
+    Args:
+        name: unique within the mechanism.
+        at: where its centre is at the start, in the global frame [m].
+        radius: R of its rim [m].
+        bore: r, radius of the round hole in its middle [m]; the inertia is mass (R^2 + r^2)/2.
+        thickness: [m], with a `material`; or, in place of both, `mass`.
+        material: of the disc.
+        mass: [kg].
+        angle: of its frame, at the start [rad].
+        velocity: of its centre at the start [m/s]; as of `bar`.
+        speed: angular, at the start [rad/s].
+        tooth_length: as of `Body`.
+
+    Raises:
+        MechanismError: as of `plate`.
+    """
+    label = f"disc {name!r}"
+    rim, inner = quantity(radius, "m", f"{label}: radius"), quantity(bore, "m", f"{label}: bore")
+    squares = rim * rim + inner * inner
+    total = _mass(label, mass, thickness, material, math.pi * (rim * rim - inner * inner))
+    start = _Start(at, angle, velocity, speed, label)
+    return _body(name, total, total * squares / 2, (0.0, 0.0), start, ((0.0, 0.0),), rim, tooth_length)
+
+
+def rigid_body(
+    name: str,
+    at: Point = (0.0, 0.0),
+    *,
+    mass: Number,
+    inertia: Number,
+    centre: Point = (0.0, 0.0),
+    angle: Number = 0.0,
+    velocity: tuple[Number, Number] = (0.0, 0.0),
+    speed: Number = 0.0,
+    outline: Sequence[Point] = (),
+    tooth_length: Number | None = None,
+) -> Body:
+    """A body of any shape, with a frame where it suits.
+
+    Args:
+        name: unique within the mechanism.
+        at: where the origin of its frame is at the start, in the global frame [m].
+        mass: [kg].
+        inertia: about its centre of mass [kg m2].
+        centre: of mass, in its frame [m].
+        angle: of its frame, at the start [rad].
+        velocity: of the origin of its frame at the start [m/s]; as of `bar`.
+        speed: angular, at the start [rad/s].
+        outline: corners of its shape in its frame [m], for drawings.
+        tooth_length: as of `Body`.
+
+    Raises:
+        MechanismError: a text is no such quantity.
+    """
+    label = f"rigid_body {name!r}"
+    corners = tuple(_point(corner, label, "outline") for corner in outline)
+    start = _Start(at, angle, velocity, speed, label)
+    total, about = quantity(mass, "kg", f"{label}: mass"), quantity(inertia, "kg.m2", f"{label}: inertia")
+    return _body(name, total, about, _point(centre, label, "centre"), start, corners, tooth_length=tooth_length)
+
+
+class _Start(NamedTuple):
+    """Where the frame of a body is at the start, and how fast it moves."""
+
+    at: Point
+    angle: Number
+    velocity: tuple[Number, Number]
+    speed: Number
+    label: str
+
+
+def _body(
+    name: str,
+    mass: Number,
+    inertia: Number,
+    centre: Point,
+    start: _Start,
+    outline: tuple[Point, ...],
+    radius: Number = 0.0,
+    tooth_length: Number | None = None,
+) -> Body:
+    """The body with a frame that lies as `start` says."""
+    x, y = _point(start.at, start.label, "at")
+    angle = quantity(start.angle, "rad", f"{start.label}: angle")
+    speed = quantity(start.speed, "rad/s", f"{start.label}: speed")
+    u, v = (quantity(part, "m/s", f"{start.label}: velocity") for part in start.velocity)
+    c, s = cos(angle), sin(angle)
+    dx, dy = c * centre[0] - s * centre[1], s * centre[0] + c * centre[1]
+    return Body(
+        name,
+        mass,
+        inertia,
+        (x + dx, y + dy, angle),
+        (u - speed * dy, v + speed * dx, speed),
+        tooth_length,
+        centre=centre,
+        outline=outline,
+        radius=radius,
+    )
+
+
+def _mass(label: str, mass: Number | None, thickness: Number | None, material: Dense | None, area: Number) -> Number:
+    if (mass is None) == (thickness is None) or (thickness is None) != (material is None):
+        raise MechanismError(f"{label}: give its mass, or else thickness and material, from which the mass follows.")
+    if material is None:
+        return quantity(mass, "kg", f"{label}: mass")
+    return material.density * quantity(thickness, "m", f"{label}: thickness") * area
+
+
+def _point(point: Point, label: str, what: str) -> Point:
+    try:
+        x, y = point
+    except (TypeError, ValueError):
+        raise MechanismError(f"{label}: {what} is {point!r}, but it must be a point (x, y).") from None
+    return quantity(x, "m", f"{label}: {what}"), quantity(y, "m", f"{label}: {what}")
+
+
+def _corners(points: Sequence[Point], label: str, what: str) -> list[Point]:
+    corners = [_point(point, label, what) for point in points]
+    if len(corners) < 3:
+        raise MechanismError(f"{label}: {what} has {len(corners)} corners, but it takes at least 3.")
+    return corners

@@ -1,0 +1,46 @@
+"""Points of a sketch: the closed forms keep all lengths, and the branches are those of the ready-made four-bar."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given, strategies as st
+
+from mechanism_fmu.model import MechanismError, dyad, four_bar_points
+from mechanism_fmu.model.four_bar import start
+
+
+@given(st.floats(-2, 2), st.floats(-2, 2), st.floats(0.6, 1.5), st.floats(0.6, 1.5), st.sampled_from(["left", "right"]))
+def test_a_dyad_has_its_lengths_and_side(x: float, y: float, p: float, q: float, side: str) -> None:
+    b = (x + math.cos(y), y + math.sin(y))  # 1 m away: the circles cross
+    if abs(p - q) > 0.99:
+        return
+    pin = dyad((x, y), b, from_a=p, from_b=q, side=side)
+    assert math.dist((x, y), pin) == pytest.approx(p, rel=1e-12)
+    assert math.dist(b, pin) == pytest.approx(q, rel=1e-12)
+    left = (b[0] - x) * (pin[1] - y) - (b[1] - y) * (pin[0] - x)
+    assert left > 0 if side == "left" else left < 0
+
+
+@pytest.mark.parametrize("branch", ["open", "crossed"])
+@pytest.mark.parametrize("angle", [-2.0, 0.0, 0.7, 3.0])
+def test_the_branches_are_those_of_the_ready_made_four_bar(branch: str, angle: float) -> None:
+    lengths = {"crank_length": 0.05, "coupler_length": 0.18, "rocker_length": 0.12, "ground_length": 0.2}
+    at = start(
+        SimpleNamespace(**lengths, crossed=float(branch == "crossed"), crank_angle_start=angle, crank_speed_start=1.0)
+    )
+    pins = four_bar_points((0, 0), (0.2, 0), crank=0.05, coupler="18 cm", rocker=0.12, angle=angle, branch=branch)
+    assert pins.rocker_pin[0] == pytest.approx(0.2 + 0.12 * math.cos(at.rocker_angle), abs=1e-15)
+    assert pins.rocker_pin[1] == pytest.approx(0.12 * math.sin(at.rocker_angle), abs=1e-15)
+    assert math.dist(pins.crank_pin, pins.rocker_pin) == pytest.approx(0.18, rel=1e-14)
+
+
+def test_links_that_do_not_reach_each_other_point_at_each_other() -> None:
+    assert dyad((0, 0), (4, 0), from_a=1.0, from_b=2.0) == pytest.approx((13 / 8, 0.0))
+
+
+def test_words_that_are_no_side_or_branch() -> None:
+    with pytest.raises(MechanismError, match="side = 'up' is neither left nor right"):
+        dyad((0, 0), (1, 0), from_a=1, from_b=1, side="up")
+    with pytest.raises(MechanismError, match="branch = 'shut' is neither open nor crossed"):
+        four_bar_points((0, 0), (1, 0), crank=1, coupler=1, rocker=1, angle=0, branch="shut")
