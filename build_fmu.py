@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
@@ -70,7 +70,7 @@ def build(
             typer.echo(f"{name:12}  {models.load(name).MODEL.description}")
         return
     began = time.perf_counter()
-    path = built(model or "", output, flavour, fmi, clocks=clocks)
+    path = built(model or "", output, flavour, fmi, clocks=clocks, inform=typer.echo)
     seconds = time.perf_counter() - began
     typer.echo(f"{path}  {path.stat().st_size / 1e3:.0f} kB  GUID {_guid(path)}  {seconds:.1f} s")
     advise(flavour)
@@ -85,6 +85,7 @@ def built(
     starts: Mapping[str, float] | None = None,
     inputs: Mapping[str, tuple[float, float, str | None]] | None = None,
     clocks: bool = False,
+    inform: Callable[[str], None] | None = None,
 ) -> Path:
     """Build the FMU of a model as `build` does, and return its file; what is to be said goes to stderr.
 
@@ -96,6 +97,7 @@ def built(
         starts: start values that this FMU has as its own, of parameters and inputs.
         inputs: those that are given otherwise than in the model: factor, offset and unit (None: the model's).
         clocks: FMI 3.0 with a clock of impacts and arrays.
+        inform: is called with the degrees of freedom of a mechanism of your own.
 
     Raises:
         typer.Exit: it cannot be built; the reason has been said.
@@ -103,6 +105,7 @@ def built(
     import models
     from mechanism_fmu.fmu.native.package import build_native_fmu
     from mechanism_fmu.fmu.own.find import WrongUseError, looks_like_a_file
+    from mechanism_fmu.fmu.own.freedoms import report_freedoms
     from mechanism_fmu.fmu.own.mistakes import explained_in_fmu
     from mechanism_fmu.fmu.own.prepare import prepare
     from mechanism_fmu.fmu.package import build_fmu
@@ -142,6 +145,8 @@ def built(
                 path = build_native_fmu(module, output, fmi, report, clocks=clocks, baked=own)
             else:
                 path = build_fmu(module, output, report, baked=own)
+            if inform is not None and model not in models.available():
+                report_freedoms(module.MODEL, file, inform, warn)
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None

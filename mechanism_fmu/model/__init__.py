@@ -83,7 +83,7 @@ from .patterns import CircularPattern as CircularPattern
 from .port_builders import *  # noqa: F403
 from .ports import Calculated as Calculated, Input as Input, Output as Output, Parameter as Parameter
 from .quantities import cm as cm, deg as deg, mm as mm, quantity as quantity, rpm as rpm
-from .sketch import FourBarPoints as FourBarPoints, dyad as dyad, four_bar_points as four_bar_points
+from .sketch import FourBarPoints as FourBarPoints, dyad as dyad, four_bar_points as four_bar_points, toward as toward
 from .solids import (
     ALUMINIUM as ALUMINIUM,
     BRASS as BRASS,

@@ -19,6 +19,10 @@ from .functions import Number, atan2, where_positive
 from .quantities import quantity
 
 
+class OldFormWarning(PendingDeprecationWarning):
+    """A part is written with points or numbers by position, which goes after the next version."""
+
+
 class Slot(NamedTuple):
     """One end of a part: which of its fields it fills.
 
@@ -99,7 +103,7 @@ def _by_name(kind: type[Attached], arguments: tuple[Any, ...], named: Mapping[st
             )
         order = ends
     elif order[: len(arguments)] != ends[: len(arguments)]:
-        warnings.warn(_old_form(kind, arguments), PendingDeprecationWarning, stacklevel=3)
+        warnings.warn(_old_form(kind, arguments), OldFormWarning, stacklevel=3)
     if len(arguments) > len(order):
         raise TypeError(f"{kind.__name__}.__init__() takes {len(order)} arguments, but {len(arguments)} were given.")
     given = dict(zip(order, arguments, strict=False))

@@ -1,4 +1,4 @@
-"""Points of a sketch in closed form: where two links meet, and a four-bar linkage, open or crossed."""
+"""Points of a sketch in closed form: along a link, where two links meet, a four-bar linkage, open or crossed."""
 
 from __future__ import annotations
 
@@ -6,9 +6,26 @@ from typing import Literal, NamedTuple
 
 from .body import Point
 from .errors import MechanismError
+from .findings import length
 from .four_bar import root
 from .functions import Number, cos, sin
 from .quantities import quantity
+
+
+def toward(a: Point, b: Point, distance: Number) -> Point:
+    """The point at a distance from `a` on the way to `b`, or behind `a` where it is negative.
+
+    Args:
+        a: a point [m].
+        b: another one [m].
+        distance: [m].
+
+    Raises:
+        MechanismError: a text is no length.
+    """
+    way = (b[0] - a[0], b[1] - a[1])
+    part = quantity(distance, "m", "toward: distance") / length(way)
+    return a[0] + part * way[0], a[1] + part * way[1]
 
 
 def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["left", "right"] = "left") -> Point:

@@ -112,12 +112,13 @@ def circle_area(centre: Point, radius: Number) -> Area:
 def bar(
     name: str,
     a: Point,
-    b: Point,
+    b: Point | None = None,
     *,
     mass: Number | None = None,
     section: Section | None = None,
     material: Dense | None = None,
     length: Number | None = None,
+    angle: Number | None = None,
     centre: Point | None = None,
     inertia: Number | None = None,
     velocity: tuple[Number, Number] = (0.0, 0.0),
@@ -129,11 +130,12 @@ def bar(
     Args:
         name: unique within the mechanism.
         a: where it begins at the start, in the global frame [m]: a sketch, from which assembly closes the joints.
-        b: where it ends, likewise.
+        b: where it ends, likewise; or, in its place, `length` and `angle`.
         mass: [kg]; or, in its place, `section` and `material`.
         section: its cross section, with a `material`.
         material: of the bar, with a `section`.
-        length: between its ends [m], where the sketch is not to scale; the distance of a and b unless given.
+        length: between its ends [m]; beside b, where the sketch is not to scale.
+        angle: at the start [rad], in place of b.
         centre: of mass, in its frame [m]; in the middle unless given.
         inertia: about its centre of mass [kg m2]; mass length^2/12 unless given, with a section also that one's own,
             density second_moment length.
@@ -142,12 +144,20 @@ def bar(
         tooth_length: as of `Body`.
 
     Raises:
-        MechanismError: neither a mass nor section and material are given, or both; or a text is no such quantity.
+        MechanismError: neither a mass nor section and material are given, or both; likewise of b and an angle with a
+            length; or a text is no such quantity.
     """
     label = f"bar {name!r}"
-    begin, end = _point(a, label, "a"), _point(b, label, "b")
-    way = (end[0] - begin[0], end[1] - begin[1])
-    long = length_of(way) if length is None else quantity(length, "m", f"{label}: length")
+    begin = _point(a, label, "a")
+    long = quantity(length, "m", f"{label}: length")
+    if b is None and angle is not None and length is not None:
+        turned = angle
+    elif b is not None and angle is None:
+        end = _point(b, label, "b")
+        way = (end[0] - begin[0], end[1] - begin[1])
+        turned, long = atan2(way[1], way[0]), length_of(way) if length is None else long
+    else:
+        raise MechanismError(f"{label}: say where it ends, by b, or else by length and angle.")
     if (mass is None) == (section is None) or (section is None) != (material is None):
         raise MechanismError(f"{label}: give its mass, or else section and material, from which the mass follows.")
     own: Number | None = None
@@ -162,7 +172,7 @@ def bar(
         mass,
         quantity(inertia, "kg.m2", f"{label}: inertia"),
         (long / 2, 0.0) if centre is None else _point(centre, label, "centre"),
-        _Start(begin, atan2(way[1], way[0]), velocity, speed, label),
+        _Start(begin, turned, velocity, speed, label),
         ((0.0, 0.0), (long, 0.0)),
         tooth_length=tooth_length,
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import types
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -12,6 +13,7 @@ from types import ModuleType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output, Parameter, compile_mechanism
+from ...model.attached import OldFormWarning
 from ...model.functions import is_plain
 from ...model.trace import trace
 from ..parts.contents import model_of
@@ -165,7 +167,9 @@ def examine(module: ModuleType, path: Path, native: bool) -> list[str]:
         model: Model = module.MODEL
         check_model(model)
         model_of(module)
-        mechanism = model.build(model.values())
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always", OldFormWarning)
+            mechanism = model.build(model.values())
         check_mechanism(mechanism)
         compile_mechanism(mechanism)
         _check_variables(model)
@@ -180,6 +184,7 @@ def examine(module: ModuleType, path: Path, native: bool) -> list[str]:
         if native:
             raise
         remarks.append(f"as it is, it cannot be built with --flavour native. {error}")
+    remarks += _old_form(said, path)
     return [f"{path}: {remark}" for remark in remarks]
 
 
@@ -193,6 +198,19 @@ def _check_variables(model: Model) -> None:
         if variable.name in seen:
             raise MechanismError(f"{label} has the name of another {seen[variable.name]}; rename one of the two.")
         seen[variable.name] = variable.causality
+
+
+def _old_form(said: list[warnings.WarningMessage], path: Path) -> Iterator[str]:
+    """The first part of the file that is written in the old form; other warnings go on as they came."""
+    old = []
+    for one in said:
+        if not issubclass(one.category, OldFormWarning):
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+        elif one.filename == str(path):
+            old.append(one)
+    if old:
+        more = f" So are {len(old) - 1} more." if len(old) > 1 else ""
+        yield f"line {old[0].lineno}: {old[0].message}{more}"
 
 
 def _degrees(model: Model, mechanism: Mechanism) -> Iterator[str]:

@@ -189,9 +189,9 @@ def test_the_ground_is_a_text_still() -> None:
 def test_a_line_has_a_direction_or_an_angle() -> None:
     x, y = GROUND.line((0, 0), angle="30 deg").direction
     assert (x, y) == pytest.approx((math.sqrt(3) / 2, 0.5), rel=1e-15)
-    with pytest.raises(MechanismError, match="a direction .* or an angle, one of the two"):
+    with pytest.raises(MechanismError, match=r"a direction .* or an angle, one of the two"):
         GROUND.line((0, 0))
-    with pytest.raises(MechanismError, match="a direction .* or an angle, one of the two"):
+    with pytest.raises(MechanismError, match=r"a direction .* or an angle, one of the two"):
         GROUND.line((0, 0), (1, 0), angle=0.0)
 
 

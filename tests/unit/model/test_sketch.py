@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given, strategies as st
 
-from mechanism_fmu.model import MechanismError, dyad, four_bar_points
+from mechanism_fmu.model import MechanismError, dyad, four_bar_points, toward
 from mechanism_fmu.model.four_bar import start
 
 
@@ -37,6 +37,11 @@ def test_the_branches_are_those_of_the_ready_made_four_bar(branch: str, angle: f
 
 def test_links_that_do_not_reach_each_other_point_at_each_other() -> None:
     assert dyad((0, 0), (4, 0), from_a=1.0, from_b=2.0) == pytest.approx((13 / 8, 0.0))
+
+
+def test_a_point_on_the_way() -> None:
+    assert toward((1.0, 1.0), (4.0, 5.0), "250 cm") == pytest.approx((2.5, 3.0), rel=1e-15)
+    assert toward((1.0, 1.0), (4.0, 5.0), -5.0) == pytest.approx((-2.0, -3.0), rel=1e-15)
 
 
 def test_words_that_are_no_side_or_branch() -> None:

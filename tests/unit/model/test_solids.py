@@ -53,6 +53,12 @@ def test_a_bar_of_a_section_weighs_as_the_plate_of_the_same_shape() -> None:
     assert rod.inertia == pytest.approx(rod.mass * (0.3**2 + 0.2**2) / 12, rel=1e-14)
 
 
+def test_a_bar_by_length_and_angle() -> None:
+    rod = bar("rod", (1.0, 2.0), length="50 cm", angle="90 deg", mass=1.0)
+    assert rod.start == (pytest.approx(1.0, abs=1e-16), 2.25, math.pi / 2)
+    assert rod.b == End("rod", (0.25, 0.0))
+
+
 def test_a_bar_that_the_sketch_shows_too_short() -> None:
     rod = bar("rod", (0.0, 0.0), (0.1, 0.0), length="20 cm", mass=1.0, centre=("5 cm", 0.0), inertia=2.0)
     assert rod.b == End("rod", (0.15000000000000002, 0.0))
@@ -185,6 +191,8 @@ def test_sizes_may_be_parameters() -> None:
         (lambda: bar("x", (0, 0), (1, 0)), "bar 'x': give its mass, or else section and material"),
         (lambda: bar("x", (0, 0), (1, 0), mass=1, section=Section(1, 1, 1), material=STEEL), "bar 'x': give its mass,"),
         (lambda: bar("x", (0, 0), (1, 0), section=Section(1, 1, 1)), "bar 'x': give its mass,"),
+        (lambda: bar("x", (0, 0), mass=1, length=1), "bar 'x': say where it ends, by b, or else by length and angle"),
+        (lambda: bar("x", (0, 0), (1, 0), mass=1, angle=1), "bar 'x': say where it ends, by b, or else"),
         (lambda: bar("x", (0, 0), 1, mass=1), r"bar 'x': b is 1, but it must be a point \(x, y\)"),
         (lambda: bar("x", (0, 0), (1, 0), mass="5 mm"), "bar 'x': mass wants kg, got '5 mm'"),
         (lambda: plate("x", RECTANGLE, thickness=1), "plate 'x': give its mass, or else thickness and material"),

@@ -29,7 +29,11 @@ from own_file import change, refused, refused_at
             "feedthrough is 'motor_torque', but it must be a tuple",
         ),
         ('"length", 0.2', '"length", 2e3', "length = 2000 m is above its limit; give at most 1000 m."),
-        ('"length", 0.2', '"length", "0.2"', "Parameter 'length': start is '0.2', but it must be a number."),
+        (
+            '"length", 0.2',
+            '"length", "0.2"',
+            "length: start wants m, got '0.2'; give e.g. 0.5, or with a unit, '0.5 m'.",
+        ),
     ],
 )
 def test_a_part_that_cannot_be_right_is_told_with_its_line(old: str, new: str, said: str, folder: Path) -> None:
