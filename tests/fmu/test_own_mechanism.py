@@ -136,7 +136,7 @@ def test_a_file_named_like_a_module_hides_nothing(name: str, flavour: str, sourc
 
 def test_a_file_may_import_its_neighbours_and_is_read_anew_each_time(source: Path, tmp_path: Path) -> None:
     path = tmp_path / "lever.py"
-    text = source.read_text().replace("START = radians(30)", "from .numbers import START")
+    text = source.read_text().replace("START = deg(30)", "from .numbers import START")
     path.write_text(text)
     guids = []
     for angle in (0.1, 0.2):  # of the same length, within the same second

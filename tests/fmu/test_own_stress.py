@@ -18,7 +18,7 @@ FLAVOURS = {"pythonfmu": (), "native": ("--flavour", "native"), "native3": ("--f
 
 #: What a beam takes in the file of `mechanism-fmu new`: its length, v_I of each impact, and the declaration.
 CHANGES = {
-    "start=(0.0, 0.0, START))": "start=(0.0, 0.0, START), tooth_length=length)",
+    "mass=values.mass)": "mass=values.mass, tooth_length=values.length)",
     "[IMPACT]": "[IMPACT, JUMP]",
     "\n\ndef mechanism": 'JUMP = Output("velocity", "velocity", "Jump of the tip, {impact}", "m/s")\n\n\ndef mechanism',
     "    stop_time=1.0,": '    analysis=(ImpactStress("stop", RectangularTooth("length", 0.01), "lever", "levers"),),\n'

@@ -32,7 +32,7 @@ from own_file import change, refused, refused_at
         (
             '"length", 0.2',
             '"length", "0.2"',
-            "length: start wants m, got '0.2'; give e.g. 0.5, or with a unit, '0.5 m'.",
+            "length: start wants m, got '0.2'; give e.g. 0.5, or with a unit,",
         ),
     ],
 )

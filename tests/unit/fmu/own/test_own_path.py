@@ -35,7 +35,7 @@ def test_a_file_name_that_cannot_travel_is_wrong_use(folder: Path) -> None:
     assert "rename it, for example to hebel_gr_e.py." in wrong_use("hebel.größe.py")
 
 
-def test_a_destination_that_is_no_folder_is_not_blamed_on_the_file() -> None:
+def test_a_destination_that_is_no_folder_is_not_blamed_on_the_file(new_folder: Path) -> None:
     result = CliRunner().invoke(main, ["build", "lever.py", "-o", "x.fmu"])
     assert result.exit_code == 1
     assert result.stderr.startswith("x.fmu is not a folder; give the folder for lever.fmu")
