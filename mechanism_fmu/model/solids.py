@@ -44,10 +44,13 @@ class Material:
     young: Number
 
 
-#: Usual values, of handbooks: steel as in `mechanism_fmu.stress`; EN AW alloys by EN 1999-1-1, 3.2.5; CuZn39Pb3; POM-C.
+#: Steel, usual handbook values, those of `mechanism_fmu.stress`.
 STEEL = Material(7850.0, 2.06e11)
+#: Wrought aluminium alloys, EN 1999-1-1, 3.2.5.
 ALUMINIUM = Material(2700.0, 7.0e10)
+#: Brass CuZn39Pb3, usual handbook values.
 BRASS = Material(8470.0, 9.7e10)
+#: Polyoxymethylene (POM-C), usual handbook values.
 POM = Material(1410.0, 2.8e9)
 
 # Areas, by Green's theorem.

@@ -79,25 +79,28 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     a, b, c, d = values.crank_length, values.coupler_length, values.rocker_length, values.ground_length
     on_crank, on_coupler, on_rocker = values.crank_centre, values.coupler_centre, values.rocker_centre
     rubbing = values.joint_friction_radius
+    crank, coupler, rocker = bodies = _bodies(values)
     return Mechanism(
-        bodies=_bodies(values),
+        bodies=bodies,
         joints=(
-            Revolute("crank_hinge", "crank", (-on_crank, 0.0), GROUND, (0.0, 0.0), rubbing),
-            Revolute("crank_pin", "coupler", (-on_coupler, 0.0), "crank", (a - on_crank, 0.0), rubbing),
-            Revolute("rocker_pin", "rocker", (c - on_rocker, 0.0), "coupler", (b - on_coupler, 0.0), rubbing),
-            Revolute("rocker_hinge", "rocker", (-on_rocker, 0.0), GROUND, (d, 0.0), rubbing),
+            Revolute("crank_hinge", crank.at(-on_crank, 0.0), GROUND.at(0.0, 0.0), friction_radius=rubbing),
+            Revolute("crank_pin", coupler.at(-on_coupler, 0.0), crank.at(a - on_crank, 0.0), friction_radius=rubbing),
+            Revolute(
+                "rocker_pin", rocker.at(c - on_rocker, 0.0), coupler.at(b - on_coupler, 0.0), friction_radius=rubbing
+            ),
+            Revolute("rocker_hinge", rocker.at(-on_rocker, 0.0), GROUND.at(d, 0.0), friction_radius=rubbing),
         ),
         forces=(
-            Torque("drive", "crank"),
-            Torque("load", "rocker"),
-            CompliantShaft("shaft", "crank", stiffness=values.drive_stiffness, damping=values.drive_damping),
-            Damper("crank_damper", "crank", damping=values.crank_damping),
-            TorsionSpring("spring", "rocker", stiffness=values.spring_stiffness, free_angle=values.spring_free_angle),
-            Force("crank_weight", "crank", (0.0, -values.crank_mass * values.gravity)),
-            Force("coupler_weight", "coupler", (0.0, -values.coupler_mass * values.gravity)),
-            Force("rocker_weight", "rocker", (0.0, -values.rocker_mass * values.gravity)),
+            Torque("drive", crank),
+            Torque("load", rocker),
+            CompliantShaft("shaft", crank, stiffness=values.drive_stiffness, damping=values.drive_damping),
+            Damper("crank_damper", crank, damping=values.crank_damping),
+            TorsionSpring("spring", rocker, stiffness=values.spring_stiffness, free_angle=values.spring_free_angle),
+            Force("crank_weight", crank, force=(0.0, -values.crank_mass * values.gravity)),
+            Force("coupler_weight", coupler, force=(0.0, -values.coupler_mass * values.gravity)),
+            Force("rocker_weight", rocker, force=(0.0, -values.rocker_mass * values.gravity)),
         ),
-        held=("crank.angle",),
+        held=(crank.angle,),
     )
 
 

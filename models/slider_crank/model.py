@@ -87,33 +87,35 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     """The slider-crank for parameter values that raise no objection."""
     on_crank, on_rod, rubbing = values.crank_centre, values.rod_centre, values.joint_friction_radius
     along = (1.0, 0.0)
+    crank, rod, slider = bodies = _bodies(values)
     return Mechanism(
-        bodies=_bodies(values),
+        bodies=bodies,
         joints=(
-            Revolute("crank_hinge", "crank", (-on_crank, 0.0), GROUND, (0.0, 0.0), rubbing),
-            Revolute("crank_pin", "rod", (-on_rod, 0.0), "crank", (values.crank_length - on_crank, 0.0), rubbing),
-            Revolute("slider_pin", "slider", (0.0, 0.0), "rod", (values.rod_length - on_rod, 0.0), rubbing),
+            Revolute("crank_hinge", crank.at(-on_crank, 0.0), GROUND.at(0.0, 0.0), friction_radius=rubbing),
+            Revolute(
+                "crank_pin",
+                rod.at(-on_rod, 0.0),
+                crank.at(values.crank_length - on_crank, 0.0),
+                friction_radius=rubbing,
+            ),
+            Revolute("slider_pin", slider, rod.at(values.rod_length - on_rod, 0.0), friction_radius=rubbing),
             Translational(
                 "guide",
-                GROUND,
-                (0.0, values.offset),
-                along,
-                "slider",
-                (0.0, 0.0),
-                along,
+                GROUND.line((0.0, values.offset), along),
+                slider.line((0.0, 0.0), along),
                 friction=values.slider_friction,
             ),
         ),
         forces=(
-            Torque("drive", "crank"),
-            Force("load", "slider"),
-            CompliantShaft("shaft", "crank", stiffness=values.drive_stiffness, damping=values.drive_damping),
-            Damper("crank_damper", "crank", damping=values.crank_damping),
-            Force("crank_weight", "crank", (0.0, -values.crank_mass * values.gravity)),
-            Force("rod_weight", "rod", (0.0, -values.rod_mass * values.gravity)),
-            Force("slider_weight", "slider", (0.0, -values.slider_mass * values.gravity)),
+            Torque("drive", crank),
+            Force("load", slider),
+            CompliantShaft("shaft", crank, stiffness=values.drive_stiffness, damping=values.drive_damping),
+            Damper("crank_damper", crank, damping=values.crank_damping),
+            Force("crank_weight", crank, force=(0.0, -values.crank_mass * values.gravity)),
+            Force("rod_weight", rod, force=(0.0, -values.rod_mass * values.gravity)),
+            Force("slider_weight", slider, force=(0.0, -values.slider_mass * values.gravity)),
         ),
-        held=("crank.angle",),
+        held=(crank.angle,),
     )
 
 

@@ -5,18 +5,32 @@ far end of the lever moves the ram through a rod. Source: any book on mechanisms
 section 2.15 (Whitworth or crank-shaper quick-return mechanism).
 """
 
-from mechanism_fmu.model import GROUND, AngleDriver, Mechanism, Model, Output, Revolute, RevoluteTranslational
-from mechanism_fmu.model import Translational, bar, length_parameter, polynomial_motion, rigid_body, speed_parameter, toward
+from mechanism_fmu.model import (
+    GROUND,
+    AngleDriver,
+    Mechanism,
+    Model,
+    Output,
+    Revolute,
+    RevoluteTranslational,
+    Translational,
+    bar,
+    length_parameter,
+    polynomial_motion,
+    rigid_body,
+    speed_parameter,
+    toward,
+)
 
 
 def mechanism(values):
-    pivot, pin = (0.0, -values.offset), (values.crank, 0.0)  # the crank begins along the x axis
+    """The linkage; its sketch need not fit exactly: assembly finds the nearest position that does."""
+    pivot, pin = (0.0, -values.offset), (values.crank, 0.0)
     end = toward(pivot, pin, -values.arm)
-    ram_pin = (end[0] + values.rod, pivot[1])  # a sketch: assembly finds the nearest place that fits
     crank = bar("crank", (0, 0), pin, mass="1 kg", speed=values.speed)
     lever = bar("lever", pivot, pin, length=values.crank + values.offset, mass="2 kg")
-    rod = bar("rod", end, ram_pin, length=values.rod, mass="1 kg")
-    ram = rigid_body("ram", at=ram_pin, mass="10 kg", inertia=0.1)
+    rod = bar("rod", end, length=values.rod, angle=0.0, mass="1 kg")
+    ram = rigid_body("ram", at=(end[0] + values.rod, pivot[1]), mass="10 kg", inertia=0.1)
     joints = (
         Revolute("crank_hinge", crank.a, GROUND),
         RevoluteTranslational("slot", lever.line((0, 0), (1, 0)), crank.b),
@@ -30,6 +44,7 @@ def mechanism(values):
 
 
 SIZES = (("crank", "100 mm"), ("offset", "50 mm"), ("arm", "80 mm"), ("rod", "400 mm"))
-PARAMETERS = (*(length_parameter(name, size, name) for name, size in SIZES), speed_parameter("speed", "60 rpm", "speed"))
+LENGTHS = tuple(length_parameter(name, size, f"Length of the {name}") for name, size in SIZES)
+SPEED = speed_parameter("speed", "60 rpm", "Speed of the crank")
 OUTPUTS = (Output("ram", "ram.x", "Place of the ram", "m"), Output("lever", "lever.angle", "Its angle", "rad", "deg"))
-MODEL = Model("Whitworth", "Whitworth quick return", PARAMETERS, mechanism, outputs=OUTPUTS, stop_time=2.0)
+MODEL = Model("Whitworth", "Whitworth quick return", (*LENGTHS, SPEED), mechanism, outputs=OUTPUTS, stop_time=2.0)
