@@ -99,7 +99,7 @@ def _by_name(kind: type[Attached], arguments: tuple[Any, ...], named: Mapping[st
         if len(arguments) > len(ends):
             raise TypeError(
                 f"{kind.__name__}.__init__() takes {', '.join(ends)} by position, but {len(arguments)} were given; "
-                "give what is behind the ends by keyword."
+                "give what is behind the ends by keyword"
             )
         order = ends
     elif order[: len(arguments)] != ends[: len(arguments)]:
@@ -174,11 +174,12 @@ def _complete(kind: type[Attached], values: Mapping[str, Any]) -> dict[str, Any]
     missing = [name for name, field in every.items() if name not in values and field.default is MISSING]
     for slot in kind.slots:
         if slot.body in values and (slot.point in missing or slot.direction in missing):
-            what = "(x, y), (dx, dy)" if slot.direction in missing else "x, y"
-            method = "line" if slot.direction in missing else "at"
+            shape, how = ("line", "line((x, y), (dx, dy))") if slot.direction in missing else ("point", "at(x, y)")
+            given = values[slot.body]
+            of = repr(given) if isinstance(given, str) else f"a body there, but {given!r} was given"
             raise MechanismError(
-                f"{kind.__name__} {values.get('name', '')!r} takes a {'line' if method == 'line' else 'point'} of "
-                f"{values[slot.body]!r}; write {slot.argument}.{method}({what}), with the body or GROUND."
+                f"{kind.__name__} {values.get('name', '')!r} takes a {shape} of {of}; write {slot.argument}.{how}, with "
+                "the body or GROUND."
             )
     if missing:
         names = ", ".join(map(repr, missing))

@@ -18,6 +18,8 @@ from ..parts.contents import OWN
 
 #: Functions that make ports from the name of a part.
 _BUILDER = re.compile(r"_(input|output|parameter)s?$")
+#: Functions that make bodies.
+_SOLIDS = ("bar", "plate", "disc", "rigid_body")
 
 
 @contextmanager
@@ -91,7 +93,8 @@ def _part(text: str, path: Path) -> str:
     # A builder of ports is given "motor", and makes "motor_torque".
     built = [call for call in every if _BUILDER.search(ast.unparse(call.func)) and _begins(name, call)]
     calls = [call for call in every if name in _names_given(call)] or built
-    of_kind = [call for call in calls if ast.unparse(call.func) == named["kind"]]
+    kinds = (named["kind"], *(_SOLIDS if named["kind"] == "Body" else ()))
+    of_kind = [call for call in calls if ast.unparse(call.func) in kinds]
     # Of two parts with one name, the second is the one too many.
     lines = [call.lineno for call in of_kind or calls]
     return f"{path}, line {max(lines)}" if lines else ""

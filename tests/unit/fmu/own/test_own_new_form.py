@@ -30,9 +30,12 @@ def test_the_old_form_is_built_with_a_remark_on_its_first_line(folder: Path) -> 
     [
         ('"hinge", lever.a,', '"hinge", "lever",', "Revolute 'hinge' takes a point of 'lever'; write body_i.at(x, y),"),
         ('"motor", lever)', '"motor", lever.a)', "Torque 'motor' is attached to 'lever' as a whole, not to a point of"),
-        ("GROUND.at(0, 0))", "GROUND.at(0, 0), 0.1)", "Revolute takes name, body_i, body_j by position, but 4 were"),
+        ("GROUND.at(0, 0))", "GROUND.at(0, 0), 0.1)", "Revolute takes name, body_i, body_j by position, but 4 were "
+         "given; give what is behind the ends by keyword. It takes name, body_i, body_j, friction_radius."),
         ('AngleStop("stop", lever, GROUND, angle=0.0', 'AngleStop("stop", lever, GROUND, angel=0.0', "AngleStop got an "
          "unexpected keyword argument 'angel'; did you mean 'angle'? It takes name, body_i, body_j, angle,"),
+        ("GROUND.at(0, 0))", "(0, 0))", "Revolute 'hinge' takes a point of a body there, but (0, 0) was given; "),
+        ("mass=values.mass)", "mass=0.0)", "Body 'lever': mass = 0 kg, but it must be positive and finite."),
         ("angle=0.0,", 'angle="5 mm",', "AngleStop 'stop': angle wants rad, got '5 mm'; give e.g. 0.5, or with a unit"),
         ("mass=values.mass)", 'mass="5 mm")', "bar 'lever': mass wants kg, got '5 mm'"),
         ("mass=values.mass)", "mas=values.mass)", "bar got an unexpected keyword argument 'mas'; did you mean 'mass'?"),
