@@ -114,7 +114,7 @@ def test_other_parts_and_names_that_are_taken() -> None:
     assert {type(shape) for shape in shapes} >= {Outline, Link, Spring, Rod, Striker}
     by_name = {getattr(shape, "name", ""): shape for shape in shapes}
     assert by_name["guide"].points == ((-1.0, 0.5), (1.0, 0.5))
-    assert by_name["stop"].points == ((-1.0, 0.2), (1.0, 0.2))  # through its point, across its normal
+    assert by_name["stop"].points == ((1.0, 0.2), (-1.0, 0.2))  # through its point, across its normal
     assert by_name["block"].at == ("block_x_2", "block_y")
     assert by_name["wheel"].at[0] == "block_x"
     assert by_name["loose"].points == ((0.0, 0.0),)
