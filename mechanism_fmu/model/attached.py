@@ -177,9 +177,9 @@ def _complete(kind: type[Attached], values: Mapping[str, Any]) -> dict[str, Any]
             shape, how = ("line", "line((x, y), (dx, dy))") if slot.direction in missing else ("point", "at(x, y)")
             given = values[slot.body]
             of = repr(given) if isinstance(given, str) else f"a body there, but {given!r} was given"
+            label = f"{kind.__name__} {values.get('name', '')!r}"
             raise MechanismError(
-                f"{kind.__name__} {values.get('name', '')!r} takes a {shape} of {of}; write {slot.argument}.{how}, with "
-                "the body or GROUND."
+                f"{label} takes a {shape} of {of}; write {slot.argument}.{how}, with the body or GROUND."
             )
     if missing:
         names = ", ".join(map(repr, missing))

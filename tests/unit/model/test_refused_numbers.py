@@ -198,6 +198,7 @@ def test_every_kind_of_part_is_there() -> None:
         "Term",
         "Wheel",
     }
+    others |= {"Link", "Outline", "Rod", "Spring", "Trace"}
     # what is to be analysed is checked at the build: tests/unit/fmu/test_analysis_file.py
     # what makes parts: tests/unit/model/test_ends.py and test_solids.py
     others |= {"End", "Material"}
