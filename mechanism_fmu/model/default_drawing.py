@@ -119,13 +119,17 @@ def draw(mechanism: Mechanism, size: float, follows: Sequence[bool] = ()) -> Dra
         follows: see `Plan`; () asks the numbers themselves.
     """
     drawn = Drawn(mechanism, size, [*follows])
+    for body in mechanism.bodies:
+        if len(body.outline) == 2:  # a bar reaches from end to end, whatever is joined to it
+            for corner in body.corners:
+                drawn.vertex(body.name, corner.point)
     hinges = [*_hinges(drawn)]
     springs = [*_springs(drawn)]
     outlines = [*_outlines(drawn)]
     rims = [*_pitch_circles(drawn)]
     links = []
     for body in mechanism.bodies:
-        if body.name in drawn.points or not getattr(body, "outline", ()):
+        if body.name in drawn.points or not body.outline:
             at, angle = drawn.pose(body.name)
             links.append(Link(body.name, at, angle, tuple(drawn.points.get(body.name, [(0.0, 0.0)]))))
     # what others start from comes first; wheels and plates lie under links, hinges on them
@@ -181,12 +185,15 @@ def _springs(drawn: Drawn) -> Iterator[Shape]:
 
 
 def _outlines(drawn: Drawn) -> Iterator[Shape]:
-    """Plates, and the straight lines of guides and contacts."""
+    """Discs, plates, and the straight lines of guides and contacts."""
     for body in drawn.mechanism.bodies:
-        outline = getattr(body, "outline", ())
-        if outline:
+        corners = [corner.point for corner in body.corners]
+        if len(corners) == 1:
+            at, _ = drawn.pose(body.name)
+            yield Disc(f"{body.name} (disc)", at, drawn.number(body.radius, f"{body.name}_radius"))
+        elif len(corners) > 2:
             at, angle = drawn.pose(body.name)
-            yield Outline(f"{body.name} (plate)", at, angle, tuple(_points(drawn, outline, f"{body.name}_outline")))
+            yield Outline(f"{body.name} (plate)", at, angle, tuple(_points(drawn, corners, f"{body.name}_outline")))
     for contact in drawn.mechanism.contacts:
         if isinstance(contact, PointLineContact):
             nx, ny = contact.normal

@@ -10,6 +10,7 @@ from mechanism_fmu.fmu.parts.resources import DRAWING, drawing
 from mechanism_fmu.model import (
     GROUND,
     Body,
+    Disc,
     Distance,
     Gears,
     Hinge,
@@ -29,7 +30,10 @@ from mechanism_fmu.model import (
     Striker,
     TorsionSpring,
     Trace,
+    bar,
     compile_mechanism,
+    disc,
+    plate,
 )
 from mechanism_fmu.model.trace import trace
 
@@ -130,3 +134,20 @@ def test_every_model_could_be_drawn_so(name: str) -> None:
     assert drawing(model)
     compile_mechanism(model.build(model.values()))
     trace(model)
+
+
+def test_solids_are_drawn_as_they_were_given() -> None:
+    """A bar from end to end, a plate by its corners from its centre of mass, a disc by its radius."""
+
+    def mechanism(values: SimpleNamespace) -> Mechanism:
+        rod = bar("rod", (0.0, 0.0), length=values.length, angle=0.0, mass=1.0)
+        wedge = plate("wedge", [(0.0, 0.0), (0.3, 0.0), (0.0, 0.3)], mass=1.0)
+        wheel = disc("wheel", radius=values.length, mass=1.0)
+        joints = (Revolute("pin", rod.a, GROUND), Revolute("a", wedge, rod.b), Revolute("b", wheel, wedge.corners[1]))
+        return Mechanism((rod, wedge, wheel), joints)
+
+    shapes = {getattr(shape, "name", ""): shape for shape in Model("Solids", "", LENGTH, mechanism).shapes}
+    corners = [float(x) for point in shapes["wedge (plate)"].points for x in point]
+    assert corners == pytest.approx([-0.1, -0.1, 0.2, -0.1, -0.1, 0.2], abs=1e-15)
+    assert shapes["wheel (disc)"] == Disc("wheel (disc)", ("wheel_x", "wheel_y"), "drawing_wheel_radius")
+    assert shapes["rod"].points[:2] == (("drawing_rod_0_x", 0.0), ("drawing_rod_1_x", 0.0))

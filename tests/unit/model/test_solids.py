@@ -178,9 +178,10 @@ def test_sizes_may_be_parameters() -> None:
         return Mechanism((rod, wedge, wheel, link), joints=joints)
 
     parameters = (length_parameter("size", "50 mm", ""), mass_parameter("mass", "2 kg", ""))
-    traced = trace(Model("Solids", "", parameters, mechanism))
+    model = Model("Solids", "", parameters, mechanism)
+    traced = trace(model)
     values = SimpleNamespace(size=0.07, mass=1.3)
-    expected = compile_mechanism(mechanism(values)).columns
+    expected = compile_mechanism(model.mechanism(values)).columns
     for name, table in traced.evaluate(values).columns.items():
         np.testing.assert_array_equal(table, expected[name], err_msg=name)
 
