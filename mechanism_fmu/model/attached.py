@@ -9,6 +9,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields
+from functools import cache
 from inspect import Parameter, Signature
 from typing import Any, ClassVar, Literal, NamedTuple, cast
 
@@ -86,6 +87,7 @@ class Attached:
             object.__setattr__(self, name, value)
 
 
+@cache
 def _fields(kind: type[Attached]) -> tuple[Field[Any], ...]:
     return fields(cast(Any, kind))
 
@@ -168,6 +170,8 @@ def _directed(kind: str, direction: Point) -> Any:
 def _complete(kind: type[Attached], values: Mapping[str, Any]) -> dict[str, Any]:
     """All fields in their order, with the defaults of those that are not given."""
     every = {field.name: field for field in _fields(kind)}
+    if values.keys() == every.keys():
+        return {name: values[name] for name in every}
     unknown = [name for name in values if name not in every]
     if unknown:
         raise TypeError(f"{kind.__name__}.__init__() got an unexpected keyword argument {unknown[0]!r}")
