@@ -88,14 +88,14 @@ class Attached:
 
 
 @cache
-def _fields(kind: type[Attached]) -> tuple[Field[Any], ...]:
-    return fields(cast(Any, kind))
+def _fields(kind: Any) -> tuple[Field[Any], ...]:
+    return fields(kind)
 
 
 def _by_name(kind: type[Attached], arguments: tuple[Any, ...], named: Mapping[str, Any]) -> dict[str, Any]:
     """Positional arguments by name: name and ends, or, in the old form, the fields in their order."""
     ends = ["name", *(slot.argument for slot in kind.slots)]
-    order = [field.name for field in _fields(kind) if not field.kw_only]
+    order = [field.name for field in _fields(cast(Any, kind)) if not field.kw_only]
     is_new = any(isinstance(value, Body | End) for value in (*arguments, *named.values()))
     if is_new or (len(arguments) <= len(ends) and all(isinstance(value, str) for value in arguments)):
         if len(arguments) > len(ends):
@@ -169,7 +169,7 @@ def _directed(kind: str, direction: Point) -> Any:
 
 def _complete(kind: type[Attached], values: Mapping[str, Any]) -> dict[str, Any]:
     """All fields in their order, with the defaults of those that are not given."""
-    every = {field.name: field for field in _fields(kind)}
+    every = {field.name: field for field in _fields(cast(Any, kind))}
     if values.keys() == every.keys():
         return {name: values[name] for name in every}
     unknown = [name for name in values if name not in every]
@@ -194,7 +194,7 @@ def _complete(kind: type[Attached], values: Mapping[str, Any]) -> dict[str, Any]
 
 def _parameters(kind: type[Attached]) -> list[Parameter]:
     filled = {name for slot in kind.slots for name in slot[:3]} - {"name"}
-    every = {field.name: field for field in _fields(kind)}
+    every = {field.name: field for field in _fields(cast(Any, kind))}
 
     def default(name: str) -> Any:
         found = every[name].default if name in every else MISSING
