@@ -116,7 +116,7 @@ RECORD_INSTANT = 6  # counts instants with impacts from 1: all records of one sh
 RECORD_ENERGY = 7  # lost at this instant
 RECORD_CONTACT_IMPULSES = 8
 
-#: Impacts of one communication step that are kept, oldest first.
+#: So many impacts of one communication step are kept, the last ones, where no output says otherwise.
 IMPACT_BUFFER_LENGTH = 8
 
 # guards: what an event is about
@@ -146,7 +146,7 @@ EVENT_NEW_MODE = 4
 EVENT_IMPULSE = 5  # total normal impulse over all contacts [N s]
 EVENT_COLUMNS = 6
 
-#: Events of one communication step that are kept, oldest first.
+#: So many events of one communication step are kept, the last ones, where no output says otherwise.
 EVENT_BUFFER_LENGTH = 16
 
 # columns of the state's clock [s]

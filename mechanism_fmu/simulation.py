@@ -224,7 +224,7 @@ class Simulation:
         return {contact.name: time for contact, time in pairs if time <= self.time}
 
     def impacts_in_step(self) -> list[Impact]:
-        """The impacts of the last call of `advance`, oldest first, at most `codes.IMPACT_BUFFER_LENGTH`."""
+        """The impacts of the last call of `advance`, oldest first, at most as many as are kept (`model.Output`)."""
         records = field_of(self._block, "impacts")[: int(self.counters[codes.COUNT_IN_STEP])].tolist()
         names = [contact.name for contact in self._mechanism.contacts]
         return [
@@ -241,7 +241,7 @@ class Simulation:
         ]
 
     def events_in_step(self) -> list[Event]:
-        """The events of the last call of `advance`, oldest first, at most `codes.EVENT_BUFFER_LENGTH`."""
+        """The events of the last call of `advance`, oldest first, at most as many as are kept (`model.Output`)."""
         records = field_of(self._block, "events")[: int(self.counters[codes.EVENTS_IN_STEP])].tolist()
         return [
             Event(
@@ -291,7 +291,7 @@ class Simulation:
         size = field_of(self._block, "tried").item(1)
         steps = self.counters.item(codes.STEPS_IN_STEP)
         events = self.counters.item(codes.EVENTS_IN_STEP)
-        more = " or more" if events == codes.EVENT_BUFFER_LENGTH else ""
+        more = " or more" if events == len(self.field("events")) else ""
         return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
 
     def _residuals(self) -> str:

@@ -47,7 +47,7 @@ class News:
             self._lost += lost
             yield Message(
                 f"{lost} impacts of the step to t = {simulation.time:.9g} s did not fit into "
-                f"impacts[1..{codes.IMPACT_BUFFER_LENGTH}] and are lost to the outside (the motion is right); "
+                f"impacts[1..{len(simulation.field('impacts'))}] and are lost to the outside (the motion is right); "
                 "use a shorter communication step.",
                 Fmi2Status.warning,
                 "logStatusWarning",
