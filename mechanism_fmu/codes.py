@@ -177,7 +177,9 @@ RANK = 11  # of the active rows since the last event
 FALLING = 12  # 1 when `course.independence_end` was falling at STEP_END
 COUNT_INSTANTS = 13  # with impacts, since the start
 STEPS_IN_STEP = 14  # internal steps of the communication step
-COUNTERS_LENGTH = 15
+COUNT_REJECTED = 15  # steps since the start whose error was too large
+COUNT_TRIES = 16  # steps since the start that were tried: accepted, rejected, or to find an event
+COUNTERS_LENGTH = 17
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

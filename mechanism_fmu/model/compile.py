@@ -62,8 +62,8 @@ class MechanismTables:
     Attributes:
         columns: by name of the field.
         numbers: `joint_rows`, the number of rows of all joints; `contact_rows`, that of all contacts when contact
-            coordinates count as coordinates; `alphas`, the number of these; `own`, of states of force elements' own; `buffer` and
-            `event_buffer`, of impacts and events of a communication step that are kept.
+            coordinates count as coordinates; `alphas`, the number of these; `own`, of states of force elements' own;
+            `buffer` and `event_buffer`, of impacts and events of a communication step that are kept.
     """
 
     columns: Mapping[str, Array]

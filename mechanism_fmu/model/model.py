@@ -9,6 +9,7 @@ from types import SimpleNamespace
 from typing import Any, Protocol
 
 from .analysis import Analysis
+from .default_ports import default_outputs
 from .drawing import Shape
 from .errors import MechanismError
 from .findings import Finding, messages
@@ -22,24 +23,37 @@ def _nothing(_values: SimpleNamespace) -> tuple[()]:
 
 @dataclass(frozen=True)
 class _Completed:
-    """A model's function; what its mechanism leaves out of ports and settings comes from the model."""
+    """A model's function; what its mechanism leaves out of ports and settings comes from the model.
+
+    Outputs that neither declares are the default ones.
+    """
 
     function: Callable[[SimpleNamespace], Mechanism]
     inputs: tuple[Input, ...]
     outputs: tuple[Output, ...]
     calculated: Callable[[SimpleNamespace], tuple[Calculated, ...]]
+    parameters: tuple[str, ...]
 
     def __call__(self, values: SimpleNamespace) -> Mechanism:
         found: Any = self.function(values)
         if not isinstance(found, Mechanism):
             return found  # type: ignore[no-any-return]  # a user's function may return anything: objected to elsewhere
-        return replace(
+        whole = replace(
             found,
             inputs=found.inputs or self.inputs,
             outputs=found.outputs or self.outputs,
             calculated=found.calculated or self.calculated(values),
             settings=Settings.of(values) if found.settings is DEFAULT_SETTINGS else found.settings,
         )
+        if whole.outputs or not _is_readable(whole):
+            return whole
+        return replace(whole, outputs=default_outputs(whole, self.parameters))
+
+
+def _is_readable(mechanism: Mechanism) -> bool:
+    """Whether the parts are tuples of parts: what is not, is objected to elsewhere."""
+    parts = [getattr(mechanism, name) for name in ("bodies", "joints", "forces", "contacts", "inputs", "calculated")]
+    return all(isinstance(entries, tuple) and all(hasattr(entry, "name") for entry in entries) for entries in parts)
 
 
 @dataclass(frozen=True)
@@ -61,7 +75,8 @@ class Model:
         analysis: what can be analysed of a run, in terms of the FMU's variables; () when nothing can.
         author: who made it; "" leaves it open.
         license: under which others may use it, one line; "" leaves it open.
-        inputs, outputs: what the outside sees of the mechanism, where `mechanism` gives none.
+        inputs, outputs: what the outside sees of the mechanism, where `mechanism` gives none; of a model without any
+            outputs, `default_outputs` of all its parts.
         calculated: likewise; pure function, as `mechanism` is, to what follows from the parameters.
 
     Raises:
@@ -87,7 +102,9 @@ class Model:
     def __post_init__(self) -> None:
         own = self.mechanism.function if isinstance(self.mechanism, _Completed) else self.mechanism
         if callable(own):
-            object.__setattr__(self, "mechanism", _Completed(own, self.inputs, self.outputs, self.calculated))
+            known = self.parameters if isinstance(self.parameters, tuple) else ()  # a mistake is objected to elsewhere
+            names = tuple(getattr(parameter, "name", "") for parameter in known)
+            object.__setattr__(self, "mechanism", _Completed(own, self.inputs, self.outputs, self.calculated, names))
         for what, value in (("stop_time", self.stop_time), ("step_size", self.step_size)):
             if not 0.0 < value < math.inf:
                 raise MechanismError(f"{self.name}: {what} = {value:g} s, but it must be positive and finite.")

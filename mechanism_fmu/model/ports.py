@@ -79,8 +79,8 @@ class Output:
             "impact.count|in_step|lost|any"; "impact.<field>" of the last impact and "impacts[k].<field>" of the k-th
             of the last communication step, with field one of time, contact, tooth, closing_speed, impulse,
             "impulse:<contact>", and, shared by all impacts of one instant: instant (a counter from 1), velocity (v_I of
-            the body with teeth [m/s]), energy_lost [J], "speed_before:<body>", "speed:<body>" (after). The largest k says
-            how many impacts, or events, of a step are kept, up to 1000: the last ones; without such outputs 8 and 16.
+            the body with teeth [m/s]), energy_lost [J], "speed_before:<body>", "speed:<body>" (after). The largest k
+            says how many impacts, or events, of a step are kept (the last ones), up to 1000; without any, 8 and 16.
         description: one line for the user.
         unit, display_unit, type: as of `Parameter`.
         nominal: typical magnitude in `unit`, or None.

@@ -39,6 +39,8 @@ _COUNTERS = {
     "FALLING": FLAG,
     "COUNT_INSTANTS": COUNT,
     "STEPS_IN_STEP": COUNT,
+    "COUNT_REJECTED": COUNT,
+    "COUNT_TRIES": COUNT,
 }
 #: Columns of an impact record, the last one for all behind it, and of an event record.
 _RECORD = {

@@ -1,4 +1,4 @@
-"""Simulation of a mechanism in time: where `model` and `engine` meet."""
+"""A mechanism in motion: where `model` and `engine` meet, for FMUs, `batch` and `simulation`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .model.compile import unknown_names
 from .model.event_names import event_name
 from .tables.layout import field_of, pack, state_of
 
-__all__ = ["Event", "Impact", "Simulation", "SimulationError", "StepBudgetError"]
+__all__ = ["Event", "Impact", "MovingMechanism", "SimulationError", "StepBudgetError"]
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -84,7 +84,7 @@ class Event(NamedTuple):
     impulse: float
 
 
-class Simulation:
+class MovingMechanism:
     """One mechanism, from assembly through its motion.
 
     Args:
@@ -103,7 +103,7 @@ class Simulation:
         self.begin(start_time)
 
     @classmethod
-    def over(cls, mechanism: Mechanism, block: Array, library: CDLL | None = None) -> Simulation:
+    def over(cls, mechanism: Mechanism, block: Array, library: CDLL | None = None) -> MovingMechanism:
         """A simulation of what stands in a block; it has to `begin` yet, and begins anew when the block is rewritten.
 
         Args:
