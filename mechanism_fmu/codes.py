@@ -116,8 +116,10 @@ RECORD_INSTANT = 6  # counts instants with impacts from 1: all records of one sh
 RECORD_ENERGY = 7  # lost at this instant
 RECORD_CONTACT_IMPULSES = 8
 
-#: So many impacts of one communication step are kept, the last ones, where no output says otherwise.
+#: So many impacts of one communication step are kept, the last ones, where outputs do not ask for more.
 IMPACT_BUFFER_LENGTH = 8
+#: No more impacts or events of a communication step can be kept.
+MOST_KEPT = 1000
 
 # guards: what an event is about
 GUARD_NONE = -1
@@ -146,7 +148,7 @@ EVENT_NEW_MODE = 4
 EVENT_IMPULSE = 5  # total normal impulse over all contacts [N s]
 EVENT_COLUMNS = 6
 
-#: So many events of one communication step are kept, the last ones, where no output says otherwise.
+#: So many events of one communication step are kept, the last ones, where outputs do not ask for more.
 EVENT_BUFFER_LENGTH = 16
 
 # columns of the state's clock [s]

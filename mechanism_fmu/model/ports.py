@@ -80,7 +80,8 @@ class Output:
             of the last communication step, with field one of time, contact, tooth, closing_speed, impulse,
             "impulse:<contact>", and, shared by all impacts of one instant: instant (a counter from 1), velocity (v_I of
             the body with teeth [m/s]), energy_lost [J], "speed_before:<body>", "speed:<body>" (after). The largest k
-            says how many impacts, or events, of a step are kept (the last ones), up to 1000; without any, 8 and 16.
+            says how many impacts, or events, of a step are kept (the last ones), up to 1000, and at
+            least 8 impacts and 16 events.
         description: one line for the user.
         unit, display_unit, type: as of `Parameter`.
         nominal: typical magnitude in `unit`, or None.

@@ -238,20 +238,16 @@ def reads_members(mechanism: Mechanism) -> bool:
     return any(part in names and quantity not in OF_BEAM for part, _, quantity in sources)
 
 
-#: No more impacts or events of a communication step can be kept.
-MOST_KEPT = 1000
-
-
 def kept(what: str, mechanism: Mechanism, usual: int) -> int:
-    """How many impacts or events of a communication step are kept: as many as there are outputs for.
+    """How many impacts or events of a communication step are kept: as many as there are outputs for, or `usual`.
 
     Args:
         what: "impacts" or "events".
-        mechanism: whose outputs "impacts[k].<field>" or "events[k].<field>" say it: the largest k.
-        usual: so many where there is no such output.
+        mechanism: whose outputs with the source "<what>[k].<field>" say it: the largest k.
+        usual: the least number.
     """
     places = [re.match(rf"{what}\[(\d+)\]\.", output.source) for output in mechanism.outputs]
-    return max((int(place[1]) for place in places if place), default=usual)
+    return max([usual, *(int(place[1]) for place in places if place)])
 
 
 def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
@@ -261,7 +257,7 @@ def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int
         column = _record_column(quantity, mechanism)
         return None if column is None else (codes.LAST_IMPACT, column, 0)
     match = re.fullmatch(r"impacts\[(\d+)\]", part)
-    if match and 1 <= int(match[1]) <= MOST_KEPT:
+    if match and 1 <= int(match[1]) <= codes.MOST_KEPT:
         column = _record_column(quantity, mechanism)
         return None if column is None else (codes.BUFFERED_IMPACT, column, int(match[1]) - 1)
     return None
@@ -272,7 +268,7 @@ def _of_event(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
         columns = {"count": codes.COUNT_EVENTS, "in_step": codes.EVENTS_IN_STEP}
         return (codes.COUNTER, columns[quantity], 0) if quantity in columns else None
     match = re.fullmatch(r"events\[(\d+)\]", part)
-    if match is None or quantity not in _EVENT_FIELDS or not 1 <= int(match[1]) <= MOST_KEPT:
+    if match is None or quantity not in _EVENT_FIELDS or not 1 <= int(match[1]) <= codes.MOST_KEPT:
         return None
     if quantity.endswith("_mode") and len(mechanism.contacts) > MOST_CONTACTS_OF_A_MODE:
         raise MechanismError(

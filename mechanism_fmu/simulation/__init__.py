@@ -6,6 +6,6 @@ from ..moving import (
     SimulationError as SimulationError,
     StepBudgetError as StepBudgetError,
 )
-from .result import Result as Result
+from .result import Result as Result, Statistics as Statistics
 from .simulate import simulate as simulate
 from .simulation import Simulation as Simulation

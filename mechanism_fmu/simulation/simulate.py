@@ -12,7 +12,7 @@ from .. import codes
 from ..model import MechanismError, Output
 from ..model.default_ports import default_outputs
 from ..model.mechanism import Mechanism
-from ..model.sources import MOST_KEPT, resolve_output
+from ..model.sources import resolve_output
 from ..moving import Event, Impact
 from ..tables.method import METHOD
 from .result import Result, Statistics
@@ -148,7 +148,7 @@ def _kept(mechanism: Mechanism) -> tuple[Output, ...]:
     """Outputs that ask for buffers with room for all that can happen at one instant."""
     if not (mechanism.contacts or mechanism.functions or mechanism.patterns):
         return ()
-    place = min(_ROOM * (1 + len(mechanism.contacts) + len(mechanism.functions)), MOST_KEPT)
+    place = min(_ROOM * (1 + len(mechanism.contacts) + len(mechanism.functions)), codes.MOST_KEPT)
     return tuple(Output(f"{what}[{place}].time", f"{what}[{place}].time", "", "s") for what in ("impacts", "events"))
 
 
