@@ -224,6 +224,11 @@ def performing(
         )
 
 
+def may_have_beam(run: Run) -> bool:
+    """Whether something in the FMU could be struck, so that its stress is missed: it reports impacts of contacts."""
+    return bool(len(run.impacts.columns)) and bool(run.logic.contacts or not run.impacts.empty)
+
+
 #: So many steps a run has whose step size is not given.
 _USUAL_STEPS = 1000
 

@@ -109,6 +109,12 @@ class Model:
             if not 0.0 < value < math.inf:
                 raise MechanismError(f"{self.name}: {what} = {value:g} s, but it must be positive and finite.")
 
+    @property
+    def declares_outputs(self) -> bool:
+        """Whether its mechanism has outputs of its own, and not the default ones."""
+        own: Any = self.mechanism.function if isinstance(self.mechanism, _Completed) else self.mechanism
+        return bool(self.outputs or own(self.values()).outputs)
+
     def values(self, **changes: float) -> SimpleNamespace:
         """Parameter values: the defaults with `changes`.
 
