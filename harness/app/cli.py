@@ -21,7 +21,6 @@ main = typer.Typer(
     help="Build planar mechanisms with impacts as FMUs, run them, and see the stress that every impact leaves.",
     epilog="Start with: mechanism-fmu demo",
     no_args_is_help=True,
-    add_completion=False,
     rich_markup_mode="markdown",
     pretty_exceptions_enable=False,
 )
