@@ -57,6 +57,7 @@ class Group(TyperGroup):
     def get_help_option(self, ctx: Any) -> Any:
         """The option --help, False unless it is given."""
         option = super().get_help_option(ctx)
-        if option is not None:
-            option.default = False
+        for flag in (option, *self.params):  # and those of completion, which typer adds
+            if flag is not None and getattr(flag, "is_flag", False) and flag.default is None:
+                flag.default = False
         return option

@@ -111,8 +111,7 @@ def parse_time(text: str | None, option: str, description: Description) -> float
     """
     if text is None:
         return None
-    variable = Variable(option, -1, "Real", "parameter", unit="s", minimum=0.0)
-    return float(parse_value(text, variable, description))
+    return float(parse_value(text, Variable(option, -1, "Real", "parameter", unit="s"), description))
 
 
 def _real(text: str, variable: Variable, description: Description) -> float:

@@ -57,6 +57,36 @@
         link.setAttribute("d", `M0 -6 ${end} H0 a6 6 0 0 1 0 -12 Z`);
       };
     },
+    link(shape, layer, scale) {
+      const group = element("g", { "stroke-linejoin": "round", "stroke-linecap": "round" }, layer);
+      const points = pixels(shape.hull, scale);
+      // once wider in ink, for an edge around the rod or plate
+      for (const [colour, width] of [[INK, 14], [shape.colour, 11]])
+        element("polygon", { points, fill: colour, stroke: colour, "stroke-width": width }, group);
+      if (shape.points.length === 1)
+        element("line", { x2: 7, y2: 0, stroke: INK, "stroke-width": 1.5 }, group); // one sees it turn
+      return (place, value) => group.setAttribute("transform", place + turn(value(shape.angle)));
+    },
+    outline(shape, layer, scale) {
+      const closed = shape.points.length > 2;
+      const line = element(closed ? "polygon" : "polyline", { points: pixels(shape.points, scale),
+        fill: closed ? shape.colour : "none", "fill-opacity": 0.6, stroke: INK, "stroke-width": closed ? 1.5 : 2,
+        "stroke-linejoin": "round" }, layer);
+      return (place, value) => line.setAttribute("transform", place + turn(value(shape.angle)));
+    },
+    spring(shape, layer) {
+      const line = element("path", { fill: "none", stroke: INK, "stroke-width": 1.5, "stroke-linejoin": "round" }, layer);
+      return (place, value, struck, from, to) => line.setAttribute("d", coil(from, to));
+    },
+    rod(shape, layer) {
+      const line = element("path", { fill: "none", stroke: INK, "stroke-width": 3, "stroke-linecap": "round" }, layer);
+      return (place, value, struck, from, to) => line.setAttribute("d", "M" + from + " L" + to);
+    },
+    trace(shape, layer) {
+      element("polyline", { points: shape.path.map((point) => point.join(",")).join(" "), fill: "none",
+        stroke: shape.colour, "stroke-width": 1.5, opacity: 0.7 }, layer);
+      return () => {};
+    },
     hinge(shape, layer) {
       const group = element("g", { stroke: INK, "stroke-width": 1.6, fill: "#fff" }, layer);
       if (typeof shape.at !== "string") {
@@ -77,6 +107,38 @@
     },
   };
 
+  // Points of a body's frame in pixels about its place.
+  function pixels(points, scale) {
+    return points.map(([x, y]) => (scale * x).toFixed(1) + "," + (-scale * y).toFixed(1)).join(" ");
+  }
+
+  // A coil from one place to another: straight ends, and windings that keep their number as it is drawn out.
+  function coil([x0, y0], [x1, y1]) {
+    const [dx, dy] = [x1 - x0, y1 - y0], length = Math.hypot(dx, dy) || 1;
+    const point = (along, beside) => (x0 + along * dx - beside * dy / length).toFixed(1) + " " +
+      (y0 + along * dy + beside * dx / length).toFixed(1);
+    const windings = [...Array(11).keys()].map((k) => "L" + point(0.2 + 0.06 * k, k % 10 ? (k % 2 ? 7 : -7) : 0));
+    return "M" + point(0, 0) + windings.join("") + "L" + point(1, 0);
+  }
+
+  // Where the points of links and the far ends of bars are, by name, at a time.
+  function endsAt(shapes, value) {
+    const ends = {};
+    const where = (place) => typeof place === "string" ? ends[place] : place.map(value);
+    for (const shape of shapes) {
+      const [x, y] = where(shape.at);
+      if (shape.kind === "bar") {
+        const angle = value(shape.angle), length = value(shape.length);
+        ends[shape.name] = [x + length * Math.cos(angle), y + length * Math.sin(angle)];
+      }
+      if (shape.points) {
+        const angle = value(shape.angle), c = Math.cos(angle), s = Math.sin(angle);
+        shape.points.forEach(([a, b], k) => { ends[shape.name + "." + k] = [x + c * a - s * b, y + s * a + c * b]; });
+      }
+    }
+    return where;
+  }
+
   function turn(angle) {
     return " rotate(" + (-angle * 180 / Math.PI).toFixed(3) + ")";
   }
@@ -85,6 +147,12 @@
   function picture(svg, panel, data) {
     const [width, height] = panel.size || [MOST_WIDTH, MOST_HEIGHT];
     const { scale, across, down } = fit(svg, panel.view, width, height, MARGIN);
+    for (const shape of panel.shapes.filter((shape) => shape.kind === "trace"))
+      shape.path = data.time.map((_, frame) => {
+        const value = (number) => typeof number === "number" ? number : number[1] * panel.columns[number[0]][frame];
+        const [x, y] = endsAt(panel.shapes, value)(shape.at);
+        return [across(x), down(y)];
+      });
     const movers = panel.shapes.map((shape) => makers[shape.kind](shape, svg, scale, data.flash));
     return function (time, struck) {
       const before = Math.max(0, Math.min(lastUpTo(data.time, time), data.time.length - 2));
@@ -96,15 +164,11 @@
         const column = panel.columns[number[0]];
         return number[1] * (column[before] + part * (column[after] - column[before]));
       };
-      const ends = {};
+      const where = endsAt(panel.shapes, value);
+      const spot = (place) => { const [x, y] = where(place); return [Number(across(x)), Number(down(y))]; };
       panel.shapes.forEach((shape, i) => {
-        const [x, y] = typeof shape.at === "string" ? ends[shape.at] : shape.at.map(value);
-        if (shape.kind === "bar") {
-          const angle = value(shape.angle), length = value(shape.length);
-          ends[shape.name] = [x + length * Math.cos(angle), y + length * Math.sin(angle)];
-        }
-        const place = "translate(" + across(x) + " " + down(y) + ")";
-        movers[i](place, value, struck);
+        const from = spot(shape.at), to = shape.to && spot(shape.to);
+        movers[i]("translate(" + from.join(" ") + ")", value, struck, from, to);
       });
     };
   }

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..run.drawing import Place, Quantity, Shape
+from ..run.drawing import WITH_POINTS, Place, Quantity, Shape
 from ..run.experiment import Run
 from .motion import Contact, contacts
 from .page import COLOURS, IMPACT_COLOUR, section
@@ -66,7 +66,8 @@ def names_of(shapes: Sequence[Shape]) -> set[str]:
     for shape in shapes:
         quantities += shape.quantities.values()
         quantities += [quantity for point in shape.outline for quantity in point]
-        quantities += [] if isinstance(shape.at, str) else shape.at
+        for place in (shape.at, shape.to):
+            quantities += [] if place is None or isinstance(place, str) else place
     return {quantity.removeprefix("-") for quantity in quantities if isinstance(quantity, str)}
 
 
@@ -84,6 +85,11 @@ def bounds(scene: Scene) -> tuple[float, float, float, float]:
         if shape.kind == "bar":
             ends[shape.name] = _far_end(shape, spot, scene)
             boxes.append(_box(ends[shape.name], 0.0))
+        if shape.kind in WITH_POINTS:
+            for k, (x, y) in enumerate(_points(shape, scene)):
+                ends[f"{shape.name}.{k}"] = _Spot(spot.x, spot.y, spot.slack + math.hypot(x, y))
+        if shape.to is not None:
+            boxes.append(_box(_spot(shape.to, scene, ends), 0.0))
     left, bottom, right, top = np.array(boxes).T
     return float(left.min()), float(bottom.min()), float(right.max()), float(top.max())
 
@@ -104,7 +110,14 @@ def _radius(shape: Shape, scene: Scene) -> float:
     """How far a shape reaches around its place, whichever way it is turned [m]."""
     if shape.kind == "disc":
         return float(np.max(np.abs(scene.value(shape.quantities["radius"]))))
+    if shape.kind in WITH_POINTS:
+        return max(math.hypot(x, y) for x, y in _points(shape, scene))
     return max((abs(scene.at_start(radius)) for radius, _ in shape.outline), default=0.0)
+
+
+def _points(shape: Shape, scene: Scene) -> list[tuple[float, float]]:
+    """The points of a link or outline, in its own frame [m]."""
+    return [(scene.at_start(x), scene.at_start(y)) for x, y in shape.outline]
 
 
 def _box(spot: _Spot, radius: float) -> tuple[float, float, float, float]:
@@ -260,11 +273,38 @@ def _shapes(scene: Scene) -> list[dict[str, Any]]:
             record["count"] = count
             record["pitch"] = (-1 if shape.clockwise else 1) * 2 * math.pi / count
             record["outline"] = [[scene.at_start(radius), scene.at_start(angle)] for radius, angle in shape.outline]
+        if shape.kind in WITH_POINTS:
+            record["points"] = _points(shape, scene)
+        if shape.kind == "link":
+            record["hull"] = hull(record["points"])
+        if shape.to is not None:
+            record["to"] = shape.to if isinstance(shape.to, str) else list(map(number, shape.to))
         if shape.name:
-            record["colour"] = next(colours) if shape.kind == "bar" else _WHEEL
+            record["colour"] = next(colours) if shape.kind in ("bar", "link", "trace") else _WHEEL
         return record
 
     return [shown(shape) for shape in scene.shapes]
+
+
+def hull(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The corners of the convex hull of points, counter-clockwise: two of points on a line, one of equal points.
+
+    Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions, Inf. Process. Lett. 9 (1979).
+    """
+
+    def half(ordered: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+        corners: list[tuple[float, float]] = []
+        for x, y in ordered:
+            while len(corners) > 1:
+                (ax, ay), (bx, by) = corners[-2:]
+                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0.0:
+                    break
+                corners.pop()
+            corners.append((x, y))
+        return corners[:-1]
+
+    ordered = sorted(set(points))
+    return ordered if len(ordered) < 3 else half(ordered) + half(ordered[::-1])
 
 
 def _controls(data: Mapping[str, Any]) -> str:

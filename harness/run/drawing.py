@@ -15,7 +15,7 @@ from .master import recorded_variables
 #: A number, or the name of a variable, with a leading "-" for its negative.
 Quantity = float | str
 
-#: A point (x, y) [m], or the name of the bar whose far end it is.
+#: A point (x, y) [m], the name of the bar whose far end it is, or "<link>.<number>" for a point of a link or outline.
 Place = tuple[Quantity, Quantity] | str
 
 #: The format of drawing.json that is understood.
@@ -28,9 +28,17 @@ _QUANTITIES = {
     "disc": ("radius",),
     "hinge": (),
     "striker": (),
+    "link": ("angle",),
+    "outline": ("angle",),
+    "spring": (),
+    "rod": (),
+    "trace": (),
 }
 
-_NAMED = ("bar", "wheel", "disc")
+_UNNAMED = ("hinge", "striker")
+#: Kinds that are rigid bodies with points, and kinds that reach from one place to another.
+WITH_POINTS = ("link", "outline")
+BETWEEN = ("spring", "rod")
 
 
 @dataclass(frozen=True)
@@ -38,13 +46,16 @@ class Shape:
     """One part of a drawing.
 
     Attributes:
-        kind: "bar", "wheel", "disc", "hinge" (fixed to the ground at a point, moving at a bar's far end) or
-            "striker" (the point where an impact shows).
+        kind: "bar", "wheel", "disc", "hinge" (fixed to the ground at a point, else moving), "striker" (the
+            point where an impact shows), "link" (a body by its points), "outline" (a line through points of a body),
+            "spring", "rod" or "trace" (the path of a point).
         at: where it starts, or its centre.
-        name: of a bar, wheel or disc; "" for the others.
+        name: "" of hinges and strikers.
         quantities: by name: `angle` [rad] and `length` [m] of a bar, `angle` and `count` of a wheel, `radius` [m] of a
             disc.
-        outline: of a wheel, over one pitch: (radius [m], angle from the wheel's x axis [rad]).
+        outline: of a wheel, over one pitch: (radius [m], angle from the wheel's x axis [rad]); of a link or outline
+            its points (x, y) [m] in its own frame.
+        to: the other end of a spring or rod.
         clockwise: whether the outline of a wheel continues clockwise.
     """
 
@@ -54,6 +65,7 @@ class Shape:
     quantities: Mapping[str, Quantity] = field(default_factory=dict)
     outline: tuple[tuple[Quantity, Quantity], ...] = ()
     clockwise: bool = False
+    to: Place | None = None
 
 
 @dataclass(frozen=True)
@@ -123,12 +135,12 @@ class _Reader:
         if not isinstance(kind, str) or kind not in _QUANTITIES:
             raise _DrawingError(f"{label} is of the unknown kind {kind!r}")
         name = raw.get("name", "")
-        if not isinstance(name, str) or (kind in _NAMED and not name):
+        if not isinstance(name, str) or (kind not in _UNNAMED and not name):
             raise _DrawingError(f"{label} has no name")
         if name:
             label = f"{kind} '{name}'"
-        outline = raw.get("outline", [])
-        if not isinstance(outline, list) or (kind == "wheel" and not outline):
+        outline = raw.get("points" if kind in WITH_POINTS else "outline", [])
+        if not isinstance(outline, list) or (kind in ("wheel", *WITH_POINTS) and not outline):
             raise _DrawingError(f"{label} has no outline")
         shape = Shape(
             kind,
@@ -137,9 +149,12 @@ class _Reader:
             {key: self._quantity(raw.get(key), f"{key} of {label}") for key in _QUANTITIES[kind]},
             tuple(self._pair(point, f"outline of {label}") for point in outline),
             raw.get("clockwise") is True,
+            self._place(raw.get("to"), label) if kind in BETWEEN else None,
         )
         if kind == "bar":
             self._bars.add(name)
+        if kind in WITH_POINTS:
+            self._bars |= {f"{name}.{k}" for k in range(len(outline))}
         return shape
 
     def _place(self, raw: Any, label: str) -> Place:

@@ -48,7 +48,19 @@ from .curves.profiles import (
     spline_profile as spline_profile,
 )
 from .default_ports import default_outputs as default_outputs
-from .drawing import Bar as Bar, Disc as Disc, Hinge as Hinge, Shape as Shape, Striker as Striker, Wheel as Wheel
+from .drawing import (
+    Bar as Bar,
+    Disc as Disc,
+    Hinge as Hinge,
+    Link as Link,
+    Outline as Outline,
+    Rod as Rod,
+    Shape as Shape,
+    Spring as Spring,
+    Striker as Striker,
+    Trace as Trace,
+    Wheel as Wheel,
+)
 from .errors import MechanismError as MechanismError
 from .findings import Finding as Finding
 from .forces import *  # noqa: F403 a new force element is public by its own file

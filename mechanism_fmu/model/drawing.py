@@ -14,7 +14,8 @@ from .errors import MechanismError
 #: A number, or the name of the parameter, calculated parameter or output that holds it; "-name" is its negative.
 Quantity = float | str
 
-#: A point (x, y) [m] in the global frame, or the name of an earlier bar, for its far end.
+#: A point (x, y) [m] in the global frame, or the name of an earlier bar, for its far end, or "<link>.<number>" for a
+#: point of an earlier link or outline, counted from 0.
 Place = tuple[Quantity, Quantity] | str
 
 
@@ -95,8 +96,81 @@ class Striker:
     at: Place
 
 
+@dataclass(frozen=True)
+class Link:
+    """A rigid body as its points show it: a rod between two, else the plate that their hull makes.
+
+    Attributes:
+        name: as of `Bar`.
+        at: the origin of the body's frame.
+        angle: of the frame [rad].
+        points: (x, y) [m] in the frame, one or more, where other shapes may start. They do not move in it: an output
+            counts with its value at the start.
+    """
+
+    name: str
+    at: Place
+    angle: Quantity
+    points: tuple[tuple[Quantity, Quantity], ...]
+
+
+@dataclass(frozen=True)
+class Outline:
+    """A line through points of a rigid body, closed where there are three or more: a plate, a wall, a guide.
+
+    Attributes:
+        name, at, angle, points: as of `Link`.
+    """
+
+    name: str
+    at: Place
+    angle: Quantity
+    points: tuple[tuple[Quantity, Quantity], ...]
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A coil spring between two places.
+
+    Attributes:
+        name: as of `Bar`.
+        at, to: its ends.
+    """
+
+    name: str
+    at: Place
+    to: Place
+
+
+@dataclass(frozen=True)
+class Rod:
+    """A thin rod between two places.
+
+    Attributes:
+        name: as of `Bar`.
+        at, to: its ends.
+    """
+
+    name: str
+    at: Place
+    to: Place
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The path of a point over the whole run.
+
+    Attributes:
+        name: as of `Bar`.
+        at: the point.
+    """
+
+    name: str
+    at: Place
+
+
 #: Any shape of a drawing.
-Shape = Bar | Wheel | Disc | Hinge | Striker
+Shape = Bar | Wheel | Disc | Hinge | Striker | Link | Outline | Spring | Rod | Trace
 
 
 def square_tooth(gap: float, tooth: float, share: float, count: int) -> tuple[tuple[float, float], ...]:
@@ -129,26 +203,35 @@ def check_drawing(drawing: Collection[Shape], variables: Collection[str]) -> Non
         label = f"{type(shape).__name__} {name!r}" if name else f"{type(shape).__name__} (shape {number})"
         if name in names:
             raise MechanismError(f"Drawing: two shapes are named {name!r}; give each a name of its own.")
-        if isinstance(shape.at, str) and shape.at not in bars:
-            raise MechanismError(
-                f"Drawing, {label}: there is no bar {shape.at!r} before it to start from; "
-                f"bars before it: {', '.join(sorted(bars)) or 'none'}. Or give a point (x, y)."
-            )
+        for place in places(shape):
+            if isinstance(place, str) and place not in bars:
+                raise MechanismError(
+                    f"Drawing, {label}: there is no bar {place!r} before it to start from; "
+                    f"bars before it: {', '.join(sorted(bars)) or 'none'}. Or give a point (x, y)."
+                )
         for quantity in quantities(shape):
             _check_quantity(quantity, label, variables)
         names |= {name} - {""}
         if isinstance(shape, Bar):
             bars.add(name)
+        if isinstance(shape, Link | Outline):
+            bars |= {f"{name}.{k}" for k in range(len(shape.points))}
+
+
+def places(shape: Shape) -> tuple[Place, ...]:
+    """Where a shape is: one place, or two."""
+    return (shape.at, shape.to) if isinstance(shape, Spring | Rod) else (shape.at,)
 
 
 def quantities(shape: Shape) -> Iterator[Quantity]:
     """All numbers of a shape, given or named."""
-    if not isinstance(shape.at, str):
-        yield from shape.at
+    for place in places(shape):
+        if not isinstance(place, str):
+            yield from place
     for field in fields(shape):
-        if field.name == "outline" and isinstance(shape, Wheel):
-            yield from (quantity for point in shape.outline for quantity in point)
-        elif field.name not in ("name", "at", "clockwise"):
+        if field.name in ("outline", "points"):
+            yield from (quantity for point in getattr(shape, field.name) for quantity in point)
+        elif field.name not in ("name", "at", "to", "clockwise"):
             yield getattr(shape, field.name)
 
 

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from types import SimpleNamespace
+from functools import cached_property
+from types import EllipsisType, SimpleNamespace
 from typing import Any, Protocol
 
 from .analysis import Analysis
+from .default_drawing import Plan, draw, plan_of
 from .default_ports import default_outputs
 from .drawing import Shape
 from .errors import MechanismError
 from .findings import Finding, messages
 from .mechanism import DEFAULT_SETTINGS, Mechanism, Settings
 from .ports import Calculated, Input, Output, Parameter
+from .symbol import Recorder
 
 
 def _nothing(_values: SimpleNamespace) -> tuple[()]:
@@ -32,9 +36,19 @@ class _Completed:
     inputs: tuple[Input, ...]
     outputs: tuple[Output, ...]
     calculated: Callable[[SimpleNamespace], tuple[Calculated, ...]]
-    parameters: tuple[str, ...]
+    parameters: tuple[Parameter, ...]
+    draws: bool
 
     def __call__(self, values: SimpleNamespace) -> Mechanism:
+        found = self._completed(values)
+        if not self.draws or not isinstance(found, Mechanism):
+            return found
+        drawn = draw(found, self.plan.size, self.plan.follows)
+        return replace(
+            found, outputs=(*found.outputs, *drawn.outputs), calculated=(*found.calculated, *drawn.calculated)
+        )
+
+    def _completed(self, values: SimpleNamespace) -> Mechanism:
         found: Any = self.function(values)
         if not isinstance(found, Mechanism):
             return found  # type: ignore[no-any-return]  # a user's function may return anything: objected to elsewhere
@@ -47,7 +61,24 @@ class _Completed:
         )
         if whole.outputs or not _is_readable(whole):
             return whole
-        return replace(whole, outputs=default_outputs(whole, self.parameters))
+        taken = [getattr(parameter, "name", "") for parameter in self.parameters]
+        return replace(whole, outputs=default_outputs(whole, taken))
+
+    @cached_property
+    def plan(self) -> Plan:
+        """Which numbers of the default drawing follow from parameters: found once, by symbols for all of them."""
+        recorder = Recorder()
+        symbols = SimpleNamespace(**{p.name: recorder.parameter(k) for k, p in enumerate(self.parameters)})
+        symbolic: Mechanism | None = None
+        with suppress(ArithmeticError, AttributeError, MechanismError, TypeError, ValueError):
+            symbolic = self._completed(symbols)
+        return plan_of(self._completed(SimpleNamespace(**{p.name: p.start for p in self.parameters})), symbolic)
+
+    @cached_property
+    def shapes(self) -> tuple[Shape, ...]:
+        """Of the default drawing."""
+        mechanism = self._completed(SimpleNamespace(**{p.name: p.start for p in self.parameters}))
+        return tuple(draw(mechanism, self.plan.size, self.plan.follows).shapes)
 
 
 def _is_readable(mechanism: Mechanism) -> bool:
@@ -71,7 +102,8 @@ class Model:
             it is asked first, so it must not fail where `mechanism` would.
         warnings: likewise, for what is legal but deserves a line in the log.
         stop_time, step_size: default experiment [s].
-        drawing: how its FMU can be drawn, in terms of the FMU's variables; () when it cannot.
+        drawing: how its FMU can be drawn, in terms of the FMU's variables; () when it cannot. None, and `...` among the
+            shapes, stand for the default drawing of its bodies, joints, springs and contacts.
         analysis: what can be analysed of a run, in terms of the FMU's variables; () when nothing can.
         author: who made it; "" leaves it open.
         license: under which others may use it, one line; "" leaves it open.
@@ -91,7 +123,7 @@ class Model:
     warnings: Callable[[SimpleNamespace], Sequence[Finding]] = _nothing
     stop_time: float = 1.0
     step_size: float = 1e-3
-    drawing: tuple[Shape, ...] = ()
+    drawing: tuple[Shape | EllipsisType, ...] | None = None
     analysis: tuple[Analysis, ...] = ()
     author: str = ""
     license: str = ""
@@ -102,9 +134,9 @@ class Model:
     def __post_init__(self) -> None:
         own = self.mechanism.function if isinstance(self.mechanism, _Completed) else self.mechanism
         if callable(own):
-            known = self.parameters if isinstance(self.parameters, tuple) else ()  # a mistake is objected to elsewhere
-            names = tuple(getattr(parameter, "name", "") for parameter in known)
-            object.__setattr__(self, "mechanism", _Completed(own, self.inputs, self.outputs, self.calculated, names))
+            draws = self.drawing is None or any(shape is ... for shape in self.drawing)
+            completed = _Completed(own, self.inputs, self.outputs, self.calculated, self.parameters, draws)
+            object.__setattr__(self, "mechanism", completed)
         for what, value in (("stop_time", self.stop_time), ("step_size", self.step_size)):
             if not 0.0 < value < math.inf:
                 raise MechanismError(f"{self.name}: {what} = {value:g} s, but it must be positive and finite.")
@@ -114,6 +146,14 @@ class Model:
         """Whether its mechanism has outputs of its own, and not the default ones."""
         own: Any = self.mechanism.function if isinstance(self.mechanism, _Completed) else self.mechanism
         return bool(self.outputs or own(self.values()).outputs)
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """The drawing, with the shapes of the default one in their place."""
+        completed = self.mechanism
+        default = completed.shapes if isinstance(completed, _Completed) and completed.draws else ()
+        given = (...,) if self.drawing is None else self.drawing
+        return tuple(shape for one in given for shape in (default if isinstance(one, EllipsisType) else (one,)))
 
     def values(self, **changes: float) -> SimpleNamespace:
         """Parameter values: the defaults with `changes`.

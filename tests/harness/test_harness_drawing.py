@@ -47,7 +47,7 @@ def test_shapes_are_read_in_their_order(tmp_path: Path) -> None:
         (ARM | {"at": [0]}, "place of bar 'arm' is no pair of numbers"),
         (ARM | {"at": "arm"}, "bar 'arm' starts from 'arm', which is no bar before it"),
         (ARM | {"name": ""}, "shape 1 has no name"),
-        (ARM | {"kind": "spring"}, "shape 1 is of the unknown kind 'spring'"),
+        (ARM | {"kind": "tube"}, "shape 1 is of the unknown kind 'tube'"),
         (ARM | {"kind": ["bar"]}, "unknown kind"),
         (WHEEL | {"outline": []}, "wheel 'wheel' has no outline"),
         (WHEEL | {"outline": [1]}, "outline of wheel 'wheel' is no pair"),

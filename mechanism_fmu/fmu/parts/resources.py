@@ -36,12 +36,12 @@ def drawing(model: Model) -> dict[str, bytes]:
     Raises:
         MechanismError: the drawing names what the FMU does not have; see `check_drawing`.
     """
-    if not model.drawing:
+    if not model.shapes:
         return {}
     # Inputs are left out: an FMU need not give back what was set. Buffered impacts are no state of the mechanism.
     known = {v.name for v in variables_of(model) if v.causality != "input" and "[" not in v.name}
-    check_drawing(model.drawing, known)
-    shapes = [{"kind": type(shape).__name__.lower(), **asdict(shape)} for shape in model.drawing]
+    check_drawing(model.shapes, known)
+    shapes = [{"kind": type(shape).__name__.lower(), **asdict(shape)} for shape in model.shapes]
     text = json.dumps({"format": FORMAT, "shapes": shapes}, separators=(",", ":"), allow_nan=False)
     return {DRAWING: f"{text}\n".encode()}
 

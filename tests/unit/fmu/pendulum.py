@@ -53,4 +53,5 @@ MODEL = Model(
     _mechanism,
     stop_time=2.0,
     step_size=1e-2,
+    drawing=(),
 )

@@ -54,7 +54,7 @@ def test_outputs_that_change_at_impacts_only_are_discrete_and_depend_on_nothing_
 
 def test_a_body_whose_name_begins_like_an_impact_is_continuous() -> None:
     mechanism = Mechanism((Body("impactor", 1.0, 1.0),), outputs=(Output("x", "impactor.x", "", "m"),))
-    (variable,) = variables_of(Model("M", "", (), lambda _: mechanism))
+    (variable,) = variables_of(Model("M", "", (), lambda _: mechanism, drawing=()))
     assert variable.variability == "continuous"
 
 

@@ -9,7 +9,7 @@ BODIES = (Body("body", 1.0, 1.0, (0.0, 0.0, 0.0)),)
 
 
 def model(mechanism: Mechanism, *, with_parameters: bool = True) -> Model:
-    return Model("M", "A body", settings_parameters() if with_parameters else (), lambda values: mechanism)
+    return Model("M", "A body", settings_parameters() if with_parameters else (), lambda values: mechanism, drawing=())
 
 
 def test_settings_among_the_parameters_are_those_of_a_mechanism_that_gives_none() -> None:

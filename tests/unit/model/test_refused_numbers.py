@@ -112,19 +112,9 @@ PARTS: list[tuple[Any, str]] = [
     (replace(LIMIT, name="x"), "functions"),
     (Settings(), "settings"),
 ]
-#: What the docstrings allow besides "finite": an argument's kind is looked up by its name.
-POSITIVE = ("mass", "inertia", "tooth_length", "distance", "radius_i", "radius_j", "inductance", "young")
-NOT_NEGATIVE = (
-    "friction",
-    "friction_radius",
-    "resistance",
-    "voltage",
-    "gain",
-    "integral_gain",
-    "anti_windup",
-    "limit",
-    "free_length",
-)
+#: What the docstrings allow besides "finite": of force elements their classes say it, else the argument's name.
+POSITIVE = ("mass", "inertia", "tooth_length", "distance", "radius_i", "radius_j", "young")
+NOT_NEGATIVE = ("friction", "friction_radius")
 SWITCHES = ("enabled", "closed", "guided", "unilateral")
 DIRECTIONS = ("axis_i", "axis_j", "direction_j", "normal", "boundary_normal")
 #: Arguments that a message calls otherwise.
@@ -136,13 +126,13 @@ def bad_values(part: Any, name: str) -> list[float]:
     bad = [math.nan, math.inf, -math.inf]
     if name == "pitch":
         return [*bad, 0.0] if isinstance(part, CircularPattern) else [*bad, 0.0, -0.1]
-    if name in NOT_NEGATIVE or (name in ("stiffness", "damping") and not isinstance(part, SlipClutch)):
+    if name in NOT_NEGATIVE or name in getattr(part, "not_negative", ()):
         return [*bad, -1e-300, -5.0]
     if isinstance(part, Disk) and name in ("mass", "inertia"):
         return [*bad, -1.0]
     if isinstance(part, RevoluteTranslational) and name == "distance":
         return bad
-    if name in POSITIVE or name in ("stiffness", "damping"):
+    if name in POSITIVE or name in getattr(part, "positive", ()):
         return [*bad, 0.0, -1.0]
     if name in SWITCHES:
         return [*bad, 0.5, -1.0, 2.0]
@@ -207,6 +197,7 @@ def test_every_kind_of_part_is_there() -> None:
         "Term",
         "Wheel",
     }
+    others |= {"Link", "Outline", "Rod", "Spring", "Trace"}
     # what is to be analysed is checked at the build: tests/unit/fmu/test_analysis_file.py
     others |= {"Arm", "ImpactStress", "SawtoothWheel", "SeriesCompliance", "Strut"}
     others |= {"RectangularTooth", "TableBeam", "TrapezoidTooth", "WedgeTooth"}

@@ -68,7 +68,9 @@ def _mechanism(values):
     return Mechanism((Body("body", sqrt(4 + a * a), 2.0, start, (sin(a) / 3, 7 - cos(b), atan2(0.5, b))),))
 
 
-MODEL = Model("Model", "", (Parameter("a", 0.3, "", minimum=-9, maximum=9), Parameter("b", 0.1, "")), _mechanism)
+MODEL = Model(
+    "Model", "", (Parameter("a", 0.3, "", minimum=-9, maximum=9), Parameter("b", 0.1, "")), _mechanism, drawing=()
+)
 
 
 @settings(deadline=None)

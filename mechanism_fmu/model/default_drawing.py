@@ -1,0 +1,229 @@
+"""The drawing of a model that gives none: bodies through their joints, springs, guides, contacts, pitch circles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import chain, count
+from typing import Any
+
+from ..tables.kinds import FORCES
+from .body import GROUND
+from .contacts import PointLineContact
+from .drawing import Disc, Hinge, Link, Outline, Quantity, Rod, Shape, Spring, Striker
+from .functions import Number, is_plain
+from .mechanism import Mechanism
+from .ports import Calculated, Output
+
+#: Which fields of a part name a body and a point of it.
+_ENDS = (("body_i", "point_i"), ("body_j", "point_j"), ("body", "point"), ("reaction", "reaction_point"))
+#: Springs between two points, by their rows.
+_SPRINGS = ("spring_damper", "nonlinear_spring")
+#: Half the length of the straight line of a guide or contact, in parts of the mechanism's size.
+_REACH = 0.5
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is decided once for a model, whatever its parameters' values are.
+
+    Attributes:
+        follows: of each number of the drawing, in order, whether it follows from parameters.
+        size: of the mechanism at the default values [m].
+    """
+
+    follows: tuple[bool, ...]
+    size: float
+
+
+@dataclass
+class Drawn:
+    """What comes of a mechanism: shapes, and the variables that they need besides the model's own.
+
+    Numbers that follow from parameters become calculated parameters; poses are outputs, those that are there already
+    or new ones.
+
+    Attributes:
+        mechanism: it.
+        size: of the mechanism [m].
+        follows: of each number in order whether it is a calculated parameter; where the list ends, symbols are.
+    """
+
+    mechanism: Mechanism
+    size: float
+    follows: list[bool] = field(default_factory=list)
+    shapes: list[Shape] = field(default_factory=list)
+    calculated: list[Calculated] = field(default_factory=list)
+    outputs: list[Output] = field(default_factory=list)
+    points: dict[str, list[tuple[Quantity, Quantity]]] = field(default_factory=dict)
+    numbers: int = 0
+
+    def number(self, value: Number, name: str) -> Quantity:
+        """A number of the drawing: itself, or the name of the calculated parameter that holds it."""
+        if self.numbers == len(self.follows):
+            self.follows.append(not is_plain(value))
+        self.numbers += 1
+        if not self.follows[self.numbers - 1]:
+            return float(value) if is_plain(value) else 0.0
+        name = f"drawing_{name}"
+        if any(known.name == name for known in self.mechanism.calculated):
+            return name  # of a mechanism that another model has drawn
+        self.calculated.append(Calculated(name, value, "Drawing: a number of its shape", "m"))
+        return name
+
+    def vertex(self, body: str, point: tuple[Number, Number]) -> int:
+        """The place of a point among those of a body."""
+        known = self.points.setdefault(body, [])
+        name = f"{body}_{len(known)}"
+        known.append((self.number(point[0], f"{name}_x"), self.number(point[1], f"{name}_y")))
+        return len(known) - 1
+
+    def pose(self, body: str) -> tuple[tuple[Quantity, Quantity], Quantity]:
+        """Place and angle of a body, as names of outputs."""
+        if body == GROUND:
+            return (0.0, 0.0), 0.0
+        x, y, angle = (self._output(body, what, unit) for what, unit in (("x", "m"), ("y", "m"), ("angle", "rad")))
+        return (x, y), angle
+
+    def _output(self, body: str, what: str, unit: str) -> str:
+        source = f"{body}.{what}"
+        for output in (*self.mechanism.outputs, *self.outputs):
+            if output.source == source:
+                return output.name
+        taken = {output.name for output in self.mechanism.outputs} | {port.name for port in self.mechanism.inputs}
+        names = chain([f"{body}_{what}"], (f"{body}_{what}_{k}" for k in count(2)))
+        name = next(n for n in names if n not in taken)
+        self.outputs.append(Output(name, source, f"Drawing: {what} of {body}", unit))
+        return name
+
+
+def plan_of(reference: Mechanism, symbolic: Mechanism | None) -> Plan:
+    """What is decided once for a model.
+
+    Args:
+        reference: the mechanism for the default values.
+        symbolic: the same with symbols for the parameters; None where the model's function does not take them: every
+            number then counts as one that follows from parameters.
+    """
+    size = _size(reference)
+    drawn = draw(symbolic or reference, size)
+    return Plan(tuple(drawn.follows) if symbolic else (True,) * len(drawn.follows), size)
+
+
+def draw(mechanism: Mechanism, size: float, follows: Sequence[bool] = ()) -> Drawn:
+    """Shapes for a mechanism, with the calculated parameters and outputs that they need besides those that are there.
+
+    Args:
+        mechanism: its numbers may be symbolic.
+        size: of the mechanism [m].
+        follows: see `Plan`; () asks the numbers themselves.
+    """
+    drawn = Drawn(mechanism, size, [*follows])
+    hinges = [*_hinges(drawn)]
+    springs = [*_springs(drawn)]
+    outlines = [*_outlines(drawn)]
+    rims = [*_pitch_circles(drawn)]
+    links = []
+    for body in mechanism.bodies:
+        if body.name in drawn.points or not getattr(body, "outline", ()):
+            at, angle = drawn.pose(body.name)
+            links.append(Link(body.name, at, angle, tuple(drawn.points.get(body.name, [(0.0, 0.0)]))))
+    # what others start from comes first; wheels and plates lie under links, hinges on them
+    drawn.shapes = [*outlines, *rims, *links, *springs, *hinges]
+    return drawn
+
+
+def _ends(part: Any) -> Iterator[tuple[str, tuple[Number, Number]]]:
+    for body, point in _ENDS:
+        if hasattr(part, body) and hasattr(part, point):
+            yield getattr(part, body), getattr(part, point)
+
+
+def _place(drawn: Drawn, body: str, point: tuple[Number, Number], name: str) -> Any:
+    """A place of a drawing: on the ground a point, on a body one of its link's."""
+    if body == GROUND:
+        return drawn.number(point[0], f"{name}_x"), drawn.number(point[1], f"{name}_y")
+    return f"{body}.{drawn.vertex(body, point)}"
+
+
+def _hinges(drawn: Drawn) -> Iterator[Shape]:
+    """Pins, and the points of all other joints and contacts on their bodies."""
+    for joint in drawn.mechanism.joints:
+        ends = [*_ends(joint)]
+        if joint.row == "revolute":
+            yield Hinge(_pin(drawn, ends, joint.name))
+        elif joint.row == "distance":
+            yield Rod(joint.name, *(_place(drawn, *end, f"{joint.name}_{k}") for k, end in enumerate(ends)))
+        else:
+            for body, point in ends:
+                if body != GROUND:
+                    drawn.vertex(body, point)
+    for contact in drawn.mechanism.contacts:
+        if isinstance(contact, PointLineContact):
+            yield Striker(_place(drawn, contact.body_i, contact.point_i, f"{contact.name}_point"))
+
+
+def _pin(drawn: Drawn, ends: Sequence[tuple[str, tuple[Number, Number]]], name: str) -> Any:
+    """Both ends of a pin are points of their bodies; it is drawn where it is fixed, or on the first of them."""
+    places = [_place(drawn, body, point, name) for body, point in ends]
+    return next((place for place in places if not isinstance(place, str)), places[0])
+
+
+def _springs(drawn: Drawn) -> Iterator[Shape]:
+    for force in drawn.mechanism.forces:
+        if force.row in _SPRINGS:
+            start, end = (_place(drawn, *e, f"{force.name}_{k}") for k, e in enumerate(_ends(force)))
+            yield Spring(force.name, start, end)
+        elif FORCES.columns(force.row)[:1] == ("point.x",):
+            for body, point in _ends(force):
+                if body != GROUND:
+                    drawn.vertex(body, point)
+
+
+def _outlines(drawn: Drawn) -> Iterator[Shape]:
+    """Plates, and the straight lines of guides and contacts."""
+    for body in drawn.mechanism.bodies:
+        outline = getattr(body, "outline", ())
+        if outline:
+            at, angle = drawn.pose(body.name)
+            yield Outline(f"{body.name} (plate)", at, angle, tuple(_points(drawn, outline, f"{body.name}_outline")))
+    for contact in drawn.mechanism.contacts:
+        if isinstance(contact, PointLineContact):
+            nx, ny = contact.normal
+            yield _line(drawn, contact.name, contact.body_j, contact.line_point, (-ny, nx))
+    for joint in drawn.mechanism.joints:
+        for side in ("i", "j"):
+            axis, body = getattr(joint, f"axis_{side}", None), getattr(joint, f"body_{side}")
+            if axis is not None and (body == GROUND or joint.row == "revolute_translational"):
+                yield _line(drawn, joint.name, body, getattr(joint, f"point_{side}"), axis)
+                break
+
+
+def _line(drawn: Drawn, name: str, body: str, point: tuple[Number, Number], along: tuple[Number, Number]) -> Outline:
+    reach = _REACH * drawn.size
+    ends = [(point[0] + k * reach * along[0], point[1] + k * reach * along[1]) for k in (-1.0, 1.0)]
+    at, angle = drawn.pose(body)
+    return Outline(name, at, angle, tuple(_points(drawn, ends, name)))
+
+
+def _points(drawn: Drawn, points: Sequence[tuple[Number, Number]], name: str) -> Iterator[tuple[Quantity, Quantity]]:
+    for k, (x, y) in enumerate(points):
+        yield drawn.number(x, f"{name}_{k}_x"), drawn.number(y, f"{name}_{k}_y")
+
+
+def _pitch_circles(drawn: Drawn) -> Iterator[Shape]:
+    for joint in drawn.mechanism.joints:
+        for side in ("i", "j"):
+            radius, body = getattr(joint, f"radius_{side}", None), getattr(joint, f"body_{side}")
+            if radius is not None and body != GROUND:
+                at, _ = drawn.pose(body)
+                yield Disc(f"{body} ({joint.name})", at, drawn.number(radius, f"{joint.name}_radius_{side}"))
+
+
+def _size(mechanism: Mechanism) -> float:
+    """How far a mechanism of plain numbers reaches [m]; 1 where it shows no length."""
+    parts = (*mechanism.joints, *mechanism.forces, *mechanism.contacts)
+    points = [point for part in parts for _, point in _ends(part)]
+    numbers = [float(x) for point in points for x in point]
+    numbers += [float(x) for body in mechanism.bodies for x in body.start[:2]]
+    return max(map(abs, numbers), default=0.0) or 1.0

@@ -1,0 +1,132 @@
+"""The drawing that a model gets that gives none: its shapes, and the variables that they need."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+import models
+from mechanism_fmu.fmu.parts.resources import DRAWING, drawing
+from mechanism_fmu.model import (
+    GROUND,
+    Body,
+    Distance,
+    Gears,
+    Hinge,
+    Link,
+    Mechanism,
+    Model,
+    NonlinearSpring,
+    Outline,
+    Output,
+    Parameter,
+    PointLineContact,
+    Revolute,
+    RevoluteTranslational,
+    Rod,
+    Spring,
+    SpringDamper,
+    Striker,
+    TorsionSpring,
+    Trace,
+    compile_mechanism,
+)
+from mechanism_fmu.model.trace import trace
+
+LENGTH = (Parameter("length", 0.4, "Length", "m", 0.1, 1.0),)
+ANGLE = Output("angle", "rod.angle", "", "rad")
+
+
+def pendulum(values: SimpleNamespace) -> Mechanism:
+    half = values.length / 2
+    return Mechanism(
+        (Body("rod", 1.0, 0.02, (half, 0.0, 0.0)),),
+        (Revolute("pin", "rod", (-half, 0.0), GROUND, (0.1, 0.0)),),
+        forces=(SpringDamper("spring", "rod", (half, 0.0), GROUND, (0.3, -0.5), 10.0, 0.3),),
+        outputs=(ANGLE,),
+        held=("rod.angle",),
+    )
+
+
+MODEL = Model("Pendulum", "", LENGTH, pendulum)
+
+
+def test_a_body_is_drawn_by_its_joints_and_springs_and_poses_become_outputs() -> None:
+    assert MODEL.shapes == (
+        Link("rod", ("rod_x", "rod_y"), "angle", (("drawing_rod_0_x", 0.0), ("drawing_rod_1_x", 0.0))),
+        Spring("spring", "rod.1", (0.3, -0.5)),
+        Hinge((0.1, 0.0)),
+    )
+    mechanism = MODEL.build(MODEL.values(length=0.6))
+    assert [(o.name, o.source) for o in mechanism.outputs] == [
+        ("angle", "rod.angle"),
+        ("rod_x", "rod.x"),
+        ("rod_y", "rod.y"),
+    ]
+    assert [(c.name, c.value) for c in mechanism.calculated] == [("drawing_rod_0_x", -0.3), ("drawing_rod_1_x", 0.3)]
+
+
+def test_the_file_in_the_fmu_has_it_and_it_can_be_traced() -> None:
+    assert b'"kind":"link","name":"rod"' in drawing(MODEL)[DRAWING]
+    assert trace(MODEL).evaluate(MODEL.values(length=0.7)).output_value[-2] == pytest.approx(-0.35)
+
+
+def test_a_model_that_cannot_be_traced_is_drawn_all_the_same() -> None:
+    def branching(values: SimpleNamespace) -> Mechanism:
+        return pendulum(values) if values.length > 0.2 else pendulum(SimpleNamespace(length=0.2))
+
+    model = Model("Pendulum", "", LENGTH, branching)
+    assert model.shapes[0].points[0][0] == "drawing_rod_0_x"
+    found = {c.name: c.value for c in model.build(model.values(length=0.15)).calculated}
+    assert found["drawing_rod_0_x"] == -0.1
+    assert found["drawing_pin_x"] == 0.1
+
+
+def test_shapes_are_added_to_it_or_replace_it() -> None:
+    trace_of_the_end = Trace("end", "rod.1")
+    assert replace(MODEL, drawing=(..., trace_of_the_end)).shapes == (*MODEL.shapes, trace_of_the_end)
+    replaced = replace(MODEL, drawing=(Hinge((0.0, 0.0)),))
+    assert replaced.shapes == (Hinge((0.0, 0.0)),)
+    assert replaced.build(replaced.values()).outputs == (ANGLE,)
+    assert replace(MODEL, drawing=()).shapes == ()
+
+
+def test_other_parts_and_names_that_are_taken() -> None:
+    block = Body("block", 1.0, 0.1, (0.5, 0.5, 0.0))
+    wheel = Body("wheel", 1.0, 0.1, (1.0, 0.0, 0.0))
+    loose = Body("loose", 1.0, 0.1, (2.0, 0.0, 0.0))
+    mechanism = Mechanism(
+        (block, wheel, loose),
+        (
+            RevoluteTranslational("guide", GROUND, (0.0, 0.5), (1.0, 0.0), "block", (0.0, 0.0)),
+            Distance("strut", "block", (0.1, 0.0), "wheel", (0.0, 0.2), 0.6),
+            Gears("mesh", "block", 0.1, 0.0, "wheel", 0.2, 0.0),
+        ),
+        contacts=(PointLineContact("stop", "block", (0.1, -0.1), GROUND, (0.0, 0.2), (0.0, 1.0)),),
+        forces=(
+            NonlinearSpring("buffer", "block", (0.0, 0.1), "wheel", (0.0, 0.0), law=lambda x, v: x),
+            TorsionSpring("coil", "wheel"),
+        ),
+        outputs=(Output("block_x", "wheel.x", "", "m"),),
+    )
+    model = Model("Parts", "", (), lambda _: mechanism)
+    shapes = model.shapes
+    assert {type(shape) for shape in shapes} >= {Outline, Link, Spring, Rod, Striker}
+    by_name = {getattr(shape, "name", ""): shape for shape in shapes}
+    assert by_name["guide"].points == ((-1.0, 0.5), (1.0, 0.5))
+    assert by_name["stop"].points == ((1.0, 0.2), (-1.0, 0.2))  # through its point, across its normal
+    assert by_name["block"].at == ("block_x_2", "block_y")
+    assert by_name["wheel"].at[0] == "block_x"
+    assert by_name["loose"].points == ((0.0, 0.0),)
+    assert by_name["block (mesh)"].radius == 0.1
+    assert by_name["buffer"].at.startswith("block.")
+    drawing(model)  # which checks it
+    compile_mechanism(model.build(model.values()))
+
+
+@pytest.mark.parametrize("name", models.available())
+def test_every_model_could_be_drawn_so(name: str) -> None:
+    model = replace(models.load(name).MODEL, drawing=None)
+    assert drawing(model)
+    compile_mechanism(model.build(model.values()))
+    trace(model)
