@@ -41,7 +41,7 @@ class _Completed:
 
     def __call__(self, values: SimpleNamespace) -> Mechanism:
         found = self._completed(values)
-        if not self.draws or not isinstance(found, Mechanism):
+        if not self.draws or not isinstance(found, Mechanism) or not _is_readable(found):
             return found
         drawn = draw(found, self.plan.size, self.plan.follows)
         return replace(

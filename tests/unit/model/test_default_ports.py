@@ -113,7 +113,7 @@ def test_a_model_without_outputs_has_them_and_one_with_has_its_own():
     variables = model_description(model, "").iter("ScalarVariable")
     assert {"arm_angle", "arm_x"} <= {variable.get("name") for variable in variables}
     one = default_outputs(arm())[2]
-    own = Model("Arm", "", (), lambda values: arm(), outputs=(one,))
+    own = Model("Arm", "", (), lambda values: arm(), outputs=(one,), drawing=())
     assert own.build(own.values()).outputs == (one,)
     assert (model.declares_outputs, own.declares_outputs) == (False, True)
 
