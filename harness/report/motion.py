@@ -292,8 +292,12 @@ def modes_section(run: Run) -> str:
         return ""
     note = (
         "The state charts run beside each other. An arrow has its event, [its guard, a product of logical functions] "
-        "and / what it resets; how often it happened in this run stands beside it, and what never happened is grey."
+        "and / what it resets"
     )
+    if not run.reports_events:
+        note += ". How often each happened in this run is not known: the FMU reports no single events."
+        return section(_HEADING, f'<div class="scroll">{diagram(logic)}</div>', note=note)
+    note += "; how often it happened in this run stands beside it, and what never happened is grey."
     if run.events_lost:
         note += f" {run.events_lost} events that the FMU could not report are not counted."
     return section(_HEADING, f'<div class="scroll">{diagram(logic, counts_of(logic, run.events))}</div>', note=note)
