@@ -10,12 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from ...kinematics import KinematicsError, mobility
 from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output, Parameter, compile_mechanism
 from ...moving import MovingMechanism
 from ..instance.self_check import start_explained
+from ..native.link import has_linker
+from ..native.objects import library_of
 from .examine import examine
 from .find import find
+from .freedoms import freedoms
 from .mistakes import explained
 from .prepare import load
 
@@ -52,7 +54,7 @@ class FileReport:
         joints, forces, contacts: names and kinds.
         closed: contacts that are closed at the start.
         degrees_of_freedom: None where they cannot be found.
-        redundant: constraint rows that follow from others, in words.
+        redundant: joints with rows that follow from those of others.
         singular: whether the motion can branch at the start.
         warnings: what looks like a mistake.
         mistakes: what has to be changed before the FMU can be built, with the line where it is known.
@@ -128,24 +130,22 @@ def _facts(model: Model) -> dict[str, Any]:
 def _started(model: Model, path: Path) -> tuple[dict[str, Any], list[str]]:
     """What assembly makes of it, and why it cannot start."""
     mechanism = model.build(model.values())
-    found: dict[str, Any] = {}
-    try:
-        here = mobility(mechanism)
-        found |= {
-            "degrees_of_freedom": here.degrees_of_freedom,
-            "redundant": tuple(map(str, here.redundant)),
-            "singular": here.singular,
-        }
-    except KinematicsError:
-        pass  # the start says it better
     try:
         with explained(path), start_explained():
             moving = MovingMechanism(mechanism)
+            free = freedoms(mechanism, library_of() if has_linker() else None)
     except MechanismError as error:
-        return found, [str(error)]
+        return {}, [str(error)]
     q = moving.field("y_end")[: 3 * len(mechanism.bodies)].reshape(-1, 3)
     poses = {body.name: row for body, row in zip(mechanism.bodies, q, strict=True)}
-    return found | {"bodies": _bodies(mechanism, poses), "closed": moving.mode()}, []
+    found = {
+        "bodies": _bodies(mechanism, poses),
+        "closed": moving.mode(),
+        "degrees_of_freedom": free.coordinates - free.rank,
+        "redundant": free.redundant,
+        "singular": free.singular,
+    }
+    return found, []
 
 
 def _bodies(mechanism: Mechanism, poses: Mapping[str, np.ndarray[Any, np.dtype[Any]]]) -> tuple[BodyReport, ...]:
