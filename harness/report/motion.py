@@ -253,7 +253,11 @@ def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
     curves = [(variable.name, factor * run.results[variable.name] + offset) for variable in variables]
     title = f"{QUANTITIES.get(unit, 'Values')} [{shown or unit or '1'}]"
     if unit == "rad":
-        curves = [(f"{name} − {values.iloc[0]:.5g}", values - values.iloc[0]) for name, values in curves]
+        unit_shown = shown or unit
+        curves = [
+            (f"{name}, from {values.iloc[0] + 0.0:.5g} {unit_shown}", values - values.iloc[0])
+            for name, values in curves
+        ]
         title = title.replace("Angles", "Angle change")
     return _Row(title, curves)
 
