@@ -7,7 +7,7 @@ import re
 from typing import Any
 
 _HEADING = re.compile(r"(Args|Attributes|Outputs|Raises|Returns|Source|Yields):(.*)")
-_ENTRY = re.compile(r"((?:\w+, )*\w+): (.*)")
+_ENTRY = re.compile(r"\*{0,2}((?:\w+, )*\w+): (.*)")
 _UNIT = re.compile(r"\[([^\]]*)\]")
 _LIMIT = re.compile(r"(>= 0|> 0|0\.\.1)")
 

@@ -158,6 +158,9 @@ class Model:
     def values(self, **changes: float) -> SimpleNamespace:
         """Parameter values: the defaults with `changes`.
 
+        Args:
+            changes: values by name of the parameter, in its unit.
+
         Raises:
             MechanismError: unknown name, or a value outside its limits.
         """
@@ -165,6 +168,9 @@ class Model:
 
     def checked(self, values: Mapping[str, float]) -> SimpleNamespace:
         """All parameter values, each checked against its limits.
+
+        Args:
+            values: by name of the parameter, in its unit.
 
         Raises:
             MechanismError: unknown name, or a value outside its limits.
@@ -183,6 +189,9 @@ class Model:
     def build(self, values: SimpleNamespace) -> Mechanism:
         """The mechanism for parameter values, after asking for objections.
 
+        Args:
+            values: of all parameters, as `values` gives them.
+
         Raises:
             MechanismError: with all objections.
         """
@@ -192,11 +201,19 @@ class Model:
         return self.mechanism(values)
 
     def refused(self, values: SimpleNamespace) -> list[str]:
-        """Messages of the objections that apply to parameter values."""
+        """Messages of the objections that apply to parameter values.
+
+        Args:
+            values: of all parameters, as `values` gives them.
+        """
         return messages(self.objections(values))
 
     def warned(self, values: SimpleNamespace) -> list[str]:
-        """Messages of the warnings that apply to parameter values."""
+        """Messages of the warnings that apply to parameter values.
+
+        Args:
+            values: of all parameters, as `values` gives them.
+        """
         return messages(self.warnings(values))
 
 

@@ -5,8 +5,8 @@ import importlib
 import inspect
 import re
 import textwrap
-from collections import Counter
 from collections.abc import Iterator
+from enum import Enum
 from typing import Any
 
 import pytest
@@ -15,14 +15,30 @@ from test_public_interface import LISTED
 from docs.elements.described import arguments, sections
 
 #: What still lacks something, by module; a number may shrink, and what is not here lacks nothing.
-LACKING: dict[str, int] = {}
+LACKING: dict[str, int] = {
+    "mechanism_fmu.simulation": 11,
+    "mechanism_fmu.elastodynamics": 53,
+    "mechanism_fmu.stress": 40,
+    "models": 1,
+    "build_fmu": 1,
+    "harness.fmu": 1,
+    "harness.run.experiment": 1,
+    "harness.machine.machine": 9,
+    "harness.machine.connection": 1,
+    "harness.fmu.interface": 19,
+    "harness.machine.part": 1,
+    "harness.machine.running": 1,
+    "harness.machine.stepping": 8,
+    "harness.fmu.remote": 1,
+    "harness.run.master": 9,
+    "harness.run.results": 3,
+}
 
 #: Annotations of parameters that are numbers, whose unit must be said.
 _NUMERIC = re.compile(r"\b(float|Number|Point|Array|ndarray)\b")
 #: A unit in brackets; or a word for what has none, or whose unit is another's.
-_KIND = re.compile(
-    r"\[[^\]]+\]|\bunits?\b|\bas of\b|\bshape\b|\bwhether\b|\bnumber of\b|\bpoints?\b|\bcount\b|\blike\b|\bshare\b|\bratio\b"
-)
+_KIND = re.compile(r"\[[^\]]+\]|\b(units?|as of|shape|whether|number of|points?|count|share|ratio)\b")
+_OURS = ("build_fmu", "harness", "mechanism_fmu", "models")
 _INTERNAL = (NotImplementedError, StopIteration)
 
 
@@ -36,8 +52,8 @@ def callables(module: str) -> Iterator[tuple[str, Any]]:
         if inspect.isclass(found) and issubclass(found, BaseException):
             continue
         yield name, found
-        if inspect.isclass(found):
-            for method, function in vars(found).items():
+        for base in reversed(found.__mro__) if inspect.isclass(found) else ():
+            for method, function in vars(base).items() if base.__module__.split(".")[0] in _OURS else ():
                 plain = getattr(function, "__func__", function)
                 if not method.startswith("_") and inspect.isfunction(plain):
                     yield f"{name}.{method}", plain
@@ -45,6 +61,8 @@ def callables(module: str) -> Iterator[tuple[str, Any]]:
 
 def unnamed(thing: Any) -> list[str]:
     """Parameters that the docstring does not name, or numbers without a unit."""
+    if inspect.isclass(thing) and issubclass(thing, Enum):
+        return []
     try:
         parameters = inspect.signature(thing).parameters
     except (TypeError, ValueError):
@@ -52,7 +70,7 @@ def unnamed(thing: Any) -> list[str]:
     said = arguments(thing)
     lacks = []
     for name, parameter in parameters.items():
-        if name in ("self", "cls"):
+        if name in ("self", "cls") or name.startswith("_"):
             continue
         if name not in said:
             lacks.append(f"{name}: not named")
@@ -69,8 +87,8 @@ def _annotation(thing: Any, parameter: inspect.Parameter) -> Any:
 
 def raised(thing: Any) -> set[str]:
     """The errors that the body of a function, or of a class when it is made, raises itself."""
-    bodies = [thing]
-    if inspect.isclass(thing):
+    bodies = [] if inspect.isclass(thing) else [thing]
+    if inspect.isclass(thing) and not issubclass(thing, Enum):
         bodies = [vars(thing)[name] for name in ("__init__", "__post_init__", "__new__") if name in vars(thing)]
     found: set[str] = set()
     for body in bodies:
@@ -99,9 +117,9 @@ def lacks(thing: Any) -> list[str]:
 def test_docstrings_name_parameters_units_and_errors(module: str) -> None:
     found = {name: missing for name, thing in callables(module) if (missing := lacks(thing))}
     print("\n".join(f"{name}: {', '.join(missing)}" for name, missing in found.items()))
-    assert len(found) == LACKING.get(module, 0)
+    assert len(found) == LACKING.get(module, 0), "say what is printed above, or put the lower number into LACKING"
 
 
 def test_what_lacks_something_is_listed_for_modules_that_there_are() -> None:
     assert not LACKING.keys() - LISTED.keys()
-    assert all(Counter(LACKING).values())
+    assert all(LACKING.values())

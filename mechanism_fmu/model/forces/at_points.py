@@ -124,7 +124,11 @@ class PointForce(Element):
     frame: Literal["global", "body"] = "global"
 
     def data(self) -> tuple[Number, ...]:
-        """The element's row of the table `force_data`."""
+        """The element's row of the table `force_data`.
+
+        Raises:
+            MechanismError: `frame` is another word than those two.
+        """
         if self.frame not in ("global", "body"):
             raise MechanismError(f"PointForce {self.name!r}: frame = {self.frame!r} is neither global nor body.")
         return (*self.point, *self.force, float(self.frame == "body"))
