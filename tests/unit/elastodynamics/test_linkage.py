@@ -172,7 +172,7 @@ REFUSALS = {
     "an unknown joint": (
         arm(
             bodies=(*arm().bodies, Body("wheel", 1.0, 1.0)),
-            joints=(*arm().joints, Gears("gears", "arm", "wheel", 0.1, 0.1, 0.0, 0.0)),
+            joints=(*arm().joints, Gears("gears", "arm", "wheel", radius_i=0.1, radius_j=0.1)),
         ),
         "Gears 'gears': the flexibility approach knows",
     ),
