@@ -12,6 +12,7 @@ from .attached import Attached, Slot
 from .body import Point
 from .findings import length
 from .functions import Number, is_plain
+from .quantities import quantity
 
 
 @dataclass(frozen=True)
@@ -30,8 +31,13 @@ class Section:
 
     @classmethod
     def rectangle(cls, width: Number, depth: Number) -> Section:
-        """A rectangle: `width` b normal to the plane and `depth` h in it [m, m]: A = b h, I = b h^3/12."""
-        return cls(width * depth, width * depth * depth * depth / 12, depth)
+        """A rectangle: `width` b normal to the plane and `depth` h in it [m, m]: A = b h, I = b h^3/12.
+
+        Raises:
+            MechanismError: a text is no length.
+        """
+        b, h = quantity(width, "m", "Section.rectangle: width"), quantity(depth, "m", "Section.rectangle: depth")
+        return cls(b * h, b * h * h * h / 12, h)
 
 
 @dataclass(frozen=True, init=False)
