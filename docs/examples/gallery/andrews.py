@@ -2,8 +2,8 @@
 
 It starts at rest with the crank K1 and the rod K2 in line; everything else follows from lengths. Frames of bars point
 to their second end, so that angles differ from those of the sources by quarter turns. Sources: W. Schiehlen (ed.),
-Multibody Systems Handbook, 1990; Hairer and Wanner, Solving Ordinary Differential Equations II, section VII.7; Test Set
-for IVP Solvers, which has the values at t = 0.03 s.
+Multibody Systems Handbook, 1990; Hairer and Wanner, Solving Ordinary Differential Equations II; Test
+Set for IVP Solvers, which has the values at t = 0.03 s.
 """
 
 from mechanism_fmu.model import (

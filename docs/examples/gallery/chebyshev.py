@@ -1,8 +1,8 @@
 """Chebyshev's straight line: the middle of the coupler of a crossed four-bar moves nearly along a straight line.
 
 Lengths are as 4 (frame) to 5 (cranks) to 2 (coupler). The middle is as high as the frame is long in the middle of
-the line and at its ends, and elsewhere higher by less than 0.3 % of that. Source: Norton, Design of Machinery,
-section 3.8.
+the line and at its ends, and elsewhere higher by less than 0.3 % of that. Source: any book on mechanisms, e.g. Norton,
+Design of Machinery; the path follows in closed form from the angle of the coupler.
 """
 
 from mechanism_fmu.model import (
@@ -11,6 +11,7 @@ from mechanism_fmu.model import (
     Model,
     Output,
     Revolute,
+    Trace,
     XDriver,
     angle_output,
     bar,
@@ -39,4 +40,5 @@ def mechanism(values):
 
 
 FRAME = length_parameter("frame", "400 mm", "Distance of the fixed pins")
-MODEL = Model("Chebyshev", "Chebyshev's straight line", (FRAME,), mechanism, stop_time=4.0)
+DRAWING = (..., Trace("path", "coupler.4"))
+MODEL = Model("Chebyshev", "Chebyshev's straight line", (FRAME,), mechanism, stop_time=4.0, drawing=DRAWING)

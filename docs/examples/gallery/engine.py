@@ -2,7 +2,7 @@
 
 The gas obeys p V^n = constant, with a higher constant on the way out, as of an Otto cycle without valves. Source: one
 degree of freedom, so the speed at any crank angle follows from the gas work in closed form; the slider-crank is that of
-any book on mechanisms, e.g. Norton, Design of Machinery, chapter 13 (Engine dynamics).
+any book on mechanisms, e.g. Norton, Design of Machinery.
 """
 
 from mechanism_fmu.model import (

@@ -2,7 +2,7 @@
 
 It is drawn in the plane that turns with the shaft; there, what drives the balls apart is a law of their distance, mass
 omega^2 r. Links from the balls to the sleeve are as long as the arms. Source: at rest in that plane, cos(theta) =
-(1 + sleeve mass/ball mass) g/(omega^2 l), e.g. Den Hartog, Mechanics, or any book on machines (Porter governor).
+(1 + sleeve mass/ball mass) g/(omega^2 l), any book on machines (Porter governor).
 """
 
 from mechanism_fmu.model import (

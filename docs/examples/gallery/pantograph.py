@@ -12,6 +12,7 @@ from mechanism_fmu.model import (
     Parameter,
     PointLineContact,
     Revolute,
+    Trace,
     XDriver,
     YDriver,
     bar,
@@ -43,4 +44,5 @@ def mechanism(values):
 
 
 SCALE = Parameter("scale", 2.0, "Size of the copy over that of the original", "1", 1.2, 5.0)
-MODEL = Model("Pantograph", "Pantograph", (SCALE,), mechanism, stop_time=4.0)
+DRAWING = (..., Trace("original", "one.1"), Trace("copy", "pencil.1"))
+MODEL = Model("Pantograph", "Pantograph", (SCALE,), mechanism, stop_time=4.0, drawing=DRAWING)

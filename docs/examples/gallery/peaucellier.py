@@ -1,7 +1,8 @@
 """Peaucellier-Lipkin linkage: seven bars move a point along an exact straight line.
 
 A rhombus on two equal arms keeps OP OD = arm^2 - side^2, and P moves on a circle through O, so D moves on a straight
-line at (arm^2 - side^2)/(2 crank) from O. Source: Norton, Design of Machinery, section 3.8.
+line at (arm^2 - side^2)/(2 crank) from O. Source: inversion in a circle;
+any book on mechanisms, e.g. Norton, Design of Machinery.
 """
 
 from mechanism_fmu.model import (
@@ -12,6 +13,7 @@ from mechanism_fmu.model import (
     Output,
     PointLineContact,
     Revolute,
+    Trace,
     angle_output,
     bar,
     dyad,
@@ -41,4 +43,5 @@ def mechanism(values):
 
 SIZES = (("arm", "250 mm"), ("side", "100 mm"), ("crank", "100 mm"))
 LENGTHS = tuple(length_parameter(name, size, f"Length of {name}") for name, size in SIZES)
-MODEL = Model("Peaucellier", "Peaucellier-Lipkin straight line", LENGTHS, mechanism, stop_time=2.0)
+DRAWING = (..., Trace("path", "DA.0"))
+MODEL = Model("Peaucellier", "Peaucellier-Lipkin straight line", LENGTHS, mechanism, stop_time=2.0, drawing=DRAWING)

@@ -1,7 +1,8 @@
 """Roberts' straight line: the apex of an isosceles coupler moves nearly along the line through the fixed pins.
 
 Both cranks and the legs of the coupler are equally long, and the coupler is half as wide as the frame. The apex is
-exactly on the line in the middle and at the fixed pins. Source: Norton, Design of Machinery, section 3.8.
+exactly on the line in the middle and at the fixed pins. Source: any book on mechanisms, e.g. Norton, Design of
+Machinery; the path follows in closed form from the angle of the coupler.
 """
 
 from mechanism_fmu.model import (
@@ -12,6 +13,7 @@ from mechanism_fmu.model import (
     Output,
     PointLineContact,
     Revolute,
+    Trace,
     angle_output,
     bar,
     dyad,
@@ -45,4 +47,5 @@ def mechanism(values):
 
 
 SIZES = (length_parameter("frame", "400 mm", "Between the fixed pins"), length_parameter("leg", "240 mm", "Cranks"))
-MODEL = Model("Roberts", "Roberts' straight line", SIZES, mechanism, stop_time=4.0)
+DRAWING = (..., Trace("path", "coupler.2"))
+MODEL = Model("Roberts", "Roberts' straight line", SIZES, mechanism, stop_time=4.0, drawing=DRAWING)

@@ -1,7 +1,7 @@
 """Stephenson six-bar: a point of the coupler of a four-bar moves a second rocker through a rod.
 
-Its two links with three joints, the frame and the coupler, have no pin in common. Source: Norton, Design of Machinery,
-section 2.13 (Stephenson's sixbar III).
+Its two links with three joints, the frame and the coupler, have no pin in common. Source: any book on
+mechanisms, e.g. Norton, Design of Machinery; all angles by circles that meet.
 """
 
 from mechanism_fmu.model import (
@@ -10,6 +10,7 @@ from mechanism_fmu.model import (
     Mechanism,
     Model,
     Revolute,
+    Trace,
     angle_output,
     bar,
     deg,
@@ -44,4 +45,5 @@ PARAMETERS = (
     length_parameter("crank", "100 mm", "Length of the crank"),
     speed_parameter("speed", "60 rpm", "Its speed"),
 )
-MODEL = Model("Stephenson", "Stephenson six-bar linkage", PARAMETERS, mechanism, stop_time=2.0)
+DRAWING = (..., Trace("path", "rod.0"))
+MODEL = Model("Stephenson", "Stephenson six-bar linkage", PARAMETERS, mechanism, stop_time=2.0, drawing=DRAWING)

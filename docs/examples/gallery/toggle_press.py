@@ -1,7 +1,7 @@
 """Toggle press: a crank pushes a knee nearly straight, where a small force on it presses the ram down with a large one.
 
-The die is a spring that only pushes. Source: Norton, Design of Machinery, section 4.8 (toggle) for the linkage; the
-place of the ram follows from circles that meet, and the force on the die from that.
+The die is a spring that only pushes. Source: the place of the ram follows from circles that meet, the force on the
+die from that, and the torque of a slow crank by virtual work.
 """
 
 from mechanism_fmu.model import (

@@ -1,7 +1,7 @@
 """Watt six-bar: a four-bar whose rocker, a plate with three pins, moves a second rocker through a rod.
 
 Its two links with three joints, the frame and the plate, have a pin in common. Both loops are closed one after the
-other by circles. Source: Norton, Design of Machinery, section 2.13 (Watt's sixbar).
+other by circles that meet. Source: any book on mechanisms, e.g. Norton, Design of Machinery.
 """
 
 from mechanism_fmu.model import (
