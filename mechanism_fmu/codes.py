@@ -116,8 +116,10 @@ RECORD_INSTANT = 6  # counts instants with impacts from 1: all records of one sh
 RECORD_ENERGY = 7  # lost at this instant
 RECORD_CONTACT_IMPULSES = 8
 
-#: Impacts of one communication step that are kept, oldest first.
+#: So many impacts of one communication step are kept, the last ones, where outputs do not ask for more.
 IMPACT_BUFFER_LENGTH = 8
+#: No more impacts or events of a communication step can be kept.
+MOST_KEPT = 1000
 
 # guards: what an event is about
 GUARD_NONE = -1
@@ -146,7 +148,7 @@ EVENT_NEW_MODE = 4
 EVENT_IMPULSE = 5  # total normal impulse over all contacts [N s]
 EVENT_COLUMNS = 6
 
-#: Events of one communication step that are kept, oldest first.
+#: So many events of one communication step are kept, the last ones, where outputs do not ask for more.
 EVENT_BUFFER_LENGTH = 16
 
 # columns of the state's clock [s]
@@ -177,7 +179,9 @@ RANK = 11  # of the active rows since the last event
 FALLING = 12  # 1 when `course.independence_end` was falling at STEP_END
 COUNT_INSTANTS = 13  # with impacts, since the start
 STEPS_IN_STEP = 14  # internal steps of the communication step
-COUNTERS_LENGTH = 15
+COUNT_REJECTED = 15  # steps since the start whose error was too large
+COUNT_TRIES = 16  # steps since the start that were tried: accepted, rejected, or to find an event
+COUNTERS_LENGTH = 17
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

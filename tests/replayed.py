@@ -59,6 +59,15 @@ class Replayed:
             raise FmuError(f"the pawl broke at {time:g} s", time=time, status=Status.ERROR)
         self._row += 1
 
+    def save(self, state: int | None = None) -> int:
+        return self._row
+
+    def restore(self, state: int) -> None:
+        self._row = state
+
+    def free_state(self, state: int) -> None:
+        pass
+
     def terminate(self) -> None:
         pass
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -20,10 +21,20 @@ main = typer.Typer(
     help="Build planar mechanisms with impacts as FMUs, run them, and see the stress that every impact leaves.",
     epilog="Start with: mechanism-fmu demo",
     no_args_is_help=True,
-    add_completion=False,
     rich_markup_mode="markdown",
     pretty_exceptions_enable=False,
 )
+
+
+class New(StrEnum):
+    """What a new file can be like."""
+
+    LEVER = "lever"
+    FOUR_BAR = "four_bar"
+    CAM = "cam"
+    RATCHET = "ratchet"
+    BLANK = "blank"
+
 
 FmuPath = Annotated[Path, typer.Argument(metavar="FMU", help="FMU file, e.g. build/Ratchet.fmu", show_default=False)]
 
@@ -50,8 +61,17 @@ def common(
     version: Annotated[
         bool, typer.Option("--version", help="Show the version and exit.", callback=_show_version, is_eager=True)
     ] = False,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", help="Of all commands: print warnings and errors only, on stderr.")
+    ] = False,
+    as_json: Annotated[
+        bool,
+        typer.Option(
+            "--json", help="Of all commands: print one JSON object, with the exit code and all that is shown."
+        ),
+    ] = False,
 ) -> None:
-    """Options of all commands."""
+    """Options of all commands; these may also stand behind the command."""
 
 
 @main.command()
@@ -77,8 +97,9 @@ def demo(
 @main.command()
 def new(
     name: Annotated[str, typer.Argument(metavar="NAME", help="Of the file and of its FMU.", show_default=False)],
+    like: Annotated[New, typer.Option("--like", help="What it begins as.")] = New.LEVER,
 ) -> None:
-    """Write NAME.py, a mechanism of your own to begin with: a lever that falls on a stop.
+    """Write NAME.py, a mechanism of your own to begin with: a lever that falls on a stop, or what --like says.
 
     It builds and runs as it is, and its comments say what to change. See docs/your-own-mechanism.md.
 
@@ -88,7 +109,25 @@ def new(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(new_mechanism(name))
+        raise typer.Exit(new_mechanism(name, like.value))
+
+
+@main.command()
+def check(
+    file: Annotated[str, typer.Argument(metavar="FILE", help="Of a mechanism of your own.", show_default=False)],
+) -> None:
+    """Say everything about a file of a mechanism, in about a second, without a build.
+
+    Parameters, inputs, outputs with units, bodies with the pose at the start, degrees of freedom, redundant joints,
+    warnings, and mistakes with the line.
+
+    Exit code: 0 no mistakes, 1 mistakes, 2 no such file.
+    """
+    from .commands.check_file import check_mechanism
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(check_mechanism(file))
 
 
 @main.command()
@@ -121,10 +160,12 @@ def run(
         list[str] | None, settings_option("Set an input or parameter, with a unit if you like; repeat it for more.")
     ] = None,
     stop_time: Annotated[
-        float | None, typer.Option(metavar="S", help="End of the run [s].", show_default="the FMU's default")
+        str | None,
+        typer.Option(metavar="TIME", help="End of the run, e.g. `500ms`; seconds.", show_default="the FMU's default"),
     ] = None,
     step: Annotated[
-        float | None, typer.Option(metavar="S", help="Communication step [s].", show_default="the FMU's default")
+        str | None,
+        typer.Option(metavar="TIME", help="Communication step, e.g. `2ms`; seconds.", show_default="the FMU's default"),
     ] = None,
     input_file: Annotated[
         Path | None,
@@ -145,6 +186,9 @@ def run(
         "result"
     ),
     in_process: InProcess = False,
+    units_row: Annotated[
+        bool, typer.Option("--units-row", help="Write the units as a second row of each table, below the names.")
+    ] = False,
 ) -> None:
     """Run an FMU and write results.csv, impacts.csv, events.csv, summary.json and report.html.
 
@@ -169,7 +213,8 @@ def run(
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_fmu(fmu, settings or [], stop_time, step, input_file, material, output, in_process))
+        code = run_fmu(fmu, settings or [], stop_time, step, input_file, material, output, in_process, units_row)
+        raise typer.Exit(code)
 
 
 @main.command()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ from typing import Any
 from typer.core import TyperGroup
 
 from ..errors import exhaustion_reported
+from .output import as_wanted, in_front
 
 # SIGTERM as Ctrl-C: what is on the way ends in order, and nothing temporary is left behind.
 
@@ -47,12 +49,15 @@ class Group(TyperGroup):
 
     def main(self, *arguments: Any, **options: Any) -> Any:
         """Run the command; SIGTERM ends it as Ctrl-C does, and what is full is reported in a line."""
-        with terminable(), exhaustion_reported():
-            return super().main(*arguments, **options)
+        given = options.pop("args", None) if not arguments else arguments[0]
+        words = [*(sys.argv[1:] if given is None else given)]
+        with terminable(), exhaustion_reported(), as_wanted(words):
+            return super().main(in_front(words), *arguments[1:], **options)
 
     def get_help_option(self, ctx: Any) -> Any:
         """The option --help, False unless it is given."""
         option = super().get_help_option(ctx)
-        if option is not None:
-            option.default = False
+        for flag in (option, *self.params):  # and those of completion, which typer adds
+            if flag is not None and getattr(flag, "is_flag", False) and flag.default is None:
+                flag.default = False
         return option

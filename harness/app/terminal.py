@@ -5,6 +5,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
 
 import typer
@@ -18,6 +19,7 @@ from ..errors import HarnessError, LogMessage, Status, UsageError
 from ..fmu.interface import Observable
 from ..fmu.values import real_time_factor
 from ..run.checks import Check, Finding, Verdict
+from .output import note
 
 #: Exit codes of the command line; Ctrl-C has the shell's own.
 FAILED, USAGE, INTERRUPTED = 1, 2, 130
@@ -52,24 +54,28 @@ def user_errors() -> Iterator[None]:
 
 def show_error(text: str) -> None:
     """An error on stderr."""
+    note("errors", text)
     error_console.print(f"[bold red]Error:[/] {escape(text)}", soft_wrap=True)
 
 
 def show_warning(message: LogMessage) -> None:
     """A warning of an FMU on stderr, at once; its errors come with the failure they cause."""
     if message.status is Status.WARNING:
+        note("warnings", message.text)
         where = f"{message.instance}, t = {message.time:.6g} s"
         error_console.print(f"[yellow]Warning[/] ({escape(where)}): {escape(message.text)}", soft_wrap=True)
 
 
 def show_note(text: str) -> None:
     """What is to be known of a run, and no mistake."""
+    note("notes", text)
     console.print(f"[dim]Note:[/] {escape(text)}", soft_wrap=True)
 
 
 def show_checks(checks: Iterable[Check]) -> None:
     """Verdicts, one line each."""
     for check in checks:
+        note("checks", asdict(check))
         mark = "[green]✓[/]" if check.passed else "[bold red]✗[/]"
         console.print(f"{mark} {escape(check.claim)}  [dim]{escape(check.evidence)}[/]", soft_wrap=True)
 
@@ -84,6 +90,8 @@ def show_findings(heading: str, findings: Iterable[Finding]) -> None:
 
 def show_files(files: Sequence[Path]) -> None:
     """Where the results are; the last file is the one to look at."""
+    for path in files:
+        note("files", str(path))
     names = ", ".join(path.name for path in files)
     console.print(f"Written to {escape(_from_here(files[0].parent))}: {escape(names)}", soft_wrap=True)
     console.print(f"Open in a browser: [bold]{escape(_from_here(files[-1]))}[/]", soft_wrap=True)
@@ -108,6 +116,8 @@ def name_earlier_files(folder: Path) -> None:
 
 def show_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]], numeric: Sequence[int] = ()) -> None:
     """A table; `numeric` columns stand right, and the unit of a heading stands below its name."""
+    rows = [list(row) for row in rows]
+    note("tables", {"title": title, "headings": list(headings), "rows": rows})
     table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="dim")
     for i, heading in enumerate(headings):
         table.add_column(
@@ -123,6 +133,8 @@ def show_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]
 
 def show_wide_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """A table of texts that fold where the terminal is narrow."""
+    rows = [list(row) for row in rows]
+    note("tables", {"title": title, "headings": list(headings), "rows": rows})
     table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="dim", show_lines=False)
     for heading in headings:
         table.add_column(escape(heading), overflow="fold")

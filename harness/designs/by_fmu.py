@@ -40,7 +40,7 @@ def _run(fmu: Fmu, task: Task, design: Design) -> Result:
     try:
         with fmu.instantiate(fmu.description.model, discard_message) as slave:
             values = {**task.fixed, **design.values}
-            outcome = run_fixed_step(slave, task.grid, values, [reader, impacts], task.inputs)
+            outcome = run_fixed_step(slave, task.grid, values, [reader], task.inputs, collectors=[impacts])
             said = [message.text.strip() for message in slave.messages if message.needs_attention]
         if outcome.error is not None:
             return Result.failed(design, NAME, task, str(outcome.error))

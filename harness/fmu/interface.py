@@ -66,8 +66,8 @@ class Instance(Slave, Protocol):
     def reset(self) -> None:
         """Be as just after the instantiation."""
 
-    def save(self) -> Any:
-        """A snapshot of the whole state; give it back with `free_state`."""
+    def save(self, state: Any = None) -> Any:
+        """A snapshot of the whole state, in the place of one that is given; give it back with `free_state`."""
 
     def restore(self, state: Any) -> None:
         """Continue from a snapshot."""

@@ -103,6 +103,17 @@ def parse_value(text: str, variable: Variable, description: Description) -> Valu
     return value
 
 
+def parse_time(text: str | None, option: str, description: Description) -> float | None:
+    """A time [s] that an option of the command line gives, as in "0.5" or "500ms"; None where it is not given.
+
+    Raises:
+        UsageError: it is no time.
+    """
+    if text is None:
+        return None
+    return float(parse_value(text, Variable(option, -1, "Real", "parameter", unit="s"), description))
+
+
 def _real(text: str, variable: Variable, description: Description) -> float:
     match = _NUMBER.fullmatch(text)
     if match is None:

@@ -253,7 +253,11 @@ def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
     curves = [(variable.name, factor * run.results[variable.name] + offset) for variable in variables]
     title = f"{QUANTITIES.get(unit, 'Values')} [{shown or unit or '1'}]"
     if unit == "rad":
-        curves = [(f"{name} − {values.iloc[0]:.5g}", values - values.iloc[0]) for name, values in curves]
+        unit_shown = shown or unit
+        curves = [
+            (f"{name}, from {values.iloc[0] + 0.0:.5g} {unit_shown}", values - values.iloc[0])
+            for name, values in curves
+        ]
         title = title.replace("Angles", "Angle change")
     return _Row(title, curves)
 
@@ -292,8 +296,12 @@ def modes_section(run: Run) -> str:
         return ""
     note = (
         "The state charts run beside each other. An arrow has its event, [its guard, a product of logical functions] "
-        "and / what it resets; how often it happened in this run stands beside it, and what never happened is grey."
+        "and / what it resets"
     )
+    if not run.reports_events:
+        note += ". How often each happened in this run is not known: the FMU reports no single events."
+        return section(_HEADING, f'<div class="scroll">{diagram(logic)}</div>', note=note)
+    note += "; how often it happened in this run stands beside it, and what never happened is grey."
     if run.events_lost:
         note += f" {run.events_lost} events that the FMU could not report are not counted."
     return section(_HEADING, f'<div class="scroll">{diagram(logic, counts_of(logic, run.events))}</div>', note=note)

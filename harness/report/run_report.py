@@ -13,7 +13,7 @@ from ..fmu.declared import NO_BEAM
 from ..fmu.description import Variable
 from ..fmu.values import engineering, in_display_unit
 from ..run.checks import Check
-from ..run.experiment import Run
+from ..run.experiment import Run, may_have_beam
 from ..run.master import Ending
 from ..run.results import settings, versions, write_text
 from .animation import animation
@@ -135,7 +135,7 @@ def _motion(run: Run) -> str:
 def _stress(run: Run) -> str:
     declared = run.description.analysis
     struck = declared.struck
-    if struck is None and not declared.objection and len(run.impacts.columns):
+    if struck is None and not declared.objection and may_have_beam(run):
         return section("Stress", note=f"Nothing is to be analysed: {NO_BEAM}")
     if struck is None or run.beam is None:
         return ""

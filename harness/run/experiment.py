@@ -22,6 +22,7 @@ from ..fmu.instances.message_log import MessageHandler, discard_message
 from ..fmu.interface import Instances, Observable
 from ..fmu.values import parse_value, settable_variable
 from .checks import Check, run_checks
+from .division import HeldMessages
 from .drawing import Drawing, read_drawing
 from .inputs import InputSignals, check_no_overlap, read_inputs
 from .logic import UNITS as EVENT_UNITS, EventCollector, LogicFile, read_logic
@@ -56,7 +57,8 @@ class Run:
         description: of the FMU.
         experiment: what was asked.
         outcome: how far it came.
-        results: recorded variables, a row for each communication point (`master.Recorder`).
+        results: recorded variables, a row for each communication point (`master.Recorder`), and for the ends of parts
+            of steps that were divided (`division`).
         impacts: a row for each impact, with the stress it leaves when the FMU declares a beam that is struck.
         impacts_lost: impacts that the FMU could not report.
         parameters: parameters and calculated parameters after the initialization.
@@ -175,15 +177,18 @@ def performing(
     event_collector = EventCollector(fmu.description)
     logic = read_logic(fmu.folder)
     reader = _ParameterReader(fmu.description)
-    with fmu.instantiate(fmu.description.model, on_message) as slave:
+    held = HeldMessages(on_message)
+    with fmu.instantiate(fmu.description.model, held) as slave:
         began = time.perf_counter()
         outcome = run_fixed_step(
             slave,
             grid,
             experiment.start_values,
-            [reader, recorder, collector, event_collector, *observers],
+            [reader, *observers],
             inputs,
             stop_requested,
+            [recorder, collector, event_collector],
+            held,
         )
         wall_time = time.perf_counter() - began
         messages = tuple(slave.messages)
@@ -217,6 +222,11 @@ def performing(
             inputs=inputs,
             compliance=found.compliance,
         )
+
+
+def may_have_beam(run: Run) -> bool:
+    """Whether something in the FMU could be struck, so that its stress is missed: it reports impacts of contacts."""
+    return bool(len(run.impacts.columns)) and bool(run.logic.contacts or not run.impacts.empty)
 
 
 #: So many steps a run has whose step size is not given.

@@ -14,7 +14,8 @@ import pandas as pd
 
 from ..errors import FmuError, HarnessError, UsageError
 from ..fmu.description import Description, Value, Variable
-from ..fmu.interface import Observable, Slave
+from ..fmu.interface import Instance, Observable
+from .division import Division, HeldMessages
 from .inputs import InputSignals
 
 # Time as a whole number of nanoseconds, so that it never drifts.
@@ -179,12 +180,14 @@ class Outcome:
         final_time: last communication point that was reached [s].
         steps: number of steps completed.
         error: what the FMU refused, or else why it could not go on, when it failed.
+        divided: how many of the steps were taken in parts (`division`).
     """
 
     ending: Ending
     final_time: float
     steps: int
     error: HarnessError | None = None
+    divided: int = 0
 
 
 def never() -> bool:
@@ -193,35 +196,53 @@ def never() -> bool:
 
 
 def run_fixed_step(
-    slave: Slave,
+    slave: Instance,
     grid: TimeGrid,
     start_values: Mapping[str, Value],
     observers: Sequence[Observer] = (),
     inputs: InputSignals | None = None,
     stop_requested: Callable[[], bool] = never,
+    collectors: Sequence[Observer] = (),
+    messages: HeldMessages | None = None,
 ) -> Outcome:
     """Set the start values of `slave`, initialize it, and take it through the grid.
 
-    Inputs are set at the beginning of each step and stay constant in it. An error of the slave ends the run, and
-    everything observed before it stays with the observers. "Completed" means that the stop time was reached.
+    Inputs are set at the beginning of each step and stay constant in it. A step with more impacts or events than the
+    FMU's buffers hold is taken in parts, where the FMU can be put back (`division`). An error of the slave ends the
+    run, and everything observed before it stays with the observers. "Completed" means that the stop time was reached.
+
+    Args:
+        slave: to be run.
+        grid: of communication points.
+        start_values: of inputs and parameters by name.
+        observers: look on at the points of the grid.
+        inputs: signals.
+        stop_requested: asked before each step.
+        collectors: look on at the ends of parts, too.
+        messages: the receiver of the slave's messages.
     """
     reached, steps = grid.start, 0
+    division = Division(slave, messages)
+    everybody = [*observers, *collectors]
     try:
         slave.set(start_values if inputs is None else {**start_values, **inputs.at(seconds(grid.start))})
         slave.initialize(seconds(grid.start), seconds(grid.stop))
-        for observer in observers:
+        for observer in everybody:
             observer.started(slave, seconds(grid.start))
         for begin, end in grid:
             if stop_requested():
                 break
             if inputs is not None:
                 slave.set(inputs.at(seconds(begin)))
-            slave.step(*begin_and_size(begin, end))
+            for time in division.take(*begin_and_size(begin, end)):
+                for collector in collectors:
+                    collector.stepped(slave, time)
             reached, steps = end, steps + 1
-            for observer in observers:
+            for observer in everybody:
                 observer.stepped(slave, seconds(end))
+        division.close()
         slave.terminate()
     except FmuError as error:
-        return Outcome(Ending.FAILED, seconds(reached), steps, error)
+        return Outcome(Ending.FAILED, seconds(reached), steps, error, division.divided)
     ending = Ending.COMPLETED if reached == grid.stop else Ending.INTERRUPTED
-    return Outcome(ending, seconds(reached), steps)
+    return Outcome(ending, seconds(reached), steps, None, division.divided)

@@ -125,28 +125,36 @@ def write_json(path: Path, data: Any) -> Path:
     return write_text(path, lambda file: file.write(json.dumps(data, indent=2, ensure_ascii=False) + "\n"))
 
 
-def write_run(run: Run, folder: Path) -> list[Path]:
+def write_run(run: Run, folder: Path, units_row: bool = False) -> list[Path]:
     """Write the files of a run; the summary comes last.
 
-    The tables have plain variable names as headings; their units are in the summary. Every number is the shortest
-    text that reads back as the same double.
+    The tables have plain variable names as headings; their units are in the summary, and with `units_row` below the
+    headings. Every number is the shortest text that reads back as the same double. A table without columns, as that of
+    impacts of an FMU that reports none, has the column "time".
 
     Raises:
         UsageError: the disk refuses.
     """
     return [
-        write_text(folder / "results.csv", lambda file: run.results.to_csv(file, index=False, lineterminator="\n")),
-        write_text(folder / "impacts.csv", lambda file: run.impacts.to_csv(file, index=False, lineterminator="\n")),
-        *_events_file(run, folder),
+        _table(run, "results", run.results, folder, units_row),
+        _table(run, "impacts", run.impacts, folder, units_row),
+        *([_table(run, "events", run.events, folder, units_row)] if run.reports_events else ()),
         write_json(folder / "summary.json", summary(run)),
     ]
 
 
-def _events_file(run: Run, folder: Path) -> list[Path]:
-    """events.csv; an FMU that reports no events has none."""
-    if not run.reports_events:
-        return []
-    return [write_text(folder / "events.csv", lambda file: run.events.to_csv(file, index=False, lineterminator="\n"))]
+def _table(run: Run, name: str, table: pd.DataFrame, folder: Path, units_row: bool) -> Path:
+    """<name>.csv; an FMU that reports no events has no events.csv."""
+    whole = table if len(table.columns) else pd.DataFrame(columns=["time"])
+    units = {"time": "s"} | dict(run.units[name])
+    columns = list(map(str, whole.columns))
+    heads = [columns, [units[column] for column in columns]] if units_row else [columns]
+
+    def write(file: TextIO) -> None:
+        pd.DataFrame(heads).to_csv(file, index=False, header=False, lineterminator="\n")
+        whole.to_csv(file, index=False, header=False, lineterminator="\n")
+
+    return write_text(folder / f"{name}.csv", write)
 
 
 def summary(run: Run) -> dict[str, Any]:

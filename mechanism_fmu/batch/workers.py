@@ -1,4 +1,4 @@
-"""Threads that run the designs of a job, or one design after the other by way of `Simulation`."""
+"""Threads that run the designs of a job, or one design after the other by way of `MovingMechanism`."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ import numpy as np
 from .. import codes
 from ..engine import status
 from ..model import Mechanism, MechanismError
-from ..simulation import Simulation, SimulationError
+from ..moving import MovingMechanism, SimulationError
 from .job import Job, as_c
 from .prepared import Refusals
 
-# One design by way of `Simulation`: what `many.c` does, for where it cannot run, and for the words of a failure.
+# One design by way of `MovingMechanism`: what `many.c` does, for where it cannot run, and for the words of a failure.
 
 
 class OneByOne:
@@ -32,7 +32,7 @@ class OneByOne:
     def __init__(self, job: Job, mechanism: Mechanism, library: CDLL | None) -> None:
         self._job = job
         self._block = job.given.copy()
-        self._simulation = Simulation.over(mechanism, self._block, library)
+        self._simulation = MovingMechanism.over(mechanism, self._block, library)
         self._records = self._simulation.field("impacts")
         self._pull_time = self._simulation.field("pull_time")
 

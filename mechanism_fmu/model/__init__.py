@@ -47,6 +47,7 @@ from .curves.profiles import (
     slot as slot,
     spline_profile as spline_profile,
 )
+from .default_ports import default_outputs as default_outputs
 from .drawing import (
     Bar as Bar,
     Disc as Disc,

@@ -18,7 +18,7 @@ from .curves import Curve
 from .functions import is_plain, sqrt
 from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
-from .sources import output_factor, reads_members, resolve_output
+from .sources import kept, output_factor, reads_members, resolve_output
 from .structure import Structure, member_data, structure
 
 # Names of the engine's unknowns for messages: which part limits the steps.
@@ -62,7 +62,8 @@ class MechanismTables:
     Attributes:
         columns: by name of the field.
         numbers: `joint_rows`, the number of rows of all joints; `contact_rows`, that of all contacts when contact
-            coordinates count as coordinates; `alphas`, the number of these; `own`, of states of force elements' own.
+            coordinates count as coordinates; `alphas`, the number of these; `own`, of states of force elements' own;
+            `buffer` and `event_buffer`, of impacts and events of a communication step that are kept.
     """
 
     columns: Mapping[str, Array]
@@ -243,6 +244,8 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             "contact_rows": int(first_contact_rows[-1]),
             "alphas": int(first_alphas[-1]),
             "own": int(first_own[-1]),
+            "buffer": kept("impacts", mechanism, codes.IMPACT_BUFFER_LENGTH),
+            "event_buffer": kept("events", mechanism, codes.EVENT_BUFFER_LENGTH),
         },
     )
 

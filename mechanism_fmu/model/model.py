@@ -12,6 +12,7 @@ from typing import Any, Protocol
 
 from .analysis import Analysis
 from .default_drawing import Plan, draw, plan_of
+from .default_ports import default_outputs
 from .drawing import Shape
 from .errors import MechanismError
 from .findings import Finding, messages
@@ -26,7 +27,10 @@ def _nothing(_values: SimpleNamespace) -> tuple[()]:
 
 @dataclass(frozen=True)
 class _Completed:
-    """A model's function; what its mechanism leaves out of ports and settings comes from the model."""
+    """A model's function; what its mechanism leaves out of ports and settings comes from the model.
+
+    Outputs that neither declares are the default ones.
+    """
 
     function: Callable[[SimpleNamespace], Mechanism]
     inputs: tuple[Input, ...]
@@ -37,7 +41,7 @@ class _Completed:
 
     def __call__(self, values: SimpleNamespace) -> Mechanism:
         found = self._completed(values)
-        if not self.draws or not isinstance(found, Mechanism):
+        if not self.draws or not isinstance(found, Mechanism) or not _is_readable(found):
             return found
         drawn = draw(found, self.plan.size, self.plan.follows)
         return replace(
@@ -48,13 +52,17 @@ class _Completed:
         found: Any = self.function(values)
         if not isinstance(found, Mechanism):
             return found  # type: ignore[no-any-return]  # a user's function may return anything: objected to elsewhere
-        return replace(
+        whole = replace(
             found,
             inputs=found.inputs or self.inputs,
             outputs=found.outputs or self.outputs,
             calculated=found.calculated or self.calculated(values),
             settings=Settings.of(values) if found.settings is DEFAULT_SETTINGS else found.settings,
         )
+        if whole.outputs or not _is_readable(whole):
+            return whole
+        taken = [getattr(parameter, "name", "") for parameter in self.parameters]
+        return replace(whole, outputs=default_outputs(whole, taken))
 
     @cached_property
     def plan(self) -> Plan:
@@ -71,6 +79,12 @@ class _Completed:
         """Of the default drawing."""
         mechanism = self._completed(SimpleNamespace(**{p.name: p.start for p in self.parameters}))
         return tuple(draw(mechanism, self.plan.size, self.plan.follows).shapes)
+
+
+def _is_readable(mechanism: Mechanism) -> bool:
+    """Whether the parts are tuples of parts: what is not, is objected to elsewhere."""
+    parts = [getattr(mechanism, name) for name in ("bodies", "joints", "forces", "contacts", "inputs", "calculated")]
+    return all(isinstance(entries, tuple) and all(hasattr(entry, "name") for entry in entries) for entries in parts)
 
 
 @dataclass(frozen=True)
@@ -93,7 +107,8 @@ class Model:
         analysis: what can be analysed of a run, in terms of the FMU's variables; () when nothing can.
         author: who made it; "" leaves it open.
         license: under which others may use it, one line; "" leaves it open.
-        inputs, outputs: what the outside sees of the mechanism, where `mechanism` gives none.
+        inputs, outputs: what the outside sees of the mechanism, where `mechanism` gives none; of a model without any
+            outputs, `default_outputs` of all its parts.
         calculated: likewise; pure function, as `mechanism` is, to what follows from the parameters.
 
     Raises:
@@ -125,6 +140,12 @@ class Model:
         for what, value in (("stop_time", self.stop_time), ("step_size", self.step_size)):
             if not 0.0 < value < math.inf:
                 raise MechanismError(f"{self.name}: {what} = {value:g} s, but it must be positive and finite.")
+
+    @property
+    def declares_outputs(self) -> bool:
+        """Whether its mechanism has outputs of its own, and not the default ones."""
+        own: Any = self.mechanism.function if isinstance(self.mechanism, _Completed) else self.mechanism
+        return bool(self.outputs or own(self.values()).outputs)
 
     @property
     def shapes(self) -> tuple[Shape, ...]:

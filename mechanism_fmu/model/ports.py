@@ -92,13 +92,15 @@ class Output:
             "<member>.axial_force|start_moment|end_moment|stress" (see `structure`) and
             "<member>.tip_deflection|bending_stress" (see `beams`);
             "event.count|in_step"; "events[k].<field>" of
-            the k-th (1..16) event of the last communication step, with field one of time, guard and subject (codes;
+            the k-th event of the last communication step, with field one of time, guard and subject (codes;
             -1 in an empty slot), old_mode, new_mode (sum of 2^c over closed contacts c), impulse;
             "energy.kinetic|spring|work|lost";
             "impact.count|in_step|lost|any"; "impact.<field>" of the last impact and "impacts[k].<field>" of the k-th
-            (1..8) of the last communication step, with field one of time, contact, tooth, closing_speed, impulse,
+            of the last communication step, with field one of time, contact, tooth, closing_speed, impulse,
             "impulse:<contact>", and, shared by all impacts of one instant: instant (a counter from 1), velocity (v_I of
-            the body with teeth [m/s]), energy_lost [J], "speed_before:<body>", "speed:<body>" (after).
+            the body with teeth [m/s]), energy_lost [J], "speed_before:<body>", "speed:<body>" (after). The largest k
+            says how many impacts, or events, of a step are kept (the last ones), up to 1000, and at
+            least 8 impacts and 16 events.
         description: one line for the user.
         unit, display_unit, type: as of `Parameter`.
         nominal: typical magnitude in `unit`, or None.

@@ -7,8 +7,7 @@ from typing import Literal, NamedTuple
 from .body import Point
 from .errors import MechanismError
 from .findings import length
-from .four_bar import root
-from .functions import Number, cos, sin
+from .functions import Number, cos, is_plain, sin, sqrt, where_positive
 from .quantities import quantity
 
 
@@ -32,8 +31,8 @@ def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["l
     """The point at a distance from each of two points: the pin in which two links meet.
 
     With the distance d of the points and u = (d^2 + from_a^2 - from_b^2)/(2 d^2), it is a + u (b - a) +- h R (b - a),
-    h^2 = from_a^2/d^2 - u^2. Where the links do not reach each other, it is the point of the line nearest to that; what
-    is left open, assembly says.
+    h^2 = from_a^2/d^2 - u^2. Where links that follow from parameters do not reach each other, it is not a number, which
+    the check of start values refuses.
 
     Args:
         a: one point [m].
@@ -43,7 +42,7 @@ def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["l
         side: on which side of the way from a to b.
 
     Raises:
-        MechanismError: `side` is another word, or a text is no length.
+        MechanismError: the links do not reach each other, `side` is another word, or a text is no length.
     """
     if side not in ("left", "right"):
         raise MechanismError(f"dyad: side = {side!r} is neither left nor right.")
@@ -51,10 +50,24 @@ def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["l
     x, y = b[0] - a[0], b[1] - a[1]
     square = x * x + y * y
     along = (square + first * first - second * second) / (2 * square)
-    across = root(first * first / square - along * along)
+    across = _across(first * first / square - along * along, first, second, square)
     if side == "right":
         across = -across
     return a[0] + along * x - across * y, a[1] + along * y + across * x
+
+
+#: Rounding of the square of `across` where the links lie in one line.
+_ROUNDING = 1e-12
+
+
+def _across(square: Number, first: Number, second: Number, between: Number) -> Number:
+    """The root of a square that rounding may make negative."""
+    if is_plain(square) and not square >= -_ROUNDING:
+        raise MechanismError(
+            f"dyad: links of {first:g} m and {second:g} m do not reach each other over the {between**0.5:g} m between "
+            "their other ends; change one of these lengths."
+        )
+    return sqrt(where_positive(square, square, where_positive(square + _ROUNDING, 0.0, square)))
 
 
 class FourBarPoints(NamedTuple):
@@ -89,7 +102,7 @@ def four_bar_points(
             "crossed"; as of the ready-made model.
 
     Raises:
-        MechanismError: `branch` is another word, or a text is no such quantity.
+        MechanismError: they cannot be assembled so, `branch` is another word, or a text is no such quantity.
     """
     if branch not in ("open", "crossed"):
         raise MechanismError(f"four_bar_points: branch = {branch!r} is neither open nor crossed.")

@@ -238,6 +238,18 @@ def reads_members(mechanism: Mechanism) -> bool:
     return any(part in names and quantity not in OF_BEAM for part, _, quantity in sources)
 
 
+def kept(what: str, mechanism: Mechanism, usual: int) -> int:
+    """How many impacts or events of a communication step are kept: as many as there are outputs for, or `usual`.
+
+    Args:
+        what: "impacts" or "events".
+        mechanism: whose outputs with the source "<what>[k].<field>" say it: the largest k.
+        usual: the least number.
+    """
+    places = [re.match(rf"{what}\[(\d+)\]\.", output.source) for output in mechanism.outputs]
+    return max([usual, *(int(place[1]) for place in places if place)])
+
+
 def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     if part == "impact":
         if quantity in _COUNTERS:
@@ -245,7 +257,7 @@ def _of_impact(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int
         column = _record_column(quantity, mechanism)
         return None if column is None else (codes.LAST_IMPACT, column, 0)
     match = re.fullmatch(r"impacts\[(\d+)\]", part)
-    if match and 1 <= int(match[1]) <= codes.IMPACT_BUFFER_LENGTH:
+    if match and 1 <= int(match[1]) <= codes.MOST_KEPT:
         column = _record_column(quantity, mechanism)
         return None if column is None else (codes.BUFFERED_IMPACT, column, int(match[1]) - 1)
     return None
@@ -256,7 +268,7 @@ def _of_event(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
         columns = {"count": codes.COUNT_EVENTS, "in_step": codes.EVENTS_IN_STEP}
         return (codes.COUNTER, columns[quantity], 0) if quantity in columns else None
     match = re.fullmatch(r"events\[(\d+)\]", part)
-    if match is None or quantity not in _EVENT_FIELDS or not 1 <= int(match[1]) <= codes.EVENT_BUFFER_LENGTH:
+    if match is None or quantity not in _EVENT_FIELDS or not 1 <= int(match[1]) <= codes.MOST_KEPT:
         return None
     if quantity.endswith("_mode") and len(mechanism.contacts) > MOST_CONTACTS_OF_A_MODE:
         raise MechanismError(

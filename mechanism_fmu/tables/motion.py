@@ -25,20 +25,22 @@ _CLOCK = {
 }
 _COUNTERS = {
     "COUNT_IMPACTS": COUNT,
-    "COUNT_IN_STEP": whole(0, codes.IMPACT_BUFFER_LENGTH),
+    "COUNT_IN_STEP": whole(0, 0, "buffer"),
     "COUNT_LOST": COUNT,
     "COUNT_STEPS": COUNT,
     "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_FAILED),
     "PENDING_SUBJECT": _SUBJECT,
     "COUNT_PULLS": WHOLE,
     "COUNT_EVENTS": COUNT,
-    "EVENTS_IN_STEP": whole(0, codes.EVENT_BUFFER_LENGTH),
+    "EVENTS_IN_STEP": whole(0, 0, "event_buffer"),
     "PILE": COUNT,
     "RAMPING": FLAG,
     "RANK": whole(0, 0, "rows"),
     "FALLING": FLAG,
     "COUNT_INSTANTS": COUNT,
     "STEPS_IN_STEP": COUNT,
+    "COUNT_REJECTED": COUNT,
+    "COUNT_TRIES": COUNT,
 }
 #: Columns of an impact record, the last one for all behind it, and of an event record.
 _RECORD = {
@@ -79,7 +81,7 @@ class Course(Table):
     independence_end = real(1, holds=ANY)
     last_impact = real("record", holds=_RECORD)
     impacts = real("buffer", "record", holds=_RECORD)
-    events = real(codes.EVENT_BUFFER_LENGTH, codes.EVENT_COLUMNS, holds=_EVENT)
+    events = real("event_buffer", codes.EVENT_COLUMNS, holds=_EVENT)
 
 
 class Pose(Table):

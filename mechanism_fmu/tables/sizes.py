@@ -67,7 +67,8 @@ class Sizes:
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"])
     # columns of an impact record
     record = _follows(lambda n: codes.RECORD_CONTACT_IMPULSES + n["contacts"] + 2 * n["coordinates"])
-    buffer = _follows(lambda _: codes.IMPACT_BUFFER_LENGTH)  # impacts that are kept of one communication step
+    buffer = _given()  # impacts that are kept of one communication step
+    event_buffer = _given()  # and events
     displacements = _follows(lambda n: 3 * n["nodes"])
 
     def __new__(cls, block: Array) -> Self:

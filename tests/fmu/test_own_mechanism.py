@@ -9,6 +9,7 @@ from pathlib import Path
 
 import fmpy
 import numpy as np
+import pandas as pd
 import pytest
 from fmpy.validation import validate_fmu
 from typer.testing import CliRunner
@@ -173,3 +174,26 @@ def test_the_page_in_docs_names_every_public_part() -> None:
     tables = ("MechanismTables", "compile_mechanism")  # for programs, not for a mechanism's file
     parts = [name for name, part in public.items() if callable(part) and name not in tables]
     assert [name for name in parts if f"`{name}" not in PAGE] == []
+
+
+# --- more impacts in a step than the FMU holds -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FLAVOURS)
+def test_a_lever_that_bounces_to_rest_is_no_failure(name: str, fmus: dict[str, Path], tmp_path: Path) -> None:
+    """Each impact is slower than the one before by the restitution; in two steps there are more than the FMU holds."""
+    asked = ["run", str(fmus[name]), "--set", "bounce=0.9", "--stop-time", "6", "-o", str(tmp_path)]
+    result = CliRunner().invoke(main, asked)
+    assert result.exit_code == 0, result.output
+    assert "lost to the outside" not in result.output
+    impacts = pd.read_csv(tmp_path / "impacts.csv")
+    assert f"{len(impacts)} collected, {len(impacts)} counted by the FMU, 0 lost" in result.output
+    assert impacts["instant"].tolist() == list(range(1, len(impacts) + 1))
+    assert len(impacts) > 100
+    speed = impacts["closing_speed"].to_numpy()
+    first = math.sqrt(3 * GRAVITY * math.sin(ANGLE) / LENGTH)
+    np.testing.assert_allclose(speed, first * 0.9 ** np.arange(len(speed)), rtol=1e-3)  # gravity acts in the angle
+    steps = pd.read_csv(tmp_path / "results.csv")
+    assert steps["impacts_in_step"].max() <= 8
+    assert steps["impacts_in_step"].sum() == len(impacts)
+    assert len(steps) > 3001

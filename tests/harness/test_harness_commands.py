@@ -50,7 +50,7 @@ def test_the_full_demo_is_the_indexing_cycle(asked: list[Experiment], tmp_path: 
 def test_a_run_takes_the_fmus_default_experiment_unless_told(asked: list[Experiment], tmp_path: Path) -> None:
     path = Path("Ratchet.fmu")
     assert one_run.run_fmu(path, [], None, None, None, "steel", tmp_path) == 7
-    assert one_run.run_fmu(path, ["restitution=0.3"], 1.2, 0.02, None, "steel", tmp_path) == 7
+    assert one_run.run_fmu(path, ["restitution=0.3"], "1.2", "20ms", None, "steel", tmp_path) == 7
     told = ReplayedFmu().description
     assert [(one.stop_time, one.step, one.start_values) for one in asked] == [
         (told.stop_time, told.step, {}),

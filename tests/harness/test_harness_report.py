@@ -72,7 +72,7 @@ def test_angles_are_shown_in_degrees_from_their_start() -> None:
     figure = motion_chart(run_of(FakeSlave()))
     assert figure is not None
     angle = figure.data[0]
-    assert angle.name == "wheel_angle − 0"
+    assert angle.name == "wheel_angle, from 0 deg"
     assert angle.y[-1] == pytest.approx(57.29577951308232)
     assert figure.layout.yaxis.title.text == "Angle change [deg]"
 

@@ -10,6 +10,7 @@ from fake_slave import FakeFmu, FakeSlave
 
 from harness.errors import Status, UsageError
 from harness.fmu.description import Variable
+from harness.run.checks import run_checks
 from harness.run.experiment import Experiment, Run, default_times, perform
 from harness.run.results import prepare_folder, write_run, write_text
 from tests.declared import TEETH
@@ -53,11 +54,15 @@ def test_a_failed_run_is_written_up_to_its_failure(tmp_path: Path) -> None:
     assert len(pd.read_csv(tmp_path / "results.csv")) == 6
 
 
-def test_lost_impacts_fail_the_verdict() -> None:
+def test_lost_impacts_are_counted_and_an_impact_that_is_not_fails_the_verdict() -> None:
     run = run_of(FakeSlave(impacts=[0.5 + 1e-3 * k for k in range(1, 12)]))
-    verdict = next(check for check in run.checks if check.claim == "Every impact is collected")
-    assert not verdict.passed
-    assert verdict.evidence == "8 collected, 11 counted by the FMU, 3 lost"
+    verdict = next(check for check in run.checks if check.claim == "Every impact is counted")
+    assert verdict.passed
+    assert verdict.evidence.startswith("8 collected, 11 counted by the FMU, 3 lost")
+    checks = run_checks(run.outcome, 1.0, run.results, run.impacts.iloc[1:], 3)
+    assert not next(check for check in checks if check.claim == verdict.claim).passed
+    checks = run_checks(run.outcome, 1.0, run.results, run.impacts, 0)
+    assert not next(check for check in checks if check.claim == "Every impact is collected").passed
 
 
 def test_a_broken_write_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:

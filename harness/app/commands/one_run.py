@@ -14,12 +14,14 @@ from ...analysis.stress import card_of
 from ...errors import FmuError, UsageError
 from ...fmu import open_fmu
 from ...fmu.interface import Instances
+from ...fmu.values import parse_time
 from ...papers.study.wheels import base_case_checks
 from ...run.checks import Check, all_passed
 from ...run.experiment import Experiment, Run, default_times, performing, start_values
 from ...run.logic import default_parameters, read_logic
-from ...run.results import prepare_folder, write_run, write_text
+from ...run.results import prepare_folder, summary, write_run, write_text
 from ..execution import alone_in, interruption, with_instances
+from ..output import give
 from ..terminal import (
     FAILED,
     INTERRUPTED,
@@ -66,16 +68,26 @@ def run_cycle(folder: Path) -> int:
             return _performed(fmu, experiment, lambda run: _written(run, folder, indexing.cycle_checks(run.results)))
 
 
-def new_mechanism(name: str) -> int:
+#: What a new file is like, in words.
+_LIKE = {
+    "lever": "a lever that falls on a stop",
+    "four_bar": "a four-bar linkage with a motor",
+    "cam": "a cam with a follower that may jump",
+    "ratchet": "a ratchet with two pawls",
+    "blank": "a body that falls",
+}
+
+
+def new_mechanism(name: str, like: str) -> int:
     """Write a mechanism to begin with, and say how to go on."""
-    from mechanism_fmu.fmu.own.find import WrongUseError, write_new
+    from mechanism_fmu.fmu.own.find import Like, WrongUseError, write_new
 
     try:
-        path = write_new(name, Path())
+        path = write_new(name, Path(), Like(like))
     except (WrongUseError, OSError) as error:
         raise UsageError(str(error)) from error
     console.print(
-        f"Written: {path}, a lever that falls on a stop. Build its FMU, and run it:\n\n"
+        f"Written: {path}, {_LIKE[like]}. Build its FMU, and run it:\n\n"
         f"mechanism-fmu build {path}\nmechanism-fmu run build/{path.stem}.fmu\n\n"
         "Then change the file; docs/your-own-mechanism.md explains its parts, and how to begin with a ready model.",
         soft_wrap=True,
@@ -87,14 +99,15 @@ def new_mechanism(name: str) -> int:
 def run_fmu(
     path: Path,
     settings: Sequence[str],
-    stop_time: float | None,
-    step: float | None,
+    stop_time: str | None,
+    step: str | None,
     input_file: Path | None,
     material: str,
     folder: Path,
     in_process: bool = False,
+    units_row: bool = False,
 ) -> int:
-    """Run an FMU and write what comes of it.
+    """Run an FMU and write what comes of it; times are in seconds, or have a unit.
 
     The files are written before the instance is freed, to a folder that stays the same whatever the FMU does to the
     working folder.
@@ -102,14 +115,15 @@ def run_fmu(
     card, folder = card_of(material), folder.absolute()
     with open_fmu(path) as fmu:
         values = start_values(settings, fmu.description)
-        times = default_times(fmu.description, stop_time, step)
+        until = parse_time(stop_time, "--stop-time", fmu.description)
+        times = default_times(fmu.description, until, parse_time(step, "--step", fmu.description))
         if step is None and fmu.description.step is None:
             show_note(f"{path.name} says no step size; {times[1]:g} s is taken. --step sets another one.")
         experiment = Experiment(*times, values, input_file, card)
 
         def work(instances: Instances) -> int:
             try:
-                return _performed(instances, experiment, lambda run: _written(run, folder))
+                return _performed(instances, experiment, lambda run: _written(run, folder, units_row=units_row))
             except FmuError:
                 name_earlier_files(folder)
                 raise
@@ -245,7 +259,7 @@ def _performed(fmu: Instances, experiment: Experiment, then: Callable[[Run], int
         return then(run)
 
 
-def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
+def _written(run: Run, folder: Path, more_checks: Sequence[Check] = (), units_row: bool = False) -> int:
     """Write the files of a run, unless it never began, and show in the terminal how it ended."""
     from ...report.run_report import write_report
 
@@ -255,5 +269,6 @@ def _written(run: Run, folder: Path, more_checks: Sequence[Check] = ()) -> int:
         return FAILED
     if run.inputs is not None and run.inputs.note:
         show_note(run.inputs.note)
-    files = [*write_run(run, folder), write_report(run, folder / "report.html", more_checks)]
+    give(summary(run))
+    files = [*write_run(run, folder, units_row), write_report(run, folder / "report.html", more_checks)]
     return show_ending(run, files, more_checks)

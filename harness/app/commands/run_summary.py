@@ -15,7 +15,7 @@ from ...errors import Status
 from ...fmu.declared import NO_BEAM
 from ...fmu.values import shown
 from ...run.checks import Check, all_passed
-from ...run.experiment import Run
+from ...run.experiment import Run, may_have_beam
 from ...run.master import Ending
 from ...run.results import final_values
 from ..terminal import (
@@ -86,7 +86,8 @@ def _show_impacts(run: Run) -> None:
         console.print(f"[dim]{escape(UNITS_OF_STOPS)}[/]", soft_wrap=True)
     declared = run.description.analysis
     if declared.struck is None and not declared.objection:
-        console.print(f"[dim]No stress: {escape(NO_BEAM)}[/]", soft_wrap=True)
+        if may_have_beam(run):
+            console.print(f"[dim]No stress: {escape(NO_BEAM)}[/]", soft_wrap=True)
     elif run.beam is None:
         console.print("[dim]No stress: see the verdicts.[/]")
     else:

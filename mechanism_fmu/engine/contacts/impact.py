@@ -230,7 +230,7 @@ def keep_impact(block: Array, contact: int) -> None:
 
     now.counters[codes.COUNT_IMPACTS] += 1
     place = now.counters[codes.COUNT_IN_STEP]
-    if place == codes.IMPACT_BUFFER_LENGTH:
+    if place == now.impacts.shape[0]:
         now.counters[codes.COUNT_LOST] += 1
         make_space(now.impacts)
         place -= 1

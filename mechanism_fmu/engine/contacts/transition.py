@@ -221,7 +221,7 @@ def keep_event(block: Array, guard: int, subject: int, old_mode: float, impulse:
     now = Course(block)
     now.counters[codes.COUNT_EVENTS] += 1
     place = now.counters[codes.EVENTS_IN_STEP]
-    if place == codes.EVENT_BUFFER_LENGTH:
+    if place == now.events.shape[0]:
         make_space(now.events)
         place -= 1
     else:

@@ -63,8 +63,8 @@ def _begin_at_zero(block: Array, time: float) -> None:
     take_inputs(block)
     for k in range(codes.COUNTERS_LENGTH):
         now.counters[k] = 0
-    now.counters[codes.COUNT_IN_STEP] = codes.IMPACT_BUFFER_LENGTH  # all that may be there is cleared
-    now.counters[codes.EVENTS_IN_STEP] = codes.EVENT_BUFFER_LENGTH
+    now.counters[codes.COUNT_IN_STEP] = now.impacts.shape[0]  # all that may be there is cleared
+    now.counters[codes.EVENTS_IN_STEP] = now.events.shape[0]
     clear_records(block)
     clear_impact(now.last_impact)
     now.counters[codes.PENDING_GUARD] = codes.GUARD_BEGIN

@@ -43,6 +43,7 @@ def try_step(block: Array, start: float, size_: float) -> float:
     h = size_
     s.tried[0] = start
     s.tried[1] = h
+    Course(block).counters[codes.COUNT_TRIES] += 1
     s.stage[0] = 0
     least = Contacts(block).least_push
     for c in range(least.shape[0]):

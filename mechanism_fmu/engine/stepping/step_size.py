@@ -100,6 +100,7 @@ def accurate_step(block: Array, start: float) -> float:
     error = _try(block, start, step)
     grow_most = _GROW_MOST
     while not error <= 1.0:
+        now.counters[codes.COUNT_REJECTED] += 1
         step = representable(start, step * _scale(error, 1.0))
         grow_most = 1.0
         if not step > smallest_step(start):

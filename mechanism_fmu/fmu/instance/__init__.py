@@ -1,1 +1,1 @@
-"""An instance of the pythonfmu flavour: FMI calls on one side, a `Simulation` on the other."""
+"""An instance of the pythonfmu flavour: FMI calls on one side, a `MovingMechanism` on the other."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from pythonfmu.enums import Fmi2Status
 
 from ... import codes
-from ...simulation import Simulation
+from ...moving import MovingMechanism
 
 
 class Message(NamedTuple):
@@ -26,13 +26,13 @@ class News:
         simulation: all that has happened to it so far counts as logged.
     """
 
-    def __init__(self, simulation: Simulation | None = None) -> None:
+    def __init__(self, simulation: MovingMechanism | None = None) -> None:
         self._impacts = 0 if simulation is None else simulation.counters.item(codes.COUNT_IMPACTS)
         self._events = 0 if simulation is None else simulation.counters.item(codes.COUNT_EVENTS)
         self._lost = 0 if simulation is None else simulation.counters.item(codes.COUNT_LOST)
         self._pulls = set[str]() if simulation is None else set(simulation.pulling_contacts())
 
-    def since_last(self, simulation: Simulation) -> Iterator[Message]:
+    def since_last(self, simulation: MovingMechanism) -> Iterator[Message]:
         """Impacts and events of the step, those that the buffers lost, contacts that have begun to pull."""
         counters = simulation.counters
         if counters.item(codes.COUNT_IMPACTS) != self._impacts:
@@ -47,7 +47,7 @@ class News:
             self._lost += lost
             yield Message(
                 f"{lost} impacts of the step to t = {simulation.time:.9g} s did not fit into "
-                f"impacts[1..{codes.IMPACT_BUFFER_LENGTH}] and are lost to the outside (the motion is right); "
+                f"impacts[1..{len(simulation.field('impacts'))}] and are lost to the outside (the motion is right); "
                 "use a shorter communication step.",
                 Fmi2Status.warning,
                 "logStatusWarning",
@@ -59,7 +59,7 @@ class News:
                     yield pulls(contact, time)
 
 
-def _impacts(simulation: Simulation) -> Iterator[Message]:
+def _impacts(simulation: MovingMechanism) -> Iterator[Message]:
     for impact in simulation.impacts_in_step():
         yield Message(
             f"Impact on {impact.contact} at t = {impact.time:.12g} s: closing speed {impact.closing_speed:.6g} m/s, "
@@ -69,7 +69,7 @@ def _impacts(simulation: Simulation) -> Iterator[Message]:
         )
 
 
-def _events(simulation: Simulation, new: int) -> Iterator[Message]:
+def _events(simulation: MovingMechanism, new: int) -> Iterator[Message]:
     """What is known of the `new` events; of a step with many, the last ones."""
     known = simulation.events_in_step()
     if new > len(known):

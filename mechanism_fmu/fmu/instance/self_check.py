@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 from ...engine.run import compiled_library
 from ...model import MechanismError, Model
-from ...simulation import Simulation
+from ...moving import MovingMechanism
 
 
 class StartError(MechanismError):
@@ -53,7 +53,7 @@ def compile_engine(model: Model) -> None:
     gc.disable()  # the compiler makes millions of small objects and keeps them: looking for garbage costs a tenth
     try:
         with start_explained():
-            simulation = Simulation(model.build(model.values()))
+            simulation = MovingMechanism(model.build(model.values()))
         simulation.advance(1e-3)
         simulation.read()
     finally:

@@ -1,4 +1,4 @@
-"""FMI 2.0 co-simulation slave (pythonfmu): FMI calls on one side, a `Simulation` on the other. No dynamics here."""
+"""FMI 2.0 co-simulation slave (pythonfmu): FMI calls on one side, a `MovingMechanism` on the other, no dynamics."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ... import __version__
 from ...engine.run import compiled_library
 from ...model import MechanismError, Model, compile_mechanism
 from ...model.model import check_value
-from ...simulation import Simulation, SimulationError, StepBudgetError
+from ...moving import MovingMechanism, SimulationError, StepBudgetError
 from ...tables.layout import FIELDS, pack
 from ...tables.sizes import sizes_of
 from ..parts.variables import FIRST_REFERENCE, Variable, variables_of
@@ -65,7 +65,7 @@ class MechanismSlave(Fmi2Slave):
         self._parameters = [p.start for p in self.model.parameters]
         self._inputs = [float(v.start or 0.0) for v in self.variables if v.causality == "input"]
         self._first_parameter = sum(v.causality in ("input", "output") for v in self.variables)
-        self._simulation: Simulation | None = None
+        self._simulation: MovingMechanism | None = None
         self._values: list[float] | None = None
         self._news = News()
         self._passed = PassedTexts()
@@ -251,20 +251,20 @@ class MechanismSlave(Fmi2Slave):
     def _parameter_values(self) -> dict[str, float]:
         return {p.name: value for p, value in zip(self.model.parameters, self._parameters, strict=True)}
 
-    def _prepared(self) -> Simulation:
+    def _prepared(self) -> MovingMechanism:
         """The simulation; before the first step it is made anew after each change of a parameter or input."""
         if self._simulation is None:
             self._simulation = self._made(self._experiment, self._parameters, self._inputs)
         return self._simulation
 
-    def _made(self, setup: Experiment | None, parameters: Sequence[float], inputs: Sequence[float]) -> Simulation:
+    def _made(self, setup: Experiment | None, parameters: Sequence[float], inputs: Sequence[float]) -> MovingMechanism:
         """A simulation of parameter values and inputs, in the model's order, that has begun."""
         setup = setup or Experiment(0.0)
         values = {p.name: value for p, value in zip(self.model.parameters, parameters, strict=True)}
         mechanism = self.model.build(self.model.checked(values))
         tolerance = min(mechanism.settings.relative_tolerance, max(setup.tolerance, TIGHTEST))
         mechanism = replace(mechanism, settings=replace(mechanism.settings, relative_tolerance=tolerance))
-        return Simulation(mechanism, setup.start_time, inputs)
+        return MovingMechanism(mechanism, setup.start_time, inputs)
 
     def _forget_simulation(self) -> None:
         self._simulation = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import keyword
 import re
 from difflib import get_close_matches
+from enum import StrEnum
 from os.path import exists, isdir
 from pathlib import Path
 
@@ -66,15 +67,32 @@ def _python_files(folder: Path) -> list[str]:
 
 # A file to begin with.
 
-_TEMPLATE = Path(__file__).with_name("template.txt")
+_FOLDER = Path(__file__).parent
 
 
-def write_new(name: str, folder: Path) -> Path:
+class Like(StrEnum):
+    """What a new file can be like."""
+
+    LEVER = "lever"
+    FOUR_BAR = "four_bar"
+    CAM = "cam"
+    RATCHET = "ratchet"
+    BLANK = "blank"
+
+    @property
+    def text(self) -> str:
+        """The file, with NAME where its name stands."""
+        path = _FOLDER / ("template.txt" if self is Like.LEVER else f"like/{self}.txt")
+        return path.read_text(encoding="utf-8")
+
+
+def write_new(name: str, folder: Path, like: Like = Like.LEVER) -> Path:
     """Write a mechanism that builds and runs, for the user to change, as `<name>.py`.
 
     Args:
         name: of the file and of the FMU.
         folder: where to.
+        like: what it begins as.
 
     Raises:
         WrongUseError: the name cannot name an FMU, or there is such a file.
@@ -91,7 +109,7 @@ def write_new(name: str, folder: Path) -> Path:
     path = folder / f"{name}.py"
     try:
         with path.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(_TEMPLATE.read_text(encoding="utf-8").replace("NAME", name))
+            file.write(like.text.replace("NAME", name))
     except FileExistsError:
         raise WrongUseError(f"{path} is there already; give another name, or remove it first.") from None
     return path

@@ -17,7 +17,7 @@ import numpy as np
 
 from ...kinematics.mobility import Independence, free_directions, independence
 from ...model import Mechanism, MechanismError, Model, compile_mechanism
-from ...simulation import Simulation
+from ...moving import MovingMechanism
 from ...tables.layout import pack
 from ..native.link import has_linker
 from ..native.objects import library_of
@@ -109,7 +109,7 @@ def freedoms(mechanism: Mechanism, library: CDLL | None = None) -> Freedoms:
 
 def _rows(mechanism: Mechanism, library: CDLL | None) -> tuple[_Array, list[str], float]:
     """Phi_q of joints and closed contacts at the start, the part of each row, and the longest lever arm [m] or 1."""
-    simulation = Simulation.over(mechanism, pack(compile_mechanism(mechanism)), library)
+    simulation = MovingMechanism.over(mechanism, pack(compile_mechanism(mechanism)), library)
     simulation.begin(0.0)
     rows, names = _read(simulation, mechanism)
     along = np.maximum(np.abs(rows[:, 0::3]), np.abs(rows[:, 1::3])).max(axis=1, initial=0.0)
@@ -118,7 +118,7 @@ def _rows(mechanism: Mechanism, library: CDLL | None) -> tuple[_Array, list[str]
     return rows, names, size
 
 
-def _read(simulation: Simulation, mechanism: Mechanism) -> tuple[_Array, list[str]]:
+def _read(simulation: MovingMechanism, mechanism: Mechanism) -> tuple[_Array, list[str]]:
     """Phi_q where the simulation has looked at it, and the part of each row."""
     names = [joint.name for joint in mechanism.joints for _ in range(joint.rows)] + list(simulation.mode())
     return np.array(simulation.field("jacobian")[: len(names), : 3 * len(mechanism.bodies)]), names
@@ -142,7 +142,7 @@ def _near(mechanism: Mechanism, step: _Array, size: float, library: CDLL | None)
     )
     alone = replace(mechanism, bodies=bodies, held=(), inputs=(), outputs=(), calculated=(), members=(), disks=())
     undriven = replace(alone, joints=tuple(joint for joint in mechanism.joints if joint.motion is None))
-    simulation = Simulation.over(undriven, pack(compile_mechanism(undriven)), library)
+    simulation = MovingMechanism.over(undriven, pack(compile_mechanism(undriven)), library)
     try:
         simulation.begin(0.0)
     except MechanismError:
@@ -152,7 +152,7 @@ def _near(mechanism: Mechanism, step: _Array, size: float, library: CDLL | None)
     placed = tuple(replace(body, start=tuple(at)) for body, at in zip(bodies, pose, strict=True))
     every = tuple(f"{body.name}.{coordinate}" for body in bodies for coordinate in ("x", "y", "angle"))
     there = replace(alone, bodies=placed, held=every)
-    simulation = Simulation.over(there, pack(compile_mechanism(there)), library)
+    simulation = MovingMechanism.over(there, pack(compile_mechanism(there)), library)
     with suppress(MechanismError):
         simulation.begin(0.0)
     return independence(_balanced(_read(simulation, there)[0], size))

@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement, register_namespace
 
 from ... import __version__
 from ...model import Model, compile_mechanism
-from ...simulation import Simulation, SimulationError
+from ...moving import MovingMechanism, SimulationError
 from ...tables.layout import pack
 from .model_description import to_bytes
 from .variables import Variable, variables_of
@@ -64,7 +64,7 @@ def _rows(model: Model, library: CDLL | None) -> list[list[str]] | None:
     """The results as a table of texts with a head; buffers of single impacts and events are left out."""
     outputs = [v for v in variables_of(model) if v.causality == "output" and "[" not in v.name]
     mechanism = model.build(model.values())
-    simulation = Simulation.over(mechanism, pack(compile_mechanism(mechanism)), library)
+    simulation = MovingMechanism.over(mechanism, pack(compile_mechanism(mechanism)), library)
     rows = [["time", *(variable.name for variable in outputs)]]
     try:
         simulation.begin(0.0)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from ...codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH
+from ...codes import EVENT_BUFFER_LENGTH, IMPACT_BUFFER_LENGTH, MOST_KEPT
+from ..errors import MechanismError
 from ..ports import Input, Output
 
 # Outputs that many mechanisms have; `source` is as of `Output`.
@@ -105,19 +106,23 @@ def energy_outputs(kinetic: str, spring: str, work: str, lost: str, nominal: flo
 _STEP = "of the last communication step"
 
 
-def impact_outputs(what: str, fields: Sequence[Output]) -> tuple[Output, ...]:
+def impact_outputs(what: str, fields: Sequence[Output], kept: int = IMPACT_BUFFER_LENGTH) -> tuple[Output, ...]:
     """Counters of impacts, the last one, and those of the last communication step, from which runs make tables.
 
     Args:
         what: whose impacts, e.g. "Impacts of the driver on its backstop".
         fields: what is reported of each, with "{impact}" in the descriptions, besides its time, its instant (a counter:
             all impacts of one instant have the same) and the energy that all impacts of this instant lost [J].
+        kept: how many impacts of a step are kept, 8 to 1000.
+
+    Raises:
+        MechanismError: as many cannot be kept.
     """
     time = Output("time", "time", "Time, {impact}", "s")
     instant = whole_output("instant", "instant", "Number of the instant, the same for all its impacts, {impact}")
     lost = Output("energy_lost", "energy_lost", "Energy lost at the instant, {impact}", "J")
     fields = (*fields, lost)
-    return (*last_impact_outputs(what, fields), *impact_buffer_outputs((time, instant, *fields)))
+    return (*last_impact_outputs(what, fields), *impact_buffer_outputs((time, instant, *fields), kept))
 
 
 def impact_speed_fields(*bodies: str, nominal: float = 1.0) -> tuple[Output, ...]:
@@ -155,31 +160,46 @@ def last_impact_outputs(what: str, fields: Sequence[Output]) -> tuple[Output, ..
     )
 
 
-def impact_buffer_outputs(fields: Sequence[Output]) -> tuple[Output, ...]:
+def impact_buffer_outputs(fields: Sequence[Output], kept: int = IMPACT_BUFFER_LENGTH) -> tuple[Output, ...]:
     """The impacts of the last communication step: how many, how many did not fit, and the fields of each.
 
     Args:
         fields: as of `impact_outputs`, and with the time.
+        kept: as of `impact_outputs`.
+
+    Raises:
+        MechanismError: as many cannot be kept.
     """
-    slots = f"impacts[1..{IMPACT_BUFFER_LENGTH}]"
+    _require_room(kept, IMPACT_BUFFER_LENGTH)
+    slots = f"impacts[1..{kept}]"
     return (
         whole_output("impacts_in_step", "impact.in_step", f"Impacts {_STEP} held in {slots}"),
         whole_output("impacts_lost", "impact.lost", f"Impacts since the start that did not fit into {slots}"),
-        *_buffer("impact", IMPACT_BUFFER_LENGTH, fields),
+        *_buffer("impact", kept, fields),
     )
 
 
-def event_buffer_outputs(fields: Sequence[Output]) -> tuple[Output, ...]:
+def event_buffer_outputs(fields: Sequence[Output], kept: int = EVENT_BUFFER_LENGTH) -> tuple[Output, ...]:
     """The events of the last communication step: how many, and the fields of each.
 
     Args:
         fields: as of impacts, with "{event}" in the descriptions; runs make a table if all that an event has are there.
+        kept: how many events of a step are kept, 16 to 1000.
+
+    Raises:
+        MechanismError: as many cannot be kept.
     """
-    slots = f"events[1..{EVENT_BUFFER_LENGTH}]"
+    _require_room(kept, EVENT_BUFFER_LENGTH)
+    slots = f"events[1..{kept}]"
     return (
         whole_output("events_in_step", "event.in_step", f"Events {_STEP} held in {slots}"),
-        *_buffer("event", EVENT_BUFFER_LENGTH, fields),
+        *_buffer("event", kept, fields),
     )
+
+
+def _require_room(kept: int, least: int) -> None:
+    if not least <= kept <= MOST_KEPT:
+        raise MechanismError(f"kept = {kept}: of a step {least} to {MOST_KEPT} can be kept.")
 
 
 def _buffer(kind: str, length: int, fields: Sequence[Output]) -> Iterator[Output]:

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.moving import MovingMechanism
 from models.ratchet.model import MODEL
 from tests.fmu.conformance.host import Instance, Value
 from tests.fmu.test_indexing_cycle import CYCLE, PERIOD, stroke
@@ -55,7 +55,9 @@ class InEngine:
         given = dict(start or {})
         names = {port.name for port in MODEL.build(MODEL.values()).inputs}
         mechanism = MODEL.build(MODEL.values(**{name: given[name] for name in given.keys() - names}))
-        self._simulation = Simulation(mechanism, inputs=[given.get(port.name, port.start) for port in mechanism.inputs])
+        self._simulation = MovingMechanism(
+            mechanism, inputs=[given.get(port.name, port.start) for port in mechanism.inputs]
+        )
         self.time = 0.0
 
     def set(self, values: Mapping[str, float]) -> None:

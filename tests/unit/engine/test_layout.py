@@ -3,7 +3,6 @@
 import numpy as np
 from rotor import Stop, rotor
 
-from mechanism_fmu import codes
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.tables.layout import FIELDS, allocate, field_of, pack, state_of, write_tables
 from mechanism_fmu.tables.sizes import SIZES, sizes_of
@@ -33,6 +32,8 @@ GIVEN = {
     "beams": 2,
     "joint_rows": 8,
     "contact_rows": 7,
+    "buffer": 3,
+    "event_buffer": 4,
 }
 HEADER = len(SIZES) + len(FIELDS)
 
@@ -57,7 +58,6 @@ def test_sizes_that_follow_from_others():
     assert sizes["unknowns"] == 2 * 6 + 2 + 3 + 2  # positions, rates, work and loss, contact coordinates, own states
     assert [sizes[name] for name in ("y_work", "y_loss", "y_alpha", "y_own")] == [12, 13, 14, 17]
     assert sizes["displacements"] == 3 * 4  # x, y and rotation of a node
-    assert sizes["buffer"] == codes.IMPACT_BUFFER_LENGTH
     assert sizes["guards"] == 2 * 5 + 2 * 2 + 3  # gap and click of a contact, both ends of a pattern, functions
     assert sizes["record"] == 8 + 5 + 12  # eight columns, an impulse a contact, all rates before and after
 

@@ -1,6 +1,6 @@
 """What the engine is called with; what the compiled engine needs: see tests/fmu/native/test_subset.py."""
 
-from mechanism_fmu import codes, simulation
+from mechanism_fmu import codes, moving
 from mechanism_fmu.engine import run
 from mechanism_fmu.model import Body, Mechanism
 from mechanism_fmu.simulation import Simulation
@@ -20,7 +20,7 @@ def test_whole_numbers_of_seconds_compile_nothing_new(monkeypatch):
     def engine_for(*block):
         return run.Engine(*map(watched, run.Engine._fields, run.engine_for(*block)))
 
-    monkeypatch.setattr(simulation, "engine_for", engine_for)
+    monkeypatch.setattr(moving, "engine_for", engine_for)
     for start, end in ((1.0, 2.0), (1, 2)):
         stone = Simulation(Mechanism(bodies=(Body("stone", 1.0, 1.0),)), start_time=start)
         stone.advance(end)

@@ -221,7 +221,7 @@ UNKNOWN_SOURCES = [
     "impact.speed:leg",
     "impact.impulse:arm",
     "impacts[0].time",
-    "impacts[9].time",
+    "impacts[1001].time",
     "impacts[1].count",
 ]
 

@@ -8,6 +8,7 @@ from hypothesis import given, strategies as st
 
 from mechanism_fmu.model import MechanismError, dyad, four_bar_points, toward
 from mechanism_fmu.model.four_bar import start
+from mechanism_fmu.model.symbol import Recorder, Symbol
 
 
 @given(st.floats(-2, 2), st.floats(-2, 2), st.floats(0.6, 1.5), st.floats(0.6, 1.5), st.sampled_from(["left", "right"]))
@@ -35,8 +36,20 @@ def test_the_branches_are_those_of_the_ready_made_four_bar(branch: str, angle: f
     assert math.dist(pins.crank_pin, pins.rocker_pin) == pytest.approx(0.18, rel=1e-14)
 
 
-def test_links_that_do_not_reach_each_other_point_at_each_other() -> None:
-    assert dyad((0, 0), (4, 0), from_a=1.0, from_b=2.0) == pytest.approx((13 / 8, 0.0))
+def test_links_that_do_not_reach_each_other_are_refused() -> None:
+    """A point somewhere between would give bars other lengths than were asked for, without a word."""
+    with pytest.raises(MechanismError, match="links of 1 m and 2 m do not reach each other over the 4 m between"):
+        dyad((0, 0), (4, 0), from_a=1.0, from_b=2.0)
+    with pytest.raises(MechanismError, match="links of 1 m and 4 m do not reach"):
+        dyad((0, 0), (2, 0), from_a=1.0, from_b=4.0)
+    assert dyad((0, 0), (0.3, 0), from_a=0.1, from_b=0.2) == pytest.approx((0.1, 0.0), abs=1e-6)  # in one line
+
+
+def test_of_parameters_links_that_do_not_reach_each_other_are_no_number() -> None:
+    recorder = Recorder()
+    x, _ = dyad((0, 0), (4, 0), from_a=recorder.parameter(0), from_b=2.0)
+    assert isinstance(x, Symbol)
+    assert [operation.name for operation in recorder.operations].count("sqrt") == 1
 
 
 def test_a_point_on_the_way() -> None:

@@ -182,7 +182,7 @@ ROWS = (
 
 # The terms that Erdman, Sandor and Oakberg define, with what of them this project does; and their Figs 1 to 7.
 
-_KINEMATICS, _SIMULATION = "mechanism_fmu/kinematics/motion.py", "mechanism_fmu/simulation.py"
+_KINEMATICS, _SIMULATION = "mechanism_fmu/kinematics/motion.py", "mechanism_fmu/moving.py"
 _CYCLE, _SYNTHESIS = "mechanism_fmu/elastodynamics/cycle.py", "mechanism_fmu/elastodynamics/synthesis.py"
 _SEARCH = "harness/designs/search.py"
 _GLOSSARY = "docs/glossary.md"

@@ -131,9 +131,9 @@ void log_news(Instance *x) {
     if (counters[CODE_COUNT_EVENTS] != x->logged_events) log_events(x, counters[CODE_COUNT_EVENTS] - x->logged_events);
     if (counters[CODE_COUNT_LOST] != x->logged_lost)
         say(x, WARNING, "logStatusWarning",
-            "%lld impacts of the step to t = %.9g s did not fit into impacts[1..%d] and are lost to the outside (the "
+            "%lld impacts of the step to t = %.9g s did not fit into impacts[1..%zu] and are lost to the outside (the "
             "motion is right); use a shorter communication step.",
-            (long long)(counters[CODE_COUNT_LOST] - x->logged_lost), time_of(x), CODE_IMPACT_BUFFER_LENGTH);
+            (long long)(counters[CODE_COUNT_LOST] - x->logged_lost), time_of(x), SIZE(x, buffer));
     for (size_t c = 0; c < SIZE(x, contacts); c++)
         if (FIELD(x, pull_time)[c] <= time_of(x) && !x->logged_pull[c])
             say(x, WARNING, "logStatusWarning",
@@ -211,7 +211,7 @@ static void stiffest(Instance *x, char *text, size_t size) {
     snprintf(text, size, " Internal steps: %lld, the last of %.3g s, limited by %s. Events: %lld%s.",
              (long long)COUNTERS(x)[CODE_STEPS_IN_STEP], FIELD(x, tried)[1],
              model.unknowns[*(const int64_t *)FIELD(x, stage_stiffest)], events,
-             events == CODE_EVENT_BUFFER_LENGTH ? " or more" : "");
+             events == (long long)SIZE(x, event_buffer) ? " or more" : "");
 }
 
 const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size) {

@@ -1,4 +1,4 @@
-"""Simulation of a mechanism in time: where `model` and `engine` meet."""
+"""A mechanism in motion: where `model` and `engine` meet, for FMUs, `batch` and `simulation`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .model.compile import unknown_names
 from .model.event_names import event_name
 from .tables.layout import field_of, pack, state_of
 
-__all__ = ["Event", "Impact", "Simulation", "SimulationError", "StepBudgetError"]
+__all__ = ["Event", "Impact", "MovingMechanism", "SimulationError", "StepBudgetError"]
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -84,7 +84,7 @@ class Event(NamedTuple):
     impulse: float
 
 
-class Simulation:
+class MovingMechanism:
     """One mechanism, from assembly through its motion.
 
     Args:
@@ -103,7 +103,7 @@ class Simulation:
         self.begin(start_time)
 
     @classmethod
-    def over(cls, mechanism: Mechanism, block: Array, library: CDLL | None = None) -> Simulation:
+    def over(cls, mechanism: Mechanism, block: Array, library: CDLL | None = None) -> MovingMechanism:
         """A simulation of what stands in a block; it has to `begin` yet, and begins anew when the block is rewritten.
 
         Args:
@@ -224,7 +224,7 @@ class Simulation:
         return {contact.name: time for contact, time in pairs if time <= self.time}
 
     def impacts_in_step(self) -> list[Impact]:
-        """The impacts of the last call of `advance`, oldest first, at most `codes.IMPACT_BUFFER_LENGTH`."""
+        """The impacts of the last call of `advance`, oldest first, at most as many as are kept (`model.Output`)."""
         records = field_of(self._block, "impacts")[: int(self.counters[codes.COUNT_IN_STEP])].tolist()
         names = [contact.name for contact in self._mechanism.contacts]
         return [
@@ -241,7 +241,7 @@ class Simulation:
         ]
 
     def events_in_step(self) -> list[Event]:
-        """The events of the last call of `advance`, oldest first, at most `codes.EVENT_BUFFER_LENGTH`."""
+        """The events of the last call of `advance`, oldest first, at most as many as are kept (`model.Output`)."""
         records = field_of(self._block, "events")[: int(self.counters[codes.EVENTS_IN_STEP])].tolist()
         return [
             Event(
@@ -291,7 +291,7 @@ class Simulation:
         size = field_of(self._block, "tried").item(1)
         steps = self.counters.item(codes.STEPS_IN_STEP)
         events = self.counters.item(codes.EVENTS_IN_STEP)
-        more = " or more" if events == codes.EVENT_BUFFER_LENGTH else ""
+        more = " or more" if events == len(self.field("events")) else ""
         return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
 
     def _residuals(self) -> str:

@@ -1,0 +1,173 @@
+"""What comes of a run: a table, impacts and events, statistics of the solver, a plot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..model.mechanism import Mechanism
+from ..model.ports import Input, Output
+from ..moving import Event, Impact
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_DTYPES = {"Real": "float64", "Integer": "int64", "Boolean": "bool"}
+#: Units of the columns of impacts and events; those of stops and locks are rad/s, N.m.s.
+_OF_IMPACTS = {"time": "s", "closing_speed": "m/s", "impulse": "N.s", "velocity": "m/s", "energy_lost": "J"}
+_OF_EVENTS = {"time": "s", "impulse": "N.s"}
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """What a run has cost.
+
+    Attributes:
+        communication_steps: rows of the table, but for the first.
+        accepted_steps: of the engine's own.
+        rejected_steps: of the engine's own, whose error was too large.
+        evaluations: of the accelerations, in all steps that were tried, those to find events among them.
+        events: all kinds, impacts among them.
+        impacts: of all contacts.
+        wall_time: [s], the start with it.
+    """
+
+    communication_steps: int
+    accepted_steps: int
+    rejected_steps: int
+    evaluations: int
+    events: int
+    impacts: int
+    wall_time: float
+
+
+@dataclass(frozen=True)
+class Result:
+    """A run.
+
+    Attributes:
+        mechanism: that was run.
+        names: of the columns of the table: "time", inputs, outputs.
+        numbers: the table, shape (rows, columns), in SI units.
+        units: by name; "1" for numbers without one.
+        descriptions: by name.
+        impacts, events: all, in the order of time.
+        statistics: of the solver.
+    """
+
+    mechanism: Mechanism = field(repr=False)
+    names: tuple[str, ...] = field(repr=False)
+    numbers: np.ndarray[Any, np.dtype[Any]] = field(repr=False)
+    units: Mapping[str, str] = field(repr=False)
+    descriptions: Mapping[str, str] = field(repr=False)
+    types: Mapping[str, str] = field(repr=False)
+    impacts: Sequence[Impact] = field(repr=False)
+    events: Sequence[Event] = field(repr=False)
+    statistics: Statistics
+
+    @classmethod
+    def of(
+        cls,
+        mechanism: Mechanism,
+        shown: Sequence[Output],
+        rows: Sequence[Sequence[float]],
+        impacts: Sequence[Impact],
+        events: Sequence[Event],
+        statistics: Statistics,
+    ) -> Result:
+        """A run of `mechanism`, whose rows have the time, all inputs, and the outputs `shown`."""
+        ports: list[Input | Output] = [*mechanism.inputs, *shown]
+        return cls(
+            mechanism,
+            ("time", *(port.name for port in ports)),
+            np.array(rows),
+            {"time": "s"} | {port.name: port.unit for port in ports},
+            {"time": "Time"} | {port.name: port.description for port in ports},
+            {output.name: output.type for output in shown},
+            tuple(impacts),
+            tuple(events),
+            statistics,
+        )
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """A row for each communication point; `table.attrs` has "units" and "descriptions" by name."""
+        import pandas as pd
+
+        columns = zip(self.names, self.numbers.T, strict=True)
+        table = pd.DataFrame({name: column.astype(self._type(name)) for name, column in columns})
+        table.attrs.update(units=dict(self.units), descriptions=dict(self.descriptions))
+        return table
+
+    @cached_property
+    def impact_table(self) -> pd.DataFrame:
+        """A row for each impact, with the fields of `Impact`; `attrs["units"]` by name."""
+        return _table(self.impacts, Impact, _OF_IMPACTS)
+
+    @cached_property
+    def event_table(self) -> pd.DataFrame:
+        """A row for each event, with the fields of `Event`; modes are joined by "+"."""
+        return _table(self.events, Event, _OF_EVENTS)
+
+    def __getitem__(self, name: str) -> np.ndarray[Any, np.dtype[Any]]:
+        """A column, shape (rows,).
+
+        Raises:
+            KeyError: there is none of that name.
+        """
+        if name not in self.names:
+            raise KeyError(f"{name!r}; there are: {', '.join(self.names)}")
+        column: np.ndarray[Any, np.dtype[Any]] = self.numbers[:, self.names.index(name)]
+        return column
+
+    def at(self, time: float) -> dict[str, float]:
+        """All columns at a time [s]: between two rows interpolated linearly, and whole numbers those of the row before.
+
+        Raises:
+            ValueError: the run was not there.
+        """
+        times = self["time"]
+        if not times[0] <= time <= times[-1]:
+            raise ValueError(f"t = {time:g} s is not within the run, from {times[0]:g} s to {times[-1]:g} s.")
+        before = int(np.searchsorted(times, time, side="right")) - 1
+        return {
+            name: float(np.interp(time, times, self[name]) if self._type(name) == "float64" else self[name][before])
+            for name in self.names
+        }
+
+    def to_csv(self, path: Path | str) -> None:
+        """Write the table; headings have the units, as in "speed [rad/s]"."""
+        headings = [name if self.units[name] == "1" else f"{name} [{self.units[name]}]" for name in self.names]
+        self.table.to_csv(path, index=False, header=headings)
+
+    def plot(self, *names: str) -> Any:
+        """A plotly `Figure` of columns over time, one chart for each unit: `.show()` it, or `.write_html("run.html")`.
+
+        Args:
+            names: of columns; without any, all real ones that change.
+
+        Raises:
+            KeyError: there is no such column.
+        """
+        from .plot import Curve, figure
+
+        chosen = names or [name for name in self.names[1:] if self._type(name) == "float64" and np.ptp(self[name]) > 0]
+        curves = [Curve(name, self[name], self.units[name], self.descriptions[name]) for name in chosen]
+        return figure(self["time"], curves, [impact.time for impact in self.impacts])
+
+    def _type(self, name: str) -> str:
+        return _DTYPES[self.types.get(name, "Real")]
+
+
+def _table(records: Sequence[Any], kind: type[Any], units: Mapping[str, str]) -> pd.DataFrame:
+    import pandas as pd
+
+    rows = [["+".join(value) if isinstance(value, tuple) else value for value in record] for record in records]
+    table = pd.DataFrame(rows, columns=list(kind._fields))
+    table.attrs["units"] = {name: units.get(name, "1") for name in kind._fields}
+    return table

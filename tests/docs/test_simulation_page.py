@@ -1,0 +1,18 @@
+"""The examples of docs/simulation.md, which follow each other in one file, print what stands below them."""
+
+import contextlib
+import io
+
+from pages import JOINTS, examples
+
+PAGE = JOINTS.parent / "simulation.md"
+
+
+def test_examples_print_what_the_page_says() -> None:
+    names: dict[str, object] = {}
+    for program, expected in examples(PAGE):
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(compile(program, PAGE.name, "exec"), names)
+        assert printed.getvalue() == expected
+    assert "simulation" in names
