@@ -82,7 +82,11 @@ class Fall:
 
 
 def rolled_angle(carrier: float) -> float:
-    """Phi_2 [rad] of a carrier's angle theta [rad], by hand: eq (1) of the slides with phi_1 = 0, solved for phi_2."""
+    """Phi_2 [rad] of a carrier's angle theta [rad], by hand: eq (1) of the slides with phi_1 = 0, solved for phi_2.
+
+    Args:
+        carrier: its angle theta [rad].
+    """
     return (CARRIER * carrier - RADIUS_1 * MARK_1) / RADIUS_2 - MARK_2 + math.pi
 
 
@@ -176,6 +180,10 @@ def cam_tangent(alpha: float, phi: float = 0.0) -> FloatArray:
     """Tangent g_1, shape (2,) [m], at the contact coordinate alpha [rad] of a cam that is turned by phi [rad].
 
     On [0, 2 pi/3) rho' = 3/4 sin 3 alpha, elsewhere the cam is a circle and rho' = 0.
+
+    Args:
+        alpha: contact coordinate [rad].
+        phi: angle of the cam [rad].
     """
     if alpha % (2 * math.pi) < _JOIN:
         return _tangent(alpha, phi, 1.25 - 0.25 * math.cos(3 * alpha), 0.75 * math.sin(3 * alpha))
@@ -183,7 +191,12 @@ def cam_tangent(alpha: float, phi: float = 0.0) -> FloatArray:
 
 
 def roller_tangent(alpha: float, phi: float = 0.0) -> FloatArray:
-    """Tangent g_2, shape (2,) [m]; as `cam_tangent`, with rho_2' = 0."""
+    """Tangent g_2, shape (2,) [m]; as `cam_tangent`, with rho_2' = 0.
+
+    Args:
+        alpha: contact coordinate [rad].
+        phi: angle of the roller [rad].
+    """
     return _tangent(alpha, phi, _ROLLER_RADIUS, 0.0)
 
 
@@ -193,6 +206,12 @@ def tangents_of_the_rows(
     """A_1 g_1 and A_2 g_2, each of shape (2,) [m], as the rows of `CamFollower` have them.
 
     They are the columns of the contact coordinates in Phi_q of r_1^C - r_2^C: [.., A_1 g_1, -A_2 g_2].
+
+    Args:
+        alpha_1: contact coordinate of the cam [rad].
+        alpha_2: contact coordinate of the roller [rad].
+        phi_1: angle of the cam [rad].
+        phi_2: angle of the roller [rad].
     """
     equations = _equations()
     q = equations.start.copy()

@@ -72,6 +72,9 @@ class Batch:
     def of_fmu(cls, path: Path) -> Batch:
         """The model of an FMU by pythonfmu, from the sources that travel in it, and the engine that does.
 
+        Args:
+            path: of the FMU's file.
+
         Raises:
             NoBatchError: not with the numbers of this FMU; the message says why.
         """

@@ -96,10 +96,10 @@ class BatchResult:
     """What came of many designs, in SI units. Columns have the shape (designs,), and NaN where a design has failed.
 
     Attributes:
-        designs: what was asked: parameters and inputs by name.
-        values: outputs and calculated parameters at the time reached, by name.
+        designs: what was asked: parameters and inputs by name, each of shape (designs,).
+        values: outputs and calculated parameters at the time reached, by name, each of shape (designs,).
         least, greatest: of the same, over the start, all communication points and the end; empty if not asked for.
-        impact_count: impacts until then.
+        impact_count: number of impacts until then, shape (designs,).
         impacts: the first impacts of each design, by field as in the FMU's `impacts[k].<field>`, shape (designs, kept);
             NaN where there were fewer.
         reached: time reached [s]; of a failed design the last good instant, NaN if it did not start.

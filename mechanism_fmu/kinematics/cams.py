@@ -113,7 +113,11 @@ class CamReport:
     flat: bool
 
     def problems(self, limit: float = USUAL_LIMIT) -> tuple[str, ...]:
-        """What an engineer should know of pair and profile, one sentence each; `limit` of the pressure angle [rad]."""
+        """What an engineer should know of pair and profile, one sentence each; `limit` of the pressure angle [rad].
+
+        Args:
+            limit: of the pressure angle [rad].
+        """
         return (*self._problems(limit), *self.profile.problems(self.roller_radius, flat=self.flat))
 
     def _problems(self, limit: float) -> Iterator[str]:

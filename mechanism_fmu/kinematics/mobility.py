@@ -122,7 +122,12 @@ _SHARE = 1e-6
 
 @dataclass(frozen=True)
 class Dependency:
-    """A constraint row that says nothing new: `row` follows from the rows `follows_from` (names as in `Equations`)."""
+    """A constraint row that says nothing new: `row` follows from the rows `follows_from` (names as in `Equations`).
+
+    Attributes:
+        row: its name, e.g. "hinge[0]".
+        follows_from: names of the rows from which it follows.
+    """
 
     row: str
     follows_from: tuple[str, ...]
@@ -180,6 +185,10 @@ def mobility(mechanism: Mechanism, time: float = 0.0) -> Mobility:
     """Degrees of freedom and dependent rows of a mechanism, assembled from its start guess at `time` [s].
 
     Of rows that depend on each other the last one is reported as redundant.
+
+    Args:
+        mechanism: whose values are plain numbers.
+        time: at which it is assembled [s].
 
     Raises:
         KinematicsError: it cannot be assembled, or the time is not finite.

@@ -172,6 +172,9 @@ class KinematicMotion:
     def of(self, coordinate: str) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Position, velocity and acceleration of one coordinate, each of shape (times,).
 
+        Args:
+            coordinate: its name, one of `coordinates`.
+
         Raises:
             KinematicsError: there is no such coordinate.
         """
@@ -186,6 +189,10 @@ def analyse(mechanism: Mechanism, times: Sequence[float] | FloatArray) -> Kinema
 
     The mechanism is assembled from its start guess at the first time, with nothing held but by its drivers; from then
     on the motion is followed, in smaller steps than those of `times` where it needs them. Rows may be redundant.
+
+    Args:
+        mechanism: whose values are plain numbers.
+        times: [s], shape (times,), increasing.
 
     Raises:
         KinematicsError: drivers leave something free, contradict each other, or ask for what is out of reach.

@@ -81,8 +81,10 @@ class ProfileReport:
 
     Attributes:
         least_rho, largest_rho: distances from the centre [m].
-        tip_radius: smallest radius of curvature where the profile is convex [m], at `tip_alpha` [rad].
-        hollow_radius: smallest radius of curvature where it is concave [m], at `hollow_alpha`; infinite when convex.
+        tip_radius: smallest radius of curvature where the profile is convex [m].
+        tip_alpha: where that is [rad].
+        hollow_radius: smallest radius of curvature where it is concave [m]; infinite when convex.
+        hollow_alpha: where that is [rad].
         hollows: where it is concave, from and to [rad].
         jumps: of rho, rho' and rho'' at joins: an edge, a jump in the follower's speed, or in its acceleration.
     """
@@ -135,12 +137,20 @@ class ProfileReport:
         return found
 
     def undercut(self, roller_radius: float) -> bool:
-        """Whether a cam cut with such a roller [m], this profile being the path of its centre, is undercut."""
+        """Whether a cam cut with such a roller [m], this profile being the path of its centre, is undercut.
+
+        Args:
+            roller_radius: [m].
+        """
         return roller_radius >= self.tip_radius
 
 
 def profile_report(profile: Curve) -> ProfileReport:
-    """Curvature, hollows and jumps of a profile with plain numbers."""
+    """Curvature, hollows and jumps of a profile with plain numbers.
+
+    Args:
+        profile: its numbers are plain ones.
+    """
     ends = [float(piece.start) for piece in profile.pieces[1:]] + [float(profile.start) + float(profile.span)]
     begins = [float(profile.start), *ends[:-1]]
     rhos: list[FloatArray] = []

@@ -39,6 +39,10 @@ class Frame:
     def at(self, x: Number, y: Number) -> End:
         """The point (x, y) [m] of the frame in which the body was drawn, as numbers or texts such as "5 mm".
 
+        Args:
+            x: [m], or a text such as "5 mm".
+            y: [m], likewise.
+
         Raises:
             MechanismError: a text is no length.
         """
@@ -46,6 +50,11 @@ class Frame:
 
     def line(self, point: Point, direction: Point | None = None, *, angle: Number | None = None) -> End:
         """The straight line through a point [m] along a direction, of any length > 0, or at an angle [rad].
+
+        Args:
+            point: (x, y) of the frame [m], or texts.
+            direction: (dx, dy), of one unit and any length > 0; its left is the open side of a contact.
+            angle: of the direction, in its place [rad], or a text.
 
         Raises:
             MechanismError: a text is no length or angle, or not one of direction and angle is given.

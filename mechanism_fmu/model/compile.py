@@ -60,7 +60,7 @@ class MechanismTables:
     `members` are empty when no output reads elastic members.
 
     Attributes:
-        columns: by name of the field.
+        columns: arrays by name of the field, whose shape is in `mechanism_fmu.tables`.
         numbers: `joint_rows`, the number of rows of all joints; `contact_rows`, that of all contacts when contact
             coordinates count as coordinates; `alphas`, the number of these; `own`, of states of force elements' own;
             `buffer` and `event_buffer`, of impacts and events of a communication step that are kept.
@@ -83,6 +83,9 @@ class MechanismTables:
 
 def compile_mechanism(mechanism: Mechanism) -> MechanismTables:
     """Check a mechanism whose values are plain numbers, and write it as tables.
+
+    Args:
+        mechanism: whose values are plain numbers.
 
     Raises:
         MechanismError: a part cannot be right; the message names it and the way out.

@@ -36,12 +36,14 @@ class PointLineContact(ContactFacts):
 
     Attributes:
         name: unique within the mechanism.
-        body_i: the body that carries the point; point_i: the point in its frame [m].
-        body_j: the body that carries the line; line_point: a point of the line in its frame [m].
-        normal: unit normal of the line in the frame of `body_j`, towards the open side.
+        body_i: the body that carries the point.
+        point_i: the point in its frame [m].
+        body_j: the body that carries the line.
+        line_point: a point of the line in its frame [m].
+        normal: unit normal of the line in the frame of `body_j` [1], towards the open side.
         closed: whether assembly puts the point on the line.
-        restitution: e of eq (4), 0..1. Below the engine's stick speed, and with 0, the contact stays closed.
-        friction: coefficient of Coulomb friction along the line.
+        restitution: e of eq (4) [1], 0..1. Below the engine's stick speed, and with 0, the contact stays closed.
+        friction: coefficient of Coulomb friction along the line [1], >= 0.
         guided: whether the contact, once closed, also pulls and never opens, as in the paper.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
         pattern: name of the `CircularPattern` that repeats the line around `body_j`, or None.
@@ -116,8 +118,8 @@ class AngleStop(_OfAngles):
         body_i, body_j: the bodies.
         angle: latched angle at the start [rad].
         pitch: from one latched angle to the next [rad], > 0; None for a plain stop.
-        restitution: e of eq (4), 0..1.
-        enabled: as of `PointLineContact`.
+        restitution: e of eq (4) [1], 0..1.
+        enabled: whether it exists; a number, so that a parameter can switch it off.
     """
 
     kind: ClassVar[int] = codes.ANGLE_STOP
@@ -161,7 +163,7 @@ class AngleLock(_OfAngles):
         angle: one of the locked relative angles [rad].
         pitch: between neighbouring locked angles [rad], > 0.
         closed_while: "<function>" or "not <function>", the logical function that closes it.
-        enabled: as of `PointLineContact`.
+        enabled: whether it exists; a number, so that a parameter can switch it off.
     """
 
     kind: ClassVar[int] = codes.ANGLE_LOCK

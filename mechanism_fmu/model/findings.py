@@ -127,11 +127,11 @@ class Finding:
     """Something to be said of parameter values, where it applies.
 
     Attributes:
-        applies: positive where it is to be said.
+        applies: positive where it is to be said, a number of unit 1.
         text: a `str.format` template for the user; its fields, in the order of `numbers`, are `{:g}` or `{:.6g}` (or
             another count of digits), which Python and C write alike.
-        numbers: what the text shows, at most `MOST_NUMBERS`; they must be free of errors (a root of a negative number,
-            a division by zero) also where the finding does not apply.
+        numbers: what the text shows, in the units that it names, at most `MOST_NUMBERS`; they must be free of errors (a
+            root of a negative number, a division by zero) also where the finding does not apply.
 
     Raises:
         MechanismError: text and numbers do not fit together, or the text has other fields.
@@ -185,17 +185,32 @@ def literal(text: str) -> str:
 
 
 def refuse_unless(condition: Number, text: str, *numbers: Number) -> Finding:
-    """The finding that applies where `condition` is not positive, also where it is NaN."""
+    """The finding that applies where `condition` is not positive, also where it is NaN.
+
+    Args:
+        condition: as of `Finding.applies`, but of what must hold.
+        text: as of `Finding`.
+        *numbers: as of `Finding`.
+    """
     return Finding(unless(condition), text, tuple(map(plain, numbers)))
 
 
 def where(condition: Number, *findings: Finding) -> tuple[Finding, ...]:
-    """The findings, applying only where `condition` is positive too."""
+    """The findings, applying only where `condition` is positive too.
+
+    Args:
+        condition: positive where they may apply, else 0; a number of unit 1.
+        findings: those that apply in addition only where they did.
+    """
     return tuple(replace(f, applies=where_positive(condition, f.applies, 0.0)) for f in findings)
 
 
 def first(*findings: Finding) -> tuple[Finding, ...]:
-    """The findings, each applying only where none before it does."""
+    """The findings, each applying only where none before it does.
+
+    Args:
+        findings: in the order in which they are asked.
+    """
     silent: Number = 1.0
     exclusive: list[Finding] = []
     for finding in findings:
@@ -205,10 +220,20 @@ def first(*findings: Finding) -> tuple[Finding, ...]:
 
 
 def at_most(a: Number, b: Number) -> Number:
-    """A condition: 1 where a <= b, else 0."""
+    """A condition: 1 where a <= b, else 0.
+
+    Args:
+        a: numbers of one unit.
+        b: numbers of one unit.
+    """
     return where_positive(a - b, 0.0, 1.0)
 
 
 def either(a: Number, b: Number) -> Number:
-    """A condition: positive where `a` or `b` is."""
+    """A condition: positive where `a` or `b` is.
+
+    Args:
+        a: conditions, numbers of unit 1.
+        b: conditions, numbers of unit 1.
+    """
     return where_positive(a, a, b)

@@ -52,48 +52,86 @@ def _apply(name: str, x: Number) -> Number:
 
 
 def sin(x: Number) -> Number:
-    """Sine of `x` [rad]."""
+    """Sine of `x` [rad].
+
+    Args:
+        x: angle [rad].
+    """
     return _apply("sin", x)
 
 
 def cos(x: Number) -> Number:
-    """Cosine of `x` [rad]."""
+    """Cosine of `x` [rad].
+
+    Args:
+        x: angle [rad].
+    """
     return _apply("cos", x)
 
 
 def tan(x: Number) -> Number:
-    """Tangent of `x` [rad]."""
+    """Tangent of `x` [rad].
+
+    Args:
+        x: angle [rad].
+    """
     return _apply("tan", x)
 
 
 def sqrt(x: Number) -> Number:
-    """Square root of `x` >= 0."""
+    """Square root of `x` >= 0.
+
+    Args:
+        x: number of any unit, >= 0.
+    """
     return _apply("sqrt", x)
 
 
 def exp(x: Number) -> Number:
-    """Exponential of `x`."""
+    """Exponential of `x`.
+
+    Args:
+        x: number of unit 1, at most 709.
+    """
     return _apply("exp", x)
 
 
 def log(x: Number) -> Number:
-    """Natural logarithm of `x` > 0."""
+    """Natural logarithm of `x` > 0.
+
+    Args:
+        x: number of unit 1, > 0.
+    """
     return _apply("log", x)
 
 
 def tanh(x: Number) -> Number:
-    """Hyperbolic tangent of `x`: a smooth step from -1 to 1."""
+    """Hyperbolic tangent of `x`: a smooth step from -1 to 1.
+
+    Args:
+        x: number of unit 1.
+    """
     return _apply("tanh", x)
 
 
 def power(base: Number, exponent: Number) -> Number:
-    """`base` >= 0 to a power."""
+    """`base` >= 0 to a power.
+
+    Args:
+        base: number of unit 1, >= 0.
+        exponent: number of unit 1.
+    """
     law = _law(base, exponent)
     return math.pow(base, exponent) if law is None else law.apply("power", base, exponent)
 
 
 def atan2(y: Number, x: Number) -> Number:
-    """Angle [rad] of the point (x, y), in (-pi, pi]."""
+    """Angle [rad] of the point (x, y), in (-pi, pi].
+
+    Args:
+        y: coordinates of the point, of one unit.
+        x: coordinates of the point, of one unit.
+    """
     law = _law(y, x)
     if law is not None:
         return law.apply("atan2", y, x)
@@ -104,7 +142,13 @@ def atan2(y: Number, x: Number) -> Number:
 
 
 def where_positive(condition: Number, positive: Number, otherwise: Number) -> Number:
-    """`positive` where `condition > 0`, else `otherwise`: a choice of values, never of structure."""
+    """`positive` where `condition > 0`, else `otherwise`: a choice of values, never of structure.
+
+    Args:
+        condition: number of any unit, which is compared with 0.
+        positive: values of one unit.
+        otherwise: values of one unit.
+    """
     law = _law(condition, positive, otherwise)
     if law is not None:
         return law.apply("where_positive", condition, positive, otherwise)
@@ -115,7 +159,13 @@ def where_positive(condition: Number, positive: Number, otherwise: Number) -> Nu
 
 
 def where(condition: Any, positive: Number, otherwise: Number) -> Number:
-    """`positive` where a comparison such as `x > 0.1` holds, else `otherwise`: in laws, where nothing may branch."""
+    """`positive` where a comparison such as `x > 0.1` holds, else `otherwise`: in laws, where nothing may branch.
+
+    Args:
+        condition: a comparison, or a number of any unit that is compared with 0.
+        positive: values of one unit.
+        otherwise: values of one unit.
+    """
     if hasattr(condition, "choose"):
         return condition.choose(positive, otherwise)
     if isinstance(condition, bool | np.bool_):
@@ -124,18 +174,34 @@ def where(condition: Any, positive: Number, otherwise: Number) -> Number:
 
 
 def minimum(a: Number, b: Number) -> Number:
-    """The lesser of two numbers."""
+    """The lesser of two numbers.
+
+    Args:
+        a: numbers of one unit.
+        b: numbers of one unit.
+    """
     law = _law(a, b)
     return where_positive(b - a, a, b) if law is None else law.apply("minimum", a, b)
 
 
 def maximum(a: Number, b: Number) -> Number:
-    """The greater of two numbers."""
+    """The greater of two numbers.
+
+    Args:
+        a: numbers of one unit.
+        b: numbers of one unit.
+    """
     law = _law(a, b)
     return where_positive(a - b, a, b) if law is None else law.apply("maximum", a, b)
 
 
 def smoothstep(x: Number, low: Number, high: Number) -> Number:
-    """0 up to `low`, 1 from `high` on, and 3 u^2 - 2 u^3 between, u = (x - low)/(high - low): its slope has no jump."""
+    """0 up to `low`, 1 from `high` on, and 3 u^2 - 2 u^3 between, u = (x - low)/(high - low): its slope has no jump.
+
+    Args:
+        x: number of any unit.
+        low: where the step begins and ends, of the same unit; low < high.
+        high: where the step begins and ends, of the same unit; low < high.
+    """
     u = minimum(maximum((x - low) / (high - low), 0.0), 1.0)
     return u * u * (3.0 - 2.0 * u)

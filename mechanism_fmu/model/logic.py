@@ -18,9 +18,9 @@ class LogicalFunction:
 
     Attributes:
         name: unique within the mechanism.
-        of: "<contact>.along", the distance of the contact's point from its line's point along the line [m], in the
-            direction of the normal turned by -90 deg; or "<body>.angle" [rad].
-        below: the limit, in the unit of the quantity.
+        of: "<contact>.along", the distance of the contact's point from its line's point along the line, in the
+            direction in which the line was drawn (the normal turned by -90 deg); or "<body>.angle".
+        below: the limit [m or rad].
     """
 
     name: str

@@ -23,9 +23,11 @@ class Settings:
     """How the engine integrates.
 
     Attributes:
-        relative_tolerance: of the step control, 1e-13..1e-3.
-        baumgarte_alpha: [1/s], and baumgarte_beta: [1/s], of gamma - 2 alpha Phi' - beta^2 Phi.
-        max_internal_steps: of one communication step, 10..1e9; a step that needs more ends early, with a message.
+        relative_tolerance: of the step control [1], 1e-13..1e-3.
+        baumgarte_alpha: gain on the rates [1/s], in gamma - 2 alpha Phi' - beta^2 Phi.
+        baumgarte_beta: gain on the rows [1/s], in the same.
+        max_internal_steps: greatest number of internal steps of one communication step, 10..1e9; a step that needs more
+            ends early, with a message.
     """
 
     relative_tolerance: Number = 1e-9
@@ -35,7 +37,11 @@ class Settings:
 
     @classmethod
     def of(cls, values: SimpleNamespace) -> Settings:
-        """The settings among a model's parameter values (`settings_parameters`); of others, the default."""
+        """The settings among a model's parameter values (`settings_parameters`); of others, the default.
+
+        Args:
+            values: of the parameters, by name.
+        """
         return cls(**{name: getattr(values, name) for name in (f.name for f in fields(cls)) if hasattr(values, name)})
 
 

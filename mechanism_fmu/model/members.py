@@ -33,6 +33,10 @@ class Section:
     def rectangle(cls, width: Number, depth: Number) -> Section:
         """A rectangle: `width` b normal to the plane and `depth` h in it [m, m]: A = b h, I = b h^3/12.
 
+        Args:
+            width: across the plane of motion [m].
+            depth: in it [m].
+
         Raises:
             MechanismError: a text is no length.
         """
@@ -109,7 +113,12 @@ class LumpedBody:
 
 
 def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> LumpedBody:
-    """Mass, inertia and centre of mass of a body's members and disks, given in any one frame; their sum must be > 0."""
+    """Mass, inertia and centre of mass of a body's members and disks, given in any one frame; their sum must be > 0.
+
+    Args:
+        members: those of the body.
+        disks: lumps of mass on it.
+    """
     lumps: list[tuple[Number, Point]] = [(disk.mass, disk.point) for disk in disks]
     for member in members:
         x, y = member.end[0] - member.start[0], member.end[1] - member.start[1]

@@ -159,6 +159,9 @@ class Model:
     def values(self, **changes: float | str) -> SimpleNamespace:
         """Parameter values: the defaults with `changes`, which are in the parameters' units or texts such as "45 mm".
 
+        Args:
+            changes: values by name of the parameter, in its unit.
+
         Raises:
             MechanismError: unknown name, a value outside its limits, or a text with another unit.
         """
@@ -168,6 +171,9 @@ class Model:
 
     def checked(self, values: Mapping[str, float]) -> SimpleNamespace:
         """All parameter values, each checked against its limits.
+
+        Args:
+            values: by name of the parameter, in its unit.
 
         Raises:
             MechanismError: unknown name, or a value outside its limits.
@@ -186,6 +192,9 @@ class Model:
     def build(self, values: SimpleNamespace) -> Mechanism:
         """The mechanism for parameter values, after asking for objections.
 
+        Args:
+            values: of all parameters, as `values` gives them.
+
         Raises:
             MechanismError: with all objections.
         """
@@ -195,11 +204,19 @@ class Model:
         return self.mechanism(values)
 
     def refused(self, values: SimpleNamespace) -> list[str]:
-        """Messages of the objections that apply to parameter values."""
+        """Messages of the objections that apply to parameter values.
+
+        Args:
+            values: of all parameters, as `values` gives them.
+        """
         return messages(self.objections(values))
 
     def warned(self, values: SimpleNamespace) -> list[str]:
-        """Messages of the warnings that apply to parameter values."""
+        """Messages of the warnings that apply to parameter values.
+
+        Args:
+            values: of all parameters, as `values` gives them.
+        """
         return messages(self.warnings(values))
 
 

@@ -24,11 +24,12 @@ class CircularPattern(Attached):
 
     Attributes:
         name: unique within the mechanism.
-        body_i, point_i: the body that carries the point, and the point in its frame [m].
+        body_i: the body that carries the point.
+        point_i: the point in its frame [m].
         body_j: the body around whose centre of mass the copies stand.
-        pitch: from one copy to the next [rad], negative when the copies are counted clockwise.
+        pitch: from one copy to the next [rad], not 0; negative when the copies are counted clockwise.
         boundary_point: a point of the boundary between copies 0 and 1, in the frame of `body_j` [m].
-        boundary_normal: unit normal of the boundary, towards copy 1.
+        boundary_normal: unit normal of the boundary [1], towards copy 1.
         enabled: whether the contacts repeat; a number, so that a parameter can switch it off.
     """
 

@@ -14,22 +14,38 @@ _WRITTEN = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S*)\s
 
 
 def mm(value: Number) -> Number:
-    """Millimetres as [m]."""
+    """Millimetres as [m].
+
+    Args:
+        value: in units of a millimetre.
+    """
     return value * 1e-3
 
 
 def cm(value: Number) -> Number:
-    """Centimetres as [m]."""
+    """Centimetres as [m].
+
+    Args:
+        value: in units of a centimetre.
+    """
     return value * 1e-2
 
 
 def deg(value: Number) -> Number:
-    """Degrees as [rad]."""
+    """Degrees as [rad].
+
+    Args:
+        value: in units of a degree.
+    """
     return value * (math.pi / 180)
 
 
 def rpm(value: Number) -> Number:
-    """Revolutions a minute as [rad/s]."""
+    """Revolutions a minute as [rad/s].
+
+    Args:
+        value: in units of a revolution per minute.
+    """
     return value * (math.pi / 30)
 
 

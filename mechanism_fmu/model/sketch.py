@@ -71,7 +71,14 @@ def _across(square: Number, first: Number, second: Number, between: Number) -> N
 
 
 class FourBarPoints(NamedTuple):
-    """The pins of a four-bar linkage [m]: fixed hinge and pin of the crank, pin and fixed hinge of the rocker."""
+    """The pins of a four-bar linkage [m]: fixed hinge and pin of the crank, pin and fixed hinge of the rocker.
+
+    Attributes:
+        crank_hinge: fixed hinge of the crank [m].
+        crank_pin: pin between crank and coupler [m].
+        rocker_pin: pin between coupler and rocker [m].
+        rocker_hinge: fixed hinge of the rocker [m].
+    """
 
     crank_hinge: Point
     crank_pin: Point

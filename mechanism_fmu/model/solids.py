@@ -57,7 +57,12 @@ POM = Material(1410.0, 2.8e9)
 
 
 class CircularHole(NamedTuple):
-    """A round hole of a plate: its centre and radius [m]."""
+    """A round hole of a plate: its centre and radius [m].
+
+    Attributes:
+        centre: in the frame of the plate [m].
+        radius: [m], > 0.
+    """
 
     centre: Point
     radius: Number
@@ -133,7 +138,7 @@ def bar(
     Args:
         name: unique within the mechanism.
         a: where it begins at the start, in the global frame [m]: a sketch, from which assembly closes the joints.
-        b: where it ends, likewise; or, in its place, `length` and `angle`.
+        b: where it ends, likewise [m]; or, in its place, `length` and `angle`.
         mass: [kg]; or, in its place, `section` and `material`.
         section: its cross section, with a `material`.
         material: of the bar, with a `section`.
@@ -200,7 +205,7 @@ def plate(
     Args:
         name: unique within the mechanism.
         outline: its corners in its frame, in either sense [m]; the edges must not cross each other.
-        holes: what is cut out, inside the outline and apart from each other: a `CircularHole`, or corners.
+        holes: what is cut out, inside the outline and apart from each other: a `CircularHole`, or corners [m].
         thickness: [m], with a `material`; or, in place of both, `mass`.
         material: of the plate.
         mass: of the plate with its holes [kg].

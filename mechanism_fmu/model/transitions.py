@@ -30,17 +30,31 @@ OPEN, CLOSED = "open", "closed"
 
 
 def logic_of(mechanism: Mechanism) -> Logic:
-    """Logical functions, state charts and transitions of a mechanism whose values are plain numbers."""
+    """Logical functions, state charts and transitions of a mechanism whose values are plain numbers.
+
+    Args:
+        mechanism: whose values are plain numbers.
+    """
     return Logic(tuple(definitions(mechanism)), tuple(_regions(mechanism)), tuple(_transitions(mechanism)))
 
 
 def transition_table(mechanism: Mechanism, counts: Mapping[int, int] | None = None) -> str:
-    """The transitions as Markdown; `counts` says how often each happened, by its place in the logic."""
+    """The transitions as Markdown; `counts` says how often each happened, by its place in the logic.
+
+    Args:
+        mechanism: whose values are plain numbers.
+        counts: how often each transition happened, by its place in the logic; None leaves that out.
+    """
     return markdown(logic_of(mechanism), counts)
 
 
 def transition_diagram(mechanism: Mechanism, counts: Mapping[int, int] | None = None) -> str:
-    """The state charts as SVG; with `counts`, by place in the logic, what happened is marked."""
+    """The state charts as SVG; with `counts`, by place in the logic, what happened is marked.
+
+    Args:
+        mechanism: whose values are plain numbers.
+        counts: how often each transition happened, by its place in the logic; None marks nothing.
+    """
     return diagram(logic_of(mechanism), counts)
 
 

@@ -16,7 +16,12 @@ DEFINITION_HEADINGS = ("Logical function", "is 1 when", "Unit", "Decided within"
 
 
 def rows(logic: Logic, counts: Mapping[int, int] | None = None) -> list[list[str]]:
-    """The transitions, a row each, with the columns of `HEADINGS`; with `counts`, one more: how often it happened."""
+    """The transitions, a row each, with the columns of `HEADINGS`; with `counts`, one more: how often it happened.
+
+    Args:
+        logic: of a mechanism or a file.
+        counts: how often each transition happened, by its place in the logic; None leaves that out.
+    """
     return [
         [t.part, t.source, t.trigger, t.condition, t.target, t.reset]
         + ([] if counts is None else [str(counts.get(place, 0))])
@@ -25,24 +30,41 @@ def rows(logic: Logic, counts: Mapping[int, int] | None = None) -> list[list[str
 
 
 def definition_rows(logic: Logic) -> list[list[str]]:
-    """The logical functions, a row each, with the columns of `DEFINITION_HEADINGS`."""
+    """The logical functions, a row each, with the columns of `DEFINITION_HEADINGS`.
+
+    Args:
+        logic: of a mechanism or a file.
+    """
     return [[d.name, d.meaning, d.unit, d.tolerance, d.event] for d in logic.definitions]
 
 
 def definitions_table(logic: Logic) -> str:
-    """The logical functions as Markdown."""
+    """The logical functions as Markdown.
+
+    Args:
+        logic: of a mechanism or a file.
+    """
     return _markdown(DEFINITION_HEADINGS, definition_rows(logic), code=(0, 4))
 
 
 def markdown(logic: Logic, counts: Mapping[int, int] | None = None) -> str:
-    """The transitions as Markdown, and what never changes."""
+    """The transitions as Markdown, and what never changes.
+
+    Args:
+        logic: of a mechanism or a file.
+        counts: how often each transition happened, by its place in the logic; None leaves that out.
+    """
     headings = HEADINGS if counts is None else (*HEADINGS, "Times")
     kept = "".join(f"\n`{name}` is closed throughout.\n" for name in kept_parts(logic))
     return _markdown(headings, rows(logic, counts), code=(2, 3)) + kept
 
 
 def kept_parts(logic: Logic) -> list[str]:
-    """The parts that have one state and no transition."""
+    """The parts that have one state and no transition.
+
+    Args:
+        logic: of a mechanism or a file.
+    """
     moving = {t.part for t in logic.transitions}
     return [region.part for region in logic.regions if region.part not in moving]
 

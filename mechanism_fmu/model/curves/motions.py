@@ -20,18 +20,37 @@ Law = Callable[[Number, Number, Number, Number], tuple[Piece, ...]]
 
 
 def dwell(start: Number, value: Number, _rise: Number, _width: Number) -> tuple[Piece, ...]:
-    """No motion, whatever the rise. The arguments are those of every `Law`."""
+    """No motion, whatever the rise. The arguments are those of every `Law`.
+
+    Args:
+        start: angle at which it begins [rad].
+        value: lift there [m or rad].
+    """
     return (Piece(start, (Term((value,)),)),)
 
 
 def cycloidal(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
-    """Lift = rise (u - sin(2 pi u)/(2 pi)), u = xi/width: largest acceleration 6.283 rise/width^2; see `Law`."""
+    """Lift = rise (u - sin(2 pi u)/(2 pi)), u = xi/width: largest acceleration 6.283 rise/width^2; see `Law`.
+
+    Args:
+        start: angle at which it begins [rad].
+        value: lift there [m or rad].
+        rise: change of the lift [m or rad].
+        width: angle over which it changes [rad], >= 0.
+    """
     divisor = _divisor(width)
     return (Piece(start, (Term((value, rise / divisor), -rise / (2 * math.pi), 2 * math.pi / divisor),)),)
 
 
 def polynomial_345(start: Number, value: Number, rise: Number, width: Number) -> tuple[Piece, ...]:
-    """Lift = rise (10 u^3 - 15 u^4 + 6 u^5), u = xi/width: largest acceleration 5.7735 rise/width^2; see `Law`."""
+    """Lift = rise (10 u^3 - 15 u^4 + 6 u^5), u = xi/width: largest acceleration 5.7735 rise/width^2; see `Law`.
+
+    Args:
+        start: angle at which it begins [rad].
+        value: lift there [m or rad].
+        rise: change of the lift [m or rad].
+        width: angle over which it changes [rad], >= 0.
+    """
     divisor = _divisor(width)
     third = rise / (divisor * divisor * divisor)
     fourth = third / divisor
@@ -43,6 +62,12 @@ def modified_sine(start: Number, value: Number, rise: Number, width: Number) -> 
 
     With k = rise/(4 + pi): k (pi u - sin(4 pi u)/4) up to u = 1/8, k (2 + pi u - 9/4 sin(4 pi u/3 + pi/3)) up to 7/8,
     and k (4 + pi u - sin(4 pi u)/4) to the end. The arguments are those of every `Law`.
+
+    Args:
+        start: angle at which it begins [rad].
+        value: lift there [m or rad].
+        rise: change of the lift [m or rad].
+        width: angle over which it changes [rad], >= 0.
     """
     k = rise / (4 + math.pi)
     divisor = _divisor(width)
@@ -100,12 +125,23 @@ def moves_to_pieces(base: Number, moves: Sequence[Move], turn: float, back: Law)
 
 
 def polynomial_motion(*coefficients: Number) -> Curve:
-    """C = coefficients[0] + coefficients[1] t + ... [m or rad], at most up to t^5; two of them are a constant speed."""
+    """C = coefficients[0] + coefficients[1] t + ... [m or rad], at most up to t^5; two of them are a constant speed.
+
+    Args:
+        coefficients: constant first [m or rad, per s^k], at most six.
+    """
     return Curve((Piece(0.0, (Term(tuple(coefficients)),)),))
 
 
 def harmonic_motion(mean: Number, amplitude: Number, frequency: Number, phase: Number = 0.0) -> Curve:
-    """C = mean + amplitude sin(frequency t + phase) [m or rad], frequency in rad/s and phase in rad."""
+    """C = mean + amplitude sin(frequency t + phase) [m or rad], frequency in rad/s and phase in rad.
+
+    Args:
+        mean: in the unit of the driven coordinate [m or rad].
+        amplitude: in the unit of the driven coordinate [m or rad].
+        frequency: angular [rad/s].
+        phase: at t = 0 [rad].
+    """
     return Curve((Piece(0.0, (constant(mean), sine(amplitude, frequency, phase))),))
 
 
@@ -113,6 +149,9 @@ def table_motion(points: Sequence[tuple[float, Number]]) -> Curve:
     """A cubic spline through points (t [s], value); before the first and after the last one the value rests.
 
     The speed is zero there, too.
+
+    Args:
+        points: pairs of time [s] and value [m or rad], 3 or more.
 
     Raises:
         MechanismError: fewer than 3 points, or times that do not increase or that depend on a parameter.

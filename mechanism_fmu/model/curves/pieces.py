@@ -26,7 +26,7 @@ class Term:
     """Sum over k of polynomial[k] xi^k, plus amplitude sin(frequency xi + phase); xi counts from the piece's start.
 
     Attributes:
-        polynomial: at most six coefficients, constant first.
+        polynomial: at most six coefficients, constant first; the k-th in units of the curve / unit of the variable^k.
         amplitude: of the harmonic, in the unit of the curve.
         frequency: angular, [1/unit of the variable], e.g. [rad/s].
         phase: [rad].
@@ -63,6 +63,10 @@ class Term:
 class Piece:
     """A piece of a curve, from `start` to the start of the next one: the sum of its terms.
 
+    Attributes:
+        start: where it begins, in the unit of the curve's variable.
+        terms: what is added up.
+
     Raises:
         MechanismError: `start` is no number, or `terms` is no tuple of `Term`s.
     """
@@ -85,8 +89,8 @@ class Curve:
     Attributes:
         pieces: in the order of their starts, each beginning where the one before it ends. The first one holds before
             its start, too; of two with the same start, the first one holds there only.
-        start: where the range of a profile begins; of a periodic curve, of the period.
-        span: the length of that range.
+        start: where the range of a profile begins, in the unit of its variable; of a periodic curve, of the period.
+        span: the length of that range, in the same unit.
         periodic: whether it repeats itself.
 
     Raises:
@@ -128,17 +132,32 @@ def _require_number(what: str, value: Any) -> None:
 
 
 def constant(value: Number) -> Term:
-    """A term that does not vary: `value`, in the unit of the curve."""
+    """A term that does not vary: `value`, in the unit of the curve.
+
+    Args:
+        value: in the unit of the curve.
+    """
     return Term((value,))
 
 
 def cosine(amplitude: Number, frequency: Number) -> Term:
-    """The term amplitude cos(frequency xi): in the unit of the curve, and 1/unit of its variable."""
+    """The term amplitude cos(frequency xi): in the unit of the curve, and 1/unit of its variable.
+
+    Args:
+        amplitude: in the unit of the curve.
+        frequency: angular [1/unit of the variable], e.g. [rad/s].
+    """
     return Term((), amplitude, frequency, math.pi / 2)
 
 
 def sine(amplitude: Number, frequency: Number, phase: Number = 0.0) -> Term:
-    """The term amplitude sin(frequency xi + phase): as of `cosine`, phase in rad."""
+    """The term amplitude sin(frequency xi + phase): as of `cosine`, phase in rad.
+
+    Args:
+        amplitude: in the unit of the curve.
+        frequency: angular [1/unit of the variable], e.g. [rad/s].
+        phase: where the piece begins [rad].
+    """
     return Term((), amplitude, frequency, phase)
 
 

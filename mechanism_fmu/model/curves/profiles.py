@@ -16,12 +16,22 @@ _TURN = 2 * math.pi
 
 
 def circle(radius: Number) -> Curve:
-    """A circle of a radius [m] about Q: a roller."""
+    """A circle of a radius [m] about Q: a roller.
+
+    Args:
+        radius: [m], > 0.
+    """
     return _closed((Piece(0.0, (constant(radius),)),))
 
 
 def harmonic_profile(mean: Number, cosines: Sequence[Number] = (), sines: Sequence[Number] = ()) -> Curve:
-    """Radius rho = mean + sum over k = 1, 2 ... of cosines[k-1] cos(k alpha) + sines[k-1] sin(k alpha) [m]."""
+    """Radius rho = mean + sum over k = 1, 2 ... of cosines[k-1] cos(k alpha) + sines[k-1] sin(k alpha) [m].
+
+    Args:
+        mean: of the radius [m].
+        cosines: amplitudes [m] of the harmonics 1, 2, ...
+        sines: amplitudes [m] of the harmonics 1, 2, ...
+    """
     terms = [constant(mean)]
     terms += [cosine(a, float(k)) for k, a in enumerate(cosines, start=1)]
     terms += [sine(b, float(k)) for k, b in enumerate(sines, start=1)]
@@ -29,7 +39,11 @@ def harmonic_profile(mean: Number, cosines: Sequence[Number] = (), sines: Sequen
 
 
 def piecewise_profile(*pieces: tuple[Number, Sequence[Term]]) -> Curve:
-    """A closed profile of analytic pieces: (alpha where it starts [rad], its terms [m]), the first from 0 on."""
+    """A closed profile of analytic pieces: (alpha where it starts [rad], its terms [m]), the first from 0 on.
+
+    Args:
+        pieces: pairs of the angle where each starts [rad] and its terms [m].
+    """
     return _closed(tuple(Piece(start, tuple(terms)) for start, terms in pieces))
 
 
@@ -70,7 +84,7 @@ def slot(points: Sequence[tuple[float, Number]], degree: int = 3) -> Curve:
     """An open profile through points (alpha [rad], rho [m]): a spline, rho' (of degree 5, and rho'') 0 at its ends.
 
     Args:
-        points: at least 3, their alpha plain numbers that increase.
+        points: pairs of alpha [rad] and radius [m], at least 3, their alpha plain numbers that increase.
         degree: of the spline, 3 (C2) or 5 (C4).
 
     Raises:

@@ -54,9 +54,9 @@ class SpringDamper(Element):
         name: unique within the mechanism.
         body, reaction: names of the two bodies (or `GROUND`).
         point, reaction_point: the points, in the frame of each body [m].
-        stiffness: [N/m], >= 0.
-        free_length: [m], >= 0: at which the linear part vanishes.
-        damping: [N s/m], >= 0.
+        stiffness: of the spring [N/m], >= 0.
+        free_length: distance at which the linear part vanishes [m], >= 0.
+        damping: of the damper [N s/m], >= 0.
         preload: constant part of the force [N], pulling positive; an actuator where an `Input` writes
             "<name>.preload".
         one_sided: "no", "stretched" or "compressed".
@@ -124,7 +124,11 @@ class PointForce(Element):
     frame: Literal["global", "body"] = "global"
 
     def data(self) -> tuple[Number, ...]:
-        """The element's row of the table `force_data`."""
+        """The element's row of the table `force_data`.
+
+        Raises:
+            MechanismError: `frame` is another word than those two.
+        """
         if self.frame not in ("global", "body"):
             raise MechanismError(f"PointForce {self.name!r}: frame = {self.frame!r} is neither global nor body.")
         return (*self.point, *self.force, float(self.frame == "body"))
@@ -143,9 +147,11 @@ class Bushing(Element):
         name: unique within the mechanism.
         body, reaction: names of the two bodies (or `GROUND`).
         point, reaction_point: the points, in the frame of each body [m].
-        stiffness_x, stiffness_y: [N/m], >= 0; damping_x, damping_y: [N s/m], >= 0.
-        torsional_stiffness: [N m/rad], >= 0; torsional_damping: [N m s/rad], >= 0.
-        free_angle: relative angle without torque [rad].
+        stiffness_x, stiffness_y: along the axes of the frame of `reaction` [N/m], >= 0.
+        damping_x, damping_y: along the same [N s/m], >= 0.
+        torsional_stiffness: against the relative angle [N m/rad], >= 0.
+        torsional_damping: against its rate [N m s/rad], >= 0.
+        free_angle: relative angle phi - phi_reaction without torque [rad].
     """
 
     row: ClassVar = "bushing"

@@ -27,7 +27,7 @@ class SlipClutch(Element):
         stiffness: of clutch and lining while they hold [N m/rad], > 0.
         damping: of the same [N m s/rad], > 0; the twist follows the limit within damping / stiffness [s].
         limit: largest torque [N m], >= 0; usually written by an `Input` with target "<name>.limit".
-        speed: of the driven end [rad/s]; an `Input` may write "<name>.speed".
+        speed: of the driven end from the reaction [rad/s]; an `Input` may write "<name>.speed".
     """
 
     row: ClassVar = "slip_clutch"
@@ -68,11 +68,11 @@ class DCMotor(Element):
         resistance: of the armature [ohm], >= 0.
         inductance: of the armature [H], > 0.
         voltage: the controller's limit [V], >= 0; an `Input` may write "<name>.voltage".
-        gain: [V s/rad], >= 0.
-        integral_gain: [V/rad], >= 0.
+        gain: of the controller, on the error of speed [V s/rad], >= 0.
+        integral_gain: of the controller, on the integral of that error [V/rad], >= 0.
         anti_windup: by how much the integral gives way to the limit [rad/(V s)], >= 0; within 1 / (anti_windup
             integral_gain) [s].
-        speed: wanted [rad/s]; usually written by an `Input` with target "<name>.speed".
+        speed: wanted, of the body from its reaction [rad/s]; usually written by an `Input` with target "<name>.speed".
     """
 
     row: ClassVar = "dc_motor"

@@ -18,7 +18,7 @@ class Torque(Element):
     Attributes:
         name: unique within the mechanism.
         body, reaction: names of the two bodies.
-        torque: [N m]; usually written by an `Input` with target "<name>.torque".
+        torque: counter-clockwise on `body` [N m]; usually written by an `Input` with target "<name>.torque".
     """
 
     row: ClassVar = "torque"
@@ -43,8 +43,8 @@ class TorsionSpring(Element):
     Attributes:
         name: unique within the mechanism.
         body, reaction: names of the two bodies.
-        stiffness: [N m/rad], >= 0.
-        free_angle: relative angle [rad] at which the linear part vanishes.
+        stiffness: of the spring [N m/rad], >= 0.
+        free_angle: relative angle phi - phi_reaction [rad] at which the linear part vanishes.
         preload: constant part of the torque that opposes positive rotation of `body` [N m].
     """
 
@@ -70,7 +70,7 @@ class Damper(Element):
     Attributes:
         name: unique within the mechanism.
         body, reaction: names of the two bodies.
-        damping: [N m s/rad], >= 0.
+        damping: torque per relative speed [N m s/rad], >= 0.
     """
 
     row: ClassVar = "damper"
@@ -95,8 +95,8 @@ class CompliantShaft(Element):
     Attributes:
         name: unique within the mechanism.
         body, reaction: names of the two bodies.
-        stiffness: [N m/rad], >= 0.
-        damping: [N m s/rad], >= 0.
+        stiffness: of the shaft [N m/rad], >= 0.
+        damping: of the shaft [N m s/rad], >= 0.
         angle: of the driven end [rad]; usually written by an `Input` with target "<name>.angle".
         speed: of the driven end [rad/s]; usually written by an `Input` with target "<name>.speed".
     """
@@ -133,10 +133,10 @@ class TorsionSpringDamper(Element):
     Attributes:
         name: unique within the mechanism.
         body, reaction: names of the two bodies.
-        stiffness: [N m/rad], >= 0.
-        free_angle: relative angle [rad] at which the linear part vanishes.
-        damping: [N m s/rad], >= 0.
-        preload: constant part of m [N m]; an `Input` may write "<name>.preload".
+        stiffness: of the spring [N m/rad], >= 0.
+        free_angle: relative angle phi - phi_reaction [rad] at which the linear part vanishes.
+        damping: of the damper [N m s/rad], >= 0.
+        preload: constant part of m [N m], against positive rotation of `body`; an `Input` may write "<name>.preload".
         one_sided: "no", "stretched" or "compressed".
 
     Raises:

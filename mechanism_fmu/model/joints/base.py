@@ -63,7 +63,11 @@ class JointFacts(Attached):
         return JOINTS.number(self.row)
 
     def effort(self, quantity: str) -> tuple[int, Number] | None:
-        """The row (within the joint) and the factor of an effort; None when the joint has no such output."""
+        """The row (within the joint) and the factor of an effort; None when the joint has no such output.
+
+        Args:
+            quantity: name of a force or torque, one of `efforts`.
+        """
         effort = self.efforts.get(quantity)
         if effort is None:
             return None

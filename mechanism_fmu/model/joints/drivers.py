@@ -58,7 +58,13 @@ class XDriver(PointDriver):
 
     Outputs: `force` [N], of the driver on body j along x.
 
-    Attributes: as of `PointDriver`.
+    Attributes:
+        name: unique within the mechanism.
+        body_j: body that is driven.
+        point_j: P in its frame [m].
+        motion: C(t) [m], with two derivatives.
+        body_i: what it is driven against: the ground unless given.
+        point_i: P in its frame [m]: the origin unless given.
     """
 
     row: ClassVar = "x_driver"
@@ -80,7 +86,13 @@ class YDriver(PointDriver):
 
     Outputs: `force` [N], of the driver on body j along y.
 
-    Attributes: as of `PointDriver`.
+    Attributes:
+        name: unique within the mechanism.
+        body_j: body that is driven.
+        point_j: P in its frame [m].
+        motion: C(t) [m], with two derivatives.
+        body_i: what it is driven against: the ground unless given.
+        point_i: P in its frame [m]: the origin unless given.
     """
 
     row: ClassVar = "y_driver"
@@ -137,7 +149,13 @@ class DistanceDriver(PointDriver):
     4. nu = 2 C C'.
     5. gamma = -2 d'.d' - 2 d.(a phi_i'^2 - b phi_j'^2) + 2 (C'^2 + C C'').
 
-    Attributes: as of `PointDriver`, with C > 0.
+    Attributes:
+        name: unique within the mechanism.
+        body_j: body that is driven.
+        point_j: P in its frame [m].
+        motion: C(t) [m], > 0, with two derivatives.
+        body_i: what it is driven against: the ground unless given.
+        point_i: P in its frame [m]: the origin unless given.
     """
 
     row: ClassVar = "distance_driver"

@@ -82,7 +82,7 @@ class Translational(JointFacts):
         body_i, body_j: names of the two bodies (or `GROUND`).
         point_i, point_j: a point of the axis in the frame of each body [m].
         axis_i, axis_j: direction of the axis in the frame of each body (any length > 0).
-        friction: coefficient of friction; friction force = it times the force across the axis.
+        friction: coefficient of friction [1], >= 0; friction force = it times the force across the axis.
     """
 
     row: ClassVar = "translational"

@@ -13,33 +13,73 @@ from ..ports import Input, Output
 
 
 def angle_output(name: str, source: str, description: str) -> Output:
-    """An angle [rad], shown in degrees."""
+    """An angle [rad], shown in degrees.
+
+    Args:
+        name: as of `Output`.
+        source: as of `Output`.
+        description: as of `Output`.
+    """
     return Output(name, source, description, "rad", "deg", nominal=1.0)
 
 
 def speed_output(name: str, source: str, description: str, nominal: float = 1.0) -> Output:
-    """An angular velocity [rad/s], shown in rpm; `nominal` is a typical one [rad/s]."""
+    """An angular velocity [rad/s], shown in rpm; `nominal` is a typical one [rad/s].
+
+    Args:
+        name: as of `Output`.
+        source: as of `Output`.
+        description: as of `Output`.
+        nominal: typical magnitude [rad/s].
+    """
     return Output(name, source, description, "rad/s", "rpm", nominal=nominal)
 
 
 def body_angle_output(body: str, symbol: str) -> Output:
-    """The absolute angle [rad] of a body: <body>_angle; `symbol` is its letter in the equations."""
+    """The absolute angle [rad] of a body: <body>_angle; `symbol` is its letter in the equations.
+
+    Args:
+        body: its name.
+        symbol: its letter in the equations, for the description.
+    """
     return angle_output(f"{body}_angle", f"{body}.angle", f"Absolute angle of the {body} ({symbol}), unwrapped")
 
 
 def body_speed_output(body: str, symbol: str = "", nominal: float = 1.0) -> Output:
-    """The angular velocity [rad/s] of a body: <body>_speed; `symbol` is its letter, if it has one."""
+    """The angular velocity [rad/s] of a body: <body>_speed; `symbol` is its letter, if it has one.
+
+    Args:
+        body: its name.
+        symbol: its letter in the equations, for the description; "" if it has none.
+        nominal: typical magnitude [rad/s].
+    """
     description = f"Rate of {body}_angle{f' ({symbol})' if symbol else ''}"
     return speed_output(f"{body}_speed", f"{body}.speed", description, nominal)
 
 
 def force_output(name: str, source: str, description: str, inputs: Iterable[Input], nominal: float = 1.0) -> Output:
-    """A force [N], with the inputs on which it depends at the same instant and its typical size [N]."""
+    """A force [N], with the inputs on which it depends at the same instant and its typical size [N].
+
+    Args:
+        name: as of `Output`.
+        source: as of `Output`.
+        description: as of `Output`.
+        inputs: those on which it depends at the same instant: its `feedthrough`.
+        nominal: typical magnitude [N].
+    """
     return Output(name, source, description, "N", nominal=nominal, feedthrough=tuple(port.name for port in inputs))
 
 
 def torque_output(name: str, source: str, description: str, inputs: Iterable[Input], nominal: float = 0.1) -> Output:
-    """A torque [N.m], with the inputs on which it depends at the same instant and its typical size [N.m]."""
+    """A torque [N.m], with the inputs on which it depends at the same instant and its typical size [N.m].
+
+    Args:
+        name: as of `Output`.
+        source: as of `Output`.
+        description: as of `Output`.
+        inputs: those on which it depends at the same instant: its `feedthrough`.
+        nominal: typical magnitude [N.m].
+    """
     return Output(name, source, description, "N.m", nominal=nominal, feedthrough=tuple(port.name for port in inputs))
 
 
@@ -62,17 +102,34 @@ def shaft_torque_output(body: str, nominal: float = 0.1, shaft: str = "drive sha
 
 
 def whole_output(name: str, source: str, description: str) -> Output:
-    """A whole number."""
+    """A whole number.
+
+    Args:
+        name: as of `Output`.
+        source: as of `Output`.
+        description: as of `Output`.
+    """
     return Output(name, source, description, type="Integer")
 
 
 def flag_output(name: str, source: str, description: str) -> Output:
-    """Yes or no."""
+    """Yes or no.
+
+    Args:
+        name: as of `Output`.
+        source: as of `Output`.
+        description: as of `Output`.
+    """
     return Output(name, source, description, type="Boolean")
 
 
 def active_output(contact: str, description: str) -> Output:
-    """Whether a contact is closed: <contact>_active, which the report of a run shows as a band."""
+    """Whether a contact is closed: <contact>_active, which the report of a run shows as a band.
+
+    Args:
+        contact: its name.
+        description: as of `Output`.
+    """
     return flag_output(f"{contact}_active", f"{contact}.closed", description)
 
 

@@ -10,53 +10,110 @@ from ..quantities import quantity
 
 
 def length_parameter(name: str, start: float | str, description: str, minimum: float = 1e-6) -> Parameter:
-    """A length [m], from `minimum` to 1 km; not zero if nothing else is said."""
+    """A length [m], from `minimum` to 1 km; not zero if nothing else is said.
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: default value [m], or a text with a unit of its kind, e.g. "200 mm".
+        minimum: least value [m].
+    """
     return Parameter(name, quantity(start, "m", f"{name}: start"), description, "m", minimum, 1e3)
 
 
 def angle_parameter(
     name: str, start: float | str, description: str, minimum: float = -1e3, maximum: float = 1e3
 ) -> Parameter:
-    """An angle [rad], shown in degrees."""
+    """An angle [rad], shown in degrees.
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: default value [rad], or a text with a unit of its kind, e.g. "30 deg".
+        minimum: inclusive limits [rad].
+        maximum: inclusive limits [rad].
+    """
     return Parameter(
         name, quantity(start, "rad", f"{name}: start"), description, "rad", minimum, maximum, display_unit="deg"
     )
 
 
 def speed_parameter(name: str, start: float | str, description: str) -> Parameter:
-    """An angular velocity [rad/s], shown in rpm."""
+    """An angular velocity [rad/s], shown in rpm.
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: default value [rad/s], or a text with a unit of its kind, e.g. "60 rpm".
+    """
     return Parameter(
         name, quantity(start, "rad/s", f"{name}: start"), description, "rad/s", -1e6, 1e6, display_unit="rpm"
     )
 
 
 def mass_parameter(name: str, start: float | str, description: str) -> Parameter:
-    """A mass [kg], not zero."""
+    """A mass [kg], not zero.
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: default value [kg], or a text with a unit of its kind, e.g. "20 g".
+    """
     return Parameter(name, quantity(start, "kg", f"{name}: start"), description, "kg", 1e-12, 1e6)
 
 
 def inertia_parameter(name: str, start: float | str, description: str) -> Parameter:
-    """A moment of inertia [kg.m2], not zero."""
+    """A moment of inertia [kg.m2], not zero.
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: default value [kg.m2], or a text with a unit of its kind, e.g. "20 kg.cm2".
+    """
     return Parameter(name, quantity(start, "kg.m2", f"{name}: start"), description, "kg.m2", 1e-12, 1e6)
 
 
 def stiffness_parameter(name: str, start: float | str, description: str) -> Parameter:
-    """Stiffness of a torsion spring [N.m/rad], which may be zero."""
+    """Stiffness of a torsion spring [N.m/rad], which may be zero.
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: default value [N.m/rad], or a text with a unit of its kind, e.g. "2 N.mm/rad".
+    """
     return Parameter(name, quantity(start, "N.m/rad", f"{name}: start"), description, "N.m/rad", 0.0, 1e6)
 
 
 def torque_parameter(name: str, start: float | str, description: str) -> Parameter:
-    """A torque [N.m]."""
+    """A torque [N.m].
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: default value [N.m], or a text with a unit of its kind, e.g. "5 N.mm".
+    """
     return Parameter(name, quantity(start, "N.m", f"{name}: start"), description, "N.m", -1e6, 1e6)
 
 
 def fraction_parameter(name: str, start: float, description: str) -> Parameter:
-    """A number from 0 to 1, such as a coefficient of restitution."""
+    """A number from 0 to 1, such as a coefficient of restitution.
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: default value [1], 0..1.
+    """
     return Parameter(name, start, description, "1", 0.0, 1.0)
 
 
 def flag_parameter(name: str, start: bool, description: str) -> Parameter:
-    """Yes or no; the function of the mechanism gets 1 or 0."""
+    """Yes or no; the function of the mechanism gets 1 or 0.
+
+    Args:
+        name: as of `Parameter`.
+        description: as of `Parameter`.
+        start: whether it is on by default.
+    """
     return Parameter(name, float(start), description, type="Boolean")
 
 
@@ -64,7 +121,13 @@ def flag_parameter(name: str, start: bool, description: str) -> Parameter:
 
 
 def body_parameters(body: str, mass: float, inertia: float) -> tuple[Parameter, Parameter]:
-    """<body>_mass [kg] and <body>_inertia [kg.m2] about the centre of mass."""
+    """<body>_mass [kg] and <body>_inertia [kg.m2] about the centre of mass.
+
+    Args:
+        body: its name.
+        mass: default value [kg].
+        inertia: default value [kg.m2].
+    """
     return (
         mass_parameter(f"{body}_mass", mass, f"Mass of the {body}"),
         inertia_parameter(f"{body}_inertia", inertia, f"Moment of inertia of the {body} about its centre of mass"),
@@ -72,7 +135,13 @@ def body_parameters(body: str, mass: float, inertia: float) -> tuple[Parameter, 
 
 
 def rotor_parameters(body: str, mass: float, inertia: float) -> tuple[Parameter, Parameter]:
-    """<body>_mass [kg] and <body>_inertia [kg.m2] of a body that turns about its centre of mass."""
+    """<body>_mass [kg] and <body>_inertia [kg.m2] of a body that turns about its centre of mass.
+
+    Args:
+        body: its name.
+        mass: default value [kg].
+        inertia: default value [kg.m2].
+    """
     return (
         mass_parameter(f"{body}_mass", mass, f"Mass of the {body}; it matters for nothing but friction"),
         inertia_parameter(f"{body}_inertia", inertia, f"Moment of inertia of the {body} about its hinge"),
@@ -101,12 +170,21 @@ def link_parameters(
 
 
 def damping_parameter(body: str, start: float = 0.0) -> Parameter:
-    """<body>_damping [N.m.s/rad]: viscous, of the body's rotation."""
+    """<body>_damping [N.m.s/rad]: viscous, of the body's rotation.
+
+    Args:
+        body: its name.
+        start: default value [N.m.s/rad].
+    """
     return Parameter(f"{body}_damping", start, f"Damping of the {body}'s rotation", "N.m.s/rad", 0.0, 1e6)
 
 
 def shaft_parameters(damping: float) -> tuple[Parameter, Parameter]:
-    """drive_stiffness [N.m/rad], 0 at first, and drive_damping [N.m.s/rad] of the `CompliantShaft` "shaft"."""
+    """drive_stiffness [N.m/rad], 0 at first, and drive_damping [N.m.s/rad] of the `CompliantShaft` "shaft".
+
+    Args:
+        damping: default value of drive_damping [N.m.s/rad].
+    """
     lag = "Damping of the drive shaft: torque per lag of speed"
     return (
         Parameter("drive_stiffness", 0.0, "Stiffness of the drive shaft", "N.m/rad", 0.0, 1e9),
@@ -115,7 +193,11 @@ def shaft_parameters(damping: float) -> tuple[Parameter, Parameter]:
 
 
 def joint_friction_parameter(hinges: str = "all hinges") -> Parameter:
-    """joint_friction_radius [m]: Coulomb friction of the hinges, `friction_radius` of `Revolute`."""
+    """joint_friction_radius [m]: Coulomb friction of the hinges, `friction_radius` of `Revolute`.
+
+    Args:
+        hinges: which they are, for the description.
+    """
     description = f"Coefficient of friction times pin radius, of {hinges}"
     return Parameter("joint_friction_radius", 0.0, description, "m", 0.0, 1.0)
 
