@@ -24,7 +24,7 @@ NAME = "mechanism_fmu"
 MOVED = ("harness", "models", "build_fmu")
 
 #: What the commands read beside packages, at the same place from the root of the tree as from `NAME` in a wheel.
-BESIDE = ("docs/examples/*.*", "docs/joints/*.svg")
+BESIDE = ("docs/examples/*.*", "docs/examples/gallery/*.py", "docs/joints/*.svg")
 
 
 def relocated(source: str, where: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, count
@@ -10,7 +11,9 @@ from typing import Any
 from ..tables.kinds import FORCES
 from .body import GROUND
 from .contacts import PointLineContact
-from .drawing import Disc, Hinge, Link, Outline, Quantity, Rod, Shape, Spring, Striker
+from .curves import Curve
+from .curves.check_curves import value_and_slope
+from .drawing import Disc, Hinge, Link, Outline, Quantity, Rod, Shape, Spring, Striker, Wheel
 from .functions import Number, is_plain
 from .mechanism import Mechanism
 from .ports import Calculated, Output
@@ -19,6 +22,8 @@ from .ports import Calculated, Output
 _ENDS = (("body_i", "point_i"), ("body_j", "point_j"), ("body", "point"), ("reaction", "reaction_point"))
 #: Springs between two points, by their rows.
 _SPRINGS = ("spring_damper", "nonlinear_spring")
+#: Points of a profile that does not follow from parameters, and of one that does: each of these is a variable.
+_FINE, _COARSE = 120, 36
 #: Half the length of the straight line of a guide or contact, in parts of the mechanism's size.
 _REACH = 0.5
 
@@ -28,7 +33,7 @@ class Plan:
     """What is decided once for a model, whatever its parameters' values are.
 
     Attributes:
-        follows: of each number of the drawing, in order, whether it follows from parameters.
+        follows: of each number of the drawing, in order, whether it follows from parameters; and what else is decided.
         size: of the mechanism at the default values [m].
     """
 
@@ -70,6 +75,13 @@ class Drawn:
             return name  # of a mechanism that another model has drawn
         self.calculated.append(Calculated(name, value, "Drawing: a number of its shape", "m"))
         return name
+
+    def decided(self, holds: bool) -> bool:
+        """What is decided once for all values of the parameters, as it was decided first."""
+        if self.numbers == len(self.follows):
+            self.follows.append(holds)
+        self.numbers += 1
+        return self.follows[self.numbers - 1]
 
     def vertex(self, body: str, point: tuple[Number, Number]) -> int:
         """The place of a point among those of a body."""
@@ -127,13 +139,14 @@ def draw(mechanism: Mechanism, size: float, follows: Sequence[bool] = ()) -> Dra
     springs = [*_springs(drawn)]
     outlines = [*_outlines(drawn)]
     rims = [*_pitch_circles(drawn)]
+    cams = [*_profiles(drawn)]
     links = []
     for body in mechanism.bodies:
         if body.name in drawn.points or not body.outline:
             at, angle = drawn.pose(body.name)
             links.append(Link(body.name, at, angle, tuple(drawn.points.get(body.name, [(0.0, 0.0)]))))
     # what others start from comes first; wheels and plates lie under links, hinges on them
-    drawn.shapes = [*outlines, *rims, *links, *springs, *hinges]
+    drawn.shapes = [*outlines, *rims, *links, *cams, *springs, *hinges]
     return drawn
 
 
@@ -225,6 +238,30 @@ def _pitch_circles(drawn: Drawn) -> Iterator[Shape]:
             if radius is not None and body != GROUND:
                 at, _ = drawn.pose(body)
                 yield Disc(f"{body} ({joint.name})", at, drawn.number(radius, f"{joint.name}_radius_{side}"))
+
+
+def _profiles(drawn: Drawn) -> Iterator[Shape]:
+    """Closed profiles of cams and rollers, through some of their points."""
+    for contact in drawn.mechanism.contacts:
+        for side, profile in zip("ij", contact.profiles, strict=True):
+            body = getattr(contact, f"body_{side}")
+            if profile is None or body == GROUND or not profile.periodic:
+                continue
+            if drawn.decided(all(map(is_plain, (profile.start, profile.span, *(p.start for p in profile.pieces))))):
+                at = _place(drawn, body, getattr(contact, f"centre_{side}"), f"{contact.name}_{side}")
+                _, angle = drawn.pose(body)
+                rim = tuple(_rim(drawn, profile, f"{contact.name}_{side}"))
+                yield Wheel(f"{body} ({contact.name})", at, angle, 1.0, rim)
+
+
+def _rim(drawn: Drawn, profile: Curve, name: str) -> Iterator[tuple[Quantity, Quantity]]:
+    numbers = [n for p in profile.pieces for t in p.terms for n in (*t.polynomial, t.amplitude, t.frequency, t.phase)]
+    count = _FINE if drawn.decided(all(map(is_plain, numbers))) else _COARSE
+    starts = [float(piece.start) for piece in profile.pieces]
+    for k in range(count):
+        alpha = float(profile.start) + float(profile.span) * k / count
+        piece = profile.pieces[max(bisect_right(starts, alpha) - 1, 0)]
+        yield drawn.number(value_and_slope(piece, alpha)[0], f"{name}_radius_{k}"), alpha
 
 
 def _size(mechanism: Mechanism) -> float:

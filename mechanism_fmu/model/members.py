@@ -12,6 +12,7 @@ from .attached import Attached, Slot
 from .body import Point
 from .findings import length
 from .functions import Number, is_plain
+from .quantities import quantity
 
 
 @dataclass(frozen=True)
@@ -35,8 +36,12 @@ class Section:
         Args:
             width: across the plane of motion [m].
             depth: in it [m].
+
+        Raises:
+            MechanismError: a text is no length.
         """
-        return cls(width * depth, width * depth * depth * depth / 12, depth)
+        b, h = quantity(width, "m", "Section.rectangle: width"), quantity(depth, "m", "Section.rectangle: depth")
+        return cls(b * h, b * h * h * h / 12, h)
 
 
 @dataclass(frozen=True, init=False)

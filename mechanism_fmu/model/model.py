@@ -18,6 +18,7 @@ from .errors import MechanismError
 from .findings import Finding, messages
 from .mechanism import DEFAULT_SETTINGS, Mechanism, Settings
 from .ports import Calculated, Input, Output, Parameter
+from .quantities import quantity
 from .symbol import Recorder
 
 
@@ -155,16 +156,18 @@ class Model:
         given = (...,) if self.drawing is None else self.drawing
         return tuple(shape for one in given for shape in (default if isinstance(one, EllipsisType) else (one,)))
 
-    def values(self, **changes: float) -> SimpleNamespace:
-        """Parameter values: the defaults with `changes`.
+    def values(self, **changes: float | str) -> SimpleNamespace:
+        """Parameter values: the defaults with `changes`, which are in the parameters' units or texts such as "45 mm".
 
         Args:
             changes: values by name of the parameter, in its unit.
 
         Raises:
-            MechanismError: unknown name, or a value outside its limits.
+            MechanismError: unknown name, a value outside its limits, or a text with another unit.
         """
-        return self.checked({p.name: p.start for p in self.parameters} | changes)
+        units = {p.name: p.unit for p in self.parameters}
+        numbers = {name: quantity(value, units.get(name, "1"), name) for name, value in changes.items()}
+        return self.checked({p.name: p.start for p in self.parameters} | numbers)
 
     def checked(self, values: Mapping[str, float]) -> SimpleNamespace:
         """All parameter values, each checked against its limits.

@@ -9,9 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from .. import codes
-from ..model import MechanismError, Output
+from ..model import MechanismError, Model, Output
 from ..model.default_ports import default_outputs
 from ..model.mechanism import Mechanism
+from ..model.quantities import quantity
 from ..model.sources import resolve_output
 from ..moving import Event, Impact
 from ..tables.method import METHOD
@@ -35,12 +36,12 @@ Signal = float | Callable[[float], float]
 
 
 def simulate(
-    mechanism: Mechanism,
-    until: float,
+    mechanism: Mechanism | Model,
+    until: float | str,
     outputs: Sequence[str | Output] | None = None,
-    step: float | None = None,
+    step: float | str | None = None,
     inputs: Mapping[str, Signal] | None = None,
-    start: float = 0.0,
+    start: float | str = 0.0,
 ) -> Result:
     """Run a mechanism and look at it at equal times; impacts and events are all kept, whenever they happen.
 
@@ -48,8 +49,8 @@ def simulate(
     steps follow from the tolerance (`Settings`), whatever it is.
 
     Args:
-        mechanism: to be run, e.g. `MODEL.build(MODEL.values(length=0.3))`.
-        until: stop time [s].
+        mechanism: to be run, e.g. `MODEL.build(MODEL.values(length=0.3))`; a model is run with its default values.
+        until: stop time [s]; a text has its unit, as in "500 ms", here and below.
         outputs: what the table shows: names of outputs that the mechanism declares, or sources such as "rod.angle" and
             "spring.force" (see `model.Output`), or `Output`s. None: all that the mechanism declares, or where it
             declares none, `model.default_outputs`.
@@ -63,7 +64,10 @@ def simulate(
         ValueError: times that cannot be.
         SimulationError: the motion cannot go on.
     """
-    step = (until - start) / _USUAL_STEPS if step is None else step
+    start, until = float(quantity(start, "s", "start")), float(quantity(until, "s", "until"))
+    step = (until - start) / _USUAL_STEPS if step is None else float(quantity(step, "s", "step"))
+    if isinstance(mechanism, Model):
+        mechanism = mechanism.build(mechanism.values())
     if not (np.isfinite([start, until, step]).all() and until > start and step > 0.0):
         raise ValueError(f"from {start:g} s to {until:g} s in steps of {step:g} s: give finite times, in this order.")
     given = dict(inputs or {})

@@ -34,8 +34,8 @@ def test_a_singular_configuration_is_refused_again_and_again() -> None:
     for _ in range(4):
         with pytest.raises(SimulationError, match="A singular configuration lies ahead"):
             simulation.advance(2.0)
-        # But for what is noted of the communication step itself.
-        simulation.counters[codes.STEPS_IN_STEP] = 0
+        # But for what is noted of the communication step itself, and the count of what was tried.
+        simulation.counters[[codes.STEPS_IN_STEP, codes.COUNT_REJECTED, codes.COUNT_TRIES]] = 0
         simulation.field("clock")[codes.STEP_BEGUN] = 0.0
         seen.append((simulation.time, simulation.state.tobytes()))
     assert 0.0 < seen[0][0] < 0.21  # 0.4 rad at 2 rad/s and more

@@ -10,7 +10,12 @@ from harness.app.cli import main
 from harness.app.commands import examples
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
-NAMES = sorted(path.name for path in EXAMPLES.iterdir() if path.is_file())
+NAMES = [
+    path.relative_to(EXAMPLES).as_posix()
+    for folder in (EXAMPLES, EXAMPLES / "gallery")
+    for path in sorted(folder.iterdir())
+    if path.is_file()
+]
 
 
 def invoke(*arguments: str | Path) -> tuple[int, str]:
@@ -35,7 +40,8 @@ def test_they_are_copied_as_they_are(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert invoke("--copy", *arguments)[0] == 0
-    copied = {path.name: path.read_bytes() for path in Path(folder).iterdir()}
+    there = (path for path in Path(folder).rglob("*") if path.is_file())
+    copied = {path.relative_to(folder).as_posix(): path.read_bytes() for path in there}
     assert copied == {name: (EXAMPLES / name).read_bytes() for name in NAMES}
 
 
@@ -45,7 +51,8 @@ def test_the_commands_for_the_copies_are_those_that_there_are(tmp_path: Path) ->
     output = invoke("--copy", folder)[1]
     commands = [shlex.split(line) for line in output.splitlines() if line.startswith(("mechanism-fmu", "python"))]
     files = [next(word for word in words if word.startswith(str(folder))) for words in commands]
-    assert sorted(Path(file).name for file in files) == [name for name in NAMES if not name.endswith(".csv")]
+    names = [Path(file).relative_to(folder).as_posix() for file in files]
+    assert names == [name for name in NAMES if not name.endswith(".csv")]
     for words in commands:
         if words[0] == "mechanism-fmu":
             assert CliRunner().invoke(main, [*words[1:-1], "--help"]).exit_code == 0

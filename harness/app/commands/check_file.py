@@ -76,9 +76,13 @@ def _show_ports(report: FileReport) -> None:
         for kind, ports in (("parameter", report.parameters), ("input", report.inputs))
         for port in ports
     ]
-    rows += [("calculated", port.name, f"{port.value:.6g}", port.unit, port.description) for port in report.calculated]
+    drawn = [port for port in report.calculated if port.name.startswith("drawing_")]
+    calculated = [port for port in report.calculated if port not in drawn]
+    rows += [("calculated", port.name, f"{port.value:.6g}", port.unit, port.description) for port in calculated]
     if rows:
         show_wide_table("Parameters and inputs", ["kind", "name", "start", "unit", "what"], rows)
+    if drawn:
+        console.print(f"[dim]And {len(drawn)} numbers of its drawing.[/]")
     shown = [port for port in report.outputs if "[" not in port.name]
     buffered = len(report.outputs) - len(shown)
     title = "Outputs" + ("" if report.own_outputs else ", the default ones: the file declares none")

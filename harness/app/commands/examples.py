@@ -1,4 +1,4 @@
-"""The examples of docs/examples: which there are, and copies of them to begin with."""
+"""The examples of docs/examples and its gallery: which there are, and copies of them to begin with."""
 
 from __future__ import annotations
 
@@ -14,19 +14,31 @@ from ..terminal import console
 #: From the root of the tree; in a wheel, which has all of that below `mechanism_fmu`, from there.
 FOLDER = Path(__file__).parents[3] / "docs" / "examples"
 
+#: Where the files are that set a MODEL, below that.
+GALLERY = "gallery"
+
 #: What runs a file of designs or of a machine, by a table that no other kind of file has.
 _COMMANDS = {"sweep": "sweep", "optimise": "optimise", "component": "machine run"}
 
 
 def files() -> list[Path]:
-    """All examples, by name.
+    """All examples, by name; those of the gallery, each a mechanism, behind the others.
 
     Raises:
         UsageError: they are not installed.
     """
     if not FOLDER.is_dir():  # an editable install in the mode "strict" links packages only
         raise UsageError(f"There is no folder {FOLDER}; the examples are in docs/examples of the project's sources.")
-    return sorted(path for path in FOLDER.iterdir() if path.is_file())
+    return [*_files_in(FOLDER), *_files_in(FOLDER / GALLERY)]
+
+
+def _files_in(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.iterdir() if path.is_file())
+
+
+def name(path: Path) -> str:
+    """An example's path below the folder of examples."""
+    return path.relative_to(FOLDER).as_posix()
 
 
 def description(path: Path) -> str:
@@ -43,6 +55,8 @@ def description(path: Path) -> str:
 
 def command(path: Path) -> str:
     """What runs an example, as one types it; "" for what another example reads."""
+    if path.parent.name == GALLERY:
+        return f"mechanism-fmu build {path}"
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
         usage = re.search(rf"python \S*{re.escape(path.name)}((?: \S+)*)", text)
@@ -59,17 +73,17 @@ def copy_examples(folder: Path) -> list[Path]:
     Raises:
         UsageError: a file of such a name is there already, and nothing has been copied; or the disk refuses.
     """
-    there = [path.name for path in files() if (folder / path.name).exists()]
+    there = [name(path) for path in files() if (folder / name(path)).exists()]
     if there:
         raise UsageError(
             f"{folder} has {', '.join(there)} already; nothing was copied. Give another folder, or remove "
             f"{'it' if len(there) == 1 else 'them'} first."
         )
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        (folder / GALLERY).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(f"{folder} cannot be made ({error}); give another folder.") from error
-    return [write_bytes(folder / path.name, path.read_bytes()) for path in files()]
+    return [write_bytes(folder / name(path), path.read_bytes()) for path in files()]
 
 
 def show_examples(folder: Path | None) -> int:
@@ -83,7 +97,8 @@ def show_examples(folder: Path | None) -> int:
     """
     shown = files() if folder is None else copy_examples(folder)
     for path in shown:
-        console.print(f"{path.name:20}  {description(path)}", soft_wrap=True, markup=False)
+        listed = path.relative_to(FOLDER if folder is None else folder).as_posix()
+        console.print(f"{listed:28}  {description(path)}", soft_wrap=True, markup=False)
     if folder is None:
         console.print("\nCopy them: mechanism-fmu examples --copy", soft_wrap=True, markup=False)
     else:

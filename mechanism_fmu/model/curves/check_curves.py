@@ -61,12 +61,12 @@ def least_value(curve: Curve) -> Number:
     if curve.periodic:
         bounds.append(plain(curve.start) + plain(curve.span))
     values = [
-        _value_and_slope(piece, start + (end - start) * (k / _PLACES))[0]
+        value_and_slope(piece, start + (end - start) * (k / _PLACES))[0]
         for piece, (start, end) in zip(curve.pieces, pairwise(bounds), strict=False)
         for k in range(_PLACES)
     ]
     last = curve.pieces[-1]
-    begin = _value_and_slope(last, last.start)[0]
+    begin = value_and_slope(last, last.start)[0]
     values.append(begin)
     swinging = [term for term in last.terms if not (is_plain(term.amplitude) and term.amplitude == 0.0)]
     if not curve.periodic and len(swinging) == 1 and all(len(term.polynomial) <= 1 for term in last.terms):
@@ -88,8 +88,8 @@ def _closing(label: str, curve: Curve) -> Iterator[Finding]:
 
 def _joins(label: str, piece: Piece, after: Piece, end: Number, begin: Number) -> Iterator[Finding]:
     """Whether a piece ends, at `end`, where and as steep as the one after it begins, at `begin`."""
-    left, left_slope = _value_and_slope(piece, end)
-    right, right_slope = _value_and_slope(after, begin)
+    left, left_slope = value_and_slope(piece, end)
+    right, right_slope = value_and_slope(after, begin)
     text = f"{label} jumps at {{:.9g}} from {{:.9g}} to {{:.9g}}; let each piece begin where the one before it ends."
     yield refuse_unless(_agree(left, right, _ROUNDING), text, end, left, right)
     text = (
@@ -103,7 +103,8 @@ def _agree(left: Number, right: Number, rounding: float) -> Number:
     return not_negative(rounding * (1.0 + size(left)) - size(right - left))
 
 
-def _value_and_slope(piece: Piece, at: Number) -> tuple[Number, Number]:
+def value_and_slope(piece: Piece, at: Number) -> tuple[Number, Number]:
+    """Value and first derivative of a piece of a curve at a place, whose numbers may be symbolic."""
     xi = plain(at) - plain(piece.start)
     value: Number = 0.0
     slope: Number = 0.0

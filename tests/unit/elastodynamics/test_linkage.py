@@ -172,7 +172,10 @@ REFUSALS = {
     "an unknown joint": (
         arm(
             bodies=(*arm().bodies, Body("wheel", 1.0, 1.0)),
-            joints=(*arm().joints, Gears("gears", "arm", "wheel", 0.1, 0.1, 0.0, 0.0)),
+            joints=(
+                *arm().joints,
+                Gears("gears", "arm", "wheel", radius_i=0.1, angle_i=0.0, radius_j=0.1, angle_j=0.0),
+            ),
         ),
         "Gears 'gears': the flexibility approach knows",
     ),

@@ -1,5 +1,6 @@
 """The drawing that a model gets that gives none: its shapes, and the variables that they need."""
 
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -10,6 +11,7 @@ from mechanism_fmu.fmu.parts.resources import DRAWING, drawing
 from mechanism_fmu.model import (
     GROUND,
     Body,
+    CamFollower,
     Disc,
     Distance,
     Gears,
@@ -17,6 +19,7 @@ from mechanism_fmu.model import (
     Link,
     Mechanism,
     Model,
+    Move,
     NonlinearSpring,
     Outline,
     Output,
@@ -30,9 +33,12 @@ from mechanism_fmu.model import (
     Striker,
     TorsionSpring,
     Trace,
+    Wheel,
     bar,
+    circle,
     compile_mechanism,
     disc,
+    motion_profile,
     plate,
 )
 from mechanism_fmu.model.trace import trace
@@ -151,3 +157,23 @@ def test_solids_are_drawn_as_they_were_given() -> None:
     assert corners == pytest.approx([-0.1, -0.1, 0.2, -0.1, -0.1, 0.2], abs=1e-15)
     assert shapes["wheel (disc)"] == Disc("wheel (disc)", ("wheel_x", "wheel_y"), "drawing_wheel_radius")
     assert shapes["rod"].points[:2] == (("drawing_rod_0_x", 0.0), ("drawing_rod_1_x", 0.0))
+
+
+def test_cams_are_drawn_by_points_of_their_profiles() -> None:
+    def mechanism(values: SimpleNamespace) -> Mechanism:
+        cam, follower = Body("cam", 1.0, 0.1), Body("follower", 1.0, 0.1, (0.0, 0.3, 0.0))
+        lift = motion_profile(values.length, (Move(0.1, 1.0), Move(0.0, 1.0)))
+        pair = CamFollower("pair", "cam", lift, "follower", circle(0.05), centre_i=(0.01, 0.0), unilateral=True)
+        return Mechanism((cam, follower), contacts=(pair,))
+
+    model = Model("Cam", "", LENGTH, mechanism)
+    cam, roller = (shape for shape in model.shapes if isinstance(shape, Wheel))
+    assert (cam.name, cam.at, cam.angle, cam.count) == ("cam (pair)", "cam.0", "cam_angle", 1.0)
+    assert {radius for radius, _ in roller.outline} == {0.05}
+    assert [angle for _, angle in cam.outline] == pytest.approx([2 * math.pi * k / 36 for k in range(36)])
+    found = {c.name: c.value for c in model.build(model.values(length=0.5)).calculated}
+    assert found["drawing_pair_i_radius_0"] == 0.5
+    top = 1.0 / (2 * math.pi / 36)  # the rise ends at 1 rad
+    assert found[f"drawing_pair_i_radius_{round(top)}"] == pytest.approx(0.6, abs=1e-4)
+    drawing(model)
+    trace(model)
