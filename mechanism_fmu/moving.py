@@ -108,7 +108,7 @@ class MovingMechanism:
 
         Args:
             mechanism: of the same structure; only names are taken from it.
-            block: as `tables.pack.pack` makes it.
+            block: numbers of shape (size,), as `tables.layout.pack` makes them.
             library: of the compiled engine; None: as `engine.run.engine_for` finds it.
         """
         self = cls.__new__(cls)
@@ -135,6 +135,9 @@ class MovingMechanism:
     def begin(self, time: float) -> None:
         """Assemble the mechanism and make it ready at `time` [s]; what is made of a mechanism has begun already.
 
+        Args:
+            time: at which the motion begins [s].
+
         Raises:
             MechanismError: it cannot be assembled.
         """
@@ -152,6 +155,9 @@ class MovingMechanism:
 
     def advance(self, target: float) -> None:
         """Go on to time `target` [s] with the inputs held.
+
+        Args:
+            target: time to be reached [s], not before the present one.
 
         Raises:
             SimulationError: the motion cannot be continued; the time reached is the last good one.
@@ -195,6 +201,10 @@ class MovingMechanism:
     def set_input(self, name: str, value: float) -> None:
         """Set an input from now on (SI units).
 
+        Args:
+            name: of the input.
+            value: in its SI unit.
+
         Raises:
             ValueError: there is no such input.
         """
@@ -202,6 +212,10 @@ class MovingMechanism:
 
     def set_slope(self, name: str, slope: float) -> None:
         """Let an input change by `slope` (its SI unit per second) during the next communication step, and hold then.
+
+        Args:
+            name: of the input.
+            slope: change per second [SI unit/s].
 
         Raises:
             ValueError: there is no such input.
@@ -214,7 +228,11 @@ class MovingMechanism:
         return dict(zip(self._output_names, self.field("output_rates").tolist(), strict=True))
 
     def field(self, name: str) -> Array:
-        """A view of a field of the instance's block (see `tables.layout`), for tests and diagnosis."""
+        """A view of a field of the instance's block (see `tables.layout`), for tests and diagnosis.
+
+        Args:
+            name: of the field.
+        """
         return field_of(self._block, name)
 
     def pulling_contacts(self) -> dict[str, float]:

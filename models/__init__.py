@@ -25,6 +25,9 @@ def machines() -> dict[str, Path]:
 def load(name: str) -> ModuleType:
     """The module `models.<name>.model`, which holds `MODEL`.
 
+    Args:
+        name: one of `available()`.
+
     Raises:
         MechanismError: there is no such model; the message lists those that there are.
     """

@@ -136,7 +136,7 @@ class Connection:
         source: "<part>.<output>".
         target: "<part>.<input>"; its unit must measure the same quantity, and the source is converted to it. One of
             both that has no unit is taken to have the other's.
-        gain: not 0; of numbers that become Real ones.
+        gain: [1], behind the conversion, not 0; of numbers that become Real ones.
         offset: in the unit of the target; likewise.
         convert: whether the target may be of another kind: Boolean, Integer, Enumeration, Real (`_converts`).
         rate: "<part>.<output>", the source's derivative, for the extrapolation by derivatives; "" leaves it to the FMU.

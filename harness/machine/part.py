@@ -167,7 +167,11 @@ class Extrapolation(StrEnum):
     DERIVATIVES = "derivatives"
 
     def slopes(self, signals: Signals) -> list[float]:
-        """Slopes of outputs in the next step [unit/s]."""
+        """Slopes of outputs in the next step [unit/s].
+
+        Args:
+            signals: outputs with their history.
+        """
         if self is Extrapolation.CONSTANT:
             return [0.0] * len(signals.names)
         return signals.differences() if self is Extrapolation.LINEAR else signals.derivatives()

@@ -225,6 +225,15 @@ def run_machine(
 
     An error of a component ends the run, and everything observed before it stays with the observers; what was seen in a
     step that not all parts have completed has not happened.
+
+    Args:
+        machine: with its parts instantiated.
+        algorithm: how it takes a step.
+        grid: communication points.
+        start_values: by "<part>.<variable>", in its unit.
+        observers: who looks on at communication points.
+        inputs: signals that open inputs follow, or None.
+        stop_requested: asked before each step.
     """
     reached, steps = grid.start, 0
     machine.point = 0

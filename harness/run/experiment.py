@@ -134,7 +134,16 @@ def perform(
     stop_requested: Callable[[], bool] = never,
     inputs: InputSignals | None = None,
 ) -> Run:
-    """Perform an experiment with a new instance of `fmu`, as `performing` does; the instance is freed then."""
+    """Perform an experiment with a new instance of `fmu`, as `performing` does; the instance is freed then.
+
+    Args:
+        fmu: what is to be simulated.
+        experiment: how.
+        on_message: called with each message of the FMU.
+        observers: who looks on at communication points.
+        stop_requested: asked before each step.
+        inputs: signals that the inputs follow; None: those of the experiment.
+    """
     with performing(
         fmu,
         experiment,

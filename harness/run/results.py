@@ -74,6 +74,9 @@ def sweep_up(folder: Path) -> None:
 def prepare_folder(folder: Path) -> None:
     """Make the folder for the files, before any work is spent on them.
 
+    Args:
+        folder: that is to be.
+
     Raises:
         UsageError: it cannot be made or written to.
     """
@@ -131,6 +134,11 @@ def write_run(run: Run, folder: Path, units_row: bool = False) -> list[Path]:
     The tables have plain variable names as headings; their units are in the summary, and with `units_row` below the
     headings. Every number is the shortest text that reads back as the same double. A table without columns, as that of
     impacts of an FMU that reports none, has the column "time".
+
+    Args:
+        run: whose files they are.
+        folder: that there is already.
+        units_row: whether a row of units follows the headings.
 
     Raises:
         UsageError: the disk refuses.
@@ -215,6 +223,11 @@ def write_with_units(table: pd.DataFrame, units: Mapping[str, str], path: Path) 
     """Write a table whose headings are `name [unit]`, or the name alone where there is no unit.
 
     So `inputs.read_inputs` reads it, and so does pandas.
+
+    Args:
+        table: a column for each variable.
+        units: by name of the column; what is missing, or "", has none.
+        path: of the file.
 
     Raises:
         UsageError: the disk refuses.

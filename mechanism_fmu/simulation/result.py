@@ -56,6 +56,7 @@ class Result:
         numbers: the table, shape (rows, columns), in SI units.
         units: by name; "1" for numbers without one.
         descriptions: by name.
+        types: FMI types of outputs, by name.
         impacts, events: all, in the order of time.
         statistics: of the solver.
     """
@@ -80,7 +81,16 @@ class Result:
         events: Sequence[Event],
         statistics: Statistics,
     ) -> Result:
-        """A run of `mechanism`, whose rows have the time, all inputs, and the outputs `shown`."""
+        """A run of `mechanism`, whose rows have the time, all inputs, and the outputs `shown`.
+
+        Args:
+            mechanism: that was run.
+            shown: its outputs that were read.
+            rows: values in SI units, shape (times, 1 + inputs + outputs).
+            impacts: all of the run.
+            events: all of the run.
+            statistics: of the run.
+        """
         ports: list[Input | Output] = [*mechanism.inputs, *shown]
         return cls(
             mechanism,
@@ -128,6 +138,9 @@ class Result:
     def at(self, time: float) -> dict[str, float]:
         """All columns at a time [s]: between two rows interpolated linearly, and whole numbers those of the row before.
 
+        Args:
+            time: [s], within the run.
+
         Raises:
             ValueError: the run was not there.
         """
@@ -141,7 +154,11 @@ class Result:
         }
 
     def to_csv(self, path: Path | str) -> None:
-        """Write the table; headings have the units, as in "speed [rad/s]"."""
+        """Write the table; headings have the units, as in "speed [rad/s]".
+
+        Args:
+            path: of the file.
+        """
         headings = [name if self.units[name] == "1" else f"{name} [{self.units[name]}]" for name in self.names]
         self.table.to_csv(path, index=False, header=headings)
 

@@ -29,7 +29,7 @@ class Simulation(MovingMechanism):
     Args:
         mechanism: its numbers are checked and written as tables.
         start_time: [s].
-        inputs: values at the start, in the order of `mechanism.inputs`; their own start values by default.
+        inputs: values at the start in SI units, in the order of `mechanism.inputs`; their own start values by default.
 
     Raises:
         MechanismError: the mechanism cannot be right, or cannot be assembled (with what is left of each joint).

@@ -74,6 +74,9 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
 
     For a `with`: `with open_fmu(Path("build/Ratchet.fmu")) as fmu, fmu.instantiate("ratchet") as ratchet:`.
 
+    Args:
+        path: of the FMU's file.
+
     Raises:
         UsageError: not a file, not an FMU that can be run, made for other platforms only, or with names in it that lead
             out of the folder.

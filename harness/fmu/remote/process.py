@@ -79,7 +79,12 @@ class RemoteFmu:
     def instantiate(
         self, name: str, on_message: MessageHandler = discard_message
     ) -> AbstractContextManager[RemoteComponent]:
-        """A new instance in a new process; both are ended afterwards."""
+        """A new instance in a new process; both are ended afterwards.
+
+        Args:
+            name: of the instance.
+            on_message: called with each message of the FMU.
+        """
         return in_own_process(self.fmu, name, on_message, self.time_limit)
 
 
