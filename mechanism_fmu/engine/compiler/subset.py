@@ -70,5 +70,19 @@ def _mark_small(context: Any, builder: Any, _signature: Any, _args: Any) -> Any:
     return context.get_dummy_value()
 
 
-type_callable(keep_small)(lambda _context: lambda: types.none)
-lower_builtin(keep_small)(_mark_small)
+def keep_apart() -> None:
+    """Compile the calling function for size and never into its callers.
+
+    For what runs once or twice a step and has few arguments: compiled into functions that are made for speed, its loops
+    became copies for two and four entries at a time, which were kilobytes and gained nothing.
+    """
+
+
+def _mark_apart(context: Any, builder: Any, _signature: Any, _args: Any) -> Any:
+    builder.function.attributes.add("noinline")
+    return _mark_small(context, builder, _signature, _args)
+
+
+for _mark, _lowering in ((keep_small, _mark_small), (keep_apart, _mark_apart)):
+    type_callable(_mark)(lambda _context: lambda: types.none)
+    lower_builtin(_mark)(_lowering)

@@ -35,6 +35,7 @@ def assemble(block: Array) -> int:
     Held coordinates do not move. The result, or the closest position found, stands in y_end; `rows.residual` holds
     what is left of Phi, for the joints and the contacts that are closed at the start.
     """
+    keep_small()
     n = Sizes(block).coordinates
     now = Course(block)
     s = Stages(block)
@@ -92,6 +93,7 @@ def newton_direction(block: Array, count: int, left: Array) -> None:
 @jit
 def worst_of(values: Array, count: int) -> float:
     """Largest magnitude of the first `count` values; infinite when one is not a number."""
+    keep_small()
     most = 0.0
     for k in range(count):
         if not abs(values[k]) <= most:
@@ -110,6 +112,7 @@ _MOST_COPIES = 4000
 @jit
 def start_guess(block: Array, offset: int) -> None:
     """The bodies' start guess, the contacts that are closed there, and patterns `offset` copies beside where it is."""
+    keep_small()
     n = Sizes(block).coordinates
     body = Bodies(block)
     now = Course(block)
@@ -148,6 +151,7 @@ def start_guess(block: Array, offset: int) -> None:
 @jit
 def find_copies(block: Array) -> bool:
     """Go to the copy of each pattern where its point is at y_end; whether any was another than before."""
+    keep_small()
     table = Patterns(block)
     first_next = 2 * Sizes(block).contacts
     count = table.copy.shape[0]
@@ -171,6 +175,7 @@ def find_copies(block: Array) -> bool:
 @jit
 def is_inside(block: Array) -> bool:
     """Whether a point of a pattern is behind one of the other lines there, which logical functions do not switch."""
+    keep_small()
     table = Contacts(block)
     at = place_bodies(block, Course(block).y_end)
     inside = False

@@ -14,7 +14,7 @@ from ...tables.declare import Array
 from ...tables.method import CUBIC_ROWS, METHOD
 from ...tables.motion import Stages
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit
+from ..compiler.subset import jit, keep_apart
 
 _STAGES = METHOD.stages
 _LAST = METHOD.last
@@ -25,6 +25,7 @@ _DENSE = METHOD.dense
 @jit
 def write_dense(block: Array, h: float) -> None:
     """Coefficients of the step of size `h` [s] from y_start to y_new, whose derivatives are known, into `new_dense`."""
+    keep_apart()
     n = Sizes(block).unknowns
     s = Stages(block)
     k = s.derivatives
@@ -47,6 +48,7 @@ def write_dense(block: Array, h: float) -> None:
 @jit
 def interpolate(dense: Array, fraction: float, y: Array) -> None:
     """Y at `fraction` (0..1) of the step whose coefficients are `dense`, shape (rows, unknowns)."""
+    keep_apart()
     rest = 1.0 - fraction
     for i in range(y.shape[0]):
         value = dense[_ROWS - 1, i]
