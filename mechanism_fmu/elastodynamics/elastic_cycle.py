@@ -220,8 +220,8 @@ def elastic_cycle(cycle: Cycle, damping_ratio: npt.ArrayLike, mass_model: MassMo
         LinkageError: the times are not even, or what the cycle ends with is not what it began with.
         ValueError: as of `InstantaneousModes.damping`.
 
-    Source: docs/elastodynamics-dynamics.md, eqs (K1), (K2), (K4); Erdman, Sandor, Oakberg (1972) names this Case 3 and
-        does not write it down in the pages at hand.
+    Source: docs/elastodynamics-dynamics.md, eqs (K1), (K2), (K4); Erdman, Sandor, Oakberg (1972) name a third case and
+        do not describe it in the pages at hand.
     """
     configurations = cycle.configurations
     steps = np.diff(configurations.pose.time)
