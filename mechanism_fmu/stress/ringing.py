@@ -257,7 +257,7 @@ class SequenceDamage:
         time: of it [s].
         position: xi = x / length of the section [-].
         impacts: their number.
-        cycles: their number by rainflow counting, halves as 0.5, without swings below 1e-2 of the largest possible.
+        cycles: number of them by rainflow, halves as 0.5, without swings below 1e-2 of the largest possible.
         damage: Miner's sum for one such sequence, at the worse of the two outer fibres [-].
         repeats_to_failure: number of times that the whole sequence is borne, 1 / damage; infinite without damage.
         yield_safety: R_e over the largest stress [-].

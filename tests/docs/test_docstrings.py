@@ -17,10 +17,6 @@ from docs.elements.described import arguments, sections
 #: What still lacks something, by module; a number may shrink, and what is not here lacks nothing.
 LACKING: dict[str, int] = {
     "build_fmu": 1,
-    "harness.machine.machine": 9,
-    "harness.fmu.interface": 15,
-    "harness.machine.stepping": 7,
-    "harness.run.master": 8,
 }
 
 #: Annotations of parameters that are numbers, whose unit must be said.
