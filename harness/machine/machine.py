@@ -20,7 +20,6 @@ _NOTHING: Mapping[str, Sequence[float]] = {}
 #: So little, relatively, is rounding in a loop without delay; what is smaller than the other is nothing at all.
 _SETTLED, _NOTHING_LEFT = 1e-9, 1e-9
 
-
 #: Where a connected input gets its value, factor * values[place] + offset, from the values of a part's outputs as they
 #: were last read. A plain tuple, because every step takes it apart.
 _Wire = tuple[Sequence[float], int, float, float]
@@ -31,6 +30,11 @@ class Machine:
 
     Every method raises `FmuError` when a component refuses or fails.
 
+    Args:
+        components: by the names of the parts.
+        connections: what inputs follow.
+        model: name of the machine.
+
     Attributes:
         structure: how the components hang together.
         description: of the machine, as if it were one FMU (`Structure.description`).
@@ -38,8 +42,7 @@ class Machine:
         point: number of the run's communication point that is reached; None between two, where an algorithm may stop.
         unsettled: how often an exchange ended while a loop without delay (`Structure.loops`) still changed inputs.
         extrapolation: of inputs between communication points.
-        reads_once: all outputs are read once at a communication point, and only then inputs are set, as the masters of
-            other tools do: what follows an input at once is then a step behind.
+        reads_once: all outputs are read before inputs are set, as other tools' masters do: feedthrough is a step late.
     """
 
     def __init__(
@@ -52,11 +55,6 @@ class Machine:
         reads_once: bool = False,
     ) -> None:
         """Connect components.
-
-        Args:
-            components: by the names of the parts.
-            connections: what inputs follow.
-            model: name of the machine.
 
         Raises:
             UsageError: a connection that cannot be; the message says which and why.
@@ -132,7 +130,8 @@ class Machine:
         """Initialize the parts, each with the outputs of those that it follows, and exchange until nothing changes.
 
         Args:
-            start_time, stop_time: of the run [s].
+            start_time: of the run [s].
+            stop_time: of the run [s].
         """
         links = [link for link in self.structure.links if not link.ticks]
         initialize(self.parts, links, self.structure.groups, start_time, stop_time)
@@ -219,7 +218,8 @@ class Machine:
         """`give` every part, before any of them takes the step.
 
         Args:
-            begin, end: of the step [ns]; outputs were exchanged at its begin.
+            begin: of the step [ns], for which outputs were exchanged.
+            end: of the step [ns].
         """
         if self._holds and len(self._given) == len(self._wires):
             return  # the exchange has left nothing to do
@@ -236,7 +236,8 @@ class Machine:
 
         Args:
             name: of the part.
-            begin, end: of the step [ns]; outputs were exchanged at its begin.
+            begin: of the step [ns], for which outputs were exchanged.
+            end: of the step [ns].
             known: slopes of the outputs of parts that have already taken it [unit/s]; others are extrapolated.
         """
         if self._driven is not None and not self._holds:

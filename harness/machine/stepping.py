@@ -125,7 +125,7 @@ class EventAware:
         self.felt_late = [name for name in self._last if self._impacts[name].reports]
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take a step to `end`, or to the first impact before it; the time reached [ns]. One after an impact is shorter.
+        """Take a step to `end`, or to the first impact before it, shorter after an impact; the time reached [ns].
 
         Args:
             machine: that takes the step, its outputs exchanged at `begin`.

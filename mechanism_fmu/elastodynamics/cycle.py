@@ -292,8 +292,8 @@ def shaking(cycle: Cycle, about: Point = (0.0, 0.0)) -> Shaking:
     Raises:
         ValueError: that point is not finite.
 
-    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis; the paper names both and
-        writes neither down.
+    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis; Erdman, Sandor, Oakberg
+        (1972) name both and write neither down.
     """
     configurations, found = cycle.configurations, cycle.reactions
     mechanism, pose = configurations.linkage.mechanism, configurations.pose
@@ -325,8 +325,8 @@ def momentum_shaking(cycle: Cycle, about: Point = (0.0, 0.0)) -> Shaking:
     Raises:
         ValueError: that point is not finite.
 
-    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis; the paper names both and
-        writes neither down.
+    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis; Erdman, Sandor, Oakberg
+        (1972) name both and write neither down.
     """
     configurations = cycle.configurations
     return Shaking(about, *_summed(about, _places(configurations), cycle.forces - cycle.reactions.friction))

@@ -173,7 +173,7 @@ def lightest(
             the best came.
 
     Source: sequential quadratic programming, SLSQP of scipy; docs/elastodynamics-dynamics.md, section Synthesis.
-        Erdman, Sandor, Oakberg (1972) names synthesis; the method is this project's.
+        Erdman, Sandor, Oakberg (1972) name synthesis; the method is this project's.
     """
     search = _Search(judge, *_box(start, lower, upper), largest_deviation, largest_stress)
     if not (largest_deviation > 0.0 and largest_stress > 0.0):
