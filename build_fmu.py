@@ -62,7 +62,19 @@ def build(
     3.0 with event mode and early return at impacts. Where it is built, the native flavour needs the package ziglang
     (`python -m pip install ziglang==0.17.0`). The first build compiles the engine, which takes a minute or two;
     the same sources always give the same GUID.
-    """
+    \f
+
+    Args:
+        model: name of a ready-made model, or file of your own mechanism; None is refused but where models are listed.
+        output: folder for the FMU; it is made if need be.
+        flavour: pythonfmu needs Python where the FMU runs, native needs nothing there.
+        fmi: version of the standard, 2 or 3; 3 in the native flavour only.
+        clocks: whether FMI 3.0 comes with a clock of impacts and arrays.
+        show_list: whether the models are listed, and nothing is built.
+
+    Raises:
+        typer.Exit: it cannot be built; the reason has been said.
+    """  # noqa: D301 at \f ends what --help shows
     import models
 
     if show_list:

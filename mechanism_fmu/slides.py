@@ -82,10 +82,12 @@ class Fall:
 
 
 def rolled_angle(carrier: float) -> float:
-    """Phi_2 [rad] of a carrier's angle theta [rad], by hand: eq (1) of the slides with phi_1 = 0, solved for phi_2.
+    """Phi_2 [rad] of a carrier's angle theta, by hand: the slides' eq (1) with phi_1 = 0, solved for phi_2.
 
     Args:
         carrier: its angle theta [rad].
+
+    Source: ME451 slides on gears, eq (1), for example 3.4.1.
     """
     return (CARRIER * carrier - RADIUS_1 * MARK_1) / RADIUS_2 - MARK_2 + math.pi
 
@@ -96,6 +98,8 @@ def carried_gear(to: float, steps: int = 60) -> tuple[FloatArray, FloatArray]:
     Args:
         to: angle of the carrier at the end [rad].
         steps: even ones of the carrier.
+
+    Source: ME451 slides on gears, example 3.4.1, by the rows of `Gears` and `analyse`.
     """
     rate = to - MARK_1
     middle = (CARRIER / 2 * math.cos(MARK_1), CARRIER / 2 * math.sin(MARK_1), MARK_1)
@@ -120,6 +124,8 @@ def falling_gear(times: Sequence[float] | FloatArray | None = None) -> Fall:
 
     Raises:
         ValueError: the gear does not come to the bottom within these times.
+
+    Source: ME451 slides on gears, example 3.4.1; they give neither mass nor time, the disc is this project's.
     """
     grid = np.arange(0.0, _LONG_ENOUGH + _STEP / 2, _STEP) if times is None else np.asarray(times, dtype=np.float64)
     mechanism = Mechanism(
@@ -184,6 +190,8 @@ def cam_tangent(alpha: float, phi: float = 0.0) -> FloatArray:
     Args:
         alpha: contact coordinate [rad].
         phi: angle of the cam [rad].
+
+    Source: ME451 slides on cams: the tangent g of a boundary, for the example's cam.
     """
     if alpha % (2 * math.pi) < _JOIN:
         return _tangent(alpha, phi, 1.25 - 0.25 * math.cos(3 * alpha), 0.75 * math.sin(3 * alpha))
@@ -196,6 +204,8 @@ def roller_tangent(alpha: float, phi: float = 0.0) -> FloatArray:
     Args:
         alpha: contact coordinate [rad].
         phi: angle of the roller [rad].
+
+    Source: ME451 slides on cams: the tangent g of a boundary, for the example's roller.
     """
     return _tangent(alpha, phi, _ROLLER_RADIUS, 0.0)
 
@@ -212,6 +222,8 @@ def tangents_of_the_rows(
         alpha_2: contact coordinate of the roller [rad].
         phi_1: angle of the cam [rad].
         phi_2: angle of the roller [rad].
+
+    Source: ME451 slides on cams: the rows of the cam-follower joint; see `CamFollower`.
     """
     equations = _equations()
     q = equations.start.copy()

@@ -19,7 +19,11 @@ class Observable(Protocol):
         """What the unit says about itself."""
 
     def get(self, names: Sequence[str]) -> list[Value]:
-        """Values of variables, in the order of `names`."""
+        """Values of variables, in the order of `names`.
+
+        Args:
+            names: of variables.
+        """
 
 
 def whole_step(advance: Callable[[float, float], float], time: float, size: float) -> None:
@@ -44,13 +48,27 @@ class Slave(Observable, Protocol):
     """
 
     def set(self, values: Mapping[str, Value]) -> None:
-        """Set variables by name."""
+        """Set variables by name.
+
+        Args:
+            values: by name, each in the unit of its variable.
+        """
 
     def initialize(self, start_time: float, stop_time: float) -> None:
-        """Fix the parameters and find a consistent state at `start_time` [s]; no step will end behind `stop_time`."""
+        """Fix the parameters and find a consistent state at `start_time` [s]; no step will end behind `stop_time`.
+
+        Args:
+            start_time: of the run [s].
+            stop_time: of the run [s].
+        """
 
     def step(self, time: float, size: float) -> None:
-        """Advance by `size` [s] from `time`, where the last step ended; a step that is not completed is an error."""
+        """Advance by `size` [s] from `time`, where the last step ended; a step that is not completed is an error.
+
+        Args:
+            time: where the step begins [s].
+            size: of the step [s], > 0.
+        """
 
     def terminate(self) -> None:
         """End the simulation run."""
@@ -67,19 +85,39 @@ class Instance(Slave, Protocol):
         """Be as just after the instantiation."""
 
     def save(self, state: Any = None) -> Any:
-        """A snapshot of the whole state, in the place of one that is given; give it back with `free_state`."""
+        """A snapshot of the whole state, in the place of one that is given; give it back with `free_state`.
+
+        Args:
+            state: a snapshot that is overwritten, or None for a new one.
+        """
 
     def restore(self, state: Any) -> None:
-        """Continue from a snapshot."""
+        """Continue from a snapshot.
+
+        Args:
+            state: that `save` gave.
+        """
 
     def free_state(self, state: Any) -> None:
-        """Release a snapshot."""
+        """Release a snapshot.
+
+        Args:
+            state: that `save` gave.
+        """
 
     def serialize(self, state: Any) -> bytes:
-        """A snapshot as bytes."""
+        """A snapshot as bytes.
+
+        Args:
+            state: that `save` gave.
+        """
 
     def deserialize(self, data: bytes) -> Any:
-        """A snapshot from bytes."""
+        """A snapshot from bytes.
+
+        Args:
+            data: that `serialize` gave.
+        """
 
 
 class Instances(Protocol):
@@ -100,7 +138,12 @@ class Instances(Protocol):
     def instantiate(
         self, name: str, on_message: Callable[[LogMessage], None] = ...
     ) -> AbstractContextManager[Instance]:
-        """A new instance; it is freed afterwards. `on_message` receives its messages."""
+        """A new instance; it is freed afterwards. `on_message` receives its messages.
+
+        Args:
+            name: of the instance.
+            on_message: called with each message of the FMU.
+        """
 
 
 # What a component is to a machine: a `Slave` whose numbers are bound once, and which may be put back.
@@ -140,22 +183,48 @@ class Component(Slave, Protocol):
         """Of the part, in the machine."""
 
     def reals(self, names: Sequence[str]) -> Reals:
-        """Bind Real variables."""
+        """Bind Real variables.
+
+        Args:
+            names: of Real variables of the component.
+        """
 
     def enter_initialization(self, start_time: float, stop_time: float) -> None:
-        """The first half of `initialize`: from now on, outputs may be read; the component may refuse to return them."""
+        """The first half of `initialize`: from now on, outputs may be read; the component may refuse to return them.
+
+        Args:
+            start_time: of the run [s].
+            stop_time: of the run [s].
+        """
 
     def exit_initialization(self) -> None:
         """The other half: the state is what the inputs of now make of it."""
 
     def advance(self, time: float, size: float) -> float:
-        """As `step`, but a component may return early, at an event of its own; the time reached [s]."""
+        """As `step`, but a component may return early, at an event of its own; the time reached [s].
+
+        Args:
+            time: where the step begins [s].
+            size: of the step [s], > 0.
+        """
 
     def save(self, state: Any = None) -> Any:
-        """A snapshot of the whole state, for `restore`; one that is given is overwritten, and returned."""
+        """A snapshot of the whole state, for `restore`; one that is given is overwritten, and returned.
+
+        Args:
+            state: a snapshot that is overwritten, or None for a new one.
+        """
 
     def restore(self, state: Any) -> None:
-        """Be again as when the snapshot was taken."""
+        """Be again as when the snapshot was taken.
+
+        Args:
+            state: that `save` gave.
+        """
 
     def free_state(self, state: Any) -> None:
-        """Release a snapshot."""
+        """Release a snapshot.
+
+        Args:
+            state: that `save` gave.
+        """

@@ -20,7 +20,6 @@ _NOTHING: Mapping[str, Sequence[float]] = {}
 #: So little, relatively, is rounding in a loop without delay; what is smaller than the other is nothing at all.
 _SETTLED, _NOTHING_LEFT = 1e-9, 1e-9
 
-
 #: Where a connected input gets its value, factor * values[place] + offset, from the values of a part's outputs as they
 #: were last read. A plain tuple, because every step takes it apart.
 _Wire = tuple[Sequence[float], int, float, float]
@@ -29,16 +28,21 @@ _Wire = tuple[Sequence[float], int, float, float]
 class Machine:
     """Components as one unit, whose variables are theirs with the part's name before them: "ratchet.wheel_angle".
 
+    Every method raises `FmuError` when a component refuses or fails.
+
+    Args:
+        components: by the names of the parts.
+        connections: what inputs follow.
+        model: name of the machine.
+
     Attributes:
         structure: how the components hang together.
         description: of the machine, as if it were one FMU (`Structure.description`).
         parts: by name, each behind those that it follows.
         point: number of the run's communication point that is reached; None between two, where an algorithm may stop.
-        unsettled: how often an exchange has ended though a loop without delay (`Structure.loops`) was still changing
-            inputs beyond rounding.
+        unsettled: how often an exchange ended while a loop without delay (`Structure.loops`) still changed inputs.
         extrapolation: of inputs between communication points.
-        reads_once: all outputs are read once at a communication point, and only then inputs are set, as the masters of
-            other tools do: what follows an input at once is then a step behind.
+        reads_once: all outputs are read before inputs are set, as other tools' masters do: feedthrough is a step late.
     """
 
     def __init__(
@@ -88,8 +92,11 @@ class Machine:
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name.
 
+        Args:
+            values: by "<part>.<variable>", each in its unit.
+
         Raises:
-            UsageError: a variable that is connected.
+            UsageError: a variable that is connected or not to be set, or that there is not.
         """
         for name in values:
             if not self.description.variable(name).settable:
@@ -98,7 +105,11 @@ class Machine:
             self.parts[part].component.set({name: values[f"{part}.{name}"] for name in own})
 
     def get(self, names: Sequence[str]) -> list[Value]:
-        """Values of variables, in the order of `names`."""
+        """Values of variables, in the order of `names`.
+
+        Args:
+            names: "<part>.<variable>".
+        """
         values: dict[str, Value] = {}
         for part, own in _by_part(names).items():
             values |= zip((f"{part}.{name}" for name in own), self.parts[part].component.get(own), strict=True)
@@ -107,13 +118,21 @@ class Machine:
     def drive(self, signals: InputSignals, start: int) -> None:
         """Let a table drive inputs, before the initialization; they must be set as it says for `start` [ns].
 
-        They change with each exchange. During a step, Real ones go on to what the table says for its end, unless
-        inputs are held (`Extrapolation.CONSTANT`).
+        They change with each exchange; in a step, Real ones go on to what it says for the end, unless inputs are held.
+
+        Args:
+            signals: the table, for variables of the machine.
+            start: time of the start [ns].
         """
         self._driven = Driven(self.parts, signals, start)
 
     def initialize(self, start_time: float, stop_time: float) -> None:
-        """Initialize the parts, each with the outputs of those that it follows, and exchange until nothing changes."""
+        """Initialize the parts, each with the outputs of those that it follows, and exchange until nothing changes.
+
+        Args:
+            start_time: of the run [s].
+            stop_time: of the run [s].
+        """
         links = [link for link in self.structure.links if not link.ticks]
         initialize(self.parts, links, self.structure.groups, start_time, stop_time)
         self.exchange(round(start_time * SECOND))
@@ -131,9 +150,11 @@ class Machine:
     def exchange(self, time: int) -> None:
         """Read all outputs at `time` [ns], and let inputs be what they follow.
 
-        Outputs that follow an input at once are read again when it has changed, as often as there are connected inputs
-        at most: longer chains than that are loops without any delay, which are solved only if that is enough. Events
-        that are due then are handled (`Events`).
+        Outputs that follow an input at once are read again when it has changed, at most as often as there are connected
+        inputs: longer chains are loops without delay, solved only if that is enough. Events that are due are handled.
+
+        Args:
+            time: communication point that is reached [ns].
         """
         self._slopes.clear()
         if self._driven is not None:
@@ -194,7 +215,12 @@ class Machine:
         self._given.clear()
 
     def give_all(self, begin: int, end: int) -> None:
-        """`give` every part, before any of them takes the step."""
+        """`give` every part, before any of them takes the step.
+
+        Args:
+            begin: of the step [ns], for which outputs were exchanged.
+            end: of the step [ns].
+        """
         if self._holds and len(self._given) == len(self._wires):
             return  # the exchange has left nothing to do
         for name in self._wires:
@@ -245,14 +271,23 @@ class Machine:
         part.inputs.write()
 
     def foresee(self, names: Sequence[str], known: Mapping[str, Sequence[float]] = _NOTHING) -> None:
-        """Ask for the slopes that `give` needs for parts, while what they follow has not gone on yet."""
+        """Ask for the slopes that `give` needs for parts, while what they follow has not gone on yet.
+
+        Args:
+            names: of the parts.
+            known: slopes by the name of a part [unit/s], which are not asked for.
+        """
         for name in names:
             for source in self._followed.get(name, ()):
                 if source not in self._slopes and source not in known:
                     self._slopes[source] = self.extrapolation.slopes(self._outputs[source])
 
     def restored(self, name: str) -> None:
-        """A part was put back: what its inputs are is not known any more."""
+        """A part was put back: what its inputs are is not known any more.
+
+        Args:
+            name: of the part.
+        """
         self._given.pop(name, None)
         self._held.restored(name)
         if self._driven is not None:

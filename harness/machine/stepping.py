@@ -25,6 +25,11 @@ class Algorithm(Protocol):
     def advance(self, machine: Machine, begin: int, end: int) -> int:
         """Take one step from `begin`, not beyond `end` [ns]; the time reached, later than `begin`.
 
+        Args:
+            machine: that takes the step, its outputs exchanged at `begin`.
+            begin: of the step [ns].
+            end: of the step [ns], later than `begin`.
+
         Raises:
             FmuError: a component refuses or fails.
         """
@@ -37,7 +42,16 @@ class Jacobi:
     """Fixed steps, all parts at once (an `Algorithm`)."""
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take the whole step."""
+        """Take the whole step; the time reached [ns], which is `end`.
+
+        Args:
+            machine: that takes the step, its outputs exchanged at `begin`.
+            begin: of the step [ns].
+            end: of the step [ns], later than `begin`.
+
+        Raises:
+            FmuError: a component refuses or fails.
+        """
         machine.give_all(begin, end)
         for part in machine.parts.values():
             reached = part.advance(begin, end)
@@ -58,7 +72,16 @@ class GaussSeidel:
     """
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take the whole step."""
+        """Take the whole step; the time reached [ns], which is `end`.
+
+        Args:
+            machine: that takes the step, its outputs exchanged at `begin`.
+            begin: of the step [ns].
+            end: of the step [ns], later than `begin`.
+
+        Raises:
+            FmuError: a component refuses or fails.
+        """
         size = (end - begin) / SECOND
         slopes: dict[str, list[float]] = {}
         for name, part in machine.parts.items():
@@ -90,7 +113,11 @@ class EventAware:
     """
 
     def __init__(self, machine: Machine) -> None:
-        """Look at which parts can be put back, and which report impacts."""
+        """Look at which parts can be put back, and which report impacts.
+
+        Args:
+            machine: that it is to step.
+        """
         self._first = [name for name, part in machine.parts.items() if part.can_restore]
         self._last = [name for name, part in machine.parts.items() if not part.can_restore]
         self._impacts = {name: ImpactTimes(part.component) for name, part in machine.parts.items()}
@@ -98,7 +125,16 @@ class EventAware:
         self.felt_late = [name for name in self._last if self._impacts[name].reports]
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take a step to `end`, or to the first impact before it; the one after an impact is shorter."""
+        """Take a step to `end`, or to the first impact before it, shorter after an impact; the time reached [ns].
+
+        Args:
+            machine: that takes the step, its outputs exchanged at `begin`.
+            begin: of the step [ns].
+            end: of the step [ns], later than `begin`.
+
+        Raises:
+            FmuError: a component refuses or fails.
+        """
         if self._struck and machine.extrapolation is not Extrapolation.CONSTANT:
             end = begin + max((end - begin) // _SHORTER, 1)
         if machine.extrapolation is not Extrapolation.CONSTANT:
@@ -156,12 +192,16 @@ class Adaptive:
     one of speeds, and of angles only a step later.
 
     Attributes:
-        tolerance: relative.
+        tolerance: relative [1].
         too_small: how many steps were at `LEAST_STEP` and missed the tolerance all the same.
     """
 
     def __init__(self, machine: Machine, tolerance: float) -> None:
         """Begin with the largest step that is asked for.
+
+        Args:
+            machine: that it is to step; all parts must be able to be put back.
+            tolerance: relative [1], above 0 and below 1.
 
         Raises:
             UsageError: a part cannot be put back, or the tolerance is not between 0 and 1.
@@ -180,7 +220,16 @@ class Adaptive:
         self._watched = [_Watched(part.component) for part in machine.parts.values()]
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take one step within the tolerance."""
+        """Take one step within the tolerance; the time reached [ns].
+
+        Args:
+            machine: that takes the step, its outputs exchanged at `begin`.
+            begin: of the step [ns].
+            end: of the step [ns], later than `begin`.
+
+        Raises:
+            FmuError: a component refuses or fails.
+        """
         size = min(self._size or end - begin, end - begin)
         memory = {name: part.outputs.memory() for name, part in machine.parts.items()}
         for part in machine.parts.values():

@@ -56,7 +56,13 @@ def begin_and_size(begin: int, end: int) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class TimeGrid:
-    """Equal communication steps from start to stop [ns]; the last one is shortened to end exactly at stop."""
+    """Equal communication steps from start to stop [ns]; the last one is shortened to end exactly at stop.
+
+    Attributes:
+        start: of the run [ns].
+        stop: of the run [ns], later than `start`.
+        step: from one communication point to the next [ns], > 0.
+    """
 
     start: int
     stop: int
@@ -65,6 +71,11 @@ class TimeGrid:
     @classmethod
     def of(cls, stop_time: float, step: float, start_time: float = 0.0) -> TimeGrid:
         """The grid for times in seconds.
+
+        Args:
+            stop_time: [s], later than `start_time`.
+            step: [s], one nanosecond or more.
+            start_time: [s], not negative.
 
         Raises:
             UsageError: a time that is impossible, a step below a nanosecond, or a stop before the start.
@@ -99,10 +110,20 @@ class Observer(Protocol):
     """Called by the master at communication points."""
 
     def started(self, unit: Observable, time: float) -> None:
-        """After the initialization, at the start time [s]."""
+        """After the initialization, at the start time [s].
+
+        Args:
+            unit: that is simulated.
+            time: of the start [s].
+        """
 
     def stepped(self, unit: Observable, time: float) -> None:
-        """After every completed step, at its end [s]."""
+        """After every completed step, at its end [s].
+
+        Args:
+            unit: that is simulated.
+            time: that is reached [s].
+        """
 
 
 # Recording of variables at every communication point.
@@ -116,6 +137,9 @@ def recorded_variables(description: Description) -> list[Variable]:
     """All inputs and outputs that are numbers, without arrays: the buffered impacts have their own table.
 
     What ticks by a clock is left out: it has no value at a communication point (`Variable.in_event_mode_only`).
+
+    Args:
+        description: of what is simulated.
     """
     return [
         variable
@@ -125,7 +149,11 @@ def recorded_variables(description: Description) -> list[Variable]:
 
 
 class Recorder:
-    """An observer that keeps variables at every communication point, 8 bytes each."""
+    """An observer that keeps variables at every communication point, 8 bytes each.
+
+    Args:
+        variables: that are kept, all of them numbers.
+    """
 
     def __init__(self, variables: list[Variable]) -> None:
         self._variables = variables
@@ -138,11 +166,21 @@ class Recorder:
         }
 
     def started(self, unit: Observable, time: float) -> None:
-        """Keep the initial values."""
+        """Keep the initial values.
+
+        Args:
+            unit: that is simulated.
+            time: of the start [s].
+        """
         self.stepped(unit, time)
 
     def stepped(self, unit: Observable, time: float) -> None:
-        """Keep the values at the end of a step."""
+        """Keep the values at the end of a step.
+
+        Args:
+            unit: that is simulated.
+            time: that is reached [s].
+        """
         self._numbers.append(time)
         values = unit.get(self._names)
         self._numbers.extend(map(float, values))

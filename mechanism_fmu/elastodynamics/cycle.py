@@ -73,6 +73,9 @@ class Cycle:
     def deflection(self, place: str) -> FloatArray:
         """(delta_x, delta_y, rotation) of a place, e.g. "arm.end", shape (times, 3) [m, m, rad].
 
+        Args:
+            place: its name, e.g. "arm.end".
+
         Raises:
             LinkageError: there is no such place.
         """
@@ -81,7 +84,14 @@ class Cycle:
         return deflection
 
     def deviation(self, place: str) -> FloatArray:
-        """How far a place is off its rigid path, shape (times,) [m]."""
+        """How far a place is off its rigid path, shape (times,) [m].
+
+        Args:
+            place: its name, e.g. "arm.end".
+
+        Raises:
+            LinkageError: there is no such place.
+        """
         deflection = self.deflection(place)
         deviation: FloatArray = np.hypot(deflection[:, 0], deflection[:, 1])
         return deviation
@@ -97,6 +107,9 @@ def quasi_static(configurations: Configurations, loads: Mapping[str, ArrayLike] 
     Raises:
         LinkageError: the linkage can move although it should stand still, there is no such place, a moment acts where a
             pin takes none, or friction does not settle.
+
+    Source: Erdman, Sandor, Oakberg (1972), eqs (10) to (12) and (14); friction, stress and power:
+        docs/elastodynamics.md, section Inertia, torque and power.
     """
     applied = _applied(configurations, loads or {})
     inertia = inertia_forces(configurations)
@@ -175,10 +188,13 @@ def flywheel(angle: FloatArray, torque: FloatArray, speed: float, coefficient: f
         angle: increasing, over a whole cycle, shape (times,) [rad].
         torque: that the crank needs at constant speed, shape (times,) [N m].
         speed: mean of the least and the largest one [rad/s].
-        coefficient: of fluctuation, above 0 and below 2.
+        coefficient: of fluctuation [-], above 0 and below 2.
 
     Raises:
         LinkageError: the coefficient or the speed cannot be, or the angles are as `torque_fluctuation` refuses them.
+
+    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis; docs/elastodynamics.md,
+        section Inertia, torque and power.
     """
     if not 0.0 < coefficient < 2.0:
         raise LinkageError(
@@ -196,10 +212,17 @@ def flywheel(angle: FloatArray, torque: FloatArray, speed: float, coefficient: f
 
 
 def torque_fluctuation(angle: FloatArray, torque: FloatArray) -> Fluctuation:
-    """Mean, extremes and energy of a torque, shape (times,) [N m], over increasing angles, shape (times,) [rad].
+    """Mean over the angle, extremes and energy of a torque, by the trapezoidal rule.
+
+    Args:
+        angle: increasing, over a whole cycle, shape (times,) [rad].
+        torque: at these angles, shape (times,) [N m].
 
     Raises:
         LinkageError: there are fewer than two angles, or they do not increase.
+
+    Source: textbook: work of a torque beyond its mean; R. L. Norton, Design of Machinery, chapter on dynamic force
+        analysis.
     """
     if len(angle) < 2 or np.any(np.diff(angle) <= 0.0):
         raise LinkageError("The angles must increase; give at least two, over a whole cycle.")
@@ -231,7 +254,11 @@ class Shaking:
     moment: FloatArray
 
     def gap(self, other: Shaking) -> float:
-        """The largest difference to another one, in parts of the largest force and moment; 0 where nothing shakes."""
+        """The largest difference to another one, in parts of the largest force and moment; 0 where nothing shakes.
+
+        Args:
+            other: about the same point, at the same times.
+        """
         pairs = ((self.force, other.force), (self.moment, other.moment))
         most = [max(float(np.abs(one).max()), float(np.abs(two).max())) for one, two in pairs]
         parts = [float(np.abs(a - b).max()) / m for (a, b), m in zip(pairs, most, strict=True) if m > 0.0]
@@ -240,6 +267,9 @@ class Shaking:
 
 def crank_hinge(mechanism: Mechanism) -> Point:
     """Where the crank is hinged to the ground [m]; the origin if no one pin does that.
+
+    Args:
+        mechanism: with a crank of `crank_of`.
 
     Raises:
         LinkageError: as of `crank_of`.
@@ -261,6 +291,9 @@ def shaking(cycle: Cycle, about: Point = (0.0, 0.0)) -> Shaking:
 
     Raises:
         ValueError: that point is not finite.
+
+    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis; Erdman, Sandor, Oakberg
+        (1972) name both and write neither down.
     """
     configurations, found = cycle.configurations, cycle.reactions
     mechanism, pose = configurations.linkage.mechanism, configurations.pose
@@ -283,7 +316,18 @@ def shaking(cycle: Cycle, about: Point = (0.0, 0.0)) -> Shaking:
 
 
 def momentum_shaking(cycle: Cycle, about: Point = (0.0, 0.0)) -> Shaking:
-    """Shaking force and moment by Newton's laws: all inertia forces and loads, without any reaction; as `shaking`."""
+    """Shaking force and moment by Newton's laws: all inertia forces and loads, without any reaction.
+
+    Args:
+        cycle: of the linkage.
+        about: point of the ground to which the moment belongs [m].
+
+    Raises:
+        ValueError: that point is not finite.
+
+    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis; Erdman, Sandor, Oakberg
+        (1972) name both and write neither down.
+    """
     configurations = cycle.configurations
     return Shaking(about, *_summed(about, _places(configurations), cycle.forces - cycle.reactions.friction))
 

@@ -70,7 +70,14 @@ class ElasticCycle:
         return len(self.load)
 
     def resampled(self, count: int) -> ElasticCycle:
-        """The same cycle at `count` times, by the trigonometric series through the samples."""
+        """The same cycle at `count` times, by the trigonometric series through the samples.
+
+        Args:
+            count: number of times, 8 or more.
+
+        Raises:
+            ValueError: there are fewer than 8.
+        """
         return ElasticCycle(
             self.period,
             *(resampled(part, count) for part in (self.mass, self.damping, self.stiffness, self.load)),
@@ -82,6 +89,9 @@ class ElasticCycle:
         That holds where only inertia loads the linkage, and it turns in the same way; K, and C for the same ratios, are
         those of the positions.
 
+        Args:
+            factor: of the speed [-], > 0.
+
         Raises:
             ValueError: the factor is not positive and finite.
         """
@@ -90,7 +100,11 @@ class ElasticCycle:
         return replace(self, period=self.period / factor, load=self.load * factor**2)
 
     def size(self, u: FloatArray) -> float:
-        """Root of the largest u^T K u of the cycle, for u of shape (T, n): it counts lengths and angles alike."""
+        """Root of the largest u^T K u of the cycle, for u of shape (T, n): it counts lengths and angles alike.
+
+        Args:
+            u: deviations at the T times, shape (T, n), in the units of the cycle.
+        """
         with np.errstate(invalid="ignore"):
             return float(np.sqrt(np.max(np.einsum("ta,tab,tb->t", u, self.stiffness, u))))
 
@@ -128,6 +142,9 @@ class InstantaneousModes:
         C = K Z diag(2 zeta / omega) Z^T K with the shapes Z: Z^T C Z = 2 zeta / omega, which is 2 zeta omega in shapes
         of unit mass. In another position the modes are others, and so is C. A mode without mass is not damped.
 
+        Args:
+            ratio: zeta [-], 0 or more and below 1: one number, or shape (n,) in the order of the modes.
+
         Raises:
             ValueError: a ratio is negative or not below 1.
         """
@@ -151,6 +168,8 @@ def instantaneous_modes(stiffness: FloatArray, mass: FloatArray) -> Instantaneou
 
     Raises:
         ValueError: K is not positive, or M negative, in some position.
+
+    Source: textbook: the generalised eigenvalue problem of free vibration; docs/elastodynamics-dynamics.md, eq (K3).
     """
     try:
         root = np.linalg.cholesky(stiffness)
@@ -200,6 +219,9 @@ def elastic_cycle(cycle: Cycle, damping_ratio: npt.ArrayLike, mass_model: MassMo
     Raises:
         LinkageError: the times are not even, or what the cycle ends with is not what it began with.
         ValueError: as of `InstantaneousModes.damping`.
+
+    Source: docs/elastodynamics-dynamics.md, eqs (K1), (K2), (K4); Erdman, Sandor, Oakberg (1972) name a third case and
+        do not describe it in the pages at hand.
     """
     configurations = cycle.configurations
     steps = np.diff(configurations.pose.time)
@@ -225,18 +247,31 @@ def elastic_cycle(cycle: Cycle, damping_ratio: npt.ArrayLike, mass_model: MassMo
 
 
 def deflection_of(configurations: Configurations, displacement: FloatArray, place: str) -> FloatArray:
-    """(delta_x, delta_y, rotation) of a place, shape (times, 3) [m, m, rad], from u, shape (times, m).
+    """(delta_x, delta_y, rotation) of a place, shape (times, 3) [m, m, rad], by the displacements u.
+
+    Args:
+        configurations: the linkage along the motion.
+        displacement: u, shape (times, m) [m, rad].
+        place: its name, e.g. "arm.end".
 
     Raises:
         LinkageError: there is no such place.
+
+    Source: docs/elastodynamics.md, section Flexibility approach: the rows of `Configurations.displacement`.
     """
     return np.asarray((configurations.displacement(place) @ displacement[:, :, None])[:, :, 0])
 
 
 def stress_of(configurations: Configurations, displacement: FloatArray) -> FloatArray:
-    """Largest stress in each element, shape (times, elements) [Pa], from u, shape (times, m): f = F^-1 C u.
+    """Largest stress in each element, shape (times, elements) [Pa], by the displacements u: f = F^-1 C u.
 
     Inertia forces between the ends of a member bend it further; that part, of lumped masses none, is not in it.
+
+    Args:
+        configurations: the linkage along the motion.
+        displacement: u, shape (times, m) [m, rad].
+
+    Source: Erdman, Sandor, Oakberg (1972), eq (1), solved for f; the stress as of `largest_stress`.
     """
     linkage = configurations.linkage
     deformation = (configurations.compatibility @ displacement[:, :, None])[:, :, 0]

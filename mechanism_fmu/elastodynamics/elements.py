@@ -46,8 +46,15 @@ def cantilever(length: float, section: Section, young: float) -> FloatArray:
     [[l/AE, 0, 0], [0, l^3/3EI, l^2/2EI], [0, l^2/2EI, l/EI]]; without the last row and column where no moment can act
     at the free end, as at a pin.
 
+    Args:
+        length: l [m], > 0.
+        section: A [m2] and I [m4] of it count, both > 0.
+        young: E [Pa], > 0.
+
     Raises:
-        ValueError: a size is not positive and finite; so do all elements here.
+        ValueError: a size is not positive and finite.
+
+    Source: Erdman, Sandor, Oakberg (1972), eq (2).
     """
     _require_beam(length, section, young)
     bending = young * section.second_moment
@@ -61,7 +68,18 @@ def cantilever(length: float, section: Section, young: float) -> FloatArray:
 
 
 def two_force_member(length: float, section: Section, young: float) -> FloatArray:
-    """F of a link with a pin at either end, eq (4), shape (1, 1): l/AE."""
+    """F of a link with a pin at either end, shape (1, 1): l/AE [m/N].
+
+    Args:
+        length: l [m], > 0.
+        section: A [m2] and I [m4] of it count, both > 0.
+        young: E [Pa], > 0.
+
+    Raises:
+        ValueError: a size is not positive and finite.
+
+    Source: Erdman, Sandor, Oakberg (1972), eq (4).
+    """
     _require_beam(length, section, young)
     return np.array([[length / (section.area * young)]])
 
@@ -70,6 +88,16 @@ def supported_beam(length: float, section: Section, young: float) -> FloatArray:
     """F of a beam on two supports with a moment at one end, eq (7), shape (2, 2): axial, and rotation there.
 
     diag(l/AE, l/3EI). The rotation is that against the chord. So is a link whose other end is pinned to a slider.
+
+    Args:
+        length: l [m], > 0.
+        section: A [m2] and I [m4] of it count, both > 0.
+        young: E [Pa], > 0.
+
+    Raises:
+        ValueError: a size is not positive and finite.
+
+    Source: Erdman, Sandor, Oakberg (1972), eq (7).
     """
     _require_beam(length, section, young)
     return np.diag([length / (section.area * young), length / (3 * young * section.second_moment)])
@@ -80,13 +108,35 @@ def bent_coupler(cantilever_length: float, supported_length: float, section: Sec
 
     The first part is a cantilever with its free end at the path point, the second is supported by two pins and carries
     the first one's moment; the angle is no matter of F, but of how forces are transferred.
+
+    Args:
+        cantilever_length: l of the first part [m], > 0.
+        supported_length: l of the second part [m], > 0.
+        section: of both; A [m2] and I [m4] of it count, both > 0.
+        young: E of both [Pa], > 0.
+
+    Raises:
+        ValueError: a size is not positive and finite.
+
+    Source: Erdman, Sandor, Oakberg (1972), Fig. 3, with eqs (2) and (7) along the diagonal.
     """
     first = cantilever(cantilever_length, section, young)
     return block_diagonal((first, supported_beam(supported_length, section, young)))
 
 
 def torsion_shaft(length: float, polar_moment: float, shear_modulus: float) -> FloatArray:
-    """F of a shaft that is twisted, eq (6), shape (1, 1): l/GJ [rad/(N m)], J the torsion constant [m4], G [Pa]."""
+    """F of a shaft that is twisted, shape (1, 1): l/GJ [rad/(N m)].
+
+    Args:
+        length: l [m], > 0.
+        polar_moment: J, the torsion constant of the cross section [m4], > 0.
+        shear_modulus: G [Pa], > 0.
+
+    Raises:
+        ValueError: a size is not positive and finite.
+
+    Source: Erdman, Sandor, Oakberg (1972), eq (6).
+    """
     _require_positive(length=length, polar_moment=polar_moment, shear_modulus=shear_modulus)
     return np.array([[length / (shear_modulus * polar_moment)]])
 
@@ -95,6 +145,16 @@ def spatial_link(length: float, section: Section, young: float) -> FloatArray:
     """F of a spatial link with a revolute and a spherical joint, eq (9), shape (2, 2): axial, and transverse.
 
     diag(l/AE, l^3/3EI): it bends in one plane only, from the revolute joint on, as a cantilever without end moment.
+
+    Args:
+        length: l [m], > 0.
+        section: A [m2] and I [m4] of it count, both > 0.
+        young: E [Pa], > 0.
+
+    Raises:
+        ValueError: a size is not positive and finite.
+
+    Source: Erdman, Sandor, Oakberg (1972), eq (9).
     """
     return cantilever(length, section, young)[:2, :2]
 
@@ -134,17 +194,25 @@ class VaryingBeam(Protocol):
         """Places where the formulas of the cross section change [m]."""
 
     def area(self, x: FloatArray, /) -> FloatArray:
-        """Area A of the cross section [m2] at the places `x` [m], in its shape."""
+        """Area A of the cross section [m2] at the places `x` [m], in its shape.
+
+        Args:
+            x: distances from the start of the beam [m], any shape.
+        """
 
     def second_moment(self, x: FloatArray, /) -> FloatArray:
-        """Second moment I of the cross section [m4] at the places `x` [m], in its shape."""
+        """Second moment I of the cross section [m4] at the places `x` [m], in its shape.
+
+        Args:
+            x: distances from the start of the beam [m], any shape.
+        """
 
 
 def tapered_cantilever(beam: VaryingBeam, young: float) -> FloatArray:
     """Flexibility, shape (3, 3), of a cantilever held at x = 0, for force along, force across and moment at its end.
 
     F11 = int dx / EA [m/N], F22 = int (l - x)^2 / EI dx [m/N], F23 = int (l - x) / EI dx [1/N] and
-    F33 = int dx / EI [1/(N m)]: eq (2) of Erdman, Sandor and Oakberg, A and I being functions of x (unit load).
+    F33 = int dx / EI [1/(N m)].
 
     Args:
         beam: its length, A(x) and I(x).
@@ -152,6 +220,9 @@ def tapered_cantilever(beam: VaryingBeam, young: float) -> FloatArray:
 
     Raises:
         ValueError: E is not positive, or an integral does not exist: A or I vanish somewhere.
+
+    Source: Erdman, Sandor, Oakberg (1972), eq (2), with A and I as functions of x by the unit-load method:
+        docs/elastodynamics-dynamics.md, eq (K11).
     """
 
     def integrand(x: float) -> FloatArray:

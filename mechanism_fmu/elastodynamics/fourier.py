@@ -69,6 +69,9 @@ def peak(samples: FloatArray) -> tuple[float, float]:
 
     Args:
         samples: shape (T, k) at T even times of one period; between them it is the trigonometric series through them.
+
+    Source: trigonometric interpolation (L. N. Trefethen, Spectral Methods in MATLAB, SIAM 2000, chapter 3), its norm
+        searched from each local maximum of the samples.
     """
     series = coefficients(samples)
     found = []

@@ -61,11 +61,19 @@ class GearTooth:
         return ()
 
     def area(self, x: FloatArray) -> FloatArray:
-        """Area A [m2] at the distances `x` from the root [m], in its shape."""
+        """Area A [m2] at the distances `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
         return self.face_width * self._thickness(x)
 
     def second_moment(self, x: FloatArray) -> FloatArray:
-        """Second moment I [m4] at the distances `x` from the root [m], in its shape."""
+        """Second moment I [m4] at the distances `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
         return self.face_width / 12.0 * self._thickness(x) ** 3
 
     def flexibility(self) -> FloatArray:

@@ -56,6 +56,8 @@ def with_friction(mechanism: Mechanism, coefficient: float, pin_radius: float | 
 
     Raises:
         LinkageError: coefficient or radius cannot be, or it has pins and no radius is given.
+
+    Source: Coulomb's law; docs/elastodynamics.md, section Inertia, torque and power.
     """
     if not 0.0 <= coefficient < np.inf:
         raise LinkageError(f"The coefficient of friction is {coefficient:g}; give one from 0 on, e.g. 0.1.")
@@ -132,6 +134,9 @@ class Reactions:
     def of(self, joint: str) -> FloatArray:
         """The multipliers of one joint, driver or held coordinate ("crank.angle"), shape (times, rows of it).
 
+        Args:
+            joint: name of a joint or driver, or "<body>.<coordinate>" of what is held.
+
         Raises:
             LinkageError: there is none of this name.
         """
@@ -141,14 +146,21 @@ class Reactions:
 
 
 def reactions(configurations: Configurations, forces: FloatArray) -> Reactions:
-    """Reactions to forces at the places, shape (times, places, 3) [N, N m], inertia forces among them.
+    """Reactions of the rigid mechanism to forces at the places.
 
     Phi_q^T lambda + F + F_friction(lambda) = 0 is solved by iteration, because Coulomb friction depends on lambda:
     friction of the reactions of the last round, until they settle.
 
+    Args:
+        configurations: the linkage along the motion.
+        forces: (f_x, f_y, moment) on each place, inertia forces among them, shape (times, places, 3) [N, N m].
+
     Raises:
         LinkageError: the rigid mechanism can move although its drivers stand still, always or in one configuration, or
             friction does not settle: a joint is about to lock itself.
+
+    Source: multipliers as in Pennestrì, Valentini, Vita, eq (1), with the sign of docs/theory.md; friction and its
+        iteration: docs/elastodynamics.md, section Inertia, torque and power.
     """
     rows, owners = rigid_rows(configurations.linkage.mechanism, configurations.pose)
     joints = rubbing_joints(configurations)
@@ -195,7 +207,18 @@ class JointForce:
 
 
 def joint_forces(configurations: Configurations, found: Reactions) -> tuple[JointForce, ...]:
-    """The forces in all joints but drivers, in their order, with what friction does there."""
+    """The forces in all joints but drivers, in their order, with what friction does there.
+
+    Args:
+        configurations: the linkage along the motion.
+        found: its reactions.
+
+    Raises:
+        LinkageError: the reactions are another linkage's.
+
+    Source: Coulomb's law and viscous friction of what each joint carries; docs/elastodynamics.md, section Inertia,
+        torque and power.
+    """
     rubbing = {joint.joint: joint for joint in rubbing_joints(configurations)}
     none = np.zeros(len(configurations.pose.time))
     forces = []
@@ -221,7 +244,14 @@ def friction_of(configurations: Configurations, found: Reactions) -> dict[str, t
 
 
 def power_of(configurations: Configurations, forces: FloatArray) -> FloatArray:
-    """Power of forces at the places, shape (times, places, 3), moving as the rigid mechanism does: (times,) [W]."""
+    """Power of forces at the places, which move as the rigid mechanism does, shape (times,) [W].
+
+    Args:
+        configurations: the linkage along the motion.
+        forces: (f_x, f_y, moment) on each place, shape (times, places, 3) [N, N m].
+
+    Source: textbook law: the sum of f . v + M phi'.
+    """
     pose = configurations.pose
     loads = _on_bodies(configurations, forces)
     power: FloatArray = np.einsum("tk,tk->t", loads, pose.velocity[:, :-1].reshape(loads.shape))

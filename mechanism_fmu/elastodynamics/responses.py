@@ -31,7 +31,7 @@ class PeriodicResponse:
     Attributes:
         period: [s].
         series: Fourier coefficients, shape (harmonics + 1, n).
-        residual: what is left of M u'' + C u' + K u = p at the given times, in parts of the motion, both
+        residual: what is left of M u'' + C u' + K u = p at the given times, in parts of the motion [-], both
             measured by the root of the elastic energy that they have, or would make.
     """
 
@@ -40,13 +40,23 @@ class PeriodicResponse:
     residual: float
 
     def at(self, times: npt.ArrayLike, derivative: int = 0) -> FloatArray:
-        """u, or its first or second derivative by time, at `times` [s], shape (times, n)."""
+        """u, or its first or second derivative by time, at `times` [s], shape (times, n).
+
+        Args:
+            times: [s], shape (times,).
+            derivative: number of the derivative by time, 0 for u itself.
+        """
         speed = 2.0 * math.pi / self.period
         angles = speed * np.asarray(times, dtype=float)
         return evaluate(self.series, angles, derivative) * speed**derivative
 
     def samples(self, count: int, derivative: int = 0) -> FloatArray:
-        """u, or a derivative by time, at `count` even times of one period, shape (count, n)."""
+        """u, or a derivative by time, at `count` even times of one period, shape (count, n).
+
+        Args:
+            count: number of times, even ones from 0 on.
+            derivative: number of the derivative by time, 0 for u itself.
+        """
         return self.at(self.period / count * np.arange(count), derivative)
 
 
@@ -57,11 +67,17 @@ def periodic_response(cycle: ElasticCycle) -> PeriodicResponse:
     series through their samples; H grows until they are fulfilled at all T given times, to `TOLERANCE`. With more
     than T / 4 harmonics the samples could no longer resolve the motion, so that is where it ends, with a warning.
 
+    Args:
+        cycle: the equations.
+
     Warns:
         UserWarning: T / 4 harmonics are not enough.
 
     Raises:
         ValueError: without damping a harmonic meets a resonance, so there is no periodic solution.
+
+    Source: docs/elastodynamics-dynamics.md, eq (K5): Fourier collocation by the derivative matrix of L. N. Trefethen,
+        Spectral Methods in MATLAB, SIAM 2000, chapter 3.
     """
     most = (cycle.samples - 2) // 4
     harmonics = min(_FIRST_HARMONICS, most)
@@ -194,8 +210,14 @@ def fed_back(cycle: ElasticCycle) -> Feedback:
     grow from then on, as those of an asymptotic series. The iteration stops as soon as a change is not less than the
     one before, and gives what had changed least. `periodic_response` solves the same equations at any speed.
 
+    Args:
+        cycle: the equations.
+
     Warns:
         UserWarning: it stopped before it converged.
+
+    Source: docs/elastodynamics-dynamics.md, eq (K6): the "effects of elastic deformation upon the inertia forces" of
+        Erdman, Sandor, Oakberg (1972) as an iteration.
     """
     speed = 2.0 * math.pi / cycle.period
     static = cycle.static()
@@ -235,11 +257,17 @@ def _once_more(cycle: ElasticCycle, u: FloatArray, speed: float) -> FloatArray:
 def critical_speeds(modes: InstantaneousModes, harmonics: int) -> FloatArray:
     """Crank speeds omega_i / h [rad/s], shape (modes, harmonics), at which harmonic h of the crank meets mode i.
 
-    omega_i is the mean over the cycle of the i-th instantaneous natural frequency, at even crank angles. That is our
-    definition; it depends on the linkage alone. Which of these speeds matter depends on the load: see `speed_sweep`.
+    omega_i is the mean over the cycle of the i-th instantaneous natural frequency, at even crank angles: this project's
+    definition, which depends on the linkage alone. Which of these speeds matter depends on the load: see `speed_sweep`.
+
+    Args:
+        modes: of the linkage over a cycle, at even crank angles.
+        harmonics: number of harmonics of the crank, 1 or more.
 
     Raises:
         ValueError: there is not one harmonic or more.
+
+    Source: docs/elastodynamics-dynamics.md, eq (K7).
     """
     if harmonics < 1:
         raise ValueError(f"{harmonics} harmonics: ask for one or more.")
@@ -284,6 +312,8 @@ def speed_sweep(
 
     Raises:
         ValueError: as of `periodic_response`.
+
+    Source: `periodic_response` at each speed: docs/elastodynamics-dynamics.md, eqs (K1) and (K5).
     """
     parts = np.asarray(factors, dtype=float)
     solved = cycle if samples is None else cycle.resampled(samples)

@@ -29,6 +29,8 @@ def planar_operator(stretch: npt.ArrayLike, rotation: npt.ArrayLike) -> FloatArr
     Args:
         stretch: epsilon [-], shape (...).
         rotation: theta [rad], counter-clockwise, shape (...).
+
+    Source: docs/elastodynamics-dynamics.md, eqs (K8) and (K9).
     """
     epsilon, theta = np.broadcast_arrays(np.asarray(stretch, dtype=float), np.asarray(rotation, dtype=float))
     c, s = (1.0 + epsilon) * np.cos(theta), (1.0 + epsilon) * np.sin(theta)
@@ -36,11 +38,13 @@ def planar_operator(stretch: npt.ArrayLike, rotation: npt.ArrayLike) -> FloatArr
 
 
 def spatial_operator(stretch: npt.ArrayLike, rotation: npt.ArrayLike) -> FloatArray:
-    """S = (1 + epsilon) exp([theta]x), shape (..., 3, 3); Rodrigues' formula.
+    """S = (1 + epsilon) exp([theta]x), shape (..., 3, 3).
 
     Args:
         stretch: epsilon [-], shape (...).
         rotation: theta, the axis times the angle [rad], shape (..., 3).
+
+    Source: docs/elastodynamics-dynamics.md, eqs (K8) and (K10): Rodrigues' formula.
     """
     theta = np.asarray(rotation, dtype=float)
     angle = np.linalg.norm(theta, axis=-1)[..., None, None]
@@ -61,6 +65,8 @@ def planar_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tupl
 
     Raises:
         ValueError: a link has no length.
+
+    Source: docs/elastodynamics-dynamics.md, eq (K8).
     """
     r, u = np.asarray(link, dtype=float), np.asarray(displacement, dtype=float)
     square = _square(r)
@@ -72,7 +78,14 @@ def spatial_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tup
 
     theta is perpendicular to the link: how far it turns about itself, no link vector can show.
 
-    Arguments and errors are those of `planar_deformation`, in three dimensions.
+    Args:
+        link: r [m], shape (..., 3).
+        displacement: u, of the end less that of the beginning [m], shape (..., 3).
+
+    Raises:
+        ValueError: a link has no length.
+
+    Source: docs/elastodynamics-dynamics.md, eq (K8).
     """
     r, u = np.asarray(link, dtype=float), np.asarray(displacement, dtype=float)
     square = _square(r)
@@ -80,7 +93,17 @@ def spatial_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tup
 
 
 def deformed_links(link: npt.ArrayLike, displacement: npt.ArrayLike) -> FloatArray:
-    """S r [m], in the shape of `link`, (..., 2) or (..., 3); arguments and errors of `planar_deformation`."""
+    """S r [m], in the shape of `link`.
+
+    Args:
+        link: r [m], shape (..., 2) or (..., 3).
+        displacement: u, of the end less that of the beginning [m], in the shape of `link`.
+
+    Raises:
+        ValueError: a link has no length.
+
+    Source: docs/elastodynamics-dynamics.md, eqs (K8) to (K10).
+    """
     r = np.asarray(link, dtype=float)
     if r.shape[-1] == 2:
         operator = planar_operator(*planar_deformation(r, displacement))

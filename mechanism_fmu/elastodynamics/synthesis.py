@@ -48,6 +48,9 @@ def judge_quasi_static(cycle: Cycle, place: str, target: FloatArray | None = Non
 
     Raises:
         LinkageError: there is no such place.
+
+    Source: Case 2 of Erdman, Sandor, Oakberg (1972): `quasi_static`; docs/elastodynamics-dynamics.md, section
+        Synthesis.
     """
     return _judged(cycle, cycle.displacement, place, target)
 
@@ -74,6 +77,8 @@ def judge_steady_state(
     Raises:
         LinkageError: as of `elastic_cycle`, or there is no such place.
         ValueError: as of `periodic_response`.
+
+    Source: docs/elastodynamics-dynamics.md, section Synthesis, by eqs (K1) to (K5).
     """
     swinging = elastic_cycle(cycle, damping_ratio, mass_model)
     displacement = periodic_response(swinging).samples(swinging.samples)
@@ -81,15 +86,27 @@ def judge_steady_state(
 
 
 def member_mass(linkage: Linkage) -> float:
-    """Mass of all members [kg]."""
+    """Mass of all members [kg].
+
+    Args:
+        linkage: whose members count; disks and rigid bodies do not.
+
+    Source: textbook: the sum of rho A l.
+    """
     return float(sum(e.member.density * e.member.section.area * e.length for e in linkage.elements))
 
 
 def rigid_path(cycle: Cycle, place: str) -> FloatArray:
     """Where a place would be if nothing bent, shape (times, 2) [m].
 
+    Args:
+        cycle: of the linkage.
+        place: its name, e.g. "arm.end".
+
     Raises:
         LinkageError: there is no such place.
+
+    Source: the motion itself: r + A s of a point of a body, as of ME451.
     """
     places = cycle.configurations.linkage.freedoms.places
     of = places[named_place(places, place)]
@@ -154,6 +171,9 @@ def lightest(
     Raises:
         LinkageError: bounds or limits cannot be, or no design was found within the limits; the message says how near
             the best came.
+
+    Source: sequential quadratic programming, SLSQP of scipy; docs/elastodynamics-dynamics.md, section Synthesis.
+        Erdman, Sandor, Oakberg (1972) name synthesis; the method is this project's.
     """
     search = _Search(judge, *_box(start, lower, upper), largest_deviation, largest_stress)
     if not (largest_deviation > 0.0 and largest_stress > 0.0):

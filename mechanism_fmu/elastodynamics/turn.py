@@ -151,6 +151,9 @@ DRIVE = "constant_speed"
 def crank_of(mechanism: Mechanism) -> str:
     """The body that turns a mechanism: that of its driver of an angle against the ground, or whose angle is held.
 
+    Args:
+        mechanism: with one driven or held angle against the ground.
+
     Raises:
         LinkageError: there is none, or another one besides.
     """
@@ -182,6 +185,8 @@ def turn(mechanism: Mechanism, speed: float, samples: int) -> Configurations:
     Raises:
         LinkageError: speed or samples cannot be, the crank cannot turn fully, or the mechanism is no structure of
             members.
+
+    Source: Newton's method on Phi(q, t) = 0 and Phi_q qd = nu (ME451); docs/decisions/023-ked.md, Constant speed.
     """
     if not 0.0 < speed < math.inf:
         raise LinkageError(f"The speed of the crank is {speed:g} rad/s, but must be positive and finite.")
@@ -250,6 +255,9 @@ class ElasticPorts:
 
 def elastic_ports(mechanism: Mechanism) -> ElasticPorts:
     """The ports of a mechanism with members.
+
+    Args:
+        mechanism: with members and a crank of `crank_of`.
 
     Raises:
         LinkageError: as of `crank_of`.

@@ -147,6 +147,9 @@ def cam_report(mechanism: Mechanism, contact: str, cam: str, angles: int = 360) 
 
     Raises:
         KinematicsError: angles cannot be, there is no such pair, or it does not run through a whole turn.
+
+    Source: textbook: R. L. Norton, Design of Machinery, chapter on cam design; the contact itself: ME451 slides,
+        cam-follower.
     """
     if not 1 <= angles < math.inf:
         raise KinematicsError(f"angles = {angles} steps of a turn; give 1 or more, e.g. 360.")

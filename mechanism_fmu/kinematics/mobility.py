@@ -193,6 +193,9 @@ def mobility(mechanism: Mechanism, time: float = 0.0) -> Mobility:
     Raises:
         KinematicsError: it cannot be assembled, or the time is not finite.
         MechanismError: a part of it cannot be right.
+
+    Source: textbook: coordinates less the rank of Phi_q, after E. J. Haug, Computer Aided Kinematics and Dynamics;
+        singular configurations: docs/decisions/010-singular-configurations.md.
     """
     if not math.isfinite(time):
         raise KinematicsError(f"time = {time:g} s is not finite; give one at which the mechanism can be assembled.")

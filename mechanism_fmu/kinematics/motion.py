@@ -198,6 +198,9 @@ def analyse(mechanism: Mechanism, times: Sequence[float] | FloatArray) -> Kinema
         KinematicsError: drivers leave something free, contradict each other, or ask for what is out of reach.
         SingularConfigurationError: the motion comes to a configuration where the rank of the rows drops.
         MechanismError: a part of the mechanism cannot be right.
+
+    Source: ME451 slides, after E. J. Haug, Computer Aided Kinematics and Dynamics: Phi = 0, Phi_q qd = nu, Phi_q qdd =
+        gamma.
     """
     grid = np.asarray(times, dtype=float)
     if grid.ndim != 1 or len(grid) == 0 or not np.all(np.isfinite(grid)) or np.any(np.diff(grid) <= 0.0):

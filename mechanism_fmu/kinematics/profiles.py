@@ -150,6 +150,9 @@ def profile_report(profile: Curve) -> ProfileReport:
 
     Args:
         profile: its numbers are plain ones.
+
+    Source: textbook: curvature of a curve in polar coordinates, (rho^2 + 2 rho'^2 - rho rho'') / (rho^2 +
+        rho'^2)^(3/2).
     """
     ends = [float(piece.start) for piece in profile.pieces[1:]] + [float(profile.start) + float(profile.span)]
     begins = [float(profile.start), *ends[:-1]]

@@ -120,6 +120,8 @@ class AngleStop(_OfAngles):
         pitch: from one latched angle to the next [rad], > 0; None for a plain stop.
         restitution: e of eq (4) [1], 0..1.
         enabled: whether it exists; a number, so that a parameter can switch it off.
+
+    Source: Pennestrì, Valentini, Vita, eqs (4), (6) and (7); clicks: docs/decisions/005-one-sided-contacts.md.
     """
 
     kind: ClassVar[int] = codes.ANGLE_STOP
@@ -164,6 +166,8 @@ class AngleLock(_OfAngles):
         pitch: between neighbouring locked angles [rad], > 0.
         closed_while: "<function>" or "not <function>", the logical function that closes it.
         enabled: whether it exists; a number, so that a parameter can switch it off.
+
+    Source: Pennestrì, Valentini, Vita, section 3, a row that a logical function switches, and eq (7) where it closes.
     """
 
     kind: ClassVar[int] = codes.ANGLE_LOCK

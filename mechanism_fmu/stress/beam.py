@@ -85,13 +85,25 @@ class Beam(Protocol):
         """Places where the formulas of the cross section change [m]."""
 
     def area(self, x: FloatArray, /) -> FloatArray:
-        """Area A of the cross section [m2] at the distances `x` from the root [m], in its shape."""
+        """Area A of the cross section [m2] at the distances `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
 
     def second_moment(self, x: FloatArray, /) -> FloatArray:
-        """Second moment I_n of the cross section [m4] at the distances `x` from the root [m], in its shape."""
+        """Second moment I_n of the cross section [m4] at the distances `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
 
     def outer_fibre(self, x: FloatArray, /) -> FloatArray:
-        """Distance of the outer fibre from the neutral axis [m] at the places `x` from the root [m], in its shape."""
+        """Distance of the outer fibre from the neutral axis [m] at the places `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
 
     def __hash__(self) -> int:
         """A number for the beam."""
@@ -132,8 +144,14 @@ LEAST_SLENDERNESS = 5.0
 def slenderness(beam: Beam) -> float:
     """Length over height at the root [-]; the height is twice the distance of the outer fibre.
 
+    Args:
+        beam: whose root is at x = 0.
+
     Raises:
         ValueError: when the beam has no height at its root.
+
+    Source: definition: l / h at the root, the measure of beam theory; S. P. Timoshenko, J. M. Gere, Mechanics of
+        Materials, section on deflections by shear.
     """
     height = 2 * float(beam.outer_fibre(np.array([0.0]))[0])
     if not height > 0:
@@ -148,6 +166,9 @@ def beam_theory_note(beam: Beam) -> str:
 
     The limit, 5, is for the first mode and the static deflection. The n-th mode bends over about l / n, so fast modes
     leave the theory of Euler and Bernoulli at larger ratios already.
+
+    Args:
+        beam: whose root is at x = 0.
 
     Raises:
         ValueError: as of `slenderness`.

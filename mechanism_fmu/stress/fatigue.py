@@ -54,7 +54,10 @@ class Strength:
         require_within("fatigue strength exponent", self.fatigue_exponent, -1.0, -0.01, "", "steel has -0.087")
 
     def amplitude_at(self, cycles: float) -> float:
-        """Amplitude [Pa] that is borne for a number of cycles, 0.5 or more, at zero mean stress.
+        """Amplitude [Pa] that is borne for a number of cycles at zero mean stress.
+
+        Args:
+            cycles: number of them, 0.5 or more.
 
         Raises:
             ValueError: fewer cycles, or not a finite number of them.
@@ -67,6 +70,9 @@ class Strength:
 
         The line goes on below any endurance limit ("elementary Miner"): small cycles of a sequence with large ones do
         harm, so every cycle counts.
+
+        Args:
+            amplitude: half the range of the cycle [Pa], >= 0.
 
         Raises:
             ValueError: a negative amplitude, or not a number; an infinite one breaks at once.
@@ -82,7 +88,7 @@ class Cycle:
     Attributes:
         amplitude: sigma_a, half the range [Pa].
         mean: sigma_m [Pa].
-        count: 1, or 0.5 for a half cycle.
+        count: 1, or 0.5 for a half cycle [-].
     """
 
     amplitude: float
@@ -94,6 +100,9 @@ def rainflow_cycles(stress: Iterable[float]) -> Iterator[Cycle]:
     """Cycles of a history of stress [Pa], as they close.
 
     Takes the history piece by piece and remembers only what is still open.
+
+    Args:
+        stress: the history, one value after the other [Pa].
 
     Source: ASTM E1049-85, section 5.4.4, by the package `rainflow`.
     """
@@ -124,6 +133,11 @@ def effective_amplitude(
 
 def miner_damage(cycles: Iterable[Cycle], strength: Strength, mean_stress: MeanStress = MeanStress.GOODMAN) -> float:
     """Sum of count / N over the cycles [-]: at 1 the material fails.
+
+    Args:
+        cycles: of the stress.
+        strength: what the material bears.
+        mean_stress: how the mean of a cycle counts.
 
     Raises:
         ValueError: a cycle has a negative amplitude or count, or one that is not finite, or no mean.

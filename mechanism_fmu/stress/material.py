@@ -144,8 +144,13 @@ STEEL_CARD = CARDS["steel"]
 def material_card(name: str) -> MaterialCard:
     """The card with this name; capitals do not matter.
 
+    Args:
+        name: of the card, one of `CARDS`.
+
     Raises:
         ValueError: there is none; with all names.
+
+    Source: that of each number is in the card's `sources`.
     """
     for card in CARDS.values():
         if card.name.lower() == name.lower():

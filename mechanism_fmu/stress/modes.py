@@ -70,7 +70,12 @@ class BeamMode:
         return math.sqrt(self.stiffness / self.mass)
 
     def shape(self, xi: FloatArray, derivative: int = 0) -> FloatArray:
-        """Mode shape u, or its `derivative`-th derivative with respect to xi, at `xi` (0 root, 1 tip) [-]."""
+        """Mode shape u, or its `derivative`-th derivative with respect to xi, at `xi` (0 root, 1 tip) [-].
+
+        Args:
+            xi: places x / length [-], 0 root, 1 tip; any shape.
+            derivative: number of the derivative with respect to xi, 0 for u itself.
+        """
         ascending = (0.0, 0.0, *self.coefficients)
         return np.asarray(polynomial.polyval(xi, polynomial.polyder(ascending, derivative)))
 

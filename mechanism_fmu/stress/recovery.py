@@ -119,7 +119,19 @@ def bending_moment(
 ) -> FloatArray:
     """Bending moment M_b = -E I_n w'' [N m], of shape (len(x), len(t)).
 
-    Arguments, errors and source are those of `bending_stress`.
+    Args:
+        tooth: the beam.
+        material: what it is made of.
+        impact_velocity: |v_I| [m/s], >= 0, as of `bending_stress`.
+        x: distances from the root [m], from 0 to the length of the tooth; a number or shape (n,).
+        t: times since the impact [s], 0 to 1e9; a number or shape (m,).
+        modes: the modes that take part; without them the two of `ritz_modes`, as in the paper.
+
+    Raises:
+        ValueError: when velocity, a place or a time is outside its limits or not a number, or `modes` is empty or has a
+            rigid one.
+
+    Source: Pennestrì, Valentini, Vita, eqs (13), (16).
     """
     places, times = checked(tooth, impact_velocity, x, t)
     return impact_velocity * _field(tooth, material, modes).moment(places, times)
@@ -147,7 +159,8 @@ def bending_stress(
         modes: the modes that take part; without them the two of `ritz_modes`, as in the paper.
 
     Raises:
-        ValueError: when velocity, a place or a time is outside its limits or not a number, or `modes` is empty.
+        ValueError: when velocity, a place or a time is outside its limits or not a number, or `modes` is empty or has a
+            rigid one.
 
     Source: Pennestrì, Valentini, Vita, eqs (13), (16).
     """
@@ -192,7 +205,19 @@ def shear_force(
     from x to the tip. For exact modes that is the derivative of `bending_moment`; for modes of few Ritz terms it is
     much closer to it than their own derivative, and it vanishes at the free tip, as it must.
 
-    Arguments and errors are those of `bending_stress`.
+    Args:
+        tooth: the beam.
+        material: what it is made of.
+        impact_velocity: |v_I| [m/s], >= 0, as of `bending_stress`.
+        x: distances from the root [m], from 0 to the length of the tooth; a number or shape (n,).
+        t: times since the impact [s], 0 to 1e9; a number or shape (m,).
+        modes: the modes that take part, none of them rigid; without them the two of `ritz_modes`, as in the paper.
+
+    Raises:
+        ValueError: when velocity, a place or a time is outside its limits or not a number.
+
+    Source: equilibrium of the part beyond x, with the modes of Pennestrì, Valentini, Vita, eqs (8) to (10);
+        docs/stress.md, section Shear, axial stress, contact pressure.
     """
     places, times = checked(tooth, impact_velocity, x, t)
     modes = ritz_modes(tooth, material) if modes is None else modes
@@ -217,7 +242,16 @@ def shear_stress(
     estimate, since the parabola over the height is that of the uniform beam. That shear also softens the beam
     (Timoshenko) is not in it: the modes are those of Euler and Bernoulli.
 
-    Arguments and errors are those of `bending_stress`.
+    Args:
+        tooth: the beam.
+        material: what it is made of.
+        impact_velocity: |v_I| [m/s], >= 0, as of `bending_stress`.
+        x: distances from the root [m], from 0 to the length of the tooth; a number or shape (n,).
+        t: times since the impact [s], 0 to 1e9; a number or shape (m,).
+        modes: the modes that take part, none of them rigid; without them the two of `ritz_modes`, as in the paper.
+
+    Raises:
+        ValueError: when velocity, a place or a time is outside its limits or not a number.
 
     Source: S. P. Timoshenko, J. M. Gere, Mechanics of Materials, section on shear stresses in rectangular beams.
     """

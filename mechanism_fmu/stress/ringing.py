@@ -50,7 +50,11 @@ _LATEST_TIME = 1e12
 
 
 class Swing(NamedTuple):
-    """An extreme of the stress, or its value at an impact: time [s] and stress [Pa]."""
+    """An extreme of the stress, or its value at an impact.
+
+    Attributes:
+        time, stress: [s] and [Pa].
+    """
 
     time: float
     stress: float
@@ -60,8 +64,7 @@ class Ringing:
     """Modes of a tooth that a sequence of impacts excites, by exact superposition.
 
     Each mode is one complex amplitude, eta(t) = Im(c exp(p t)) with p = -zeta Lambda + i Lambda_d. It swings freely
-    between impacts, c becoming c exp(p dt); an impact adds v / Lambda_d, since it changes eta' by v and eta not at all.
-    So a mode carries eta and eta' from impact to impact, and however many there were, they cost one number.
+    between impacts, c becoming c exp(p dt); an impact adds v / Lambda_d, since it changes eta' by v, not eta.
 
     Args:
         tooth: the beam.
@@ -100,6 +103,10 @@ class Ringing:
     def stress(self, x: npt.ArrayLike, t: npt.ArrayLike) -> FloatArray:
         """Bending stress [Pa] at places x [m] and times t [s], of shape (len(x), len(t)); zero before the first impact.
 
+        Args:
+            x: distances from the root [m], from 0 to the length of the tooth; a number or shape (n,).
+            t: times [s], as those of the impacts; a number or shape (m,).
+
         Raises:
             ValueError: when a place is off the tooth, or a time is not a number.
         """
@@ -115,8 +122,10 @@ class Ringing:
     def swings(self, x: float) -> Iterator[Swing]:
         """Stress at the place x [m]: at each impact, and at each of its extremes until the ringing is over.
 
-        The extremes are refined to rounding, and between two swings the stress goes one way. The memory it takes does
-        not grow with the number of impacts.
+        Extremes are found to rounding; between two the stress goes one way. Memory does not grow with the impacts.
+
+        Args:
+            x: distance from the root [m], from 0 to the length of the tooth.
 
         Raises:
             ValueError: when the place is off the tooth.
@@ -248,12 +257,11 @@ class SequenceDamage:
         time: of it [s].
         position: xi = x / length of the section [-].
         impacts: their number.
-        cycles: of the stress, by rainflow counting, halves as 0.5; swings below 1e-2 of the largest possible are not in
-            it.
+        cycles: number of them by rainflow, halves as 0.5, without swings below 1e-2 of the largest possible.
         damage: Miner's sum for one such sequence, at the worse of the two outer fibres [-].
-        repeats_to_failure: of the whole sequence, 1 / damage; infinite without damage.
-        yield_safety: R_e over the largest stress.
-        fatigue_safety: how much larger every stress could be for the worst cycle to be borne 1e7 times.
+        repeats_to_failure: number of times that the whole sequence is borne, 1 / damage; infinite without damage.
+        yield_safety: R_e over the largest stress [-].
+        fatigue_safety: how much larger every stress could be for the worst cycle to be borne 1e7 times [-].
     """
 
     stress: float
@@ -294,6 +302,8 @@ def sequence_damage(
 
     Raises:
         ValueError: as of `Ringing`, or the position is not between 0 and 1.
+
+    Source: docs/decisions/014-damage-of-impact-sequences.md: `Ringing`, then ASTM E1049-85, Basquin, Goodman and Miner.
     """
     if position is not None:
         require_within("position", position, 0.0, 1.0, "", "0 is the root of the tooth, 1 its tip")

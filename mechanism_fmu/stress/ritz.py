@@ -121,7 +121,12 @@ class Mode(Protocol):
         """Coefficients of the shape over the Legendre polynomials of s = 2 xi - 1 [-]."""
 
     def shape(self, xi: FloatArray, derivative: int = 0) -> FloatArray:
-        """Mode shape u, or its `derivative`-th derivative with respect to xi, at `xi` (0 root, 1 tip) [-]."""
+        """Mode shape u, or its `derivative`-th derivative with respect to xi, at `xi` (0 root, 1 tip) [-].
+
+        Args:
+            xi: places x / length [-], 0 root, 1 tip; any shape.
+            derivative: number of the derivative with respect to xi, 0 for u itself.
+        """
 
 
 @dataclass(frozen=True)
@@ -150,12 +155,21 @@ class NaturalMode:
         return np.array(self.series)
 
     def shape(self, xi: FloatArray, derivative: int = 0) -> FloatArray:
-        """Mode shape u, or its `derivative`-th derivative with respect to xi, at `xi` (0 root, 1 tip) [-]."""
+        """Mode shape u, or its `derivative`-th derivative with respect to xi, at `xi` (0 root, 1 tip) [-].
+
+        Args:
+            xi: places x / length [-], 0 root, 1 tip; any shape.
+            derivative: number of the derivative with respect to xi, 0 for u itself.
+        """
         series = legendre.legder(self.legendre_series(), derivative, scl=2)
         return np.asarray(legendre.legval(2 * np.asarray(xi, dtype=np.float64) - 1, series))
 
     def scaled(self, factor: float) -> NaturalMode:
-        """The same mode with `factor` times the deflection."""
+        """The same mode with `factor` times the deflection.
+
+        Args:
+            factor: of the deflection [-]; mass and stiffness grow with its square.
+        """
         series = tuple(factor * c for c in self.series)
         return NaturalMode(series, factor**2 * self.mass, factor**2 * self.stiffness, self.name)
 

@@ -25,6 +25,10 @@ def shortest_contact(tooth: Beam, material: Material) -> float:
     A rigid striker leaves the end of a uniform bar no earlier than the wave comes back from the other end and pushes it
     off. A tapered tooth throws parts of the wave back sooner, and an elastic striker brings its own waves.
 
+    Args:
+        tooth: the beam, of which the length counts.
+        material: what it is made of; its damping plays no part.
+
     Source: W. Goldsmith, Impact (1960), longitudinal impact on rods.
     """
     return 2 * tooth.length * math.sqrt(material.density / material.youngs_modulus)
@@ -39,6 +43,9 @@ def peak_force(impulse: float, duration: float) -> float:
 
     Raises:
         ValueError: when a value is outside its limits or not a number.
+
+    Source: definition of a half sine, whose mean is 2 / pi of its largest value; docs/stress.md, section Shear, axial
+        stress, contact pressure.
     """
     require_within("impulse", impulse, 0.0, _LARGEST_IMPULSE, "N s", "give its size, without sign")
     require_within(
@@ -61,6 +68,8 @@ def axial_stress(tooth: Beam, force: float, x: npt.ArrayLike) -> FloatArray:
 
     Raises:
         ValueError: when the force is not finite, or a place is off the tooth or at a sharp tip.
+
+    Source: textbook law F / A; docs/stress.md, section Shear, axial stress, contact pressure.
     """
     require_within("force", force, -_LARGEST_FORCE, _LARGEST_FORCE, "N", "give a finite one")
     places = np.atleast_1d(np.asarray(x, dtype=np.float64))

@@ -31,21 +31,36 @@ class RectangularSection(ABC):
         return ()
 
     def area(self, x: FloatArray) -> FloatArray:
-        """Area A of the cross section [m2] at the distances `x` from the root [m], in its shape; eq (14)."""
+        """Area A of the cross section [m2] at the distances `x` from the root [m], in its shape; eq (14).
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
         return self.thickness * self._height(x)
 
     def second_moment(self, x: FloatArray) -> FloatArray:
-        """Second moment I_n of the cross section [m4] at the distances `x` from the root [m], in its shape; eq (14)."""
+        """Second moment I_n of the cross section [m4] at the distances `x` from the root [m], in its shape; eq (14).
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
         return self.thickness / 12 * self._height(x) ** 3
 
     def section_modulus(self, x: FloatArray) -> FloatArray:
-        """Section modulus W_b [m3] at the distances `x` from the root [m], in its shape."""
+        """Section modulus W_b [m3] at the distances `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
         return self.thickness / 6 * self._height(x) ** 2
 
     def outer_fibre(self, x: FloatArray) -> FloatArray:
         """Distance of the outer fibre from the neutral axis [m] at the distances `x` from the root [m], in its shape.
 
         It is I_n / W_b, in the form that stays exact at a tip where both vanish.
+
+        Args:
+            x: distances from the root [m], any shape.
         """
         return self._height(x) / 2
 
@@ -300,15 +315,27 @@ class TableBeam:
         return self.places[1:-1]
 
     def area(self, x: FloatArray) -> FloatArray:
-        """Area A [m2] at the distances `x` from the root [m], in its shape."""
+        """Area A [m2] at the distances `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
         return np.asarray(self._interpolants[0](x))
 
     def second_moment(self, x: FloatArray) -> FloatArray:
-        """Second moment I_n [m4] at the distances `x` from the root [m], in its shape."""
+        """Second moment I_n [m4] at the distances `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
         return np.asarray(self._interpolants[1](x))
 
     def outer_fibre(self, x: FloatArray) -> FloatArray:
-        """Distance of the outer fibre from the neutral axis [m] at the places `x` from the root [m], in its shape."""
+        """Distance of the outer fibre from the neutral axis [m] at the places `x` from the root [m], in its shape.
+
+        Args:
+            x: distances from the root [m], any shape.
+        """
         return np.asarray(self._interpolants[2](x))
 
     @cached_property

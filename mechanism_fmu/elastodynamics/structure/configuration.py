@@ -173,6 +173,9 @@ class Configurations:
 
         A rotation that is no unknown is that of the end of the member of this name.
 
+        Args:
+            place: its name, e.g. "arm.end".
+
         Raises:
             LinkageError: there is no such place.
         """
@@ -203,9 +206,16 @@ class Configurations:
 def configurations(linkage: Linkage, motion: KinematicMotion) -> Configurations:
     """A linkage in every configuration of a motion of its mechanism.
 
+    Args:
+        linkage: the structure.
+        motion: of its mechanism, as `analyse` gives it.
+
     Raises:
         LinkageError: the motion is another mechanism's, a joint is of a kind that the flexibility approach does not
             know, or what rigid bodies are held by says the same twice.
+
+    Source: Erdman, Sandor, Oakberg (1972), eqs (10) to (12), with B from compatibility:
+        docs/decisions/022-elastodynamics.md.
     """
     pose = pose_of(linkage.mechanism, motion)
     rows, owners = constraint_rows(linkage.mechanism, linkage.freedoms, pose)

@@ -116,6 +116,9 @@ def linkage(mechanism: Mechanism, loaded: Iterable[str] = ()) -> Linkage:
 
     Raises:
         LinkageError: it is no structure of members; the message says why.
+
+    Source: Erdman, Sandor, Oakberg (1972), eqs (2), (4), (7); which element a member is follows from its ends:
+        docs/decisions/022-elastodynamics.md.
     """
     require_known(mechanism)
     freedoms = find_freedoms(mechanism, loaded)
@@ -154,10 +157,16 @@ def _is_free(mechanism: Mechanism, freedoms: Freedoms, place: int) -> bool:
 
 
 def section_forces(linkage: Linkage, element_forces: FloatArray) -> FloatArray:
-    """(N, M_start, M_end) of each element, shape (times, elements, 3), from f, shape (times, n) [N, N m].
+    """(N, M_start, M_end) of each element, shape (times, elements, 3) [N, N m].
 
     Tension N is positive, and so are moments that bend the element to its left, seen from its start; between the ends
     they change in proportion to the way.
+
+    Args:
+        linkage: the structure.
+        element_forces: f, shape (times, n) [N, N m].
+
+    Source: textbook: equilibrium of each element of Erdman, Sandor, Oakberg (1972), eqs (2), (4), (7).
     """
     matrix = block_diagonal(element.section_forces for element in linkage.elements)
     return (element_forces @ matrix.T).reshape(len(element_forces), -1, 3)
@@ -166,7 +175,11 @@ def section_forces(linkage: Linkage, element_forces: FloatArray) -> FloatArray:
 def largest_stress(linkage: Linkage, forces: FloatArray) -> FloatArray:
     """|N|/A + |M| (h/2)/I where the moment is largest, at an end: shape (times, elements) [Pa].
 
-    `forces` are those of `section_forces`.
+    Args:
+        linkage: the structure.
+        forces: those of `section_forces`, shape (times, elements, 3) [N, N m].
+
+    Source: textbook law of tension and bending superposed; docs/elastodynamics.md, section Inertia, torque and power.
     """
     sections = [element.member.section for element in linkage.elements]
     areas = np.array([section.area for section in sections])
@@ -182,7 +195,12 @@ _SAME = 1e-9
 
 
 class Resized(NamedTuple):
-    """Names of members whose sections differ, and of those among them whose depth in the plane does."""
+    """Which members have other sections in another design.
+
+    Attributes:
+        members: names of members whose sections differ.
+        depths: names of those among them whose depth in the plane does.
+    """
 
     members: tuple[str, ...]
     depths: tuple[str, ...]
@@ -193,6 +211,10 @@ def resized_members(before: Mechanism, after: Mechanism) -> Resized | None:
 
     Lengths and directions of members, their material, the disks and the joints must be the same. Where a body's frame
     stands, in its centre of mass, may differ: it moves with the masses, and the linkage does not.
+
+    Args:
+        before: the first design.
+        after: the second one.
     """
     parts = [[(type(part), part.name) for part in (*m.members, *m.disks, *m.joints)] for m in (before, after)]
     if parts[0] != parts[1] or not np.allclose(_layout(before), _layout(after), rtol=_SAME, atol=_SAME):
@@ -245,6 +267,9 @@ def unlike_bodies(mechanism: Mechanism) -> tuple[str, ...]:
 
     Deflections, stresses and vibration come from these lumps, half of each member's mass at either end; reactions and
     input torque, too. An FMU moves by the body's own numbers, and its inertia forces are those of the lumps.
+
+    Args:
+        mechanism: with members.
     """
     found = []
     for body in mechanism.bodies:

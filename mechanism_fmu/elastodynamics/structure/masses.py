@@ -17,6 +17,12 @@ def lumps(linkage: Linkage) -> FloatArray:
     """Mass and inertia at every place, shape (places, 2) [kg, kg m2].
 
     A rigid body has its own mass and inertia at its centre of mass; disks are a part of them.
+
+    Args:
+        linkage: the structure.
+
+    Source: Case 2 of Erdman, Sandor, Oakberg (1972), masses at the joints; half of each link at either end is this
+        project's: docs/elastodynamics-dynamics.md, Case 3.
     """
     mechanism, places = linkage.mechanism, linkage.freedoms.places
     found = np.zeros((len(places), 2))
@@ -36,7 +42,13 @@ def lumps(linkage: Linkage) -> FloatArray:
 
 
 def mass_matrix(configurations: Configurations) -> FloatArray:
-    """M of the lumps in the free displacements, shape (times or 1, m, m); without lumps at some, it is singular."""
+    """M of the lumps in the free displacements, shape (times or 1, m, m); without lumps at some, it is singular.
+
+    Args:
+        configurations: the linkage along the motion.
+
+    Source: textbook: kinetic energy of the lumps, M = Z^T diag(m, J) Z; docs/elastodynamics-dynamics.md, Case 3.
+    """
     freedoms = configurations.linkage.freedoms
     diagonal = np.zeros(freedoms.ground + 1)
     masses = lumps(configurations.linkage)
@@ -50,7 +62,13 @@ def mass_matrix(configurations: Configurations) -> FloatArray:
 
 
 def inertia_forces(configurations: Configurations) -> FloatArray:
-    """(-m a_x, -m a_y, -J phi'') at every place in the rigid motion, shape (times, places, 3) [N, N m]."""
+    """(-m a_x, -m a_y, -J phi'') at every place in the rigid motion, shape (times, places, 3) [N, N m].
+
+    Args:
+        configurations: the linkage along the motion.
+
+    Source: d'Alembert's principle, as in Case 2 of Erdman, Sandor, Oakberg (1972).
+    """
     pose, places = configurations.pose, configurations.linkage.freedoms.places
     masses = lumps(configurations.linkage)
     forces = np.zeros((len(pose.time), len(places), 3))
@@ -61,9 +79,14 @@ def inertia_forces(configurations: Configurations) -> FloatArray:
 
 
 def system_forces(configurations: Configurations, forces: FloatArray) -> FloatArray:
-    """P along the free displacements of (f_x, f_y, moment) at every place, shape (times, places, 3) to (times, m).
+    """P along the free displacements, shape (times, m), of forces at the places.
 
-    A moment on a rotation that is no unknown must be zero.
+    Args:
+        configurations: the linkage along the motion.
+        forces: (f_x, f_y, moment) on each place, shape (times, places, 3) [N, N m]; a moment on a rotation that is no
+            unknown must be zero.
+
+    Source: virtual work with w = Z u: docs/decisions/022-elastodynamics.md.
     """
     freedoms = configurations.linkage.freedoms
     wide = np.zeros((len(forces), freedoms.ground + 1))
@@ -104,6 +127,12 @@ def consistent_mass(configurations: Configurations) -> FloatArray:
     A released rotation follows from the other displacements of its member, as it does in E. The shapes turn with the
     links; what their turning adds to the acceleration, 2 Omega u' and Omega^2 u, is left out, and so is the stiffening
     by axial forces, of the same order: (Omega / omega)^2 of what remains.
+
+    Args:
+        configurations: the linkage along the motion.
+
+    Source: J. S. Archer, Consistent mass matrix for distributed mass systems, J. Struct. Div. ASCE 89 (1963);
+        docs/elastodynamics-dynamics.md, eq (K2).
     """
     ends, more = configurations.ends, _more_than_lumped(configurations)
     members: FloatArray = np.einsum("teim,eij,tejn->tmn", ends, more, ends, optimize=True)
@@ -114,6 +143,12 @@ def consistent_load(configurations: Configurations) -> FloatArray:
     """What consistent masses add to the inertia load of the lumps, shape (times, m): the sum of -E^T (m_e - lumps) a_e.
 
     A rigid member's acceleration a_e is linear along it, so that m_e gives its inertia forces exactly.
+
+    Args:
+        configurations: the linkage along the motion.
+
+    Source: J. S. Archer, Consistent mass matrix for distributed mass systems, J. Struct. Div. ASCE 89 (1963);
+        docs/elastodynamics-dynamics.md, eq (K2).
     """
     ends, more = configurations.ends, _more_than_lumped(configurations)
     rigid = np.stack([_rigid(configurations, element) for element in configurations.linkage.elements], axis=1)

@@ -20,6 +20,8 @@ class Force(Element):
         name: unique within the mechanism.
         body: name of the body.
         force: (fx, fy) [N]; an `Input` may write "<name>.x" and "<name>.y". Its work counts as work done.
+
+    Source: definition: the power of a force is force times the velocity of its point; docs/elements/force.md.
     """
 
     row: ClassVar = "force"
@@ -108,6 +110,8 @@ class PointForce(Element):
 
     Raises:
         MechanismError: `frame` is another word.
+
+    Source: definition: the power of a force is force times the velocity of its point; docs/elements/force.md.
     """
 
     row: ClassVar = "point_force"
@@ -152,6 +156,8 @@ class Bushing(Element):
         torsional_stiffness: against the relative angle [N m/rad], >= 0.
         torsional_damping: against its rate [N m s/rad], >= 0.
         free_angle: relative angle phi - phi_reaction without torque [rad].
+
+    Source: Hooke's law and linear viscous friction, for each direction and the angle; docs/elements/bushing.md.
     """
 
     row: ClassVar = "bushing"

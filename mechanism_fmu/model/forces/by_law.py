@@ -26,6 +26,8 @@ class NonlinearSpring(Element):
         body, reaction: names of the two bodies (or `GROUND`).
         point, reaction_point: the points, in the frame of each body [m].
         law: force [N] that pulls the points together, over their distance [m] and its rate [m/s].
+
+    Source: the user's own law: docs/decisions/039-laws-of-the-users-own.md; docs/elements/nonlinear_spring.md.
     """
 
     row: ClassVar = "nonlinear_spring"
@@ -57,6 +59,8 @@ class NonlinearTorsionSpring(Element):
         name: unique within the mechanism.
         body, reaction: names of the two bodies.
         law: torque [N m] against the angle, over phi - phi_reaction [rad] and its rate [rad/s].
+
+    Source: the user's own law: docs/decisions/039-laws-of-the-users-own.md; docs/elements/nonlinear_spring.md.
     """
 
     row: ClassVar = "nonlinear_torsion_spring"

@@ -28,6 +28,8 @@ class SlipClutch(Element):
         damping: of the same [N m s/rad], > 0; the twist follows the limit within damping / stiffness [s].
         limit: largest torque [N m], >= 0; usually written by an `Input` with target "<name>.limit".
         speed: of the driven end from the reaction [rad/s]; an `Input` may write "<name>.speed".
+
+    Source: Coulomb friction behind a spring and damper: docs/decisions/021-motor.md; docs/elements/slip_clutch.md.
     """
 
     row: ClassVar = "slip_clutch"
@@ -73,6 +75,9 @@ class DCMotor(Element):
         anti_windup: by how much the integral gives way to the limit [rad/(V s)], >= 0; within 1 / (anti_windup
             integral_gain) [s].
         speed: wanted, of the body from its reaction [rad/s]; usually written by an `Input` with target "<name>.speed".
+
+    Source: textbook: voltage law of the armature, back electromotive force, PI control with tracking anti-windup;
+        docs/decisions/021-motor.md.
     """
 
     row: ClassVar = "dc_motor"

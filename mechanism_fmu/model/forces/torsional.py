@@ -19,6 +19,8 @@ class Torque(Element):
         name: unique within the mechanism.
         body, reaction: names of the two bodies.
         torque: counter-clockwise on `body` [N m]; usually written by an `Input` with target "<name>.torque".
+
+    Source: definition: the power of a couple is torque times the relative speed; docs/elements/torque.md.
     """
 
     row: ClassVar = "torque"
@@ -46,6 +48,8 @@ class TorsionSpring(Element):
         stiffness: of the spring [N m/rad], >= 0.
         free_angle: relative angle phi - phi_reaction [rad] at which the linear part vanishes.
         preload: constant part of the torque that opposes positive rotation of `body` [N m].
+
+    Source: Hooke's law of an angle; docs/elements/torsion_spring.md.
     """
 
     row: ClassVar = "torsion_spring"
@@ -71,6 +75,8 @@ class Damper(Element):
         name: unique within the mechanism.
         body, reaction: names of the two bodies.
         damping: torque per relative speed [N m s/rad], >= 0.
+
+    Source: linear viscous friction; docs/elements/torsion_spring.md.
     """
 
     row: ClassVar = "damper"
@@ -99,6 +105,8 @@ class CompliantShaft(Element):
         damping: of the shaft [N m s/rad], >= 0.
         angle: of the driven end [rad]; usually written by an `Input` with target "<name>.angle".
         speed: of the driven end [rad/s]; usually written by an `Input` with target "<name>.speed".
+
+    Source: Hooke's law and linear viscous friction side by side; docs/elements/compliant_shaft.md.
     """
 
     row: ClassVar = "shaft"
