@@ -36,6 +36,12 @@ BRIDGES = 2
 OPEN = 0
 CLOSED = 1
 
+# rub_slip (state): how a contact or joint with dry friction moves along; 0 where it does not touch or is smooth
+APART = 0
+FORWARDS = 1
+BACKWARDS = -1
+STICKS = 2
+
 # function_kind: what a logical function looks at
 ALONG = 0
 ANGLE = 1
@@ -132,6 +138,8 @@ GUARD_FUNCTION = 5  # a logical function changes
 GUARD_INPUT = 6  # an input has changed
 GUARD_BEGIN = 7  # the motion begins
 GUARD_FAILED = 8  # an event could not be resolved: nothing goes on from there (the status stands as subject)
+GUARD_STICK = 9  # the slip speed of a contact or joint with dry friction reaches 0
+GUARD_SLIP = 10  # the friction of one that sticks reaches its bound
 
 # stop rules: where `stepper.go_on` stops; those but the first may be added
 STOP_AT_TARGET = 0
@@ -142,7 +150,7 @@ STOP_BEFORE_EVENT = 4  # ... or at an event that has not happened yet: outputs a
 # columns of an event record
 EVENT_TIME = 0
 EVENT_GUARD = 1
-EVENT_SUBJECT = 2  # number of the contact, pattern or logical function
+EVENT_SUBJECT = 2  # number of the contact, pattern or logical function; of friction, contacts and then joints
 EVENT_OLD_MODE = 3  # sum of 2^c over closed contacts c
 EVENT_NEW_MODE = 4
 EVENT_IMPULSE = 5  # total normal impulse over all contacts [N s]

@@ -9,6 +9,8 @@ TOUCHES_WITHIN = 1e-9
 RESTS_BELOW = 1e-9
 #: A contact that would come apart more slowly than this after an impact stays closed [m/s, rad/s]: bouncing ends.
 STICK_SPEED = 1e-6
+#: What slips more slowly than this, at an event, may stick or slip either way [m/s, rad/s].
+SLIPS_ABOVE = 1e-11
 #: A gap that is zero and does not change may go below zero by this before it counts [m, rad].
 GAP_NOISE = 1e-12
 #: How far a boundary, a pitch or a limit is passed before it counts [m, rad].

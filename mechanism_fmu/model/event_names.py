@@ -15,6 +15,7 @@ from .mechanism import Mechanism
 INPUT = "input"
 
 _OF_CONTACT = {codes.GUARD_GAP: "gap", codes.GUARD_PUSH: "force", codes.GUARD_CLICK: "click"}
+_OF_FRICTION = {codes.GUARD_STICK: "sticks", codes.GUARD_SLIP: "slips"}
 _OF_PATTERN = {codes.GUARD_NEXT: "next", codes.GUARD_PREVIOUS: "previous"}
 
 
@@ -24,6 +25,8 @@ def event_name(mechanism: Mechanism, guard: int, subject: int) -> str:
         return INPUT
     if guard == codes.GUARD_FUNCTION:
         return mechanism.functions[subject].name
+    if guard in _OF_FRICTION:
+        return f"{(*mechanism.contacts, *mechanism.joints)[subject].name}.{_OF_FRICTION[guard]}"
     if guard in _OF_PATTERN:
         return f"{mechanism.patterns[subject].name}.{_OF_PATTERN[guard]}"
     return f"{mechanism.contacts[subject].name}.{_OF_CONTACT[guard]}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from functools import cached_property
 from types import SimpleNamespace
+from typing import Literal
 
 from .body import Body
 from .contacts import Contact
@@ -64,6 +65,7 @@ class Mechanism:
             that read them; the motion does without. The mechanism becomes a structure when its held and driven
             coordinates stand still.
         markers: points whose place and velocity outputs read.
+        friction_law: "smooth", by tanh over a small slip speed, or "coulomb", which sticks and slips.
     """
 
     bodies: tuple[Body, ...]
@@ -81,6 +83,7 @@ class Mechanism:
     members: tuple[Member, ...] = ()
     disks: tuple[Disk, ...] = ()
     markers: tuple[Marker, ...] = ()
+    friction_law: Literal["smooth", "coulomb"] = "smooth"
 
     @cached_property
     def elements(self) -> tuple[ForceElement, ...]:

@@ -28,7 +28,7 @@ _COUNTERS = {
     "COUNT_IN_STEP": whole(0, 0, "buffer"),
     "COUNT_LOST": COUNT,
     "COUNT_STEPS": COUNT,
-    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_FAILED),
+    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_SLIP),
     "PENDING_SUBJECT": _SUBJECT,
     "COUNT_PULLS": WHOLE,
     "COUNT_EVENTS": COUNT,
@@ -56,7 +56,7 @@ _RECORD = {
 }
 _EVENT = {
     "EVENT_TIME": FINITE,
-    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_FAILED),
+    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_SLIP),
     "EVENT_SUBJECT": _SUBJECT,
     "EVENT_OLD_MODE": COUNT,
     "EVENT_NEW_MODE": COUNT,
@@ -208,3 +208,32 @@ class Watch(Table, rows="guards", prefix="guard_"):
     floor = real(work=True)
     rate = real(work=True)
     next = real(2, work=True)
+
+
+class Rubs(Table, rows="rubs", prefix="rub_"):
+    """Dry friction of contacts, in their order, and then of joints.
+
+    State: how each slips (`codes.STICKS` ...), and where along its line, or at which angle, one that sticks began to.
+
+    Scratch: the row of one that sticks; of one that slips, its direction in the coordinates, and what a unit of
+    friction does to rates (as `linear_system.solution`) and to multipliers; friction [N, N m], or its impulse; the slip
+    speed; a part of the normal impulse that is given; what holds it least (`complementarity.hold_ratio`); whether it is
+    free to stick or to slip either way. Those that slip, by number; the linear system for their friction; solution and
+    multipliers without it.
+    """
+
+    slip = integer(holds=whole(codes.BACKWARDS, codes.STICKS))
+    anchor = real(holds=FINITE)
+    row = integer(work=True)
+    direction = real("columns", work=True)
+    solution = real("columns", work=True)
+    multiplier = real("rows", work=True)
+    force = real(work=True)
+    speed = real(work=True)
+    given = real(work=True)
+    least_hold = real(work=True)
+    free = integer(work=True)
+    sliding = integer(work=True)
+    matrix = real("rub_columns", work=True)
+    bare_solution = real("columns", alone=True, work=True)
+    bare_multiplier = real("rows", alone=True, work=True)

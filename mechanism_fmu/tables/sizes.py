@@ -50,21 +50,23 @@ class Sizes:
     couples = _given()
     locked = _given()
     beams = _given()
+    rubs = _given()  # contacts and joints, where friction is dry; else 0
     joint_rows = _given()
     contact_rows = _given()  # of all contacts, when contact coordinates count as coordinates
     coordinates = _follows(lambda n: 3 * n["bodies"])
     columns = _follows(lambda n: n["coordinates"] + 3)  # and those of the ground
     wide = _follows(lambda n: n["columns"] + n["alphas"])
     frames = _follows(lambda n: n["bodies"] + 1)  # and the ground
-    rows = _follows(lambda n: n["joint_rows"] + n["contact_rows"] + 1)  # and a spare one
+    rows = _follows(lambda n: n["joint_rows"] + n["contact_rows"] + n["rubs"] + 1)  # and a spare one
     # y = (q, qd, work, loss, alpha, own): positions begin at 0, rates at `coordinates`, the others here
     y_work = _follows(lambda n: 2 * n["coordinates"])
     y_loss = _follows(lambda n: n["y_work"] + 1)
     y_alpha = _follows(lambda n: n["y_loss"] + 1)
     y_own = _follows(lambda n: n["y_alpha"] + n["alphas"])
     unknowns = _follows(lambda n: n["y_own"] + n["own"])
-    # two a contact, two a pattern, one a logical function
-    guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"])
+    # two a contact, two a pattern, one a logical function, one for each dry friction
+    guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])
+    rub_columns = _follows(lambda n: n["rubs"] + 1)
     # columns of an impact record
     record = _follows(lambda n: codes.RECORD_CONTACT_IMPULSES + n["contacts"] + 2 * n["coordinates"])
     buffer = _given()  # impacts that are kept of one communication step

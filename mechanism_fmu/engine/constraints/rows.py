@@ -1,4 +1,4 @@
-"""All constraint rows of the mechanism at one instant: joints, drivers, contacts; a point against a line, an angle."""
+"""All constraint rows of the mechanism at one instant: joints, drivers, contacts, and what sticks."""
 
 from __future__ import annotations
 
@@ -12,58 +12,13 @@ from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
-from ..vectors import clear, turned
+from ..vectors import clear
+from .friction_rows import stick_rows, stuck_count
 from .joints.drivers import angle_driver, distance_driver, translational_driver, x_driver, y_driver
 from .joints.gears import gears, internal_gears, rack_and_pinion
 from .joints.pins_and_slides import distance, revolute, revolute_translational, translational
+from .point_line import angle_row, point_line, spare_row
 from .profile_row import profile_row
-
-# The relative angle of two bodies against a given one: one row.
-
-
-@jit
-def angle_row(at: Pose, rows: Rows, row: int, i: int, j: int, angle: Array) -> None:
-    """Write the row s = phi_i - phi_j - angle[0]: s_q = [.., 1, .., -1], s' = phi_i' - phi_j', gamma = 0."""
-    keep_small()
-    rows.residual[row] = at.phi[i] - at.phi[j] - angle[0]
-    rows.residual_rate[row] = at.phi_rate[i] - at.phi_rate[j]
-    rows.gamma[row] = 0.0
-    rows.jacobian[row, 3 * i + 2] = 1.0
-    rows.jacobian[row, 3 * j + 2] = -1.0
-
-
-# A point of one body against a line fixed in another: the gap s, one row (Pennestrì et al., Fig. 1).
-
-
-@jit
-def point_line(at: Pose, rows: Rows, row: int, i: int, j: int, point: Array, line: Array) -> None:
-    """Write the row s = n.(r_i^P - r_j) - n'.p' of `point` in body i and `line` = (point p', normal n') in body j.
-
-    With n = A_j n', a = A_i s_i, e = r_i + a - r_j and its rate e', u = phi_j':
-    s_q = [n, n.Ra, -n, (R n).e], s' = n.e' + u (R n).e, gamma = n.a phi_i'^2 + n.e u^2 - 2 u (R n).e'.
-    """
-    keep_small()
-    ax, ay = turned(at, i, point[0], point[1])
-    nx, ny = turned(at, j, line[2], line[3])
-    ui, uj = at.phi_rate[i], at.phi_rate[j]
-    ex = at.x[i] + ax - at.x[j]
-    ey = at.y[i] + ay - at.y[j]
-    ex_rate = at.x_rate[i] - ay * ui - at.x_rate[j]
-    ey_rate = at.y_rate[i] + ax * ui - at.y_rate[j]
-    along = nx * ey - ny * ex
-    rows.residual[row] = nx * ex + ny * ey - line[2] * line[0] - line[3] * line[1]
-    rows.residual_rate[row] = nx * ex_rate + ny * ey_rate + uj * along
-    rows.gamma[row] = (
-        (nx * ax + ny * ay) * ui * ui + (nx * ex + ny * ey) * uj * uj - 2.0 * uj * (nx * ey_rate - ny * ex_rate)
-    )
-    entry = rows.jacobian[row]
-    entry[3 * i] = nx
-    entry[3 * i + 1] = ny
-    entry[3 * i + 2] = ny * ax - nx * ay
-    entry[3 * j] = -nx
-    entry[3 * j + 1] = -ny
-    entry[3 * j + 2] = along
-
 
 # The rows of joints, drivers and contacts, by their kinds.
 
@@ -139,33 +94,8 @@ def contact_row(block: Array, at: Pose, contact: int, row: int) -> None:
 
 
 @jit
-def spare_row(block: Array) -> int:
-    """The number of a row that no joint or contact uses."""
-    return Sizes(block).rows - 1
-
-
-@jit
-def tangent_row(block: Array, at: Pose, contact: int, line: Array) -> None:
-    """Write to the spare row how a point slides along its line: distance from the line's point, slip speed, Jacobian.
-
-    `line`, shape (4,), is scratch: the line with its normal turned by -90 deg, so that it points along.
-    """
-    keep_small()
-    table = Contacts(block)
-    own = table.line[contact]
-    line[0] = own[0]
-    line[1] = own[1]
-    line[2] = own[3]
-    line[3] = -own[2]
-    out = Rows(block)
-    row = spare_row(block)
-    clear(out.jacobian[row])
-    point_line(at, out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)
-
-
-@jit
 def active_rows(block: Array, at: Pose) -> int:
-    """Write the rows of all joints and closed contacts; return their number.
+    """Write the rows of all joints, closed contacts, and contacts and joints that stick; return their number.
 
     `contacts.row` afterwards holds each closed contact's row, and -1 for an open one.
     """
@@ -180,6 +110,8 @@ def active_rows(block: Array, at: Pose) -> int:
             count += 1
         else:
             table.row[c] = -1
+    if Sizes(block).rubs > 0:
+        count = stick_rows(block, at, count)
     return count
 
 
@@ -223,6 +155,8 @@ def row_count(block: Array) -> int:
     count: int = Sizes(block).joint_rows
     for c in range(mode.shape[0]):
         count += mode[c]
+    if Sizes(block).rubs > 0:
+        count += stuck_count(block)
     return count
 
 

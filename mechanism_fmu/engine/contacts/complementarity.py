@@ -7,21 +7,28 @@ Solved exactly, by principal pivoting: each contact is in (closed, a row like a 
 one of them violates its inequality, the first such contact changes sides (least-index rule, Murty 1974). When that does
 not end, as it may when rows depend on each other, all combinations of the contacts are tried. The same solution
 procedure serves impulses and accelerations; only the two kinds of trial differ.
+
+Dry friction is part of the same problem: whatever touches and may slip either way (at zero slip; in an impact always)
+sticks, a row like a joint's within the cone |lambda_T| <= mu lambda_N, or slips, with a friction against the slip that
+comes of it (docs/friction.md). What violates its condition sticks instead, or slips to where it is pushed.
 """
 
 from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Pose, Rows, Strikes
+from ...tables.motion import Course, LinearSystem, Pose, Rows, Rubs, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.rows import active_rows, contact_row, row_count, spare_row
+from ..constraints.friction_rows import friction_row, touches
+from ..constraints.point_line import spare_row
+from ..constraints.rows import active_rows, contact_row, row_count
 from ..dynamics.acceleration import derivative, scale_rows
 from ..dynamics.minimum_norm import minimum_norm
+from ..dynamics.sliding import hold, slide
 from ..vectors import largest
 
 #: An acceleration [m/s2], or a share of its terms, that may be missing.
@@ -31,8 +38,9 @@ _IMPULSE_SHARE = 1e-11
 _SPEED = 1e-11
 _SHARE = 1e-12
 _MOST_PIVOTS = 64
-#: All combinations of more contacts than these are not tried.
+#: All combinations of more contacts than these, or more combinations than theirs, are not tried.
 MOST_COMBINED = 12
+_TOO_MANY = (1 << MOST_COMBINED) + 1
 
 # strikes.problem: how many candidates there are, and what is decided. (Not arguments: each literal is compiled anew.)
 COUNT = 0
@@ -73,22 +81,71 @@ def push_ratio(block: Array, contact: int, count: int) -> float:
 
 
 @jit
+def hold_ratio(block: Array, rub: int, count: int) -> float:
+    """What friction of what sticks could hold more, over the tolerance; it slips below -2."""
+    keep_small()
+    ratio: float = hold(block, rub) / (PUSHES_WITHIN + PUSHES_SHARE * largest(LinearSystem(block).multiplier, count))
+    return ratio
+
+
+@jit
 def _choose(block: Array, at: Pose) -> int:
     count = Strikes(block).problem[COUNT]
     mode = Contacts(block).mode
     candidates = Strikes(block).candidates
-    for _ in range(_MOST_PIVOTS * (1 + count)):
+    for _ in range(_MOST_PIVOTS * (1 + count + Sizes(block).rubs)):
         wrong = _first_wrong(block, at)
         if wrong == codes.NONE:
             return status.OK
-        mode[candidates[wrong]] = codes.CLOSED - mode[candidates[wrong]]
-    if count <= MOST_COMBINED:
-        for combination in range(1 << count):
-            for k in range(count):
-                mode[candidates[k]] = (combination >> k) & 1
-            if _first_wrong(block, at) == codes.NONE:
-                return status.OK
+        if wrong < count:
+            mode[candidates[wrong]] = codes.CLOSED - mode[candidates[wrong]]
+        else:
+            _turn_over(block, wrong - count)
+    return _combine(block, at, count)
+
+
+@jit
+def _combine(block: Array, at: Pose, count: int) -> int:
+    """Try all combinations of modes of the candidates, and of stick and slip where that is free; return a status."""
+    keep_small()
+    mode = Contacts(block).mode
+    candidates = Strikes(block).candidates
+    rub = Rubs(block)
+    combinations = 1
+    for _ in range(count):
+        combinations = min(2 * combinations, _TOO_MANY)
+    for k in range(rub.slip.shape[0]):
+        if rub.free[k] == 1:
+            combinations = min(3 * combinations, _TOO_MANY)
+    if combinations == _TOO_MANY:
+        return status.NO_CHOICE
+    for combination in range(combinations):
+        rest = combination
+        for k in range(count):
+            mode[candidates[k]] = rest & 1
+            rest >>= 1
+        for k in range(rub.slip.shape[0]):
+            if rub.free[k] == 1:
+                rub.slip[k] = codes.STICKS
+                if rest % 3 > 0:
+                    rub.slip[k] = codes.FORWARDS if rest % 3 == 1 else codes.BACKWARDS
+                rest //= 3
+        if _first_wrong(block, at) == codes.NONE:
+            return status.OK
     return status.NO_CHOICE
+
+
+@jit
+def _turn_over(block: Array, rub: int) -> None:
+    """What slips sticks instead, and what sticks slips to where it is pushed."""
+    keep_small()
+    table = Rubs(block)
+    if table.slip[rub] != codes.STICKS:
+        table.slip[rub] = codes.STICKS
+    elif table.force[rub] > 0.0:
+        table.slip[rub] = codes.BACKWARDS
+    else:
+        table.slip[rub] = codes.FORWARDS
 
 
 @jit
@@ -118,7 +175,55 @@ def _first_wrong(block: Array, at: Pose) -> int:
                 return k
         elif _goes_in(block, at, c):
             return k
+    if Sizes(block).rubs > 0:
+        wrong = _first_wrong_rub(block, at, active)
+        if wrong != codes.NONE:
+            count: int = Strikes(block).problem[COUNT]
+            return count + wrong
     return codes.NONE
+
+
+@jit
+def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
+    """The first that sticks beyond its cone, or slips against its friction's direction; `codes.NONE`: none."""
+    keep_small()
+    table = Rubs(block)
+    multiplier = LinearSystem(block).multiplier
+    spare = spare_row(block)
+    tolerance = PUSHES_WITHIN + PUSHES_SHARE * largest(multiplier, active)
+    if Strikes(block).problem[KIND] == IMPULSES:
+        tolerance = _IMPULSE_SHARE * largest(multiplier, active)
+    for k in range(table.slip.shape[0]):
+        if table.free[k] == 0 or not touches(block, k):
+            continue
+        if table.slip[k] == codes.STICKS:
+            if not hold(block, k) >= -tolerance:
+                return k
+        else:
+            friction_row(block, at, k, spare)
+            left, rounding = _slip_change(block, spare)
+            if not float(table.slip[k]) * left >= -rounding:
+                return k
+    return codes.NONE
+
+
+@jit
+def _slip_change(block: Array, r: int) -> tuple[float, float]:
+    """The slip speed behind an impact, or the slip acceleration, by row `r`; and its rounding."""
+    keep_small()
+    n = Sizes(block).coordinates
+    impulses = Strikes(block).problem[KIND] == IMPULSES
+    row = Rows(block)
+    left = row.residual_rate[r] if impulses else -row.gamma[r]
+    tolerance = _SPEED if impulses else _ACCELERATION
+    size = abs(left)
+    for k in range(n):
+        change = Course(block).dy_end[n + k]
+        if impulses:
+            change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
+        left += row.jacobian[r, k] * change
+        size += abs(row.jacobian[r, k] * change)
+    return left, tolerance + _SHARE * size
 
 
 @jit
@@ -135,7 +240,13 @@ def _try_impulses(block: Array, at: Pose) -> int:
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
             system.right_side[table.row[c]] = strike.target[c]
+    rub = Rubs(block)
+    for k in range(rub.slip.shape[0]):
+        if rub.row[k] >= 0:
+            system.right_side[rub.row[k]] = -Rows(block).residual_rate[rub.row[k]]
     minimum_norm(block, count, Sizes(block).coordinates)
+    if rub.slip.shape[0] > 0:
+        slide(block, at, count)
     return count
 
 

@@ -6,12 +6,14 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Pose, Rows, Strikes
+from ...tables.motion import Pose, Rows, Rubs, Strikes
 from ...tables.parts import Contacts, Functions, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import MARGIN
 from ..compiler.subset import jit, keep_small
-from ..constraints.rows import contact_row, point_line, spare_row, tangent_row
+from ..constraints.friction_rows import friction_row, slips
+from ..constraints.point_line import point_line, spare_row, tangent_row
+from ..constraints.rows import contact_row
 from ..profiles.nearest import find_nearest, is_searched
 
 # Where the contacts stand now: the present copy of a pattern, the present angle of a stop or lock.
@@ -72,8 +74,9 @@ def turn_line(source: Array, angle: float, target: Array) -> None:
 # Guards: functions of position and rates that are positive until something happens.
 #
 # In order: the gap of each contact; how far each stop with memory is from its next click; how far each pattern's point
-# is from the boundary to the next copy and to the previous one; how far each logical function is from its change. All
-# but gaps are passed by `MARGIN` before they count, so that what has just changed is well inside its new range.
+# is from the boundary to the next copy and to the previous one; how far each logical function is from its change; slip
+# speeds. All but gaps and slip speeds are passed by `MARGIN` before they count, so that what has just changed is well
+# inside its new range.
 
 
 @jit
@@ -110,7 +113,11 @@ def guard_of(block: Array, number: int) -> tuple[int, int]:
     number -= count
     if number < count:
         return codes.GUARD_PREVIOUS, number
-    return codes.GUARD_FUNCTION, number - count
+    number -= count
+    count = Sizes(block).functions
+    if number < count:
+        return codes.GUARD_FUNCTION, number
+    return codes.GUARD_STICK, number - count
 
 
 @jit
@@ -121,6 +128,8 @@ def is_watched(block: Array, number: int) -> bool:
     table = Contacts(block)
     if guard == codes.GUARD_FUNCTION:
         return True
+    if guard == codes.GUARD_STICK:
+        return slips(block, subject)
     if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
         repeats: bool = Patterns(block).enabled[subject] > 0.5
         return repeats
@@ -150,6 +159,8 @@ def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
     if guard == codes.GUARD_CLICK:
         value, rate = gap(block, at, subject)
         return Contacts(block).data[subject, codes.STOP_PITCH] + MARGIN - value, -rate
+    if guard == codes.GUARD_STICK:
+        return slip_of(block, at, subject), 0.0
     if guard == codes.GUARD_FUNCTION:
         value, rate = function_value(block, at, subject)
         if Functions(block).true[subject] == 1:
@@ -160,6 +171,15 @@ def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
         return MARGIN - value, -rate
     value, rate = _beyond(block, at, subject, Patterns(block).line[subject, 4:])
     return value + MARGIN, rate
+
+
+@jit
+def slip_of(block: Array, at: Pose, rub: int) -> float:
+    """Slip speed of a contact or joint that slips, positive where it slips as it is taken to."""
+    keep_small()
+    friction_row(block, at, rub, spare_row(block))
+    slip: float = float(Rubs(block).slip[rub]) * _spare(block)[1]
+    return slip
 
 
 @jit

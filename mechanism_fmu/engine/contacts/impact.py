@@ -11,11 +11,13 @@ from ...tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
-from ..constraints.rows import active_rows, contact_row, driver_power, spare_row, tangent_row
+from ..constraints.point_line import spare_row, tangent_row
+from ..constraints.rows import active_rows, contact_row, driver_power
 from ..dynamics.acceleration import scale_rows
 from ..dynamics.minimum_norm import minimum_norm
 from .complementarity import COUNT, push_impulses
 from .guards import gap
+from .rubbing import free_all
 
 # Coulomb friction in an impact: the tangential impulse that the normal one allows.
 
@@ -113,6 +115,7 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
         if taking_part.role[c] != ABSENT:
             table.mode[c] = codes.CLOSED
     taking_part.problem[COUNT] = count
+    free_all(block)
     outcome = push_impulses(block, at)
     if outcome != status.OK:
         return False, outcome
@@ -125,7 +128,8 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
         if table.mode[c] == codes.CLOSED:
             taking_part.impulse[c] = LinearSystem(block).multiplier[table.row[c]]
     Course(block).y_end[Sizes(block).y_work] += driver_power(block)  # of impulses: drivers do work at once
-    rub(block)
+    if Sizes(block).rubs == 0:
+        rub(block)
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
             keep_impact(block, c)

@@ -11,11 +11,12 @@ from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TO
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
-from ..dynamics.acceleration import LEAST_DRIFT, mend
-from ..dynamics.forces import kinetic_energy
+from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
+from ..dynamics.forces import kinetic_energy, set_time
 from .complementarity import COUNT, push_forces
 from .guards import can_open, gap, place_contact, place_pattern
 from .impact import MOST_ROUNDS, complete_impacts, make_space, strike
+from .rubbing import let_slip, look_at_slip, part
 
 # Contacts that no longer touch.
 
@@ -131,6 +132,10 @@ def _take_effect(block: Array, guard: int, subject: int) -> int:
     elif guard == codes.GUARD_CLICK:
         table.clicks[subject] += 1
         place_contact(block, at, subject)
+    elif guard == codes.GUARD_SLIP:
+        set_time(block, Course(block).clock[codes.STEP_END])
+        derivative(block, Course(block).y_end, Course(block).dy_end)
+        let_slip(block, subject)
     elif guard == codes.GUARD_FUNCTION:
         Functions(block).true[subject] = 1 - Functions(block).true[subject]
         switch_contacts(block, at)
@@ -185,11 +190,15 @@ def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
         count += 1
     if not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # also of what is about to open: a gap must not be left below zero
-    if count == 0:
+    if count == 0 and Sizes(block).rubs == 0:
         return status.OK
     Strikes(block).problem[COUNT] = count
     at = place_bodies(block, Course(block).y_end)
+    look_at_slip(block, at, True)
     outcome = push_forces(block, at)
+    part(block)
+    if Sizes(block).rubs > 0 and not only_choose:
+        mend(block, LEAST_DRIFT, 0.0)  # what has come to rest
     for k in range(count):
         c = Strikes(block).candidates[k]
         table.touching[c] = 1 - table.mode[c]

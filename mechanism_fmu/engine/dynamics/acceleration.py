@@ -17,6 +17,7 @@ from ..vectors import largest
 from .forces import apply_forces
 from .friction import has_friction, resist
 from .minimum_norm import minimum_norm
+from .sliding import slide
 
 #: Friction and normal forces agree when no multiplier changes by more than this part of the largest one, or, where all
 #: vanish as a contact opens, by what is no push and is left by rounding: it does not shrink from round to round.
@@ -37,7 +38,9 @@ def derivative(block: Array, y: Array, dy: Array) -> Pose:
     stabilise(block, count)
     given, lost = apply_forces(block, at, y, dy)
     accelerate(block, count)
-    if has_friction(block):
+    if Sizes(block).rubs > 0:
+        lost += slide(block, at, count)
+    elif has_friction(block):
         lost += _with_friction(block, at, count)
     free = Loads(block).free_acceleration
     root = Bodies(block).inverse_root_mass

@@ -15,7 +15,7 @@ from ...tables.motion import LinearSystem, Loads, Pose, Rows, Strikes
 from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..constraints.rows import spare_row, tangent_row
+from ..constraints.point_line import spare_row, tangent_row
 from ..vectors import turned
 
 #: Slip at which friction reaches 76 % of its full value: along a line [m/s], in a pin [rad/s].

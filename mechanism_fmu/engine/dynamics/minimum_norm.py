@@ -28,8 +28,15 @@ def minimum_norm(block: Array, count: int, width: int) -> None:
     Reads D = `scaled`[:count, :width] and b = `right_side`[:count] of the linear system; writes z = D^+ b to
     `solution`[:width], the minimum-norm solution of D^T multiplier = z to `multiplier`[:count], and the rank of D.
     """
+    orthogonalise(block, count, width)
+    solve_again(block, count, width)
+
+
+@jit
+def solve_again(block: Array, count: int, width: int) -> None:
+    """As `minimum_norm`, with the D that was orthogonalised last."""
     system = LinearSystem(block)
-    rank = orthogonalise(block, count, width)
+    rank = system.rank[0]
     if rank == count:
         _solve_full_rank(block, count)
     else:

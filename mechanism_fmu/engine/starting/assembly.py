@@ -15,6 +15,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from ..contacts.guards import function_value, gap, guard_value, place_contact, place_pattern
+from ..contacts.rubbing import part_all
 from ..contacts.transition import switch_contacts
 from ..dynamics.minimum_norm import minimum_norm
 from ..profiles.nearest import find_contact_points, settle_contact_points
@@ -123,6 +124,7 @@ def start_guess(block: Array, offset: int) -> None:
             now.y_end[3 * i + k] = body.start[i, k]
             now.y_end[n + 3 * i + k] = body.start_rate[i, k]
             weight[3 * i + k] = 1.0
+    part_all(block)
     held = Options(block).held
     for k in range(held.shape[0]):
         weight[held[k]] = 0.0

@@ -13,7 +13,8 @@ from ...tolerances import STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import entry, jit, keep_small
 from ..constraints.kinematics import place_bodies
-from ..constraints.rows import active_rows, spare_row
+from ..constraints.point_line import spare_row
+from ..constraints.rows import active_rows
 from ..contacts.guards import gap
 from ..contacts.impact import clear_impact, clear_records
 from ..dynamics.forces import set_time, take_inputs

@@ -19,20 +19,24 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Pose, Stages, Watch
+from ...tables.method import METHOD
+from ...tables.motion import Pose, Rows, Rubs, Stages, Watch
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
-from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE
+from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE
 from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import friction_row, sticks
 from ..constraints.kinematics import place_bodies
+from ..constraints.point_line import spare_row
 from ..constraints.rows import row_count
-from ..contacts.complementarity import push_ratio
+from ..contacts.complementarity import hold_ratio, push_ratio
 from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
 from .interpolation import interpolate
 from .runge_kutta import try_step
 
+_LAST = METHOD.last
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
 #: Bisections of a bracket: 2^-60 of a step is below rounding.
@@ -63,6 +67,14 @@ def first_event(block: Array) -> tuple[int, int, float]:
             if lets_go < fraction:
                 guard = codes.GUARD_PUSH
                 subject = c
+                fraction = lets_go
+    rub = Rubs(block)
+    for k in range(rub.slip.shape[0]):
+        if rub.least_hold[k] < _OPENS and sticks(block, k):
+            lets_go = _first_slip(block, k, fraction)
+            if lets_go < fraction:
+                guard = codes.GUARD_SLIP
+                subject = k
                 fraction = lets_go
     return guard, subject, fraction
 
@@ -134,6 +146,11 @@ def _begin(block: Array, at: Pose, number: int) -> bool:
     look_at.armed[number] = 1
     look_at.floor[number] = 0.0
     guard, subject = guard_of(block, number)
+    if guard == codes.GUARD_STICK:
+        if value <= SLIPS_ABOVE:  # it begins to slip
+            look_at.armed[number] = 0
+            look_at.floor[number] = min(value, 0.0) - SLIPS_ABOVE
+        return False
     if guard != codes.GUARD_GAP:
         return value <= 0.0
     if value > 0.0 and Contacts(block).touching[subject] == 0:
@@ -266,3 +283,66 @@ def _push_at(block: Array, contact: int, fraction: float) -> float:
     set_time(block, s.tried[0] + fraction * s.tried[1])
     derivative(block, s.y_at, s.dy_at)
     return push_ratio(block, contact, row_count(block))
+
+
+@jit
+def _first_slip(block: Array, rub: int, latest: float) -> float:
+    """Where before `latest` friction of what sticks reaches its bound; 2.0 when the dense output does not show it.
+
+    Where it has more than none to spare at first, that is where it has none left.
+    """
+    keep_small()
+    before = 0.0
+    limit = 0.0 if _hold_at(block, rub, 0.0) > 1.0 else _OPENS
+    for look in range(1, _LOOKS + 1):
+        after = min(latest, look / _LOOKS)
+        if _hold_at(block, rub, after) < _OPENS:
+            for _ in range(_BISECTIONS):
+                middle = 0.5 * (before + after)
+                if _hold_at(block, rub, middle) < limit:
+                    after = middle
+                else:
+                    before = middle
+            return after
+        if after >= latest:
+            return 2.0
+        before = after
+    return 2.0
+
+
+@jit
+def _hold_at(block: Array, rub: int, fraction: float) -> float:
+    """What friction of what sticks could hold more, over its tolerance, at `fraction` of the step."""
+    keep_small()
+    s = Stages(block)
+    interpolate(s.new_dense, fraction, s.y_at)
+    set_time(block, s.tried[0] + fraction * s.tried[1])
+    derivative(block, s.y_at, s.dy_at)
+    return hold_ratio(block, rub, row_count(block))
+
+
+@jit
+def refine_slip(block: Array, rub: int, step_size: float) -> float:
+    """The step size at which the true step ends at zero slip speed; that step is the last one tried."""
+    keep_small()
+    n = Sizes(block).coordinates
+    s = Stages(block)
+    start = s.tried[0]
+    limit = 2.0 * step_size
+    row = Rows(block)
+    spare = spare_row(block)
+    for _ in range(_NEWTON_STEPS):
+        try_step(block, start, step_size)
+        at = place_bodies(block, s.y_new)
+        friction_row(block, at, rub, spare)
+        rate = -row.gamma[spare]
+        for k in range(n):
+            rate += row.jacobian[spare, k] * s.derivatives[_LAST, n + k]
+        if rate == 0.0:
+            return step_size
+        move = -row.residual_rate[spare] / rate
+        if not abs(move) > ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
+            return step_size
+        step_size += move
+    try_step(block, start, step_size)
+    return step_size

@@ -7,14 +7,16 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, Stages
+from ...tables.motion import Course, Rubs, Stages
 from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import sticks
 from ..constraints.rows import row_count
-from ..contacts.complementarity import push_ratio
+from ..contacts.complementarity import hold_ratio, push_ratio
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
+from ..vectors import clear
 from .interpolation import write_dense
 from .singular import independence
 
@@ -48,6 +50,8 @@ def try_step(block: Array, start: float, size_: float) -> float:
     least = Contacts(block).least_push
     for c in range(least.shape[0]):
         least[c] = 0.0
+    if Sizes(block).rubs > 0:
+        clear(Rubs(block).least_hold)
     _euler(y, k[0], h * _A[1, 0], s.y_stage)
     _stage(block, start + h * _C[1], s.y_stage, k[1])
     for r in range(2, _LAST):  # the last one apart: to choose the target in the loop costs 3 % of the whole motion
@@ -100,6 +104,10 @@ def _note_pushes(block: Array) -> None:
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
             table.least_push[c] = min(table.least_push[c], push_ratio(block, c, count))
+    rub = Rubs(block)
+    for k in range(rub.slip.shape[0]):
+        if sticks(block, k):
+            rub.least_hold[k] = min(rub.least_hold[k], hold_ratio(block, k, count))
 
 
 @jit

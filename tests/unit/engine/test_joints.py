@@ -10,7 +10,7 @@ from stated_joints import DRIVERS, JOINTS, PAIRS, STATEMENTS, State, differentia
 from textbook import evaluated_rows, written_rows
 
 from mechanism_fmu.engine.compiler.subset import entry
-from mechanism_fmu.engine.constraints.rows import spare_row, tangent_row
+from mechanism_fmu.engine.constraints.point_line import spare_row, tangent_row
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,

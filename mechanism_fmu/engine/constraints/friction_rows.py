@@ -1,0 +1,122 @@
+"""Rows along which contacts and joints with dry friction slide: they are constraints where these stick.
+
+Contacts come first, in their order, then joints. Slip is that of the point of body i along its line on body j, of the
+axis of a slider on body i (point j along it), and of a pin's body i against body j.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.kinds import JOINTS
+from ...tables.motion import Pose, Rows, Rubs, Strikes
+from ...tables.parts import Contacts, Joints
+from ...tables.sizes import Sizes
+from ..compiler.subset import jit, keep_small
+from ..vectors import clear
+from .point_line import angle_row, point_line, tangent_line
+
+REVOLUTE = JOINTS.number("revolute")
+
+
+@jit
+def coefficient(block: Array, rub: int) -> float:
+    """The coefficient of friction of a contact or slider [1], the friction radius of a pin [m]; 0: it is smooth."""
+    contacts = Sizes(block).contacts
+    if rub >= contacts:
+        of_joint: float = Joints(block).friction[rub - contacts]
+        return of_joint
+    table = Contacts(block)
+    of_contact: float = table.value[rub, codes.FRICTION]
+    return of_contact if table.kind[rub] == codes.POINT_LINE else 0.0
+
+
+@jit
+def touches(block: Array, rub: int) -> bool:
+    """Whether a contact or joint has friction now: a contact is closed, or has been given an impulse."""
+    keep_small()
+    if not coefficient(block, rub) > 0.0:
+        return False
+    if rub >= Sizes(block).contacts:
+        return True
+    closed: bool = Contacts(block).mode[rub] == codes.CLOSED
+    return closed or Rubs(block).given[rub] > 0.0
+
+
+@jit
+def friction_row(block: Array, at: Pose, rub: int, row: int) -> None:
+    """Write the row along which a contact or joint slides; its residual counts from where it stuck first."""
+    keep_small()
+    out = Rows(block)
+    clear(out.jacobian[row])
+    line = Strikes(block).tangent_line
+    contacts = Sizes(block).contacts
+    if rub < contacts:
+        table = Contacts(block)
+        tangent_line(table.line[rub], line)
+        point_line(at, out, row, table.body_i[rub], table.body_j[rub], table.data[rub], line)
+    else:
+        joint = Joints(block)
+        k = rub - contacts
+        i = joint.body_i[k]
+        j = joint.body_j[k]
+        data = joint.data[k]
+        if joint.kind[k] == REVOLUTE:
+            line[0] = 0.0
+            angle_row(at, out, row, i, j, line)
+        else:
+            length = axis_length(block, k)
+            line[0] = data[0]
+            line[1] = data[1]
+            line[2] = data[4] / length
+            line[3] = data[5] / length
+            point_line(at, out, row, j, i, data[2:], line)
+    out.residual[row] -= Rubs(block).anchor[rub]
+
+
+@jit
+def axis_length(block: Array, joint: int) -> float:
+    """The length of a slider's axis, as it is given."""
+    data = Joints(block).data[joint]
+    return math.sqrt(data[4] * data[4] + data[5] * data[5])
+
+
+@jit
+def sticks(block: Array, rub: int) -> bool:
+    """Whether a contact or joint touches and sticks."""
+    stuck: bool = Rubs(block).slip[rub] == codes.STICKS
+    return stuck and touches(block, rub)
+
+
+@jit
+def slips(block: Array, rub: int) -> bool:
+    """Whether a contact or joint touches and slips."""
+    slip = Rubs(block).slip[rub]
+    return (slip == codes.FORWARDS or slip == codes.BACKWARDS) and touches(block, rub)
+
+
+@jit
+def stick_rows(block: Array, at: Pose, count: int) -> int:
+    """Write the rows of all that sticks behind the first `count` rows; return the number of rows then."""
+    keep_small()
+    table = Rubs(block)
+    for k in range(table.slip.shape[0]):
+        table.row[k] = -1
+        if sticks(block, k):
+            friction_row(block, at, k, count)
+            table.row[k] = count
+            count += 1
+    return count
+
+
+@jit
+def stuck_count(block: Array) -> int:
+    """The number of contacts and joints that stick."""
+    keep_small()
+    count = 0
+    for k in range(Rubs(block).slip.shape[0]):
+        if sticks(block, k):
+            count += 1
+    return count

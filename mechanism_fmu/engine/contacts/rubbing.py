@@ -1,0 +1,82 @@
+"""Which contacts and joints may stick or slip either way at an instant, and what is known of the others."""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, Pose, Rows, Rubs
+from ...tolerances import SLIPS_ABOVE
+from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import coefficient, friction_row, touches
+from ..constraints.kinematics import place_bodies
+from ..constraints.point_line import spare_row
+
+
+@jit
+def part_all(block: Array) -> None:
+    """Nothing touches with friction yet."""
+    keep_small()
+    table = Rubs(block)
+    for k in range(table.slip.shape[0]):
+        table.slip[k] = codes.APART
+        table.anchor[k] = 0.0
+        table.given[k] = 0.0
+
+
+@jit
+def look_at_slip(block: Array, at: Pose, only_touching: bool) -> None:
+    """At rest friction is free to stick, or to slip either way; in motion its direction is known.
+
+    What begins to touch, or comes to rest, is taken to stick, or to go on as it slipped; where it has not stuck before,
+    it does so here. All that has friction is looked at where not `only_touching`.
+    """
+    keep_small()
+    table = Rubs(block)
+    spare = spare_row(block)
+    for k in range(table.slip.shape[0]):
+        table.free[k] = 0
+        if not coefficient(block, k) > 0.0 or (only_touching and not touches(block, k)):
+            continue
+        begins = table.slip[k] != codes.STICKS
+        if begins:
+            table.anchor[k] = 0.0
+        friction_row(block, at, k, spare)
+        speed = Rows(block).residual_rate[spare]
+        if abs(speed) > SLIPS_ABOVE:
+            table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
+            continue
+        table.free[k] = 1
+        if table.slip[k] == codes.APART:
+            table.slip[k] = codes.STICKS
+        if begins:
+            table.anchor[k] = Rows(block).residual[spare]
+
+
+@jit
+def free_all(block: Array) -> None:
+    """In an impact all friction may end in stick or slip; what has begun to touch is taken to stick."""
+    keep_small()
+    table = Rubs(block)
+    at = place_bodies(block, Course(block).y_end)
+    look_at_slip(block, at, False)
+    for k in range(table.slip.shape[0]):
+        if coefficient(block, k) > 0.0:
+            table.free[k] = 1
+
+
+@jit
+def part(block: Array) -> None:
+    """What does not touch any more does not stick there."""
+    keep_small()
+    table = Rubs(block)
+    for k in range(table.slip.shape[0]):
+        if not touches(block, k):
+            table.slip[k] = codes.APART
+
+
+@jit
+def let_slip(block: Array, rub: int) -> None:
+    """Friction of what sticks has reached its bound: it slips to where it is pushed."""
+    keep_small()
+    table = Rubs(block)
+    table.slip[rub] = codes.BACKWARDS if table.force[rub] > 0.0 else codes.FORWARDS

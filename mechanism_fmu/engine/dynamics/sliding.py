@@ -1,0 +1,224 @@
+"""Dry friction of what slips: forces, or impulses, that agree with the normal ones, by one factorisation.
+
+With f along the directions of slip, the multipliers are those without friction and R f more, R the response to unit
+forces, by the same factors as the solve without friction. So f = -sigma mu |N(f)|, sigma the direction of slip, is a
+system as large as the number of contacts and joints that slip. It is linear in contacts, and solved by Newton's method
+where pins slip, whose normal force is the root of a sum of squares.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import LinearSystem, Loads, Pose, Rows, Rubs
+from ...tables.parts import Bodies, Contacts, Joints
+from ...tables.sizes import Sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, friction_row, slips, sticks
+from ..constraints.point_line import spare_row
+from .minimum_norm import solve_again
+
+#: Newton's method ends when no friction changes by more than this part of the largest.
+_AGREE = 1e-14
+_ROUNDS = 40
+
+
+@jit
+def slide(block: Array, at: Pose, count: int) -> float:
+    """Add what dry friction does to the last solve, of `count` rows: solution and multipliers; the power lost [W].
+
+    Friction is left in `rubs.force`, of what sticks too, and in `loads.rubbing` of joints. Not a number: no normal
+    forces agree with their friction.
+    """
+    keep_small()
+    number = _respond(block, at, count)
+    if number > 0 and not _agree(block, number):
+        return math.nan
+    n = Sizes(block).coordinates
+    table = Rubs(block)
+    system = LinearSystem(block)
+    lost = 0.0
+    for a in range(number):
+        k = table.sliding[a]
+        force = table.force[k]
+        lost -= force * table.speed[k]
+        for i in range(n):
+            system.solution[i] += force * table.solution[k, i]
+        for r in range(count):
+            system.multiplier[r] += force * table.multiplier[k, r]
+    contacts = Sizes(block).contacts
+    for k in range(table.slip.shape[0]):
+        if sticks(block, k):
+            table.force[k] = system.multiplier[table.row[k]]
+        if k >= contacts:
+            Loads(block).rubbing[k - contacts] = table.force[k]
+    return lost
+
+
+@jit
+def _respond(block: Array, at: Pose, count: int) -> int:
+    """Find what slips, and what unit forces along their slip do; how many there are. Solution and multipliers stay."""
+    keep_small()
+    n = Sizes(block).coordinates
+    table = Rubs(block)
+    system = LinearSystem(block)
+    row = Rows(block)
+    spare = spare_row(block)
+    inverse_mass = Bodies(block).inverse_mass
+    root = Bodies(block).inverse_root_mass
+    number = 0
+    for k in range(table.slip.shape[0]):
+        table.force[k] = 0.0
+        if not slips(block, k):
+            continue
+        if number == 0:
+            for i in range(n):
+                table.bare_solution[i] = system.solution[i]
+            for r in range(count):
+                table.bare_multiplier[r] = system.multiplier[r]
+        friction_row(block, at, k, spare)
+        table.speed[k] = row.residual_rate[spare]
+        for i in range(n):
+            table.direction[k, i] = row.jacobian[spare, i]
+        for r in range(count):
+            right = 0.0
+            for i in range(n):
+                right -= row.jacobian[r, i] * inverse_mass[i] * table.direction[k, i]
+            system.right_side[r] = right
+        solve_again(block, count, n)
+        for i in range(n):
+            table.solution[k, i] = system.solution[i] + root[i] * table.direction[k, i]
+        for r in range(count):
+            table.multiplier[k, r] = system.multiplier[r]
+        table.sliding[number] = k
+        number += 1
+    if number > 0:
+        for i in range(n):
+            system.solution[i] = table.bare_solution[i]
+        for r in range(count):
+            system.multiplier[r] = table.bare_multiplier[r]
+    return number
+
+
+@jit
+def _agree(block: Array, number: int) -> bool:
+    """Newton's method for `rubs.force` of what slips; whether it has found an answer."""
+    keep_small()
+    table = Rubs(block)
+    for _ in range(_ROUNDS):
+        for a in range(number):
+            k = table.sliding[a]
+            share = float(table.slip[k]) * coefficient(block, k)
+            table.matrix[a, number] = -table.force[k] - share * _normal(block, k, number, a)
+            for b in range(number):
+                table.matrix[a, b] *= share
+            table.matrix[a, a] += 1.0
+        if not _eliminate(table.matrix, number):
+            return False
+        change = 0.0
+        largest = 0.0
+        for a in range(number):
+            k = table.sliding[a]
+            table.force[k] += table.matrix[a, number]
+            change = max(change, abs(table.matrix[a, number]))
+            largest = max(largest, abs(table.force[k]))
+        if change <= _AGREE * largest:
+            return True
+        if not change < math.inf:
+            return False
+    return False
+
+
+@jit
+def _normal(block: Array, rub: int, number: int, line: int) -> float:
+    """The normal force of a contact or joint with the friction found so far [N]; its derivatives to `matrix[line]`."""
+    keep_small()
+    table = Rubs(block)
+    slope = table.matrix[line]
+    contacts = Sizes(block).contacts
+    for b in range(number):
+        slope[b] = 0.0
+    if rub < contacts:
+        normal: float = table.given[rub]
+        if Contacts(block).mode[rub] == codes.CLOSED:
+            row = Contacts(block).row[rub]
+            normal += _multiplier(block, row, number)
+            for b in range(number):
+                slope[b] = table.multiplier[table.sliding[b], row]
+        return normal
+    joint = rub - contacts
+    row = Joints(block).row[joint]
+    first = _multiplier(block, row, number)
+    second = 0.0
+    length = 1.0
+    if Joints(block).kind[joint] == REVOLUTE:
+        second = _multiplier(block, row + 1, number)
+    else:
+        length = axis_length(block, joint)
+    force = math.sqrt(first * first + second * second)
+    for b in range(number):
+        if force > 0.0:
+            k = table.sliding[b]
+            slope[b] = first * table.multiplier[k, row]
+            if second != 0.0:
+                slope[b] += second * table.multiplier[k, row + 1]
+            slope[b] *= length / force
+    return force * length
+
+
+@jit
+def _multiplier(block: Array, row: int, number: int) -> float:
+    """The multiplier of a row with the friction found so far."""
+    table = Rubs(block)
+    value: float = table.bare_multiplier[row]
+    for b in range(number):
+        k = table.sliding[b]
+        value += table.force[k] * table.multiplier[k, row]
+    return value
+
+
+@jit
+def _eliminate(matrix: Array, number: int) -> bool:
+    """Solve the first `number` equations; the right side, in column `number`, becomes the solution. False: singular."""
+    keep_small()
+    for c in range(number):
+        best = c
+        for r in range(c + 1, number):
+            if abs(matrix[r, c]) > abs(matrix[best, c]):
+                best = r
+        if not abs(matrix[best, c]) > 0.0:
+            return False
+        for k in range(c, number + 1):
+            matrix[c, k], matrix[best, k] = matrix[best, k], matrix[c, k]
+        for r in range(number):
+            if r != c:
+                share = matrix[r, c] / matrix[c, c]
+                for k in range(c, number + 1):
+                    matrix[r, k] -= share * matrix[c, k]
+    for c in range(number):
+        matrix[c, number] /= matrix[c, c]
+    return True
+
+
+@jit
+def hold(block: Array, rub: int) -> float:
+    """How much more than it does now friction of a contact or joint that sticks could hold [N, N m]; impulses alike."""
+    keep_small()
+    system = LinearSystem(block)
+    contacts = Sizes(block).contacts
+    bound = coefficient(block, rub)
+    if rub < contacts:
+        normal: float = Rubs(block).given[rub]
+        if Contacts(block).mode[rub] == codes.CLOSED:
+            normal += system.multiplier[Contacts(block).row[rub]]
+    else:
+        row = Joints(block).row[rub - contacts]
+        normal = abs(system.multiplier[row])
+        if Joints(block).kind[rub - contacts] == REVOLUTE:
+            normal = math.sqrt(normal * normal + system.multiplier[row + 1] * system.multiplier[row + 1])
+        else:
+            normal *= axis_length(block, rub - contacts)
+    held: float = bound * normal - abs(system.multiplier[Rubs(block).row[rub]])
+    return held
