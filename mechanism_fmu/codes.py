@@ -117,6 +117,9 @@ MEMBER_FORCE = 32  # index 3 * member + (along it, moments on its start and end)
 MEMBER_STRESS = 33
 BEAM_DEFLECTION = 34
 BEAM_STRESS = 35
+SLIP_SPEED = 36  # index: of dry friction, contacts and then joints
+FRICTION_FORCE = 37
+STICKS_NOW = 38
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before the instant, then after it
 RECORD_TIME = 0
