@@ -77,7 +77,8 @@ def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
 def slip_row(block: Array, at: Pose, contact: int, row: int) -> None:
     """Write the row of the slip of body i along body j where their profiles touch: the difference of their materials.
 
-    Slip counts along t = -R n, the normal turned by -90 deg, as that of a point on a line. With w = r_i' + u_i R a - r_j' - u_j R e and the turning of the tangent w_t = u_j + turn alpha_j': s' = t.w,
+    Slip counts along t = -R n, the normal turned by -90 deg, as that of a point on a line. With the relative velocity
+    w = r_i' + u_i R a - r_j' - u_j R e and the turning of the tangent w_t = u_j + turn alpha_j': s' = t.w,
     s_q = [t, t.R a, -t, -t.R e], gamma = -w_t (R t).w - t.(u_i R a' - u_j R e'), where a' and e' follow the point of
     contact. There is no s: what has rolled off is not counted.
     """

@@ -52,6 +52,36 @@ class SlipClutch(Element):
 
 
 @dataclass(frozen=True, init=False)
+class Brake(Element):
+    """A brake or clutch with dry friction: it holds two bodies together up to a torque, and slips beyond.
+
+    While it holds nothing turns, as if the bodies were one; while it slips its torque is `limit` against the slip. It
+    needs `Mechanism(friction_law="coulomb")`. Outputs: "<name>.friction_force" [N m], its torque on `body`,
+    "<name>.slip_speed" [rad/s] and "<name>.sticks". In impacts it has no part: a torque is no impulse.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
+        limit: largest torque [N m], >= 0; an `Input` may write "<name>.limit".
+
+    Source: Coulomb friction, -torque in limit Sgn(slip): Glocker, Pfeiffer, Nonlinear Dynamics 7 (1995) 471.
+    """
+
+    row: ClassVar = "brake"
+    acts: ClassVar = "torque"
+    dry: ClassVar = True
+    writable: ClassVar = ("limit",)
+    not_negative: ClassVar = {"limit": "N.m"}
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    units: ClassVar = {**not_negative}
+
+    name: str
+    body: str
+    reaction: str = GROUND
+    limit: Number = 0.0
+
+
+@dataclass(frozen=True, init=False)
 class DCMotor(Element):
     """A direct-current motor between two bodies, with a PI controller of its speed whose voltage is limited.
 
