@@ -122,7 +122,7 @@ def perform(asked: Sequence[str], bench: Bench, on_row: Callable[[Row, int, int]
     results = {}
     for number, row in enumerate(rows, start=1):
         on_row(row, number, len(rows))
-        results[row.id] = Result(row, row.find(bench))
+        results[row.id] = Result(row, row.found(bench))
 
     def those(of: tuple[Row, ...]) -> tuple[Result, ...]:
         return tuple(results[row.id] for row in of if row.id in results)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..bench import Bench, angles_at, at_angle
+from ..bench import AtAngle
 from .drawn_pieces import ACCENT, INK, SOFT, Point, View, label, polar, sheet
 
 
@@ -78,19 +78,17 @@ def fig2_elements() -> str:
     return sheet(460, 250, "Models for elastic analysis: torsion, spatial link", parts)
 
 
-def _points(bench: Bench) -> tuple[View, dict[str, Point], tuple[float, float, float]]:
-    """The path generator of the example at 60 deg, in crank lengths."""
-    number, _ = at_angle(bench, 60)
-    phi, coupler, psi = angles_at(bench, number)
-    a = polar((0.0, 0.0), 4.0, phi)
+def _points(at: AtAngle) -> tuple[View, dict[str, Point]]:
+    """The path generator of the example, in crank lengths."""
+    a = polar((0.0, 0.0), 4.0, at.phi)
     points = {
         "A0": (0.0, 0.0),
         "B0": (10.0, 0.0),
         "A": a,
-        "B": polar(a, 10.0, coupler),
-        "P": polar(a, 6.0, coupler + math.pi / 6),
+        "B": polar(a, 10.0, at.coupler),
+        "P": polar(a, 6.0, at.coupler + math.pi / 6),
     }
-    return View((70, 330), 28), points, (phi, coupler, psi)
+    return View((70, 330), 28), points
 
 
 def _linkage(v: View, p: dict[str, Point]) -> list[str]:
@@ -110,9 +108,9 @@ def _middle(a: Point, b: Point) -> Point:
     return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
 
 
-def fig3_generator(bench: Bench) -> str:
+def fig3_generator(at: AtAngle) -> str:
     """The four-bar path generator with its disk."""
-    v, p, (phi, coupler, _) = _points(bench)
+    v, p = _points(at)
     parts = [
         *_linkage(v, p),
         v.dot(p["P"], 13, "#7b8794"),
@@ -121,37 +119,36 @@ def fig3_generator(bench: Bench) -> str:
         v.text(_middle(p["A"], p["B"]), "2", 8, 18),
         v.text(_middle(p["A0"], p["A"]), "3", -16, 0),
         v.text(_middle(p["B0"], p["B"]), "4", 18, 0),
-        v.arc(p["A"], 2.2, coupler, coupler + math.pi / 6, "α", 12),
+        v.arc(p["A"], 2.2, at.coupler, at.coupler + math.pi / 6, "α", 12),
         v.line([p["A0"], (2.2, 0.0)], SOFT, 0.8, "5 3"),
-        v.arc(p["A0"], 1.4, 0.0, phi, "φ", 12),
+        v.arc(p["A0"], 1.4, 0.0, at.phi, "φ", 12),
         label((230, 395), "Case I: disk mass at P; elements 1 to 4 are elastic, 3 is the input", 13),
     ]
     return sheet(470, 420, "Four-bar path generator", parts)
 
 
-def fig4_case1(bench: Bench) -> str:
+def fig4_case1(at: AtAngle) -> str:
     """Element coordinates x1 to x8 and system forces P1 to P3."""
-    v, p, (phi, coupler, psi) = _points(bench)
-    arm = coupler + math.pi / 6
+    v, p = _points(at)
     parts = [
         *_linkage(v, p),
         *_force(v, p["P"], 0.0, "P₁", (24, 0)),
         *_force(v, p["P"], math.pi / 2, "P₂", (0, -12)),
         v.arc(p["P"], 0.8, -2.4, -0.4),
         v.text(p["P"], "P₃", 14, 30),
-        *_along(v, p["A"], p["P"], arm, "x₁, x₂, x₃", 22, True),
-        *_along(v, p["A0"], p["A"], phi, "x₄, x₅", 12, True),
-        *_along(v, p["A"], p["B"], coupler, "x₆, x₇", 8),
-        *_along(v, p["B0"], p["B"], psi, "x₈", 0),
+        *_along(v, p["A"], p["P"], at.coupler + math.pi / 6, "x₁, x₂, x₃", 22, True),
+        *_along(v, p["A0"], p["A"], at.phi, "x₄, x₅", 12, True),
+        *_along(v, p["A"], p["B"], at.coupler, "x₆, x₇", 8),
+        *_along(v, p["B0"], p["B"], at.psi, "x₈", 0),
         label((230, 385), "x₁, x₄, x₇, x₈ axial; x₂, x₅ transverse; x₃, x₆ rotations", 13),
         label((230, 405), "order of this project; the document's arrows are lost", 13),
     ]
     return sheet(470, 425, "Case 1: element coordinates and system forces", parts)
 
 
-def fig7_case2(bench: Bench) -> str:
+def fig7_case2(at: AtAngle) -> str:
     """System forces P1 to P8."""
-    v, p, (phi, coupler, psi) = _points(bench)
+    v, p = _points(at)
     parts = [
         *_linkage(v, p),
         v.dot(p["P"], 11, "#7b8794"),
@@ -161,12 +158,12 @@ def fig7_case2(bench: Bench) -> str:
         *_force(v, p["P"], math.pi / 2, "P₂", (0, -12)),
         v.arc(p["P"], 0.8, -2.4, -0.4),
         v.text(p["P"], "P₃", 14, 30),
-        *_force(v, p["A"], phi, "P₄", (22, 4)),
-        *_force(v, p["A"], phi + math.pi / 2, "P₅", (-12, -6)),
+        *_force(v, p["A"], at.phi, "P₄", (22, 4)),
+        *_force(v, p["A"], at.phi + math.pi / 2, "P₅", (-12, -6)),
         v.arc(p["A"], 0.8, -2.6, -0.6),
         v.text(p["A"], "P₆", 22, 26),
-        *_force(v, p["B"], coupler, "P₇", (14, -6)),
-        *_force(v, p["B"], psi, "P₈", (0, -12)),
+        *_force(v, p["B"], at.coupler, "P₇", (14, -6)),
+        *_force(v, p["B"], at.psi, "P₈", (0, -12)),
         label((230, 395), "P₁ to P₈ in the directions of the element coordinates", 13),
     ]
     return sheet(470, 420, "Case 2: system forces", parts)

@@ -129,7 +129,7 @@ _STANDS = (Verdict.REPRODUCED, Verdict.HOLDS, Verdict.TAKEN_OVER)
 
 def _rests_on(bench: Bench, text: str, ids: tuple[str, ...], verdict: Verdict = Verdict.HOLDS) -> Found:
     """Works the rows anew, and stands only while all of them do."""
-    found = {name: _ROWS[name].find(bench).verdict for name in ids}
+    found = {name: _ROWS[name].found(bench).verdict for name in ids}
     lines = (f"{name}: {result}" for name, result in found.items())
     return judged(all(result in _STANDS for result in found.values()), text, *lines, verdict=verdict)
 
