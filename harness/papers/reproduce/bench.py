@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,11 @@ PHI, PSI = math.radians(77), math.radians(75)
 PARTS = ("crank", "pawl", "wheel")
 #: The first impact comes before this time [s].
 AFTER_IMPACT = 1.2
+
+#: nt and beta_0 [deg] of the twenty wheels; those that follow each other by nt, and by beta_0.
+CASES = tuple((count, angle) for count in TOOTH_COUNTS for angle in SLOPE_ANGLES_DEG)
+STEPS_OF_COUNT = tuple(((m, angle), (n, angle)) for angle in SLOPE_ANGLES_DEG for m, n in pairwise(TOOTH_COUNTS))
+STEPS_OF_ANGLE = tuple(((count, a), (count, b)) for count in TOOTH_COUNTS for a, b in pairwise(SLOPE_ANGLES_DEG))
 
 
 @dataclass(frozen=True)
@@ -127,6 +133,11 @@ class Bench:
     def wheel(self, count: int, angle_deg: int) -> Wheel:
         """One of the study's wheels."""
         return next(w for w in self.study.wheels if (w.tooth_count, w.slope_angle_deg) == (count, angle_deg))
+
+    @property
+    def stresses(self) -> dict[tuple[int, int], float]:
+        """Sigma_max of each wheel [Pa], by nt and beta_0 [deg]."""
+        return {case: self.wheel(*case).stress_max for case in CASES}
 
     def parameter(self, name: str, wheel: Wheel | None = None) -> float:
         """A parameter of the FMU, of a wheel of the study."""
@@ -333,9 +344,6 @@ def _relative(found: FloatArray, wanted: FloatArray) -> float:
 
 # Geometry of the paper's ratchet by hand: where the tip starts, the angle of Fig. 7, mass and inertia of a wheel.
 # Points of the plane are complex numbers here.
-
-#: nt and beta_0 [deg] of the twenty wheels.
-CASES = tuple((count, angle) for count in TOOTH_COUNTS for angle in SLOPE_ANGLES_DEG)
 
 _STEEL, _THICKNESS = 7850.0, 0.02
 #: Crank pin and root P0 at the start [m].
