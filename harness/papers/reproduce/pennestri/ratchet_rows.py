@@ -220,7 +220,8 @@ ROWS = (
             bench,
             "fig04_nomenclature",
             ("φ", "γ", "ψ", "d = 0.130", "a = 0.110", "b = 0.100", "r = 0.100"),
-            "redrawn from Table 1 and the start: fig04_nomenclature.svg; angles are absolute, the paper's arrows are lost",
+            "redrawn from Table 1 and the start: fig04_nomenclature.svg; angles are absolute, the paper's arrows are "
+            "lost",
         ),
     ),
     Row("P-fig5", "Fig. 5", "The tooth: θ, h, L, β₀.", "drawing lost", (SAWTOOTH,), _geometry),
