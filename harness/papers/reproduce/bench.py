@@ -297,15 +297,16 @@ def off_by_scale(found: FloatArray, wanted: FloatArray) -> float:
     return off_by(found / scale, wanted / scale)
 
 
-def first_derivative(function: Callable[[float], Any], step: float) -> FloatArray:
-    """At 0, by central differences of eighth order."""
-    return np.asarray(sum(w * (function(k * step) - function(-k * step)) for k, w in enumerate(_FIRST, 1)) / step)
+def first_derivative(function: Callable[[Any], Any], at: Any, step: float, axis: Any = 1) -> FloatArray:
+    """At a place, by central differences of eighth order, along an axis if the place is an array of coordinates."""
+    near = ((w, k * step * axis) for k, w in enumerate(_FIRST, 1))
+    return np.asarray(sum(w * (function(at + d) - function(at - d)) for w, d in near) / step)
 
 
-def second_derivative(function: Callable[[float], Any], step: float) -> FloatArray:
-    """At 0, by central differences of eighth order."""
-    around = sum(w * (function(k * step) + function(-k * step)) for k, w in enumerate(_SECOND[1:], 1))
-    return np.asarray((_SECOND[0] * function(0) + around) / step**2)
+def second_derivative(function: Callable[[Any], Any], at: Any, step: float) -> FloatArray:
+    """At a place, by central differences of eighth order."""
+    around = sum(w * (function(at + k * step) + function(at - k * step)) for k, w in enumerate(_SECOND[1:], 1))
+    return np.asarray((_SECOND[0] * function(at) + around) / step**2)
 
 
 def joint_deviations(
@@ -324,17 +325,17 @@ def joint_deviations(
     """
     rows = equations.at(q, time, rate)
 
-    def phi(place: FloatArray, when: float) -> FloatArray:
+    def phi(place: FloatArray, when: float = time) -> FloatArray:
         return np.array(equations.at(place, when).residual)
 
     def along(t: float) -> FloatArray:
         return phi(q + rate * t + acceleration * t * t / 2, time + t)
 
-    columns = [first_derivative(lambda t, axis=axis: phi(q + t * axis, time), _STEP) for axis in np.eye(len(q))]
+    columns = [first_derivative(phi, q, _STEP, axis) for axis in np.eye(len(q))]
     return (
         _relative(np.transpose(columns), rows.jacobian),
-        _relative(first_derivative(along, _STEP), rows.jacobian @ rate - rows.nu),
-        _relative(second_derivative(along, _STEP), rows.jacobian @ acceleration - rows.gamma),
+        _relative(first_derivative(along, 0.0, _STEP), rows.jacobian @ rate - rows.nu),
+        _relative(second_derivative(along, 0.0, _STEP), rows.jacobian @ acceleration - rows.gamma),
     )
 
 

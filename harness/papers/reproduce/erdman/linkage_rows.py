@@ -73,7 +73,7 @@ def _case2(at: AtAngle) -> Found:
         masses, (arm, arm, coupler), (arm.end, arm.start, coupler.end), (0, 3, 6), strict=True
     ):
         way = here.pose.place(member.body, point)
-        acceleration = second_derivative(lambda k, way=way: way[at.number + int(k)], 1) / step**2
+        acceleration = second_derivative(way.__getitem__, at.number, 1) / step**2
         off.append(float(np.abs(forces[x : x + 2] + mass * acceleration).max()))
     diagonal = [float(mass_matrix(here)[0][at.columns[x], :].sum()) for x in (0, 3, 6)]
     deviation = 1e3 * float(quasi_static(here).deviation("arm.end").max())

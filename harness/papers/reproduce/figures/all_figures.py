@@ -81,9 +81,11 @@ def write_figures(drawn: dict[str, str], folder: Path) -> list[Path]:
     Raises:
         UsageError: the disk refuses.
     """
-    return [
-        write_text(folder / f"{name}.svg", lambda file, text=text: file.write(text)) for name, text in drawn.items()
-    ]
+    return [_written(folder / f"{name}.svg", text) for name, text in drawn.items()]
+
+
+def _written(path: Path, text: str) -> Path:
+    return write_text(path, lambda file: file.write(text))
 
 
 # Findings of figures whose drawings are lost: what is drawn instead is there, and shows what it should.

@@ -46,7 +46,7 @@ def _point_of_cam(alpha: float) -> FloatArray:
 
 def _boundary(_bench: Bench) -> Found:
     angles = np.linspace(0.05, 2.0, 14)
-    slopes = [first_derivative(lambda t, alpha=alpha: _point_of_cam(alpha + t), 1e-3) for alpha in angles]
+    slopes = [first_derivative(_point_of_cam, alpha, 1e-3) for alpha in angles]
     return within(
         float(np.abs(np.subtract(slopes, [cam_tangent(float(alpha)) for alpha in angles])).max()),
         1e-9,

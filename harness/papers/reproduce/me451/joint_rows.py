@@ -112,7 +112,7 @@ def _rack(free: Free) -> FloatArray:
 
 def egg_tangent(alpha: float) -> complex:
     """Derivative of the egg's point [m], by differences."""
-    return complex(first_derivative(lambda t: egg(alpha + t), 1e-3))
+    return complex(first_derivative(egg, alpha, 1e-3))
 
 
 def _cam(free: Free) -> FloatArray:

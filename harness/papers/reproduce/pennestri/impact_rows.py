@@ -38,8 +38,7 @@ def distance_to_face(q: FloatArray) -> float:
 
 def rows_by_hand(q: FloatArray) -> FloatArray:
     """Derivatives of hinges, slope and face in x, y and angle of crank, pawl and wheel, shape (8, 9)."""
-    columns = [first_derivative(lambda t, axis=axis: _conditions(q + t * axis), 1e-4) for axis in np.eye(9)]
-    return np.transpose(columns)
+    return np.transpose([first_derivative(_conditions, q, 1e-4, axis) for axis in np.eye(9)])
 
 
 def _conditions(q: FloatArray) -> FloatArray:
@@ -63,7 +62,7 @@ def _distances(q: FloatArray) -> tuple[float, float]:
 
 def _face_rate(hit: AtImpact) -> float:
     """Of that distance just before the impact, by differences [m/s]."""
-    return float(first_derivative(lambda t: distance_to_face(hit.q + t * hit.before), 1e-4))
+    return float(first_derivative(distance_to_face, hit.q, 1e-4, hit.before))
 
 
 def _eq4(hit: AtImpact) -> Found:

@@ -57,7 +57,7 @@ def swings(times: FloatArray) -> list[FloatArray]:
 
 def stress(xi: FloatArray, eta: list[FloatArray]) -> FloatArray:
     """Sigma of eqs (13) and (16) for a_1 = 1, without its sign, shape (places, times)."""
-    return np.sum([np.outer((1 - xi) / 2 * (2 + 6 * a * xi), swing) for a, swing in zip(RATIOS, eta, strict=True)], 0)
+    return np.asarray(np.transpose([(1 - xi) / 2 * (2 + 6 * ratio * xi) for ratio in RATIOS]) @ np.array(eta))
 
 
 def largest() -> tuple[float, float]:
@@ -88,7 +88,7 @@ def times_of(modes: tuple[BeamMode, ...]) -> FloatArray:
 
 def swing(mode: BeamMode, speed: float, t: FloatArray) -> FloatArray:
     """Eta of one mode, of shape (times,)."""
-    return damped_response(np.array([mode.natural_frequency]), STEEL.damping_ratio, speed, t)[0]
+    return np.asarray(damped_response(np.array([mode.natural_frequency]), STEEL.damping_ratio, speed, t)[0])
 
 
 def _eq8(tooth: WedgeTooth, speed: float) -> Found:
@@ -138,11 +138,11 @@ def _left_over(mode: BeamMode, speed: float) -> float:
     c, h = 2 * STEEL.damping_ratio * math.sqrt(mode.stiffness * mode.mass), 0.01 / mode.natural_frequency
     t = np.linspace(4, 300, 100) * h
 
-    def eta(k: float) -> FloatArray:
-        return swing(mode, speed, t + k)
+    def eta(when: FloatArray) -> FloatArray:
+        return swing(mode, speed, when)
 
-    spring = mode.stiffness * eta(0.0)
-    left = mode.mass * second_derivative(eta, h) + c * first_derivative(eta, h) + spring
+    spring = mode.stiffness * eta(t)
+    left = mode.mass * second_derivative(eta, t, h) + c * first_derivative(eta, t, h) + spring
     return float(np.abs(left).max() / np.abs(spring).max())
 
 
@@ -193,7 +193,7 @@ def _eq13(bench: Bench) -> Found:
     tooth, speed = bench.struck
     modes = ritz_modes(tooth, STEEL)
     x, t = XI * tooth.length, times_of(modes)
-    curvatures = [second_derivative(lambda k, mode=mode: mode.shape(XI + k), 1e-3) / tooth.length**2 for mode in modes]
+    curvatures = [second_derivative(mode.shape, XI, 1e-3) / tooth.length**2 for mode in modes]
     bend = sum(np.outer(u, swing(mode, speed, t)) for u, mode in zip(curvatures, modes, strict=True))
     height = ((tooth.length - x) * math.tan(tooth.apex_angle))[:, None]
     moment = -STEEL.youngs_modulus * tooth.thickness / 12 * height**3 * bend
