@@ -15,8 +15,9 @@ from mechanism_fmu.slides import CAM
 
 from ...run.checks import Verdict
 from ..study.wheels import SLOPE_ANGLES_DEG
-from .bench import CASES, CRANK, PAWL, RADIUS, AtAngle, Bench, gamma_on_slope, slope_gap, solid_wheel
+from .bench import CASES, CRANK, PAWL, RADIUS, AtAngle, Bench
 from .erdman.flexibility_rows import bprime, length_of, pin_b
+from .pennestri.wheel_by_hand import gamma_on_slope, slope_gap, solid_wheel
 from .row import Found, Row, judged
 
 # Misprints: what is printed and cannot be right, each with a proof by calculation.

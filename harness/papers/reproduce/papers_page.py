@@ -111,19 +111,14 @@ def judgements(made: Reproduction) -> str:
 
 
 def _proof_of_page(result: Result) -> str:
-    row, found = result.row, result.found
+    row, said = result.row, result.found.ours
     return "\n".join(
-        [
+        (
             f"**{row.id}** {row.place}: {row.says} Printed: {row.printed}.",
-            f"{_capital(found.ours)}.\n",
-            *(f"- {line}" for line in found.worked),
-            f"- shown by `{row.shown_by}`\n",
-        ]
+            f"{said[0].upper()}{said[1:]}.\n",
+            *(f"- {line}" for line in (*result.found.worked, f"shown by `{row.shown_by}`\n")),
+        )
     )
-
-
-def _capital(text: str) -> str:
-    return text[0].upper() + text[1:]
 
 
 def _choices(made: Reproduction) -> str:
@@ -170,15 +165,9 @@ def _figures(document: Document, drawn: dict[str, str]) -> str:
 
 def _worked_of_page(result: Result) -> str:
     row, found = result.row, result.found
-    return "\n".join(
-        [
-            f"## {row.id}: {row.place}\n",
-            f"{row.says} Printed: {row.printed}.\n",
-            f"{_verdict_of_page(result)}: {found.ours}\n",
-            *(f"- {line}" for line in found.worked),
-            f"- code: {', '.join(row.code)}\n",
-        ]
-    )
+    said = f"{row.says} Printed: {row.printed}.\n\n{_verdict_of_page(result)}: {found.ours}\n"
+    worked = (f"- {line}" for line in (*found.worked, f"code: {', '.join(row.code)}\n"))
+    return "\n".join((f"## {row.id}: {row.place}\n", said, *worked))
 
 
 def _table(headings: Sequence[str], lines: Iterable[Sequence[str]], right: Sequence[int] = ()) -> str:

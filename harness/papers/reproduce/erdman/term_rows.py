@@ -323,9 +323,7 @@ TERMS = (
         _drawn("erdman_fig4_case1", ("x₁", "x₈", "P₁", "P₂", "P₃"), _SIZES),
     ),
     _figure(
-        "7",
-        "Case 2: system forces P1 to P8",
-        _drawn("erdman_fig7_case2", tuple(f"P{k}" for k in "₁₂₃₄₅₆₇₈"), _SIZES),
+        "7", "Case 2: system forces P1 to P8", _drawn("erdman_fig7_case2", tuple(f"P{k}" for k in "₁₂₃₄₅₆₇₈"), _SIZES)
     ),
     _figure("5", "Case 1: forces on the coupler", _LOST),
     _figure("6", "Case 1: forces on element 2", _LOST),

@@ -94,14 +94,7 @@ def _slot(_bench: Bench) -> Found:
 
 
 ROWS = (
-    Row(
-        "S-boundary",
-        "Boundary of a convex body",
-        "Place and tangent over α.",
-        "r^P(α), g(α)",
-        (SLIDES,),
-        _boundary,
-    ),
+    Row("S-boundary", "Boundary of a convex body", "Place and tangent over α.", "r^P(α), g(α)", (SLIDES,), _boundary),
     Row(
         "S-convex",
         "Boundary of a convex body",

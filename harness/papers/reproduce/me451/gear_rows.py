@@ -234,14 +234,7 @@ ROWS = (
         ("docs/joints/rack_and_pinion.svg",),
         lambda _bench: redrawn_joint("rack_and_pinion.svg"),
     ),
-    Row(
-        "S-rack-limit",
-        "Rack and pinion",
-        "It is a pair of gears with R_i → ∞.",
-        "in words",
-        (GEARS,),
-        _rack_limit,
-    ),
+    Row("S-rack-limit", "Rack and pinion", "It is a pair of gears with R_i → ∞.", "in words", (GEARS,), _rack_limit),
     Row(
         "S-composite",
         "Composite joints",

@@ -186,40 +186,10 @@ def _others(bench: Bench) -> Found:
 
 
 ROWS = (
-    Row(
-        "P-cases",
-        "section 5.1",
-        "Wheels of 10 to 25 teeth, 85° to 105°.",
-        "by 5 each",
-        (CASES,),
-        _cases,
-    ),
-    Row(
-        "P-thickness",
-        "section 5.1",
-        "Thickness of the tooth.",
-        "b = 0.02 m",
-        (PAPER,),
-        _thickness,
-    ),
-    Row(
-        "P-constant",
-        "section 5.1",
-        "All else is kept constant.",
-        "in words",
-        (CASES,),
-        _constant,
-        STUDY,
-    ),
-    Row(
-        "P-fig8",
-        "Fig. 8",
-        "Wheel shapes at β₀ = 95°.",
-        "drawing lost",
-        (FIGURES, CASES),
-        _fig8,
-        STUDY,
-    ),
+    Row("P-cases", "section 5.1", "Wheels of 10 to 25 teeth, 85° to 105°.", "by 5 each", (CASES,), _cases),
+    Row("P-thickness", "section 5.1", "Thickness of the tooth.", "b = 0.02 m", (PAPER,), _thickness),
+    Row("P-constant", "section 5.1", "All else is kept constant.", "in words", (CASES,), _constant, STUDY),
+    Row("P-fig8", "Fig. 8", "Wheel shapes at β₀ = 95°.", "drawing lost", (FIGURES, CASES), _fig8, STUDY),
     Row("P-others", "claim, section 5.1", "The other angles look alike.", "in words", (FIGURES,), _others),
     Row("P-fig9", "Fig. 9", "Tooth shapes.", "drawing lost", (FIGURES,), _fig9, STUDY),
     Row(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+from collections.abc import Callable
 
 import numpy as np
 
@@ -220,31 +221,22 @@ def _fig2(bench: Bench) -> Found:
     )
 
 
+def at_impact(find: Callable[[AtImpact], Found]) -> Callable[[Bench], Found]:
+    """A finding about the base case at its first impact."""
+    return lambda bench: find(bench.impact)
+
+
 ROWS = (
     Row("P-fig1", "Fig. 1", "Impact between bodies: the distance s.", "drawing lost", (IMPACT,), _fig1),
-    Row(
-        "P-eq4",
-        "eq (4)",
-        "The jump of the rates, with impulses.",
-        "one linear system",
-        (IMPACT,),
-        lambda bench: _eq4(bench.impact),
-    ),
-    Row(
-        "P-eq5",
-        "eq (5)",
-        "The blocks of A.",
-        "A_11 = M, A_22 = 0, A_21 = A_12ᵀ",
-        (IMPACT,),
-        lambda bench: _eq5(bench.impact),
-    ),
+    Row("P-eq4", "eq (4)", "The jump of the rates, with impulses.", "one linear system", (IMPACT,), at_impact(_eq4)),
+    Row("P-eq5", "eq (5)", "The blocks of A.", "A_11 = M, A_22 = 0, A_21 = A_12ᵀ", (IMPACT,), at_impact(_eq5)),
     Row(
         "P-inverse",
         "section 3, no number",
         "The partitioned inverse of A.",
         "A⁻¹ in four blocks",
         (IMPACT,),
-        lambda bench: _partitioned(bench.impact),
+        at_impact(_partitioned),
     ),
     Row(
         "P-partition",
@@ -252,25 +244,18 @@ ROWS = (
         "(4) can be solved efficiently by its partition.",
         "in words",
         (IMPACT,),
-        lambda bench: _operations(bench.impact),
+        at_impact(_operations),
     ),
     Row("P-eq6", "eq (6)", "The right-hand side v.", "(0, …, −(1 + e) ∂s/∂q q')", (IMPACT,), _eq6),
-    Row("P-D1", "section 3, no number", "D₁.", "D₁ = A_21 M^-1/2", (IMPACT,), lambda bench: _d1(bench.impact)),
-    Row(
-        "P-eq7",
-        "eq (7)",
-        "The jump of the rates.",
-        "Δq' = M^-1/2 D₁⁺ v",
-        (IMPACT, MINIMUM_NORM),
-        lambda bench: _eq7(bench.impact),
-    ),
+    Row("P-D1", "section 3, no number", "D₁.", "D₁ = A_21 M^-1/2", (IMPACT,), at_impact(_d1)),
+    Row("P-eq7", "eq (7)", "The jump of the rates.", "Δq' = M^-1/2 D₁⁺ v", (IMPACT, MINIMUM_NORM), at_impact(_eq7)),
     Row(
         "P-features",
         "claim, section 3",
         "(7) shares the features of (3): redundant constraints, varying structure.",
         "in words",
         (IMPACT, MINIMUM_NORM),
-        lambda bench: _shares(bench.impact),
+        at_impact(_shares),
     ),
     Row(
         "P-fig2",

@@ -15,6 +15,7 @@ from ..row import Found, Row, Verdict, within
 
 IMPACT, ACCELERATION = "mechanism_fmu/engine/contacts/impact.py", "mechanism_fmu/engine/dynamics/acceleration.py"
 MINIMUM_NORM = "mechanism_fmu/engine/dynamics/minimum_norm.py"
+FORMULA = (ACCELERATION, MINIMUM_NORM)
 
 #: Diagonal of M by Table 2, inertias in 10^-3 kg m2.
 TABLE_2 = np.array([0.1, 0.1, 0.09e-3, 0.0976, 0.0976, 0.0853e-3, 5.6264, 5.6264, 32.7948e-3])
@@ -147,7 +148,7 @@ ROWS = (
         "eq (3)",
         "Acceleration by the pseudoinverse.",
         "q'' = q''_f + M^-1/2 D⁺ (γ − Ψ_q q''_f)",
-        (ACCELERATION, MINIMUM_NORM),
+        FORMULA,
         _eq3,
     ),
     Row(

@@ -9,24 +9,13 @@ import numpy as np
 from mechanism_fmu.stress import wedge_of_sawtooth
 
 from ...study.wheels import SLOPE_ANGLES_DEG, TOOTH_COUNTS
-from ..bench import (
-    CASES,
-    CRANK,
-    HINGES,
-    PARTS,
-    PAWL,
-    RADIUS,
-    SLOPE_RATIO,
-    Bench,
-    alpha_star,
-    each_off_by,
-    gamma_on_slope,
-    tooth,
-)
+from ..bench import CASES, CRANK, HINGES, PARTS, PAWL, RADIUS, SLOPE_RATIO, Bench, each_off_by, tooth
 from ..figures.all_figures import redrawn
 from ..row import RUN, Found, Row, Verdict, judged, within
+from .wheel_by_hand import alpha_star, gamma_on_slope
 
 PARAMETERS, SAWTOOTH = "models/ratchet/ports.py", "mechanism_fmu/model/sawtooth.py"
+BEAM = (SAWTOOTH, "mechanism_fmu/stress/tooth.py")
 
 
 def _table1(bench: Bench) -> Found:
@@ -226,14 +215,7 @@ ROWS = (
     ),
     Row("P-fig5", "Fig. 5", "The tooth: θ, h, L, β₀.", "drawing lost", (SAWTOOTH,), _geometry),
     Row("P-slope", "section 5", "Length of the slope.", "L = 1.115 h", (SAWTOOTH,), _slope),
-    Row(
-        "P-fig7",
-        "Fig. 7",
-        "Two shapes of beam, by α* = α + α₂ below or above 90°.",
-        "drawing lost",
-        (SAWTOOTH, "mechanism_fmu/stress/tooth.py"),
-        _fig7,
-    ),
+    Row("P-fig7", "Fig. 7", "Two shapes of beam, by α* = α + α₂ below or above 90°.", "drawing lost", BEAM, _fig7),
     Row("P-length", "section 5", "Length l of the beam.", "a function of nt and β₀", (SAWTOOTH,), _length),
     Row(
         "P-velocity",
