@@ -22,6 +22,8 @@ from ..row import Found, Row, Verdict, judged, within
 from .gear_rows import SLIDES
 from .joint_rows import PARTS, egg_tangent, two_bodies
 
+PROFILES = ("mechanism_fmu/kinematics/profiles.py",)
+
 
 def _tangents(_bench: Bench) -> Found:
     angles = {degrees: math.radians(degrees) for degrees in (0, 15, 30, 60, 110, 200)}
@@ -95,14 +97,7 @@ def _slot(_bench: Bench) -> Found:
 
 ROWS = (
     Row("S-boundary", "Boundary of a convex body", "Place and tangent over α.", "r^P(α), g(α)", (SLIDES,), _boundary),
-    Row(
-        "S-convex",
-        "Boundary of a convex body",
-        "Assumption: the bodies are convex.",
-        "in words",
-        ("mechanism_fmu/kinematics/profiles.py",),
-        _convex,
-    ),
+    Row("S-convex", "Boundary of a convex body", "Assumption: the bodies are convex.", "in words", PROFILES, _convex),
     Row(
         "S-coordinates",
         "Cam–follower, point–follower",
