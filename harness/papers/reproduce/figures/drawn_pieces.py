@@ -116,8 +116,7 @@ def box(x: float, y: float, width: float, lines: Sequence[str], kind: str = "ste
         "end": f'<rect {at} rx="{height / 2:g}" fill="#e3f1e6"',
         "step": f'<rect {at} rx="4" fill="#eef3f7"',
     }[kind]
-    first = half - 9 * (len(lines) - 1)
-    texts = "".join(_plain((x, first + 18 * k), line) for k, line in enumerate(lines))
+    texts = "".join(_plain((x, half + 18 * k - 9 * (len(lines) - 1)), line) for k, line in enumerate(lines))
     return f'{shape} stroke="{INK}" stroke-width="1.3"/>{texts}'
 
 
@@ -133,13 +132,12 @@ def flow(points: Sequence[Point], text: str = "", at: Point | None = None) -> st
     return line + _head(points[-2], points[-1], INK) + said
 
 
-def sheet(width: int, height: int, title: str, parts: Sequence[str]) -> str:
+def sheet(width: int, height: int, title: str, *parts: str) -> str:
     """The whole SVG text."""
-    size = f'viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
     return "\n".join(
         [
-            f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="{_FONT}" fill="none" '
-            'stroke-linejoin="round" stroke-linecap="round">',
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
+            f'height="{height}" font-family="{_FONT}" fill="none" stroke-linejoin="round" stroke-linecap="round">',
             f"<title>{escape(title)}</title>",
             f'<rect width="{width}" height="{height}" fill="#ffffff"/>',
             *parts,

@@ -11,7 +11,10 @@ from .drawn_pieces import ACCENT, INK, SOFT, Point, View, label, middle, polar, 
 def fig1_elements() -> str:
     """Cantilever, two-force member, beam on two supports with an end moment."""
     a, b, c = (View((70, y), 1.0) for y in (80, 200, 300))
-    parts = [
+    return sheet(
+        460,
+        355,
+        "Models for elastic analysis",
         a.wall((0, -30), (0, 30)),
         a.line([(0, 0), (260, 0)], INK, 5),
         a.arrow((262, 0), (318, 0), ACCENT),
@@ -39,14 +42,16 @@ def fig1_elements() -> str:
         c.text((40, 32), "f₂, d₂"),
         c.text((130, 0), "A, E, I, l", 0, 22),
         label((30, 262), "(c)", 14),
-    ]
-    return sheet(460, 355, "Models for elastic analysis", parts)
+    )
 
 
 def fig2_elements() -> str:
     """Torsional member, and spatial link with a revolute and a spherical joint."""
     a, b = View((70, 80), 1.0), View((70, 200), 1.0)
-    parts = [
+    return sheet(
+        460,
+        250,
+        "Models for elastic analysis: torsion, spatial link",
         a.wall((0, -30), (0, 30)),
         a.line([(0, 0), (260, 0)], INK, 9),
         a.arc((260, 0), 28, -1.1, 1.1),
@@ -64,8 +69,7 @@ def fig2_elements() -> str:
         b.text((260, 0), "S", 0, 20),
         b.text((130, 0), "A, E, I, l", 0, 22),
         label((30, 150), "(b)", 14),
-    ]
-    return sheet(460, 250, "Models for elastic analysis: torsion, spatial link", parts)
+    )
 
 
 def _points(at: AtAngle) -> tuple[View, dict[str, Point]]:
@@ -97,7 +101,10 @@ def _linkage(v: View, p: dict[str, Point]) -> list[str]:
 def fig3_generator(at: AtAngle) -> str:
     """The four-bar path generator with its disk."""
     v, p = _points(at)
-    parts = [
+    return sheet(
+        470,
+        420,
+        "Four-bar path generator",
         *_linkage(v, p),
         v.dot(p["P"], 13, "#7b8794"),
         v.text(p["P"], "P", 22, -8),
@@ -109,14 +116,16 @@ def fig3_generator(at: AtAngle) -> str:
         v.line([p["A0"], (2.2, 0.0)], SOFT, 0.8, "5 3"),
         v.arc(p["A0"], 1.4, 0.0, at.phi, "φ", 12),
         label((230, 395), "Case I: disk mass at P; elements 1 to 4 are elastic, 3 is the input", 13),
-    ]
-    return sheet(470, 420, "Four-bar path generator", parts)
+    )
 
 
 def fig4_case1(at: AtAngle) -> str:
     """Element coordinates x1 to x8 and system forces P1 to P3."""
     v, p = _points(at)
-    parts = [
+    return sheet(
+        470,
+        425,
+        "Case 1: element coordinates and system forces",
         *_linkage(v, p),
         *_force(v, p["P"], 0.0, "P₁", (24, 0)),
         *_force(v, p["P"], math.pi / 2, "P₂", (0, -12)),
@@ -128,14 +137,16 @@ def fig4_case1(at: AtAngle) -> str:
         *_along(v, p["B0"], p["B"], at.psi, "x₈", 0),
         label((230, 385), "x₁, x₄, x₇, x₈ axial; x₂, x₅ transverse; x₃, x₆ rotations", 13),
         label((230, 405), "order of this project; the document's arrows are lost", 13),
-    ]
-    return sheet(470, 425, "Case 1: element coordinates and system forces", parts)
+    )
 
 
 def fig7_case2(at: AtAngle) -> str:
     """System forces P1 to P8."""
     v, p = _points(at)
-    parts = [
+    return sheet(
+        470,
+        420,
+        "Case 2: system forces",
         *_linkage(v, p),
         v.dot(p["P"], 11, "#7b8794"),
         v.dot(p["A"], 8, "#7b8794"),
@@ -151,8 +162,7 @@ def fig7_case2(at: AtAngle) -> str:
         *_force(v, p["B"], at.coupler, "P₇", (14, -6)),
         *_force(v, p["B"], at.psi, "P₈", (0, -12)),
         label((230, 395), "P₁ to P₈ in the directions of the element coordinates", 13),
-    ]
-    return sheet(470, 420, "Case 2: system forces", parts)
+    )
 
 
 def _force(v: View, at: Point, angle: float, text: str, shift: Point) -> list[str]:

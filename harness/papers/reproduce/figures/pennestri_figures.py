@@ -46,7 +46,10 @@ def apex_of(shape: Sawtooth) -> tuple[float, float]:
 def fig01_gap() -> str:
     """The tip of a body at the distance s from the boundary of another."""
     v, tip = View((60, 230), 1.0), (165.0, 60.0)
-    parts = [
+    return sheet(
+        480,
+        330,
+        "Impact between bodies",
         v.area([(20, 20), (70, 0), (150, 15), (165, 60), (120, 90), (50, 80)]),
         v.area([(250, -20), (250, 150), (330, 170), (390, 110), (370, 10), (310, -30)], "#f0dca8"),
         v.line([(250, -40), (250, 175)], SOFT, 1.0, "7 4"),
@@ -59,8 +62,7 @@ def fig01_gap() -> str:
         v.text((90, 45), "body i"),
         v.text((315, 70), "body j"),
         label((230, 300), "s > 0 open, s = 0 impact; s' = (∂s/∂q) q' < 0 before it, −e s' after it", 13),
-    ]
-    return sheet(480, 330, "Impact between bodies", parts)
+    )
 
 
 def fig04_nomenclature() -> str:
@@ -69,7 +71,10 @@ def fig04_nomenclature() -> str:
     wheel, hinge, root = (0.0, 0.0), (HINGES, 0.0), polar((0.0, 0.0), RADIUS, PSI)
     pin = polar(hinge, CRANK, PHI)
     tip = polar(pin, PAWL, gamma)
-    parts = [
+    return sheet(
+        560,
+        555,
+        "Nomenclature",
         v.area(wheel_points(10, 90, PSI), FILL),
         v.line([wheel, root], SOFT, 1.2),
         v.line([hinge, pin], INK, 5),
@@ -97,8 +102,7 @@ def fig04_nomenclature() -> str:
             f"start: φ = 77°, ψ = 75°, γ = {math.degrees(gamma):.2f}° solved at nt = 10, β₀ = 90°; lengths in m",
             13,
         ),
-    ]
-    return sheet(560, 555, "Nomenclature", parts)
+    )
 
 
 def fig05_tooth() -> str:
@@ -109,7 +113,10 @@ def fig05_tooth() -> str:
     p0, apex, p1 = polar(hinge, RADIUS, up), polar(hinge, reach, up + ahead), polar(hinge, RADIUS, up - pitch)
     inner = polar(hinge, RADIUS * 0.66, up), polar(hinge, RADIUS * 0.66, up - pitch)
     slope = direction(p0, apex)
-    parts = [
+    return sheet(
+        540,
+        465,
+        "Ratchet wheel tooth",
         v.area([inner[0], p0, apex, p1, inner[1]], FILL),
         v.line([p0, p1], SOFT, 1.1, "6 4"),
         v.size(p0, apex, "L = 1.115 h", 26),
@@ -126,15 +133,17 @@ def fig05_tooth() -> str:
         v.text(p1, "P₁", 18, 4),
         v.text(apex, "T", 4, -14),
         label((270, 440), "inner radius r; nt = 10, β₀ = 90°; θ at the wheel's hinge, drawn nearer", 13),
-    ]
-    return sheet(540, 465, "Ratchet wheel tooth", parts)
+    )
 
 
 def fig06_beam() -> str:
     """The wedge as a cantilever."""
     v = View((90, 180), 1.0)
     length, height = 300.0, 130.0
-    parts = [
+    return sheet(
+        480,
+        310,
+        "Cantilever beam model",
         v.wall((0, -18), (0, height + 18)),
         v.area([(0, 0), (0, height), (length, 0)], FILL),
         v.arrow((0, -34), (70, -34), SOFT),
@@ -147,15 +156,14 @@ def fig06_beam() -> str:
         v.arrow((length, 8), (length, 70), ACCENT),
         v.text((length, 82), "w(x, t), η'(0) = v_I"),
         label((240, 285), "thickness b = 0.02 m; A = b (l − x) tan α, I_n = b/12 (l − x)³ tan³α", 13),
-    ]
-    return sheet(480, 310, "Cantilever beam model", parts)
+    )
 
 
 def fig07_shapes() -> str:
     """Both shapes with what the wedge leaves out."""
     left, right = View((30, 270), 4300), View((365, 270), 3900)
-    parts = [*_shape_of(10, 90, left, "l = F"), *_shape_of(10, 105, right, "l = L cos α")]
-    return sheet(700, 345, "Shapes of ratchet wheel tooth", parts)
+    shapes = *_shape_of(10, 90, left, "l = F"), *_shape_of(10, 105, right, "l = L cos α")
+    return sheet(700, 345, "Shapes of ratchet wheel tooth", *shapes)
 
 
 def _shape_of(count: int, angle: float, v: View, named: str) -> list[str]:
@@ -217,7 +225,11 @@ def fig02_procedure() -> str:
     parts, tops, bottom = _column(_PROCEDURE)
     right, left = _MIDDLE + _WIDTH / 2, _MIDDLE - _WIDTH / 2
     y = [top + box_height(lines, kind) / 2 for top, (kind, lines) in zip(tops, _PROCEDURE, strict=True)]
-    parts += [
+    return sheet(
+        560,
+        int(bottom + 50),
+        "What the program does: motion with impacts",
+        *parts,
         # no change: end of the step
         flow([(right, y[5]), (right + 70, y[5]), (right + 70, y[3]), (right, y[3])], "no", (right + 16, y[5] - 12)),
         label((_MIDDLE + 20, tops[6] - 13), "yes", 12.5),
@@ -225,14 +237,13 @@ def fig02_procedure() -> str:
         label((_MIDDLE + 20, tops[8] - 13), "yes", 12.5),
         flow([(right, y[8]), (right + 110, y[8]), (right + 110, y[2]), (right, y[2])]),
         label((_MIDDLE, bottom + 26), "until the stop time; an FMU returns at each communication point", 13),
-    ]
-    return sheet(560, int(bottom + 50), "What the program does: motion with impacts", parts)
+    )
 
 
 def fig03_stress() -> str:
     """From an impact to the largest stress."""
     parts, _, bottom = _column(_STRESS)
-    return sheet(500, int(bottom + 20), "What the program does: stress recovery", parts)
+    return sheet(500, int(bottom + 20), "What the program does: stress recovery", *parts)
 
 
 def _column(boxes: Sequence[tuple[str, tuple[str, ...]]]) -> tuple[list[str], list[float], float]:

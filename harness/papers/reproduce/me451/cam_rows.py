@@ -48,9 +48,8 @@ def _point_of_cam(alpha: float) -> FloatArray:
 
 def _boundary(_bench: Bench) -> Found:
     angles = np.linspace(0.05, 2.0, 14)
-    slopes = [first_derivative(_point_of_cam, alpha, 1e-3) for alpha in angles]
     return within(
-        float(np.abs(np.subtract(slopes, [cam_tangent(float(alpha)) for alpha in angles])).max()),
+        max(float(np.abs(first_derivative(_point_of_cam, a, 1e-3) - cam_tangent(float(a))).max()) for a in angles),
         1e-9,
         "r^P = r + A (s + ρ e) and g = ∂r^P/∂α, by differences along the slides' cam",
         verdict=Verdict.ANSWERED,

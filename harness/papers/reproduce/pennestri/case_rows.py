@@ -80,14 +80,13 @@ def _radii(bench: Bench) -> dict[tuple[int, int], FloatArray]:
 def _fig8(bench: Bench) -> Found:
     radii = {count: radius for (count, angle), radius in _radii(bench).items() if angle == 95}
     worked = [f"{count} teeth: outer radius {1e3 * float(radius.max()):.3f} mm" for count, radius in radii.items()]
-    inner = [float(radius.min()) for radius in radii.values()]
     return redrawn(
         bench,
         "fig08_wheels",
         ("10 teeth", "15 teeth", "20 teeth", "25 teeth"),
         f"redrawn: fig08_wheels.svg; four wheels of inner radius 100 mm, {worked[0]}, {worked[-1]}",
         *worked,
-        true=max(abs(radius - 0.1) for radius in inner) < 1e-9 and len(worked) == 4,
+        true=max(abs(float(radius.min()) - 0.1) for radius in radii.values()) < 1e-9 and len(worked) == 4,
     )
 
 
@@ -105,8 +104,12 @@ def _fig9(bench: Bench) -> Found:
 
 def _fig11(bench: Bench) -> Found:
     stresses = bench.stresses.values()
-    text = f"redrawn: fig11_maximum.svg; from {min(stresses):.2f} to {max(stresses):.2f} Pa; the paper's scale is lost"
-    return redrawn(bench, "fig11_maximum", ("maximum stress", "25 teeth", "β₀ = 105°"), text)
+    return redrawn(
+        bench,
+        "fig11_maximum",
+        ("maximum stress", "25 teeth", "β₀ = 105°"),
+        f"redrawn: fig11_maximum.svg; from {min(stresses):.2f} to {max(stresses):.2f} Pa; the paper's scale is lost",
+    )
 
 
 def _place(bench: Bench) -> Found:
@@ -157,12 +160,11 @@ def _maxima(bench: Bench) -> Found:
 
 def _predict(bench: Bench) -> Found:
     """The chart, interpolated, against the run of a wheel between its points."""
-    table = np.array([[bench.stresses[n, a] for a in SLOPE_ANGLES_DEG] for n in TOOTH_COUNTS])
-    chart = RectBivariateSpline(TOOTH_COUNTS, SLOPE_ANGLES_DEG, np.log(table), kx=3, ky=3)
-    count, angle = _BETWEEN
-    read = float(np.exp(chart(count, angle)[0, 0]))
-    first = bench.first_impact(tooth_count=count, tooth_slope_angle=math.radians(angle))
-    calculated = float(first["stress_max"])
+    (count, angle), stresses = _BETWEEN, bench.stresses
+    logarithms = [[math.log(stresses[n, a]) for a in SLOPE_ANGLES_DEG] for n in TOOTH_COUNTS]
+    chart = RectBivariateSpline(TOOTH_COUNTS, SLOPE_ANGLES_DEG, logarithms, kx=3, ky=3)
+    read = math.exp(float(chart(count, angle)[0, 0]))
+    calculated = float(bench.first_impact(tooth_count=count, tooth_slope_angle=math.radians(angle))["stress_max"])
     off = abs(read / calculated - 1)
     return judged(
         off < 0.02,
