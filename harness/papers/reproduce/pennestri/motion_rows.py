@@ -15,7 +15,8 @@ from ..row import Found, Row, Verdict, within
 
 IMPACT, ACCELERATION = "mechanism_fmu/engine/contacts/impact.py", "mechanism_fmu/engine/dynamics/acceleration.py"
 MINIMUM_NORM = "mechanism_fmu/engine/dynamics/minimum_norm.py"
-FORMULA = (ACCELERATION, MINIMUM_NORM)
+#: Where eq (3) lives.
+EQ3 = (ACCELERATION, MINIMUM_NORM)
 
 #: Diagonal of M by Table 2, inertias in 10^-3 kg m2.
 TABLE_2 = np.array([0.1, 0.1, 0.09e-3, 0.0976, 0.0976, 0.0853e-3, 5.6264, 5.6264, 32.7948e-3])
@@ -143,14 +144,7 @@ ROWS = (
     ),
     Row("P-eq1", "eq (1)", "Motion with multipliers, as DAE.", "[M Ψ_qᵀ; Ψ_q 0]", (ACCELERATION,), _eq1),
     Row("P-eq2", "eq (2)", "M^-1/2, D and the free acceleration.", "D = Ψ_q M^-1/2", (ACCELERATION,), _eq2),
-    Row(
-        "P-eq3",
-        "eq (3)",
-        "Acceleration by the pseudoinverse.",
-        "q'' = q''_f + M^-1/2 D⁺ (γ − Ψ_q q''_f)",
-        FORMULA,
-        _eq3,
-    ),
+    Row("P-eq3", "eq (3)", "Acceleration by the pseudoinverse.", "q'' = q''_f + M^-1/2 D⁺ (γ − Ψ_q q''_f)", EQ3, _eq3),
     Row(
         "P-redundant",
         "claim, section 2",
