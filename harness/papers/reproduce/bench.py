@@ -133,7 +133,7 @@ class Bench:
         """One of the study's wheels."""
         return next(w for w in self.study.wheels if (w.tooth_count, w.slope_angle_deg) == (count, angle_deg))
 
-    @property
+    @cached_property
     def stresses(self) -> dict[tuple[int, int], float]:
         """Sigma_max of each wheel [Pa], by nt and beta_0 [deg]."""
         return {case: self.wheel(*case).stress_max for case in CASES}

@@ -9,8 +9,8 @@ from mechanism_fmu.stress import STEEL, ModeScaling, WedgeTooth, maximum_stress,
 from ..study.accuracy import SMALL, accuracy_findings
 from ..study.wheels import SLOPE_ANGLES_DEG, TOOTH_COUNTS
 from .bench import CASES, PAWL, STEPS_OF_ANGLE, STEPS_OF_COUNT, Bench, tooth
-from .pennestri.wheel_by_hand import alpha_star, solid_wheel
 from .row import Found, Row, Verdict, judged
+from .wheel_by_hand import alpha_star, solid_wheel
 
 _CHOICE = Verdict.CHOICE
 _BORE = 6.5e-3

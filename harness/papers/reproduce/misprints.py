@@ -17,8 +17,8 @@ from ...run.checks import Verdict
 from ..study.wheels import SLOPE_ANGLES_DEG
 from .bench import CASES, CRANK, PAWL, RADIUS, AtAngle, Bench
 from .erdman.flexibility_rows import bprime, length_of, pin_b
-from .pennestri.wheel_by_hand import gamma_on_slope, slope_gap, solid_wheel
 from .row import Found, Row, judged
+from .wheel_by_hand import gamma_on_slope, slope_gap, solid_wheel
 
 # Misprints: what is printed and cannot be right, each with a proof by calculation.
 

@@ -9,7 +9,7 @@ from itertools import chain
 from mechanism_fmu.model.sawtooth import Sawtooth
 
 from ..bench import CRANK, HINGES, PAWL, PHI, PSI, RADIUS, tooth
-from ..pennestri.wheel_by_hand import alpha_star, gamma_on_slope
+from ..wheel_by_hand import alpha_star, gamma_on_slope
 from .drawn_pieces import (
     ACCENT,
     FILL,

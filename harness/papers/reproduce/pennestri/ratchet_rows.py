@@ -12,7 +12,7 @@ from ...study.wheels import SLOPE_ANGLES_DEG, TOOTH_COUNTS
 from ..bench import CASES, CRANK, HINGES, PARTS, PAWL, RADIUS, SLOPE_RATIO, Bench, each_off_by, tooth
 from ..figures.all_figures import redrawn
 from ..row import RUN, Found, Row, Verdict, judged, within
-from .wheel_by_hand import alpha_star, gamma_on_slope
+from ..wheel_by_hand import alpha_star, gamma_on_slope
 
 PARAMETERS, SAWTOOTH = "models/ratchet/ports.py", "mechanism_fmu/model/sawtooth.py"
 BEAM = (SAWTOOTH, "mechanism_fmu/stress/tooth.py")

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from ..bench import CRANK, HINGES, PAWL, PHI, PSI, RADIUS, tooth
+from .bench import CRANK, HINGES, PAWL, PHI, PSI, RADIUS, tooth
 
 _STEEL, _THICKNESS = 7850.0, 0.02
 #: Crank pin and root P0 at the start [m].
