@@ -127,10 +127,7 @@ def fig4_case1(at: AtAngle) -> str:
         425,
         "Case 1: element coordinates and system forces",
         *_linkage(v, p),
-        *_force(v, p["P"], 0.0, "P₁", (24, 0)),
-        *_force(v, p["P"], math.pi / 2, "P₂", (0, -12)),
-        v.arc(p["P"], 0.8, -2.4, -0.4),
-        v.text(p["P"], "P₃", 14, 30),
+        *_at_path_point(v, p["P"]),
         *_along(v, p["A"], p["P"], at.coupler + math.pi / 6, "x₁, x₂, x₃", 22, True),
         *_along(v, p["A0"], p["A"], at.phi, "x₄, x₅", 12, True),
         *_along(v, p["A"], p["B"], at.coupler, "x₆, x₇", 8),
@@ -151,10 +148,7 @@ def fig7_case2(at: AtAngle) -> str:
         v.dot(p["P"], 11, "#7b8794"),
         v.dot(p["A"], 8, "#7b8794"),
         v.dot(p["B"], 8, "#7b8794"),
-        *_force(v, p["P"], 0.0, "P₁", (24, 0)),
-        *_force(v, p["P"], math.pi / 2, "P₂", (0, -12)),
-        v.arc(p["P"], 0.8, -2.4, -0.4),
-        v.text(p["P"], "P₃", 14, 30),
+        *_at_path_point(v, p["P"]),
         *_force(v, p["A"], at.phi, "P₄", (22, 4)),
         *_force(v, p["A"], at.phi + math.pi / 2, "P₅", (-12, -6)),
         v.arc(p["A"], 0.8, -2.6, -0.6),
@@ -163,6 +157,12 @@ def fig7_case2(at: AtAngle) -> str:
         *_force(v, p["B"], at.psi, "P₈", (0, -12)),
         label((230, 395), "P₁ to P₈ in the directions of the element coordinates", 13),
     )
+
+
+def _at_path_point(v: View, at: Point) -> list[str]:
+    """P1 to P3."""
+    forces = *_force(v, at, 0.0, "P₁", (24, 0)), *_force(v, at, math.pi / 2, "P₂", (0, -12))
+    return [*forces, v.arc(at, 0.8, -2.4, -0.4), v.text(at, "P₃", 14, 30)]
 
 
 def _force(v: View, at: Point, angle: float, text: str, shift: Point) -> list[str]:
