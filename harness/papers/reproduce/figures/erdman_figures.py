@@ -101,10 +101,7 @@ def _linkage(v: View, p: dict[str, Point]) -> list[str]:
 def fig3_generator(at: AtAngle) -> str:
     """The four-bar path generator with its disk."""
     v, p = _points(at)
-    return sheet(
-        470,
-        420,
-        "Four-bar path generator",
+    parts = [
         *_linkage(v, p),
         v.dot(p["P"], 13, "#7b8794"),
         v.text(p["P"], "P", 22, -8),
@@ -116,16 +113,14 @@ def fig3_generator(at: AtAngle) -> str:
         v.line([p["A0"], (2.2, 0.0)], SOFT, 0.8, "5 3"),
         v.arc(p["A0"], 1.4, 0.0, at.phi, "φ", 12),
         label((230, 395), "Case I: disk mass at P; elements 1 to 4 are elastic, 3 is the input", 13),
-    )
+    ]
+    return sheet(470, 420, "Four-bar path generator", *parts)
 
 
 def fig4_case1(at: AtAngle) -> str:
     """Element coordinates x1 to x8 and system forces P1 to P3."""
     v, p = _points(at)
-    return sheet(
-        470,
-        425,
-        "Case 1: element coordinates and system forces",
+    parts = [
         *_linkage(v, p),
         *_at_path_point(v, p["P"]),
         *_along(v, p["A"], p["P"], at.coupler + math.pi / 6, "x₁, x₂, x₃", 22, True),
@@ -134,16 +129,14 @@ def fig4_case1(at: AtAngle) -> str:
         *_along(v, p["B0"], p["B"], at.psi, "x₈", 0),
         label((230, 385), "x₁, x₄, x₇, x₈ axial; x₂, x₅ transverse; x₃, x₆ rotations", 13),
         label((230, 405), "order of this project; the document's arrows are lost", 13),
-    )
+    ]
+    return sheet(470, 425, "Case 1: element coordinates and system forces", *parts)
 
 
 def fig7_case2(at: AtAngle) -> str:
     """System forces P1 to P8."""
     v, p = _points(at)
-    return sheet(
-        470,
-        420,
-        "Case 2: system forces",
+    parts = [
         *_linkage(v, p),
         v.dot(p["P"], 11, "#7b8794"),
         v.dot(p["A"], 8, "#7b8794"),
@@ -156,7 +149,8 @@ def fig7_case2(at: AtAngle) -> str:
         *_force(v, p["B"], at.coupler, "P₇", (14, -6)),
         *_force(v, p["B"], at.psi, "P₈", (0, -12)),
         label((230, 395), "P₁ to P₈ in the directions of the element coordinates", 13),
-    )
+    ]
+    return sheet(470, 420, "Case 2: system forces", *parts)
 
 
 def _at_path_point(v: View, at: Point) -> list[str]:
