@@ -28,7 +28,6 @@ class PointDriver(JointFacts):
         body_i, point_i: what they are driven against: the ground at its origin unless given.
     """
 
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_j", "point_j"), Slot("body_i", "point_i"))
 
     name: str
@@ -123,7 +122,6 @@ class AngleDriver(JointFacts):
 
     row: ClassVar = "angle_driver"
     efforts: ClassVar = {"torque": Effort(0, unit="N.m")}
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_j"), Slot("body_i"))
 
     name: str
@@ -198,7 +196,6 @@ class TranslationalDriver(JointFacts):
     row: ClassVar = "translational_driver"
     efforts: ClassVar = {"force": Effort(0)}
     axes: ClassVar = ("axis_i",)
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_j", "point_j"), Slot("body_i", "point_i", "axis_i"))
 
     name: str

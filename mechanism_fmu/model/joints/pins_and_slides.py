@@ -7,16 +7,15 @@ from typing import ClassVar
 
 from ..attached import Slot
 from ..body import Point
-from ..curves import Curve
 from ..findings import length
 from ..functions import Number
-from .base import Effort, JointFacts, unit_vector
+from .base import Effort, UndrivenJoint, unit_vector
 
 # Revolute joint.
 
 
 @dataclass(frozen=True, init=False)
-class Revolute(JointFacts):
+class Revolute(UndrivenJoint):
     """A pin: point P of `body_i` and point P of `body_j` coincide (ME451, revolute).
 
     1. Allows: both bodies turn freely about P; one degree of freedom remains of three.
@@ -38,7 +37,6 @@ class Revolute(JointFacts):
     efforts: ClassVar = {"force_x": Effort(0), "force_y": Effort(1)}
     friction_name: ClassVar = "friction_radius"
     rows: ClassVar = 2
-    motion: ClassVar[Curve | None] = None
     slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
     units: ClassVar = {"friction_radius": "m"}
 
@@ -63,7 +61,7 @@ class Revolute(JointFacts):
 
 
 @dataclass(frozen=True, init=False)
-class Translational(JointFacts):
+class Translational(UndrivenJoint):
     """A slider: the bodies keep their relative angle and slide along a common axis (ME451, translational).
 
     1. Allows: sliding along the axis; one degree of freedom remains of three.
@@ -89,7 +87,6 @@ class Translational(JointFacts):
     efforts: ClassVar = {"force": Effort(0, "axis_length")}
     axes: ClassVar = ("axis_i", "axis_j")
     rows: ClassVar = 2
-    motion: ClassVar[Curve | None] = None
     slots: ClassVar = (Slot("body_i", "point_i", "axis_i"), Slot("body_j", "point_j", "axis_j"))
 
     name: str
@@ -115,7 +112,7 @@ class Translational(JointFacts):
 
 
 @dataclass(frozen=True, init=False)
-class Distance(JointFacts):
+class Distance(UndrivenJoint):
     """A massless rod with a pin at either end (ME451, revolute-revolute composite).
 
     1. Allows: both bodies turn freely and point P_j moves on a circle about P_i; two degrees of freedom remain.
@@ -136,8 +133,6 @@ class Distance(JointFacts):
     row: ClassVar = "distance"
     efforts: ClassVar = {"force": Effort(0, "effort_factor")}
     sizes: ClassVar = ("distance",)
-    motion: ClassVar[Curve | None] = None
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
     units: ClassVar = {"distance": "m"}
 
@@ -162,7 +157,7 @@ class Distance(JointFacts):
 
 
 @dataclass(frozen=True, init=False)
-class RevoluteTranslational(JointFacts):
+class RevoluteTranslational(UndrivenJoint):
     """A pin of `body_j` in a straight guide of `body_i`, with a massless slider between (ME451, of that name).
 
     1. Allows: point P_j slides along a line fixed in body i, and body j turns; two degrees of freedom remain.
@@ -185,8 +180,6 @@ class RevoluteTranslational(JointFacts):
     row: ClassVar = "revolute_translational"
     efforts: ClassVar = {"force": Effort(0)}
     axes: ClassVar = ("axis_i",)
-    motion: ClassVar[Curve | None] = None
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_i", "point_i", "axis_i"), Slot("body_j", "point_j"))
     units: ClassVar = {"distance": "m"}
 
