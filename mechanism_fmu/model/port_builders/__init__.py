@@ -13,14 +13,9 @@ from .outputs import (
     body_angle_output as body_angle_output,
     body_speed_output as body_speed_output,
     energy_outputs as energy_outputs,
-    event_buffer_outputs as event_buffer_outputs,
     flag_output as flag_output,
     force_output as force_output,
     hinged_beam_outputs as hinged_beam_outputs,
-    impact_buffer_outputs as impact_buffer_outputs,
-    impact_outputs as impact_outputs,
-    impact_speed_fields as impact_speed_fields,
-    last_impact_outputs as last_impact_outputs,
     member_outputs as member_outputs,
     shaft_torque_output as shaft_torque_output,
     speed_output as speed_output,
@@ -47,4 +42,11 @@ from .parameters import (
     stiffness_parameter as stiffness_parameter,
     torque_input as torque_input,
     torque_parameter as torque_parameter,
+)
+from .records import (
+    event_buffer_outputs as event_buffer_outputs,
+    impact_buffer_outputs as impact_buffer_outputs,
+    impact_outputs as impact_outputs,
+    impact_speed_fields as impact_speed_fields,
+    last_impact_outputs as last_impact_outputs,
 )
