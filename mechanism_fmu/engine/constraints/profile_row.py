@@ -30,8 +30,7 @@ def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
     keep_small()
     table = Contacts(block)
     out = Rows(block)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     kind = table.kind[contact]
     touch = look(block, at, contact)
     tx, ty = touch.tx, touch.ty

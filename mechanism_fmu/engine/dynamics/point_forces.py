@@ -112,8 +112,7 @@ def _between(block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float
     """Stores the energy of its linear part, or of its table; the work of its preload, or of its law, is given."""
     keep_small()
     table = Forces(block)
-    i = table.body[k]
-    j = table.reaction[k]
+    i, j = table.body[k], table.reaction[k]
     line = _line(block, at, k)
     pull, comes_in, goes = _pull(block, k, line)
     fx = pull * line.ux
@@ -134,8 +133,7 @@ def _line(block: Array, at: Pose, k: int) -> Line:
     keep_small()
     table = Forces(block)
     data = table.data[k]
-    i = table.body[k]
-    j = table.reaction[k]
+    i, j = table.body[k], table.reaction[k]
     ax, ay = turned(at, i, data[POINT_X], data[POINT_Y])
     bx, by = turned(at, j, data[REACTION_X], data[REACTION_Y])
     x = at.x[j] + bx - at.x[i] - ax

@@ -75,8 +75,7 @@ def _rub(block: Array, at: Pose) -> None:
             continue
         p = tie.node[k]
         rubbing = Loads(block).rubbing[joint]
-        i = table.body_i[joint]
-        j = table.body_j[joint]
+        i, j = table.body_i[joint], table.body_j[joint]
         if Nodes(block).body[p] == i:
             rubbing = -rubbing  # as of a force on body j; the torque of a pin is given on body i
         if table.kind[joint] == _REVOLUTE:

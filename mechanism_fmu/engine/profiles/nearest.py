@@ -138,8 +138,7 @@ def _newton_step(block: Array, at: Pose, contact: int) -> tuple[float, float, fl
     keep_small()
     table = Contacts(block)
     touch = look(block, at, contact)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     dx = at.x[i] + touch.ax - at.x[j] - touch.bx
     dy = at.y[i] + touch.ay - at.y[j] - touch.by
     gap = touch.ty * dx - touch.tx * dy

@@ -55,8 +55,7 @@ def _depth(block: Array, at: Pose, contact: int) -> float:
     keep_small()
     table = Contacts(block)
     touch = look(block, at, contact)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     dx = at.x[i] + touch.ax - at.x[j]
     dy = at.y[i] + touch.ay - at.y[j]
     depth: float = touch.tx * (dy - touch.by) - touch.ty * (dx - touch.bx)

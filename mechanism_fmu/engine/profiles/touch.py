@@ -86,8 +86,7 @@ def look(block: Array, at: Pose, contact: int) -> Touch:
     table = Contacts(block)
     data = table.data[contact]
     kind = table.kind[contact]
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     first = table.alpha[contact]
     gx, gy, hx, hy, stretch, turn = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     if kind == codes.POINT_FOLLOWER:
