@@ -237,10 +237,7 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
     Raises:
         UsageError: mistakes in the file, all of them.
     """
-    if "sweep" in file.data:
-        file.wrong(("sweep",), f"belongs to a sweep: mechanism-fmu sweep {file.path}")
-        file.check()
-    title, running, fixed = shared(file, TABLES, description)
+    title, running, fixed = shared(file, TABLES, description, ("sweep", "a sweep"))
     section = file.section("optimise", why='write [optimise] and below it e.g. minimise = "largest_impact.stress_max"')
     for name in ("minimise", "maximise"):
         section.take(name)

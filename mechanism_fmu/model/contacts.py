@@ -85,11 +85,25 @@ class PointLineContact(ContactFacts):
         return f"the point of {self.body_i!r} is", f"m behind the line on {self.body_j!r}"
 
 
+@dataclass(frozen=True, init=False)
 class _OfAngles(ContactFacts):
     """A contact whose gap is an angle."""
 
     angular: ClassVar = True
+    rows: ClassVar[int] = 1
+    alphas: ClassVar[int] = 0
+    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
+    closed: ClassVar[Number] = False
+    friction: ClassVar[Number] = 0.0
+    guided: ClassVar[Number] = False
+    pattern: ClassVar[str | None] = None
+    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
+    units: ClassVar = {"angle": "rad", "pitch": "rad"}
 
+    name: str
+    body_i: str
+    body_j: str
+    angle: Number
     pitch: Number | None
 
     def findings(self) -> Iterator[Finding]:
@@ -125,21 +139,8 @@ class AngleStop(_OfAngles):
     kind: ClassVar[int] = codes.ANGLE_STOP
     has_memory: ClassVar = True
     readings: ClassVar = {**ContactFacts.readings, "clicks": codes.STOP_CLICKS, "latched": codes.STOP_REFERENCE}
-    rows: ClassVar[int] = 1
-    alphas: ClassVar[int] = 0
-    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
-    closed: ClassVar[Number] = False
-    friction: ClassVar[Number] = 0.0
-    guided: ClassVar[Number] = False
-    pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
-    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
-    units: ClassVar = {"angle": "rad", "pitch": "rad"}
 
-    name: str
-    body_i: str
-    body_j: str
-    angle: Number
     pitch: Number | None = None
     restitution: Number = 0.0
     enabled: Number = True
@@ -167,21 +168,8 @@ class AngleLock(_OfAngles):
     """
 
     kind: ClassVar[int] = codes.ANGLE_LOCK
-    rows: ClassVar[int] = 1
-    alphas: ClassVar[int] = 0
-    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
-    closed: ClassVar[Number] = False
     restitution: ClassVar[Number] = 0.0
-    friction: ClassVar[Number] = 0.0
-    guided: ClassVar[Number] = False
-    pattern: ClassVar[str | None] = None
-    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
-    units: ClassVar = {"angle": "rad", "pitch": "rad"}
 
-    name: str
-    body_i: str
-    body_j: str
-    angle: Number
     pitch: Number
     closed_while: str
     enabled: Number = True

@@ -129,13 +129,8 @@ class Outline:
 
 
 @dataclass(frozen=True)
-class Spring:
-    """A coil spring between two places.
-
-    Attributes:
-        name: as of `Bar`.
-        at, to: its ends.
-    """
+class _Between:
+    """What reaches from one place to another."""
 
     name: str
     at: Place
@@ -143,17 +138,23 @@ class Spring:
 
 
 @dataclass(frozen=True)
-class Rod:
-    """A thin rod between two places.
+class Spring(_Between):
+    """A coil spring between two places.
 
     Attributes:
         name: as of `Bar`.
         at, to: its ends.
     """
 
-    name: str
-    at: Place
-    to: Place
+
+@dataclass(frozen=True)
+class Rod(_Between):
+    """A thin rod between two places.
+
+    Attributes:
+        name: as of `Bar`.
+        at, to: as of `Spring`.
+    """
 
 
 @dataclass(frozen=True)

@@ -14,20 +14,20 @@ from ...designs.by_fmu import design_with_largest
 from ...designs.optimum_file import Optimum, read_optimum
 from ...designs.search import Best, History, InterruptedSearchError, best_of, search
 from ...designs.sensitivity import NoIndicesError, Sensitivity, sensitivity
-from ...designs.store import Store, contents, failures, identity, numbers_of
+from ...designs.store import Store, failures, numbers_of
 from ...designs.sweep import Progress, Sweep, range_cells, read_sweep
 from ...designs.workers import Executor
 from ...fmu import Fmu
 from ...fmu.values import shown
 from ...run.master import seconds
 from ...run.results import write_json
-from ..execution import alone_in, interruption
+from ..execution import interruption
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
 from .designs_shared import (
     ENDING,
     DesignsBar,
     executor_of,
-    keep_built,
+    opened_store,
     prepared,
     seen_again,
     show_beam_theory,
@@ -47,11 +47,7 @@ def run_sweep(
     folder = Path(path.stem) if folder is None else folder
     with prepared(path) as (file, fmu, built):
         sweep = read_sweep(file, fmu.description)
-        known = identity(contents(fmu), sweep.task, sweep.axes, sweep.how, sweep.designs)
-        with alone_in(folder):
-            store = Store(folder, known, sweep.axes, sweep.task.quantities)
-            if built:
-                keep_built(fmu, folder)
+        with opened_store(folder, fmu, built, sweep, sweep.designs) as store:
             with executor_of(fmu, sweep.task, workers, scheduler, fast, trust or built) as executor:
                 progress, table = _performed(sweep, store, executor)
             return _ending(fmu, sweep, store, progress, table)
@@ -118,11 +114,7 @@ def run_optimise(
     folder = Path(path.stem) if folder is None else folder
     with prepared(path) as (file, fmu, built):
         optimum = read_optimum(file, fmu.description)
-        known = identity(contents(fmu), optimum.task, optimum.axes, optimum.how)
-        with alone_in(folder):
-            store = Store(folder, known, optimum.axes, optimum.task.quantities)
-            if built:
-                keep_built(fmu, folder)
+        with opened_store(folder, fmu, built, optimum) as store:
             what = "largest" if optimum.goal.largest else "smallest"
             console.print(
                 f"[bold]{escape(optimum.title)}[/]: the {what} {escape(optimum.goal.objective.column)} in up to "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -17,6 +17,9 @@ from mechanism_fmu.stress import beam_theory_note
 
 from ...designs import sweep as sweeps
 from ...designs.by_fmu import InMotion, in_motion
+from ...designs.optimum_file import Optimum
+from ...designs.store import Store, contents, identity
+from ...designs.sweep import Sweep
 from ...designs.task import Design, Task, wants_stress
 from ...designs.variation import Source, source
 from ...designs.workers import BY_FMU, Executor, Processes, Work, by_batch_in, here
@@ -26,7 +29,7 @@ from ...fmu.instances.workspace import temporary_folder
 from ...run.master import seconds
 from ...run.results import UNFINISHED, sweep_up
 from ...toml_file import TomlFile
-from ..execution import instances_of, interruption
+from ..execution import alone_in, instances_of, interruption
 from ..terminal import RunDisplay, console, show_note
 
 #: What is said when somebody presses Ctrl-C.
@@ -46,7 +49,31 @@ def prepared(path: Path) -> Iterator[tuple[TomlFile, Fmu, bool]]:
         yield file, fmu, wanted.path is None
 
 
-def keep_built(fmu: Fmu, folder: Path) -> None:
+@contextmanager
+def opened_store(
+    folder: Path, fmu: Fmu, built: bool, file: Sweep | Optimum, designs: Sequence[Design] = ()
+) -> Iterator[Store]:
+    """The results of a sweep or an optimum, which nobody else writes meanwhile.
+
+    Args:
+        folder: where they are, or will be.
+        fmu: whose designs they are.
+        built: whether it was built for them, and is kept beside them.
+        file: what the command's file says.
+        designs: the list, if it is known from the beginning.
+
+    Raises:
+        UsageError: there are other results, somebody else writes them, or the disk refuses.
+    """
+    known = identity(contents(fmu), file.task, file.axes, file.how, designs)
+    with alone_in(folder):
+        store = Store(folder, known, file.axes, file.task.quantities)
+        if built:
+            _keep_built(fmu, folder)
+        yield store
+
+
+def _keep_built(fmu: Fmu, folder: Path) -> None:
     """Leave an FMU that was built beside its results, once these are known to be its own.
 
     Raises:
