@@ -132,8 +132,7 @@ def _line(block: Array, at: Pose, k: int) -> Line:
     """The line between the points of a spring."""
     keep_small()
     table = Forces(block)
-    data = table.data[k]
-    i, j = table.body[k], table.reaction[k]
+    data, i, j = table.data[k], table.body[k], table.reaction[k]
     ax, ay = turned(at, i, data[POINT_X], data[POINT_Y])
     bx, by = turned(at, j, data[REACTION_X], data[REACTION_Y])
     x = at.x[j] + bx - at.x[i] - ax

@@ -161,15 +161,12 @@ def _find(block: Array, at: Pose, contact: int) -> None:
     keep_small()
     table = Contacts(block)
     alpha = table.alpha[contact]
-    first = table.curve_i[contact]
-    second = table.curve_j[contact]
-    samples = _SAMPLES
-    others = 0
+    first, second = table.curve_i[contact], table.curve_j[contact]
+    samples, others = _SAMPLES, 0
     if table.kind[contact] == codes.POINT_FOLLOWER:
         first = second
     elif table.kind[contact] == codes.CAM_FOLLOWER:
-        samples = _PAIRED_SAMPLES
-        others = _PAIRED_SAMPLES
+        samples = others = _PAIRED_SAMPLES
     least = math.inf
     best_i = 0.0
     best_j = 0.0

@@ -84,8 +84,7 @@ def look(block: Array, at: Pose, contact: int) -> Touch:
     """The curve points of a contact at the present pose and contact coordinates."""
     keep_small()
     table = Contacts(block)
-    data = table.data[contact]
-    kind = table.kind[contact]
+    data, kind = table.data[contact], table.kind[contact]
     i, j = table.body_i[contact], table.body_j[contact]
     first = table.alpha[contact]
     gx, gy, hx, hy, stretch, turn = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0

@@ -11,6 +11,7 @@ from .outputs import (
     angle_output as angle_output,
     bent_point_outputs as bent_point_outputs,
     body_angle_output as body_angle_output,
+    body_motion_outputs as body_motion_outputs,
     body_speed_output as body_speed_output,
     energy_outputs as energy_outputs,
     flag_output as flag_output,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from ..ports import Input, Output
 
@@ -52,6 +52,16 @@ def body_speed_output(body: str, symbol: str = "", nominal: float = 1.0) -> Outp
     """
     description = f"Rate of {body}_angle{f' ({symbol})' if symbol else ''}"
     return speed_output(f"{body}_speed", f"{body}.speed", description, nominal)
+
+
+def body_motion_outputs(symbols: Mapping[str, str]) -> tuple[Output, ...]:
+    """<body>_angle [rad] of several bodies, and then <body>_speed [rad/s] of each.
+
+    Args:
+        symbols: the letter of each body's angle in the equations, by the name of the body.
+    """
+    angles = [body_angle_output(body, symbol) for body, symbol in symbols.items()]
+    return (*angles, *map(body_speed_output, symbols))
 
 
 def force_output(name: str, source: str, description: str, inputs: Iterable[Input], nominal: float = 1.0) -> Output:
