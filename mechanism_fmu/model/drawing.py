@@ -97,7 +97,17 @@ class Striker:
 
 
 @dataclass(frozen=True)
-class Link:
+class _Points:
+    """Points of a rigid body."""
+
+    name: str
+    at: Place
+    angle: Quantity
+    points: tuple[tuple[Quantity, Quantity], ...]
+
+
+@dataclass(frozen=True)
+class Link(_Points):
     """A rigid body as its points show it: a rod between two, else the plate that their hull makes.
 
     Attributes:
@@ -108,24 +118,14 @@ class Link:
             counts with its value at the start.
     """
 
-    name: str
-    at: Place
-    angle: Quantity
-    points: tuple[tuple[Quantity, Quantity], ...]
-
 
 @dataclass(frozen=True)
-class Outline:
+class Outline(_Points):
     """A line through points of a rigid body, closed where there are three or more: a plate, a wall, a guide.
 
     Attributes:
         name, at, angle, points: as of `Link`.
     """
-
-    name: str
-    at: Place
-    angle: Quantity
-    points: tuple[tuple[Quantity, Quantity], ...]
 
 
 @dataclass(frozen=True)

@@ -107,8 +107,8 @@ def _slider(block: Array, at: Pose, joint: int) -> float:
     i, j = table.body_i[joint], table.body_j[joint]
     data = table.data[joint]
     length = math.sqrt(data[4] * data[4] + data[5] * data[5])
-    vx = (at.cosine[i] * data[4] - at.sine[i] * data[5]) / length
-    vy = (at.sine[i] * data[4] + at.cosine[i] * data[5]) / length
+    vx, vy = turned(at, i, data[4], data[5])
+    vx, vy = vx / length, vy / length
     bx, by = turned(at, j, data[2], data[3])
     # from the centre of mass of body i to the point of body j
     cx = at.x[j] + bx - at.x[i]

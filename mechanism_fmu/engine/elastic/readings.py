@@ -12,6 +12,7 @@ from ...tables.parts import Bodies
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..dynamics.point_forces import weight
+from ..vectors import turned
 
 # A hinged bar that bends under the forces on its tip and its own inertia (docs/elastodynamics.md).
 #
@@ -64,8 +65,7 @@ def _moment(block: Array, at: Pose, beam: int) -> tuple[float, float, float, flo
     data = table.data[beam]
     i = table.body[beam]
     row = table.row[beam]
-    tx = at.cosine[i] * data[codes.BEAM_ALONG_X] - at.sine[i] * data[codes.BEAM_ALONG_Y]
-    ty = at.sine[i] * data[codes.BEAM_ALONG_X] + at.cosine[i] * data[codes.BEAM_ALONG_Y]
+    tx, ty = turned(at, i, data[codes.BEAM_ALONG_X], data[codes.BEAM_ALONG_Y])
     multiplier = LinearSystem(block).multiplier
     hinge = data[codes.BEAM_SIDE] * (tx * multiplier[row + 1] - ty * multiplier[row])
     length = data[codes.BEAM_SPAN]

@@ -41,6 +41,11 @@ class ProfileContact(ContactFacts):
     enabled: Number
 
     @property
+    def profiles(self) -> tuple[Curve | None, Curve | None]:
+        """The profiles of body i and body j, None of one that has none."""
+        return getattr(self, "profile_i", None), getattr(self, "profile_j", None)
+
+    @property
     def guided(self) -> Number:
         """Whether the contact, once closed, also pulls and never opens."""
         return 1 - self.unilateral
@@ -89,11 +94,6 @@ class CamFollower(ProfileContact):
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
-
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """The profiles of body i and body j."""
-        return self.profile_i, self.profile_j
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, centre_j."""
@@ -147,11 +147,6 @@ class CamFlatFollower(ProfileContact):
     closed: Number = True
     enabled: Number = True
 
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """The profile of body i, and none of body j."""
-        return self.profile_i, None
-
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, point_j, u_j."""
         return (*self.centre_i, *self.point_j, *unit_vector(self.direction_j))
@@ -198,11 +193,6 @@ class PointFollower(ProfileContact):
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
-
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """None of body i, and the profile of body j."""
-        return None, self.profile_j
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: point_i, centre_j."""

@@ -86,12 +86,7 @@ class YDriver(PointDriver):
     Outputs: `force` [N], of the driver on body j along y.
 
     Attributes:
-        name: unique within the mechanism.
-        body_j: body that is driven.
-        point_j: P in its frame [m].
-        motion: C(t) [m], with two derivatives.
-        body_i: what it is driven against: the ground unless given.
-        point_i: P in its frame [m]: the origin unless given.
+        name, body_j, point_j, motion, body_i, point_i: as of `XDriver`.
     """
 
     row: ClassVar = "y_driver"
