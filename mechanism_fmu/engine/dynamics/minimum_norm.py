@@ -94,9 +94,7 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
     best_fraction = -1.0
     for s in range(r, count):
         i = system.order[s]
-        fraction = 0.0
-        if system.row_norm[i, 0] > 0.0:
-            fraction = system.row_norm[i, 1] / system.row_norm[i, 0]
+        fraction = system.row_norm[i, 1] / system.row_norm[i, 0] if system.row_norm[i, 0] > 0.0 else 0.0
         if fraction > best_fraction:
             best_fraction = fraction
             best = s

@@ -212,9 +212,7 @@ def _read_between(block: Array, at: Pose, k: int, _y: Array, which: int) -> floa
 
 @jit
 def _read_between_rate(block: Array, at: Pose, k: int, _dy: Array, which: int) -> float:
-    if which == LENGTH:
-        return _line(block, at, k).speed
-    return math.nan
+    return _line(block, at, k).speed if which == LENGTH else math.nan
 
 
 ELEMENTS = {

@@ -46,9 +46,7 @@ def beam_reading(block: Array, at: Pose, kind: int, beam: int) -> float:
     # M' = first + 2 second x + 3 third x^2 = 0; where second or third vanish, so does a root or the numbers end
     root = math.sqrt(max(second * second - 3.0 * third * first, 0.0))
     for side in range(2):
-        bottom = -second - root
-        if side == 1:
-            bottom = -second + root
+        bottom = -second + root if side == 1 else -second - root
         if bottom != 0.0:
             x = first / bottom
             if 0.0 < x < length:

@@ -78,9 +78,7 @@ def find_nearest(block: Array, at: Pose, contact: int) -> None:
     """Bring a pair's contact coordinates to the nearest points of all."""
     keep_small()
     alpha = Contacts(block).alpha[contact]
-    last = alpha
-    if Contacts(block).kind[contact] == codes.CAM_FOLLOWER:
-        last = alpha + 1
+    last = alpha + 1 if Contacts(block).kind[contact] == codes.CAM_FOLLOWER else alpha
     _find(block, at, contact)
     found_i = at.alpha[alpha]
     found_j = at.alpha[last]
@@ -192,9 +190,7 @@ def _descend(block: Array, at: Pose, contact: int, least: float, step: float) ->
     """From where the distance is `least`, go on to less in steps of `step` [rad] at first, until Newton's are safe."""
     keep_small()
     first = Contacts(block).alpha[contact]
-    last = first
-    if Contacts(block).kind[contact] == codes.CAM_FOLLOWER:
-        last = first + 1
+    last = first + 1 if Contacts(block).kind[contact] == codes.CAM_FOLLOWER else first
     while step > _NEAR:
         moved = False
         for k in range(first, last + 1):

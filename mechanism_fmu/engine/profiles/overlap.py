@@ -44,9 +44,7 @@ def overlap(block: Array, at: Pose, contact: int) -> float:
         at.alpha[alpha] = sample(block, table.curve_i[contact], k, _SAMPLES)
         deepest = max(deepest, _depth(block, at, contact))
     at.alpha[alpha] = kept
-    if deepest > _OVERLAP:
-        return deepest
-    return 0.0
+    return deepest if deepest > _OVERLAP else 0.0
 
 
 @jit

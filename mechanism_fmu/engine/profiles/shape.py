@@ -104,9 +104,7 @@ def examine_profiles(block: Array) -> int:
             return status.AT_CENTRE
         if not min(least_i, least_j) > _STRAIGHT / rho:
             table.hollow[c] = codes.HOLLOW
-            total = least_i
-            if table.kind[c] == codes.CAM_FOLLOWER:
-                total = least_i + least_j
+            total = least_i + least_j if table.kind[c] == codes.CAM_FOLLOWER else least_i
             if not total > 0.0:
                 table.hollow[c] = codes.BRIDGES
     return status.OK

@@ -97,9 +97,7 @@ def look(block: Array, at: Pose, contact: int) -> Touch:
         bx, by = turned(at, j, data[2], data[3])
         tx, ty = turned(at, j, -data[4], -data[5])
     else:
-        last = first
-        if kind == codes.CAM_FOLLOWER:
-            last = first + 1
+        last = first + 1 if kind == codes.CAM_FOLLOWER else first
         alpha = at.alpha[last]
         profile = curve(block, table.curve_j[contact], alpha)
         bx, by, tx, ty, kx, ky, _, _ = profile_point(at, j, data[2], data[3], alpha, profile)
