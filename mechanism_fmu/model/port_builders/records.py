@@ -84,12 +84,11 @@ def impact_buffer_outputs(fields: Sequence[Output], kept: int = IMPACT_BUFFER_LE
     Raises:
         MechanismError: as many cannot be kept.
     """
-    _require_room(kept, IMPACT_BUFFER_LENGTH)
     slots = f"impacts[1..{kept}]"
     return (
         whole_output("impacts_in_step", "impact.in_step", f"Impacts {_STEP} held in {slots}"),
         whole_output("impacts_lost", "impact.lost", f"Impacts since the start that did not fit into {slots}"),
-        *_buffer("impact", kept, fields),
+        *_buffer("impact", IMPACT_BUFFER_LENGTH, kept, fields),
     )
 
 
@@ -103,21 +102,17 @@ def event_buffer_outputs(fields: Sequence[Output], kept: int = EVENT_BUFFER_LENG
     Raises:
         MechanismError: as many cannot be kept.
     """
-    _require_room(kept, EVENT_BUFFER_LENGTH)
     slots = f"events[1..{kept}]"
     return (
         whole_output("events_in_step", "event.in_step", f"Events {_STEP} held in {slots}"),
-        *_buffer("event", kept, fields),
+        *_buffer("event", EVENT_BUFFER_LENGTH, kept, fields),
     )
 
 
-def _require_room(kept: int, least: int) -> None:
+def _buffer(kind: str, least: int, kept: int, fields: Sequence[Output]) -> Iterator[Output]:
     if not least <= kept <= MOST_KEPT:
         raise MechanismError(f"kept = {kept}: of a step {least} to {MOST_KEPT} can be kept.")
-
-
-def _buffer(kind: str, length: int, fields: Sequence[Output]) -> Iterator[Output]:
-    for k in range(1, length + 1):
+    for k in range(1, kept + 1):
         prefix = f"{kind}s[{k}]."
         yield from (_placed(field, prefix, prefix, f"{kind} {k} {_STEP}") for field in fields)
 
