@@ -11,7 +11,7 @@ from ..errors import UsageError
 from ..fmu.description import Description, Variable
 from ..fmu.values import parse_value
 from ..toml_file import TomlFile, as_text, is_number
-from .task import MOST_DESIGNS, Quantity, Result, Task, UnknownQuantityError, column, recorded, with_slenderness
+from .task import MOST_DESIGNS, Design, Quantity, Result, Task, UnknownQuantityError, column, recorded, with_slenderness
 from .variation import Axis, axes, shared
 
 # What makes a design better than another.
@@ -209,6 +209,11 @@ class Optimum:
     def total(self) -> int:
         """Designs at most."""
         return self.count + (0 if self.around is None else self.around.designs(len(near(self.axes))))
+
+    @property
+    def designs(self) -> tuple[Design, ...]:
+        """Those that are known from the beginning: none."""
+        return ()
 
     @property
     def how(self) -> tuple[str, Mapping[str, Any]]:
