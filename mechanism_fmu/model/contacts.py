@@ -18,7 +18,6 @@ from .. import codes
 from .attached import Slot
 from .body import Point
 from .contact_facts import ContactFacts, no_unit_length
-from .curves import Curve
 from .findings import Finding, positive, refuse_unless
 from .functions import Number
 from .joints import HigherPair
@@ -52,9 +51,6 @@ class PointLineContact(ContactFacts):
     """
 
     kind: ClassVar[int] = codes.POINT_LINE
-    rows: ClassVar[int] = 1
-    alphas: ClassVar[int] = 0
-    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
     slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "line_point", "normal", "normal"))
 
     name: str
@@ -90,13 +86,8 @@ class _OfAngles(ContactFacts):
     """A contact whose gap is an angle."""
 
     angular: ClassVar = True
-    rows: ClassVar[int] = 1
-    alphas: ClassVar[int] = 0
-    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
     closed: ClassVar[Number] = False
-    friction: ClassVar[Number] = 0.0
     guided: ClassVar[Number] = False
-    pattern: ClassVar[str | None] = None
     slots: ClassVar = (Slot("body_i"), Slot("body_j"))
     units: ClassVar = {"angle": "rad", "pitch": "rad"}
 

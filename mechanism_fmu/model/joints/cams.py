@@ -31,19 +31,12 @@ class ProfileContact(ContactFacts):
     """
 
     holds: ClassVar = "unilateral"
-    friction: ClassVar[Number] = 0.0
-    pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
 
     unilateral: Number
     restitution: Number
     closed: Number
     enabled: Number
-
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """The profiles of body i and body j, None of one that has none."""
-        return getattr(self, "profile_i", None), getattr(self, "profile_j", None)
 
     @property
     def guided(self) -> Number:
