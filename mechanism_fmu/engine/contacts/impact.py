@@ -62,8 +62,7 @@ def _dissipative_share(block: Array) -> float:
     keep_small()
     n = Sizes(block).coordinates
     solution = LinearSystem(block).solution
-    along = 0.0
-    square = 0.0
+    along = square = 0.0
     for k in range(n):
         along -= Course(block).y_end[n + k] / Bodies(block).inverse_root_mass[k] * solution[k]
         square += solution[k] * solution[k]

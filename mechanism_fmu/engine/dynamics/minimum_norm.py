@@ -166,10 +166,7 @@ def _solve_deficient(block: Array, count: int, rank: int) -> None:
 @jit
 def _dot(a: Array, b: Array, length: int) -> float:
     """Scalar product of the first `length` entries, in four sums: one would wait for each addition."""
-    first = 0.0
-    second = 0.0
-    third = 0.0
-    fourth = 0.0
+    first = second = third = fourth = 0.0
     whole = length - length % 4
     for k in range(0, whole, 4):
         first += a[k] * b[k]

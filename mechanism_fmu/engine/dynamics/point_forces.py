@@ -60,8 +60,7 @@ def weight(block: Array, body: int) -> tuple[float, float]:
     """Sum of the forces on a body's centre of mass [N]."""
     keep_small()
     table = Forces(block)
-    x = 0.0
-    y = 0.0
+    x = y = 0.0
     for k in range(table.kind.shape[0]):
         if table.kind[k] == _FORCE and table.body[k] == body:
             x += table.data[k, X]
