@@ -31,8 +31,6 @@ class ProfileContact(ContactFacts):
     """
 
     holds: ClassVar = "unilateral"
-    friction: ClassVar[Number] = 0.0
-    pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
 
     unilateral: Number
@@ -90,11 +88,6 @@ class CamFollower(ProfileContact):
     closed: Number = True
     enabled: Number = True
 
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """The profiles of body i and body j."""
-        return self.profile_i, self.profile_j
-
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, centre_j."""
         return (*self.centre_i, *self.centre_j)
@@ -147,11 +140,6 @@ class CamFlatFollower(ProfileContact):
     closed: Number = True
     enabled: Number = True
 
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """The profile of body i, and none of body j."""
-        return self.profile_i, None
-
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, point_j, u_j."""
         return (*self.centre_i, *self.point_j, *unit_vector(self.direction_j))
@@ -198,11 +186,6 @@ class PointFollower(ProfileContact):
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
-
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """None of body i, and the profile of body j."""
-        return None, self.profile_j
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: point_i, centre_j."""
