@@ -31,8 +31,7 @@ def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
     keep_small()
     table = Contacts(block)
     out = Rows(block)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     kind = table.kind[contact]
     touch = look(block, at, contact)
     tx, ty = touch.tx, touch.ty
@@ -48,10 +47,7 @@ def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
     second = tx * (ex_rate + uj * touch.by) + ty * (ey_rate - uj * touch.bx) - uj * gap
     move_i, move_j, fit = change(kind, touch, gap, first, second)
     alpha = table.alpha[contact]
-    if kind == codes.POINT_FOLLOWER:
-        at.alpha_rate[alpha] = move_j
-    else:
-        at.alpha_rate[alpha] = move_i
+    at.alpha_rate[alpha] = move_j if kind == codes.POINT_FOLLOWER else move_i
     if kind == codes.CAM_FOLLOWER:
         at.alpha_rate[alpha + 1] = move_j
     out.residual[row] = gap
