@@ -45,11 +45,18 @@ def test_links_that_do_not_reach_each_other_are_refused() -> None:
     assert dyad((0, 0), (0.3, 0), from_a=0.1, from_b=0.2) == pytest.approx((0.1, 0.0), abs=1e-6)  # in one line
 
 
-def test_of_parameters_links_that_do_not_reach_each_other_are_no_number() -> None:
+def test_links_that_begin_in_one_point_are_refused() -> None:
+    with pytest.raises(MechanismError, match="links of 1 m and 2 m have their other ends in one point"):
+        dyad((4, 1), (4, 1), from_a=1.0, from_b=2.0)
+
+
+def test_of_parameters_it_is_the_trace_that_refuses_links() -> None:
     recorder = Recorder()
     x, _ = dyad((0, 0), (4, 0), from_a=recorder.parameter(0), from_b=2.0)
     assert isinstance(x, Symbol)
-    assert [operation.name for operation in recorder.operations].count("sqrt") == 1
+    (refused,) = recorder.refusals  # 4 m apart is known: no finding of that
+    assert refused.text.startswith("dyad: links of {:g} m and {:g} m do not reach each other over the {:g} m between")
+    assert refused.numbers[1:] == (2.0, 4.0)
 
 
 def test_a_point_on_the_way() -> None:
