@@ -177,11 +177,13 @@ def run(
         ),
     ] = None,
     material: Annotated[
-        str,
+        str | None,
         typer.Option(
-            metavar="NAME", help="Steel of what is struck: steel, S355, C45E, 42CrMo4, SAE1015, SAE4142 or AISI4340."
+            metavar="NAME",
+            help="Steel of what is struck: steel, S355, C45E, 42CrMo4, SAE1015, SAE4142 or AISI4340.",
+            show_default="steel",
         ),
-    ] = "steel",
+    ] = None,
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.")] = Path(
         "result"
     ),
