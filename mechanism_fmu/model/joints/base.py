@@ -42,6 +42,7 @@ class JointFacts(Attached):
         row: name of the kind in `tables.kinds.JOINTS`.
         rows: how many constraint rows it has.
         motion: of a driver, its curve over time.
+        unit: of that motion.
         friction: the joint's entry in the table `joint_friction`, and what that is called.
         efforts: by name.
         axes: names of directions, which must have a length.
@@ -50,6 +51,7 @@ class JointFacts(Attached):
 
     row: ClassVar[str]
     rows: ClassVar[int] = 1
+    unit: ClassVar[str] = "m"
     friction_name: ClassVar[str] = "friction"
     efforts: ClassVar[Mapping[str, Effort]] = {}
     axes: ClassVar[tuple[str, ...]] = ()

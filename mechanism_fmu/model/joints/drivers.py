@@ -122,6 +122,7 @@ class AngleDriver(JointFacts):
     """
 
     row: ClassVar = "angle_driver"
+    unit: ClassVar = "rad"
     efforts: ClassVar = {"torque": Effort(0, unit="N.m")}
     friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_j"), Slot("body_i"))
