@@ -23,7 +23,7 @@ from ..fmu.interface import Instances, Observable
 from ..fmu.values import parse_value, settable_variable
 from .checks import Check, run_checks
 from .division import HeldMessages
-from .drawing import Drawing, read_drawing
+from .drawing import Drawing, is_of_drawing, read_drawing
 from .inputs import InputSignals, check_no_overlap, read_inputs
 from .logic import UNITS as EVENT_UNITS, EventCollector, LogicFile, read_logic
 from .master import Observer, Outcome, Recorder, TimeGrid, never, recorded_variables, run_fixed_step, seconds
@@ -301,5 +301,7 @@ def _units(
         "impacts": {name: impact_units[name] for name in impact_columns},
         "events": dict(EVENT_UNITS),
         **found,
-        "parameters": {v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter")},
+        "parameters": {
+            v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter") if not is_of_drawing(v)
+        },
     }
