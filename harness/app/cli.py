@@ -194,6 +194,10 @@ def run(
 ) -> None:
     """Run an FMU and write results.csv, impacts.csv, events.csv, summary.json and report.html.
 
+    impacts.csv has a row for each impact: time, contact, closing speed, impulse and what else the FMU reports of it.
+
+    events.csv has a row for each event: time, guard (what happened), closed contacts before and after, total impulse.
+
     Try:
 
         mechanism-fmu run build/Ratchet.fmu -o result
