@@ -8,12 +8,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from .contact_drawings import angle_lock, angle_stop, circular_pattern, logical_function, point_line_contact
-from .force_drawings import bushing, force, nonlinear_spring, spring_damper, torque, torsion_spring
+from .force_drawings import bushing, force, marker, nonlinear_spring, spring_damper, torque, torsion_spring
 from .shaft_drawings import compliant_shaft, dc_motor, slip_clutch
 
 DRAWINGS = {
     "torque": torque,
     "force": force,
+    "marker": marker,
     "spring_damper": spring_damper,
     "torsion_spring": torsion_spring,
     "bushing": bushing,

@@ -50,6 +50,25 @@ def force() -> str:
     )
 
 
+def marker() -> str:
+    """A point of a body, its place from the origin and its velocity."""
+    s = element_sketch()
+    c, p, o = (2.3, 1.1), (3.2, 1.75), (0.5, 0.3)
+    return element_sheet(
+        "Marker",
+        [
+            s.blob(c, [(0, 1.3), (40, 1.4), (90, 0.8), (170, 1.0), (250, 0.8), (310, 0.9)], BODY_I),
+            s.path([o, (1.3, 0.3)], AXIS),
+            s.path([o, (0.5, 1.1)], AXIS),
+            s.vector(o, p, "(x, y)", -8, -14, 0.7),
+            s.vector(c, p, "s", 8, 16),
+            s.vector(p, (2.75, 2.4), "(x_rate, y_rate)", 84, -8, 0.7),
+            s.centre(c, ""),
+            s.dot(p, "P", 16, 12),
+        ],
+    )
+
+
 def spring_damper() -> str:
     """Two bodies with a spring and a damper between them."""
     s = element_sketch()

@@ -42,7 +42,8 @@ def unknown_names(mechanism: Mechanism) -> tuple[str, ...]:
 
 
 def _acting_on(mechanism: Mechanism, body: str) -> str:
-    forces = [force.name for force in mechanism.elements if body in (force.body, getattr(force, "reaction", None))]
+    acting = [force for force in mechanism.elements if force.acts != "nowhere"]
+    forces = [force.name for force in acting if body in (force.body, force.reaction)]
     contacts = [c.name for c in mechanism.contacts if body in (c.body_i, c.body_j)]
     return f" ({', '.join((*forces, *contacts))} act on it)" if forces or contacts else ""
 

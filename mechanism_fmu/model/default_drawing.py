@@ -1,4 +1,4 @@
-"""The drawing of a model that gives none: bodies through their joints, springs, guides, contacts, pitch circles."""
+"""The drawing of a model that gives none: bodies through their joints, springs, guides, contacts, paths of markers."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from .body import GROUND
 from .contacts import PointLineContact
 from .curves import Curve
 from .curves.check_curves import value_and_slope
-from .drawing import Disc, Hinge, Link, Outline, Quantity, Rod, Shape, Spring, Striker, Wheel
+from .drawing import Disc, Hinge, Link, Outline, Quantity, Rod, Shape, Spring, Striker, Trace, Wheel
 from .functions import Number, is_plain
 from .mechanism import Mechanism
 from .ports import Calculated, Output
+from .symbol import Symbol
 
 #: Which fields of a part name a body and a point of it.
 _ENDS = (("body_i", "point_i"), ("body_j", "point_j"), ("body", "point"), ("reaction", "reaction_point"))
@@ -52,6 +53,7 @@ class Drawn:
         mechanism: it.
         size: of the mechanism [m].
         follows: of each number in order whether it is a calculated parameter; where the list ends, symbols are.
+        points: of each body, as variables or numbers of the drawing; and as they were given.
     """
 
     mechanism: Mechanism
@@ -61,6 +63,7 @@ class Drawn:
     calculated: list[Calculated] = field(default_factory=list)
     outputs: list[Output] = field(default_factory=list)
     points: dict[str, list[tuple[Quantity, Quantity]]] = field(default_factory=dict)
+    given: dict[str, list[tuple[Number, Number]]] = field(default_factory=dict)
     numbers: int = 0
 
     def number(self, value: Number, name: str) -> Quantity:
@@ -84,8 +87,12 @@ class Drawn:
         return self.follows[self.numbers - 1]
 
     def vertex(self, body: str, point: tuple[Number, Number]) -> int:
-        """The place of a point among those of a body."""
-        known = self.points.setdefault(body, [])
+        """The place of a point among those of a body; one that is there already is not drawn twice."""
+        known, given = self.points.setdefault(body, []), self.given.setdefault(body, [])
+        for place, other in enumerate(given):
+            if not self.decided(not all(map(_is_same, other, point))):
+                return place
+        given.append(point)
         name = f"{body}_{len(known)}"
         known.append((self.number(point[0], f"{name}_x"), self.number(point[1], f"{name}_y")))
         return len(known) - 1
@@ -107,6 +114,13 @@ class Drawn:
         name = next(n for n in names if n not in taken)
         self.outputs.append(Output(name, source, f"Drawing: {what} of {body}", unit))
         return name
+
+
+def _is_same(one: Number, other: Number) -> bool:
+    """Whether two numbers are the same whatever the parameters' values are."""
+    if is_plain(one) and is_plain(other):
+        return float(one) == float(other)
+    return isinstance(one, Symbol) and isinstance(other, Symbol) and one.number == other.number
 
 
 def plan_of(reference: Mechanism, symbolic: Mechanism | None) -> Plan:
@@ -137,6 +151,7 @@ def draw(mechanism: Mechanism, size: float, follows: Sequence[bool] = ()) -> Dra
                 drawn.vertex(body.name, corner.point)
     hinges = [*_hinges(drawn)]
     springs = [*_springs(drawn)]
+    traces = [Trace(m.name, _place(drawn, m.body, m.point, m.name)) for m in mechanism.markers]
     outlines = [*_outlines(drawn)]
     rims = [*_pitch_circles(drawn)]
     cams = [*_profiles(drawn)]
@@ -146,7 +161,7 @@ def draw(mechanism: Mechanism, size: float, follows: Sequence[bool] = ()) -> Dra
             at, angle = drawn.pose(body.name)
             links.append(Link(body.name, at, angle, tuple(drawn.points.get(body.name, [(0.0, 0.0)]))))
     # what others start from comes first; wheels and plates lie under links, hinges on them
-    drawn.shapes = [*outlines, *rims, *links, *cams, *springs, *hinges]
+    drawn.shapes = [*outlines, *rims, *links, *cams, *springs, *hinges, *traces]
     return drawn
 
 
@@ -266,7 +281,7 @@ def _rim(drawn: Drawn, profile: Curve, name: str) -> Iterator[tuple[Quantity, Qu
 
 def _size(mechanism: Mechanism) -> float:
     """How far a mechanism of plain numbers reaches [m]; 1 where it shows no length."""
-    parts = (*mechanism.joints, *mechanism.forces, *mechanism.contacts)
+    parts = (*mechanism.joints, *mechanism.forces, *mechanism.markers, *mechanism.contacts)
     points = [point for part in parts for _, point in _ends(part)]
     numbers = [float(x) for point in points for x in point]
     numbers += [float(x) for body in mechanism.bodies for x in body.start[:2]]

@@ -23,12 +23,12 @@ _DISPLAYED = {"rad": "deg", "rad/s": "rpm"}
 
 
 def default_outputs(mechanism: Mechanism, taken: Collection[str] = ()) -> tuple[Output, ...]:
-    """Outputs of all bodies, force elements, joints and contacts, of energies, impacts and events.
+    """Outputs of all bodies, force elements, markers, joints and contacts, of energies, impacts and events.
 
-    Of bodies: <body>_x, _y [m] of the centre of mass, _angle [rad] and _speed [rad/s]; of force elements and joints:
-    <part>_<quantity>, with the unit of the quantity; of contacts: <contact>_force [N, or N.m of stops and locks], _gap
-    [m, rad] and _active; the energies [J]; where there are contacts, impacts and events as `impact_outputs` and
-    `event_buffer_outputs` have them.
+    Of bodies: <body>_x, _y [m] of the centre of mass, _angle [rad] and _speed [rad/s]; of force elements, markers
+    and joints: <part>_<quantity>, with the unit of the quantity; of contacts: <contact>_force [N, or N.m of stops and
+    locks], _gap [m, rad] and _active; the energies [J]; where there are contacts, impacts and events as
+    `impact_outputs` and `event_buffer_outputs` have them.
 
     Args:
         mechanism: that declares none; its numbers may be symbolic.
@@ -70,7 +70,7 @@ def _outputs(mechanism: Mechanism) -> Iterator[Output]:
 
 
 def _of_forces(mechanism: Mechanism) -> Iterator[Output]:
-    for force in mechanism.forces:
+    for force in (*mechanism.forces, *mechanism.markers):
         for name, quantity in force.quantities.items():
             entries = {f"{force.name}.{entry}" for entry in quantity.feedthrough}
             yield Output(

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from .body import Body
 from .contacts import Contact
 from .curves import Curve
-from .forces import Force, ForceElement
+from .forces import Force, ForceElement, Marker
 from .functions import Number
 from .joints import Joint
 from .logic import LogicalFunction
@@ -63,6 +63,7 @@ class Mechanism:
         members, disks: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics` and outputs
             that read them; the motion does without. The mechanism becomes a structure when its held and driven
             coordinates stand still.
+        markers: points whose place and velocity outputs read.
     """
 
     bodies: tuple[Body, ...]
@@ -79,15 +80,16 @@ class Mechanism:
     gravity: tuple[Number, Number] | None = None
     members: tuple[Member, ...] = ()
     disks: tuple[Disk, ...] = ()
+    markers: tuple[Marker, ...] = ()
 
     @cached_property
     def elements(self) -> tuple[ForceElement, ...]:
-        """The force elements, and behind them the weights of all bodies where there is gravity."""
+        """The force elements; behind them the weights of all bodies where there is gravity, and the markers."""
         if self.gravity is None:
-            return self.forces
+            return (*self.forces, *self.markers)
         x, y = self.gravity
         weights = [Force(f"{body.name}.weight", body.name, (body.mass * x, body.mass * y)) for body in self.bodies]
-        return (*self.forces, *weights)
+        return (*self.forces, *weights, *self.markers)
 
 
 def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:

@@ -61,6 +61,7 @@ FORCES = Kinds(
     "torsional_stiffness torsional_damping free_angle",
     nonlinear_spring="point.x point.y reaction_point.x reaction_point.y",
     nonlinear_torsion_spring="",
+    marker="point.x point.y",
 )
 
 JOINTS = Kinds(

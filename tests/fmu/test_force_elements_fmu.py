@@ -24,6 +24,7 @@ PARAMETERS = (
 OUTPUTS = (
     *(Output(f"block_{name}", f"block.{name}", "", unit) for name, unit in (("x", "m"), ("y", "m"), ("angle", "rad"))),
     *(Output(f"{part}_force", f"{part}.force", "", "N") for part in ("gas", "rope", "table")),
+    *(Output(f"corner_{name}", f"corner.{name}", "", unit) for name, unit in (("x", "m"), ("y_rate", "m/s"))),
     Output("twist", "stop.torque", "", "N.m"),
     Output("stored", "energy.spring", "", "J"),
     Output("work", "energy.work", "", "J"),
@@ -51,6 +52,7 @@ def mechanism(values):
             Bushing("bushing", "block", (0.0, 0.0), GROUND, (0.2, 0.0), 20.0, 30.0, 0.1, 0.1, 0.2, 0.01),
             PointForce("push", "block", (0.1, 0.0), (0.0, 1.0), frame="body"),
         ),
+        markers=(Marker("corner", "block", (values.stiffness / 3000, 0.1)),),
         gravity=(0.0, -values.gravity),
         outputs=OUTPUTS,
     )

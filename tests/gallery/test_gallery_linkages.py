@@ -41,7 +41,9 @@ def test_the_stephenson_six_bar_closes_both_loops() -> None:
 
 def test_peaucelliers_point_stays_on_its_straight_line() -> None:
     found = run("peaucellier", TIMES)
-    assert off(found["off"], np.zeros(len(TIMES))) < 1e-10
+    line = (0.25**2 - 0.1**2) / 0.2
+    assert off(found["x"], np.full(len(TIMES), line)) < 1e-10
+    assert off(found["y"], line * np.tan(np.sin(6.0 * TIMES) / 2)) < 1e-10  # O sees P at half the crank's angle
     assert off(found["turn"], np.sin(6.0 * TIMES)) < 1e-10
 
 

@@ -7,11 +7,11 @@ Design of Machinery; the path follows in closed form from the angle of the coupl
 
 from mechanism_fmu.model import (
     GROUND,
+    Marker,
     Mechanism,
     Model,
     Output,
     Revolute,
-    Trace,
     XDriver,
     angle_output,
     bar,
@@ -27,18 +27,19 @@ def mechanism(values):
     a, b, c, d = (-2 * unit, 0), (2 * unit, 3 * unit), (2 * unit, 5 * unit), (2 * unit, 0)
     left, right = bar("left", a, b, mass="1 kg"), bar("right", d, c, mass="1 kg")
     coupler = bar("coupler", b, c, mass="0.5 kg")
+    middle = coupler.at(unit, 0)
     joints = (
         Revolute("A", left.a, GROUND.at(*a)),
         Revolute("B", left.b, coupler.a),
         Revolute("C", coupler.b, right.b),
         Revolute("D", right.a, GROUND.at(*d)),
-        XDriver("along", coupler.at(unit, 0), motion=harmonic_motion(0.0, 2 * unit, 3.0, deg(90))),
+        XDriver("along", middle, motion=harmonic_motion(0.0, 2 * unit, 3.0, deg(90))),
     )
-    outputs = (Output("x", coupler.x, "Middle of the coupler", "m"), Output("y", coupler.y, "Its height", "m"))
+    pen = Marker("middle", middle)
+    outputs = (Output("x", pen.x, "Middle of the coupler", "m"), Output("y", pen.y, "Its height", "m"))
     outputs += (angle_output("angle", coupler.angle, "Coupler"),)
-    return Mechanism((left, coupler, right), joints, outputs=outputs)
+    return Mechanism((left, coupler, right), joints, markers=(pen,), outputs=outputs)
 
 
 FRAME = length_parameter("frame", "400 mm", "Distance of the fixed pins")
-DRAWING = (..., Trace("path", "coupler.4"))
-MODEL = Model("Chebyshev", "Chebyshev's straight line", (FRAME,), mechanism, stop_time=4.0, drawing=DRAWING)
+MODEL = Model("Chebyshev", "Chebyshev's straight line", (FRAME,), mechanism, stop_time=4.0)

@@ -6,13 +6,12 @@ drivers lead the tracer along a Lissajous figure. Source: similar triangles; any
 
 from mechanism_fmu.model import (
     GROUND,
+    Marker,
     Mechanism,
     Model,
     Output,
     Parameter,
-    PointLineContact,
     Revolute,
-    Trace,
     XDriver,
     YDriver,
     bar,
@@ -24,7 +23,7 @@ from mechanism_fmu.model import (
 
 
 def mechanism(values):
-    """The linkage; two contacts that are switched off measure where the pen is, from the axes."""
+    """The linkage; all four bars follow from where pivot and tracer are."""
     arm, scale = 0.4, values.scale
     pivot, tracer = (0, 0), (0.3, 0.2)
     pen = (scale * tracer[0], scale * tracer[1])
@@ -36,13 +35,11 @@ def mechanism(values):
     pins += (("first", one.a, long.at(arm, 0)), ("second", two.a, pencil.at(arm, 0)))
     across = XDriver("across", one.b, motion=harmonic_motion(0.2, 0.1, 2.0, deg(90)))
     along = YDriver("along", one.b, motion=harmonic_motion(0.15, 0.05, 3.0, deg(90)))
-    pen_x = PointLineContact("pen_x", pencil.b, GROUND.line((0, 0), (0, -1)), enabled=False)
-    pen_y = PointLineContact("pen_y", pencil.b, GROUND.line((0, 0), (1, 0)), enabled=False)
-    outputs = (Output("x", "pen_x.gap", "Place of the pen", "m"), Output("y", "pen_y.gap", "Place of the pen", "m"))
+    original, copy = Marker("original", one.b), Marker("copy", pencil.b)
+    outputs = (Output("x", copy.x, "Place of the pen", "m"), Output("y", copy.y, "Place of the pen", "m"))
     bodies, joints = (long, pencil, one, two), (*(Revolute(*pin) for pin in pins), across, along)
-    return Mechanism(bodies, joints, contacts=(pen_x, pen_y), outputs=outputs)
+    return Mechanism(bodies, joints, markers=(original, copy), outputs=outputs)
 
 
 SCALE = Parameter("scale", 2.0, "Size of the copy over that of the original", "1", 1.2, 5.0)
-DRAWING = (..., Trace("original", "one.1"), Trace("copy", "pencil.1"))
-MODEL = Model("Pantograph", "Pantograph", (SCALE,), mechanism, stop_time=4.0, drawing=DRAWING)
+MODEL = Model("Pantograph", "Pantograph", (SCALE,), mechanism, stop_time=4.0)

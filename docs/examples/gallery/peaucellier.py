@@ -8,12 +8,11 @@ any book on mechanisms, e.g. Norton, Design of Machinery.
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
+    Marker,
     Mechanism,
     Model,
     Output,
-    PointLineContact,
     Revolute,
-    Trace,
     angle_output,
     bar,
     dyad,
@@ -23,7 +22,7 @@ from mechanism_fmu.model import (
 
 
 def mechanism(values):
-    """The linkage; a contact that is switched off measures how far D is from the line."""
+    """The linkage, stretched along the x axis."""
     arm, side, crank = values.arm, values.side, values.crank
     o, q, p = (0, 0), (crank, 0), (2 * crank, 0)
     a, b = (dyad(o, p, from_a=arm, from_b=side, side=where) for where in ("left", "right"))
@@ -34,14 +33,13 @@ def mechanism(values):
     pins = (("O", oa.a, GROUND), ("O2", ob.a, GROUND), ("Q", k.a, GROUND.at(*q)), ("P", k.b, pa.a), ("P2", k.b, pb.a))
     pins += (("A", oa.b, pa.b), ("A2", oa.b, da.b), ("B", ob.b, pb.b), ("B2", ob.b, db.b), ("D", da.a, db.a))
     swing = AngleDriver("swing", k, motion=harmonic_motion(0.0, 1.0, 6.0))
-    line = (arm * arm - side * side) / (2 * crank)
-    off = PointLineContact("line", da.a, GROUND.line((line, 0), (0, -1)), enabled=False)
-    outputs = (Output("off", "line.gap", "Distance of D from the line", "m"), angle_output("turn", k.angle, "Crank"))
+    pen = Marker("path", da.a)
+    outputs = (Output("x", pen.x, "Place of D, along which it does not move", "m"), Output("y", pen.y, "Of D", "m"))
+    outputs += (angle_output("turn", k.angle, "Crank"),)
     joints = (*(Revolute(*pin) for pin in pins), swing)
-    return Mechanism(bodies, joints, contacts=(off,), outputs=outputs, held=(k.angle,))
+    return Mechanism(bodies, joints, markers=(pen,), outputs=outputs, held=(k.angle,))
 
 
 SIZES = (("arm", "250 mm"), ("side", "100 mm"), ("crank", "100 mm"))
 LENGTHS = tuple(length_parameter(name, size, f"Length of {name}") for name, size in SIZES)
-DRAWING = (..., Trace("path", "DA.0"))
-MODEL = Model("Peaucellier", "Peaucellier-Lipkin straight line", LENGTHS, mechanism, stop_time=2.0, drawing=DRAWING)
+MODEL = Model("Peaucellier", "Peaucellier-Lipkin straight line", LENGTHS, mechanism, stop_time=2.0)

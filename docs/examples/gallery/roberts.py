@@ -8,12 +8,11 @@ Machinery; the path follows in closed form from the angle of the coupler.
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
+    Marker,
     Mechanism,
     Model,
     Output,
-    PointLineContact,
     Revolute,
-    Trace,
     angle_output,
     bar,
     dyad,
@@ -25,7 +24,7 @@ from mechanism_fmu.model.functions import atan2
 
 
 def mechanism(values):
-    """The linkage in its middle position; a contact that is switched off measures how far the apex is from the line."""
+    """The linkage in its middle position, with the apex on the line through the pins."""
     half, leg = values.frame / 2, values.leg
     a, d, apex = (-half, 0), (half, 0), (0, 0)
     b, c = dyad(a, apex, from_a=leg, from_b=leg), dyad(apex, d, from_a=leg, from_b=leg)
@@ -38,14 +37,11 @@ def mechanism(values):
         Revolute("D", right.a, GROUND.at(*d)),
         AngleDriver("swing", left, motion=harmonic_motion(atan2(b[1] - a[1], b[0] - a[0]), 0.3, 3.0)),
     )
-    line = PointLineContact("line", coupler.corners[1], GROUND.line((0, 0), (1, 0)), enabled=False)
-    across = PointLineContact("across", coupler.corners[1], GROUND.line((0, 0), (0, -1)), enabled=False)
-    outputs = (Output("x", "across.gap", "Place of the apex", "m"), Output("off", "line.gap", "From the line", "m"))
+    pen = Marker("apex", coupler.corners[1])
+    outputs = (Output("x", pen.x, "Place of the apex", "m"), Output("off", pen.y, "From the line", "m"))
     outputs += (angle_output("angle", coupler.angle, "Coupler"),)
-    bodies, gauges = (left, coupler, right), (line, across)
-    return Mechanism(bodies, joints, contacts=gauges, outputs=outputs, held=(left.angle,))
+    return Mechanism((left, coupler, right), joints, markers=(pen,), outputs=outputs, held=(left.angle,))
 
 
 SIZES = (length_parameter("frame", "400 mm", "Between the fixed pins"), length_parameter("leg", "240 mm", "Cranks"))
-DRAWING = (..., Trace("path", "coupler.2"))
-MODEL = Model("Roberts", "Roberts' straight line", SIZES, mechanism, stop_time=4.0, drawing=DRAWING)
+MODEL = Model("Roberts", "Roberts' straight line", SIZES, mechanism, stop_time=4.0)

@@ -7,10 +7,10 @@ mechanisms, e.g. Norton, Design of Machinery; all angles by circles that meet.
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
+    Marker,
     Mechanism,
     Model,
     Revolute,
-    Trace,
     angle_output,
     bar,
     deg,
@@ -38,12 +38,12 @@ def mechanism(values):
     drive = AngleDriver("drive", crank, motion=polynomial_motion(deg(90), values.speed))
     joints = (*(Revolute(*pin) for pin in pins), drive)
     outputs = tuple(angle_output(b.name, b.angle, f"Angle of the {b.name}") for b in (rocker, lever))
-    return Mechanism((crank, coupler, rocker, rod, lever), joints, outputs=outputs, held=(crank.angle,))
+    bodies, point = (crank, coupler, rocker, rod, lever), Marker("path", rod.a)
+    return Mechanism(bodies, joints, markers=(point,), outputs=outputs, held=(crank.angle,))
 
 
 PARAMETERS = (
     length_parameter("crank", "100 mm", "Length of the crank"),
     speed_parameter("speed", "60 rpm", "Its speed"),
 )
-DRAWING = (..., Trace("path", "rod.0"))
-MODEL = Model("Stephenson", "Stephenson six-bar linkage", PARAMETERS, mechanism, stop_time=2.0, drawing=DRAWING)
+MODEL = Model("Stephenson", "Stephenson six-bar linkage", PARAMETERS, mechanism, stop_time=2.0)

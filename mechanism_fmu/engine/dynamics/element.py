@@ -24,7 +24,7 @@ class Element(NamedTuple):
         read_rate: (block, at, k, dy, which) -> its derivative with respect to time, not a number where unknown.
     """
 
-    act: Callable[..., Any]
+    act: Callable[..., Any] | None = None
     stored: Callable[..., Any] | None = None
     storing: Callable[..., Any] | None = None
     read: Callable[..., Any] | None = None

@@ -16,7 +16,7 @@ from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import set_instant
 from ..vectors import clear
-from . import bushing, own_states, point_forces, torsional
+from . import bushing, markers, own_states, point_forces, torsional
 from .element import Element
 
 #: Every force element of the engine, by the name of its kind.
@@ -25,6 +25,7 @@ ELEMENTS: dict[str, Element] = {
     **point_forces.ELEMENTS,
     **bushing.ELEMENTS,
     **own_states.ELEMENTS,
+    **markers.ELEMENTS,
 }
 
 

@@ -105,7 +105,7 @@ def _names(mechanism: Mechanism) -> Iterator[str]:
     if not mechanism.bodies:
         yield "The mechanism has no body; give at least one."
     seen: dict[str, str] = {GROUND: "the fixed frame"}
-    parts = (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.contacts)
+    parts = (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.markers, *mechanism.contacts)
     for part in (*parts, *mechanism.patterns, *mechanism.functions, *mechanism.members, *mechanism.disks):
         what = type(part).__name__
         if not part.name or "." in part.name or ":" in part.name:
@@ -125,7 +125,7 @@ def _references(mechanism: Mechanism) -> Iterator[str]:
     known = [body.name for body in mechanism.bodies]
     pairs = (*mechanism.joints, *mechanism.contacts, *mechanism.patterns)
     users = [(p, (p.body_i, p.body_j)) for p in pairs]
-    forces = [(f, (f.body, f.reaction)) for f in mechanism.forces]
+    forces = [(f, (f.body, f.reaction)) for f in (*mechanism.forces, *mechanism.markers)]
     for part, bodies in (*users, *forces):
         label = f"{type(part).__name__} {part.name!r}"
         for name in bodies:

@@ -4,6 +4,7 @@ from .at_points import Bushing, Force, PointForce, SpringDamper
 from .base import Element as Element, Quantity as Quantity
 from .by_law import NonlinearSpring, NonlinearTorsionSpring
 from .driven import DCMotor, SlipClutch
+from .markers import Marker
 from .torsional import CompliantShaft, Damper, Torque, TorsionSpring, TorsionSpringDamper
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "DCMotor",
     "Damper",
     "Force",
+    "Marker",
     "NonlinearSpring",
     "NonlinearTorsionSpring",
     "PointForce",
@@ -37,4 +39,5 @@ ForceElement = (
     | Bushing
     | NonlinearSpring
     | NonlinearTorsionSpring
+    | Marker
 )

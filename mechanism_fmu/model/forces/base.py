@@ -39,7 +39,7 @@ class Element(Attached):
         writable: entries that an `Input` may write, with the target "<element>.<entry>".
         quantities: what an `Output` may read, by name, in the order of the engine's `Element.read`.
         own: how many first-order states of its own it has.
-        acts: as a torque, at the centre of mass, or at points of the bodies; the last loads no elastic member.
+        acts: as a torque, at the centre of mass, at points of the bodies, which loads no elastic member, or nowhere.
         positive, not_negative: units of the numbers that must be so.
         law: how its force follows from its length and rate: a function of both, a curve over the length, or None.
     """
@@ -48,7 +48,7 @@ class Element(Attached):
     writable: ClassVar[tuple[str, ...]] = ()
     quantities: ClassVar[Mapping[str, Quantity]] = {}
     own: ClassVar = 0
-    acts: ClassVar[Literal["torque", "at centre", "at points"]]
+    acts: ClassVar[Literal["torque", "at centre", "at points", "nowhere"]]
     positive: ClassVar[Mapping[str, str]] = {}
     not_negative: ClassVar[Mapping[str, str]] = {}
     law: Callable[[Number, Number], Number] | Curve | None = None

@@ -17,6 +17,7 @@ from mechanism_fmu.model import (
     Gears,
     Hinge,
     Link,
+    Marker,
     Mechanism,
     Model,
     Move,
@@ -177,3 +178,20 @@ def test_cams_are_drawn_by_points_of_their_profiles() -> None:
     assert found[f"drawing_pair_i_radius_{round(top)}"] == pytest.approx(0.6, abs=1e-4)
     drawing(model)
     trace(model)
+
+
+def test_markers_are_traced_and_read_and_no_point_is_drawn_twice() -> None:
+    def marked(values: SimpleNamespace) -> Mechanism:
+        found = pendulum(values)
+        (rod,) = found.bodies
+        markers = (Marker("pen", rod.at(0.0, 0.1)), Marker("end", "rod", (-(values.length / 2), 0.0)))
+        return replace(found, markers=markers, outputs=())
+
+    model = Model("Pendulum", "", LENGTH, marked)
+    shapes = {getattr(shape, "name", ""): shape for shape in model.shapes}
+    assert shapes["pen"].at == "rod.2"
+    assert len(shapes["rod"].points) == 3
+    assert shapes["end"].at == "rod.0"  # the pin's point, found again whatever the length is
+    outputs = {output.name: output for output in model.build(model.values()).outputs}
+    assert [outputs[f"pen_{name}"].unit for name in ("x", "y", "x_rate", "y_rate")] == ["m", "m", "m/s", "m/s"]
+    assert outputs["pen_x"].source == Marker("pen", "rod", (0.0, 0.1)).x

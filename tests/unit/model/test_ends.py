@@ -29,6 +29,7 @@ from mechanism_fmu.model import (
     Force,
     Gears,
     InternalGears,
+    Marker,
     MechanismError,
     Member,
     NonlinearSpring,
@@ -123,6 +124,7 @@ PAIRS: list[tuple[Any, Any]] = [
     (SlipClutch("x", CRANK, limit=2.0), SlipClutch("x", "crank", GROUND, 1.0, 1.0, 2.0)),
     (DCMotor("x", CRANK, constant=2.0), DCMotor("x", "crank", GROUND, 2.0)),
     (Force("x", CRANK, force=(1.0, 2.0)), Force("x", "crank", (1.0, 2.0))),
+    (Marker("x", ROD.at(0.0, 0.2)), Marker("x", "rod", (-0.1, 0.2))),
     (
         PointForce("x", ROD.at(0.0, 0.2), force=(1.0, 2.0), frame="body"),
         PointForce("x", "rod", (-0.1, 0.2), (1.0, 2.0), "body"),

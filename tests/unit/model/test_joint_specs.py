@@ -49,6 +49,7 @@ from mechanism_fmu.model.forces import (
     DCMotor,
     Force,
     ForceElement,
+    Marker,
     NonlinearSpring,
     NonlinearTorsionSpring,
     PointForce,
@@ -98,6 +99,7 @@ FORCE_ELEMENTS = (
     SpringDamper("strut", "a", (0.0, 0.0), "b", (0.0, 0.0)),
     TorsionSpringDamper("stop", "a"),
     PointForce("push", "a"),
+    Marker("pen", "a", (0.1, 0.0)),
     Bushing("bushing", "a", (0.0, 0.0), "b", (0.0, 0.0)),
     NonlinearSpring("gas", "a", (0.0, 0.0), "b", (0.0, 0.0), law=lambda x, v: x + v),
     NonlinearTorsionSpring("coil", "a", law=characteristic([(0.0, 0.0), (1.0, 1.0)])),
@@ -322,5 +324,6 @@ def test_every_force_element_is_among_the_examples_and_says_how_it_acts():
     assert {type(force) for force in FORCE_ELEMENTS} == set(get_args(ForceElement))
     for force in FORCE_ELEMENTS:
         act = ELEMENTS[force.row].act
-        source = inspect.getsource(getattr(act, "py_func", act))
+        assert (act is None) == (force.acts == "nowhere")
+        source = "" if act is None else inspect.getsource(getattr(act, "py_func", act))
         assert ("turn(block, k" in source) == (force.acts == "torque" or isinstance(force, Bushing))
