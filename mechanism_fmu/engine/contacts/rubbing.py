@@ -41,6 +41,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool) -> None:
         if begins:
             table.anchor[k] = 0.0
         friction_row(block, at, k, spare)
+        if begins:  # also where it slips: an impact may end that
+            table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
         if abs(speed) > SLIPS_ABOVE:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
@@ -48,8 +50,6 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool) -> None:
         table.free[k] = 1
         if table.slip[k] == codes.APART:
             table.slip[k] = codes.STICKS
-        if begins:
-            table.anchor[k] = Rows(block).residual[spare]
 
 
 @jit
