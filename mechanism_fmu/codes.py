@@ -81,7 +81,14 @@ RELATIVE_TOLERANCE = 0
 BAUMGARTE_ALPHA = 1
 BAUMGARTE_BETA = 2
 MOST_STEPS = 3  # internal ones of one communication step
-SETTINGS = 4
+IMPACT_LAW = 4
+ENERGY_GUARD = 5  # 1: an impact that would add energy is repeated by Poisson's law
+SETTINGS = 6
+
+# impact_law
+NEWTON = 0
+POISSON = 1
+STRONGE = 2
 
 # output_kind: what an output reads; output_index says of which, output_slot of which buffered impact
 CONSTANT = 0
@@ -110,6 +117,9 @@ MEMBER_FORCE = 32  # index 3 * member + (along it, moments on its start and end)
 MEMBER_STRESS = 33
 BEAM_DEFLECTION = 34
 BEAM_STRESS = 35
+SLIP_SPEED = 36  # index: of dry friction, contacts and then joints
+FRICTION_FORCE = 37
+STICKS_NOW = 38
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before the instant, then after it
 RECORD_TIME = 0
@@ -189,7 +199,8 @@ COUNT_INSTANTS = 13  # with impacts, since the start
 STEPS_IN_STEP = 14  # internal steps of the communication step
 COUNT_REJECTED = 15  # steps since the start whose error was too large
 COUNT_TRIES = 16  # steps since the start that were tried: accepted, rejected, or to find an event
-COUNTERS_LENGTH = 17
+COUNT_BY_POISSON = 17  # rounds of impacts for which another law was to hold, but Poisson's did
+COUNTERS_LENGTH = 18
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

@@ -8,12 +8,14 @@ from typing import Any, NamedTuple
 from .. import codes
 from ..tables.declare import Array
 from ..tables.members import Structure
-from ..tables.motion import Course, LinearSystem, Pose, Stages
+from ..tables.motion import Course, LinearSystem, Pose, Rows, Rubs, Stages
 from ..tables.parts import Bodies, Contacts, Patterns, Ports
 from ..tables.sizes import Sizes
 from .compiler.by_kind import by_kind
 from .compiler.subset import entry, jit, keep_small
+from .constraints.friction_rows import friction_row, sticks, touches
 from .constraints.kinematics import place_bodies, set_instant
+from .constraints.point_line import spare_row
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
 from .dynamics.forces import (
@@ -202,6 +204,28 @@ def _member_force(block: Array, _at: Pose, index: int, _slot: int, value: float)
     return value
 
 
+@jit
+def _slip_speed(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
+    value = 0.0
+    if touches(block, index) and not sticks(block, index):
+        friction_row(block, at, index, spare_row(block))
+        value = Rows(block).residual_rate[spare_row(block)]
+    return value
+
+
+@jit
+def _friction_force(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    value = 0.0
+    if touches(block, index):
+        value = Rubs(block).force[index]
+    return value
+
+
+@jit
+def _sticks_now(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
+    return 1.0 if sticks(block, index) else 0.0
+
+
 #: Every kind of output but those of elastic members.
 READINGS: dict[int, Reading] = {
     codes.CONSTANT: Reading(_constant, _rests),
@@ -223,6 +247,9 @@ READINGS: dict[int, Reading] = {
     codes.JOINT_FORCE: Reading(_joint_force, solves=True),
     codes.BUFFERED_EVENT: Reading(_buffered_event),
     codes.MEMBER_FORCE: Reading(_member_force),
+    codes.SLIP_SPEED: Reading(_slip_speed),
+    codes.FRICTION_FORCE: Reading(_friction_force, solves=True),
+    codes.STICKS_NOW: Reading(_sticks_now),
 }
 
 

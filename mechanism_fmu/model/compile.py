@@ -24,6 +24,9 @@ from .structure import Structure, member_data, structure
 # Names of the engine's unknowns for messages: which part limits the steps.
 
 
+_IMPACT_LAWS = {"newton": codes.NEWTON, "poisson": codes.POISSON, "stronge": codes.STRONGE}
+
+
 def unknown_names(mechanism: Mechanism) -> tuple[str, ...]:
     """What the user knows each unknown as, in the order of the engine: positions, rates, work, loss, contacts, own.
 
@@ -210,7 +213,11 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                 ),
                 columns(
                     tables.Options,
-                    settings=[getattr(mechanism.settings, setting.name) for setting in fields(mechanism.settings)],
+                    settings=[
+                        *(getattr(mechanism.settings, setting.name) for setting in fields(mechanism.settings)),
+                        _IMPACT_LAWS[mechanism.impact_law],
+                        mechanism.energy_guard,
+                    ],
                     held=[coordinate_index(h, mechanism) for h in mechanism.held],
                 ),
                 columns(

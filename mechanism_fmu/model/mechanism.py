@@ -66,6 +66,9 @@ class Mechanism:
             coordinates stand still.
         markers: points whose place and velocity outputs read.
         friction_law: "smooth", by tanh over a small slip speed, or "coulomb", which sticks and slips.
+        impact_law: of dry friction: "newton" (Moreau and Glocker), "poisson", or "stronge" (of one contact alone).
+        energy_guard: whether an impact that would add energy, as it may by Newton's law with dry friction, is repeated
+            by Poisson's.
     """
 
     bodies: tuple[Body, ...]
@@ -84,6 +87,8 @@ class Mechanism:
     disks: tuple[Disk, ...] = ()
     markers: tuple[Marker, ...] = ()
     friction_law: Literal["smooth", "coulomb"] = "smooth"
+    impact_law: Literal["newton", "poisson", "stronge"] = "newton"
+    energy_guard: bool = True
 
     @cached_property
     def elements(self) -> tuple[ForceElement, ...]:

@@ -52,6 +52,12 @@ _EVENT_FIELDS = {
     "new_mode": codes.EVENT_NEW_MODE,
     "impulse": codes.EVENT_IMPULSE,
 }
+#: Of a contact or joint with dry friction.
+_OF_FRICTION = {
+    "slip_speed": codes.SLIP_SPEED,
+    "friction_force": codes.FRICTION_FORCE,
+    "sticks": codes.STICKS_NOW,
+}
 #: Of a member: kind and column.
 _OF_MEMBER = {
     "axial_force": (codes.MEMBER_FORCE, 0),
@@ -88,6 +94,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         or _of_contact(part, quantity, mechanism)
         or _of_pattern(part, quantity, mechanism)
         or _of_force(part, quantity, mechanism)
+        or _of_friction(part, quantity, mechanism)
         or _of_joint(part, quantity, mechanism)
         or _of_member(part, quantity, mechanism)
     )
@@ -204,6 +211,18 @@ def output_factor(source: str, mechanism: Mechanism) -> Number:
 def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
     names = [p.name for p in mechanism.patterns]
     return (codes.PATTERN_INDEX, names.index(part), 0) if part in names and quantity == "index" else None
+
+
+def _of_friction(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
+    names = [part.name for part in (*mechanism.contacts, *mechanism.joints)]
+    if part not in names or quantity not in _OF_FRICTION:
+        return None
+    if mechanism.friction_law != "coulomb":
+        raise MechanismError(
+            f"output source {part}.{quantity} is of dry friction, but the friction here is smooth; "
+            'give the mechanism friction_law="coulomb".'
+        )
+    return _OF_FRICTION[quantity], names.index(part), 0
 
 
 def _of_force(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

@@ -41,6 +41,7 @@ _COUNTERS = {
     "STEPS_IN_STEP": COUNT,
     "COUNT_REJECTED": COUNT,
     "COUNT_TRIES": COUNT,
+    "COUNT_BY_POISSON": COUNT,
 }
 #: Columns of an impact record, the last one for all behind it, and of an event record.
 _RECORD = {
@@ -183,7 +184,8 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
 
     What each contact is in it (`impact.ABSENT` ...), by how much its gap rate must rise at least (v of eq (6)), its
     closing speed and impulse; the contacts that a complementarity problem decides about, and which problem it is
-    (columns in `complementarity`); all rates before the impact; the line along which a point slides.
+    (columns in `complementarity`); all rates before the impact, and before its present round; whether each contact is
+    closed for that; its coefficient of restitution and impulse of compression; the line along which a point slides.
     """
 
     role = integer(work=True)
@@ -193,6 +195,10 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     candidates = integer(name="candidates", work=True)
     problem = integer(2, alone=True, name="problem", work=True)
     rates_before = real("coordinates", alone=True, name="rates_before", work=True)
+    rates_of_round = real("coordinates", alone=True, name="rates_of_round", work=True)
+    closed = integer(work=True)
+    restitution = real(work=True)
+    compression = real(work=True)
     tangent_line = real(4, alone=True, name="tangent_line", work=True)
 
 
@@ -226,7 +232,7 @@ class Rubs(Table, rows="rubs", prefix="rub_"):
     anchor = real(holds=FINITE)
     row = integer(work=True)
     direction = real("columns", work=True)
-    solution = real("columns", work=True)
+    solution = real("rub_columns", "columns", alone=True, work=True)
     multiplier = real("rows", work=True)
     force = real(work=True)
     speed = real(work=True)

@@ -1,7 +1,8 @@
 """Rows along which contacts and joints with dry friction slide: they are constraints where these stick.
 
 Contacts come first, in their order, then joints. Slip is that of the point of body i along its line on body j, of the
-axis of a slider on body i (point j along it), and of a pin's body i against body j.
+material of body i along the common tangent of two profiles, of point j along the axis of a slider on body i, and of a
+pin's body i against body j.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..vectors import clear
 from .point_line import angle_row, point_line, tangent_line
+from .profile_row import slip_row
 
 REVOLUTE = JOINTS.number("revolute")
 
@@ -28,9 +30,8 @@ def coefficient(block: Array, rub: int) -> float:
     if rub >= contacts:
         of_joint: float = Joints(block).friction[rub - contacts]
         return of_joint
-    table = Contacts(block)
-    of_contact: float = table.value[rub, codes.FRICTION]
-    return of_contact if table.kind[rub] == codes.POINT_LINE else 0.0
+    of_contact: float = Contacts(block).value[rub, codes.FRICTION]
+    return of_contact
 
 
 @jit
@@ -55,8 +56,11 @@ def friction_row(block: Array, at: Pose, rub: int, row: int) -> None:
     contacts = Sizes(block).contacts
     if rub < contacts:
         table = Contacts(block)
-        tangent_line(table.line[rub], line)
-        point_line(at, out, row, table.body_i[rub], table.body_j[rub], table.data[rub], line)
+        if table.alpha[rub] == codes.NONE:
+            tangent_line(table.line[rub], line)
+            point_line(at, out, row, table.body_i[rub], table.body_j[rub], table.data[rub], line)
+        else:
+            slip_row(block, at, rub, row)
     else:
         joint = Joints(block)
         k = rub - contacts

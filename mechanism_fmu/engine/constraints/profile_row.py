@@ -13,6 +13,7 @@ from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from ..profiles.touch import change, look
+from ..vectors import clear
 
 
 @jit
@@ -70,3 +71,51 @@ def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
     entry[3 * j + 1] = -ny
     entry[3 * j + 2] = along
     return fit
+
+
+@jit
+def slip_row(block: Array, at: Pose, contact: int, row: int) -> None:
+    """Write the row of the slip of body i along body j where their profiles touch: the difference of their materials.
+
+    Slip counts along t = -R n, the normal turned by -90 deg, as that of a point on a line. With w = r_i' + u_i R a - r_j' - u_j R e and the turning of the tangent w_t = u_j + turn alpha_j': s' = t.w,
+    s_q = [t, t.R a, -t, -t.R e], gamma = -w_t (R t).w - t.(u_i R a' - u_j R e'), where a' and e' follow the point of
+    contact. There is no s: what has rolled off is not counted.
+    """
+    keep_small()
+    profile_row(block, at, contact, row)
+    table = Contacts(block)
+    out = Rows(block)
+    i = table.body_i[contact]
+    j = table.body_j[contact]
+    touch = look(block, at, contact)
+    tx, ty = -touch.tx, -touch.ty
+    ui, uj = at.phi_rate[i], at.phi_rate[j]
+    alpha = table.alpha[contact]
+    move_i = at.alpha_rate[alpha]
+    move_j = 0.0
+    if table.kind[contact] == codes.POINT_FOLLOWER:
+        move_i = 0.0
+        move_j = at.alpha_rate[alpha]
+    elif table.kind[contact] == codes.CAM_FOLLOWER:
+        move_j = at.alpha_rate[alpha + 1]
+    ex = at.x[i] + touch.ax - at.x[j]
+    ey = at.y[i] + touch.ay - at.y[j]
+    ax_rate = touch.gx * move_i - touch.ay * ui
+    ay_rate = touch.gy * move_i + touch.ax * ui
+    ex_rate = at.x_rate[i] + ax_rate - at.x_rate[j]
+    ey_rate = at.y_rate[i] + ay_rate - at.y_rate[j]
+    wx = at.x_rate[i] - ui * touch.ay - at.x_rate[j] + uj * ey
+    wy = at.y_rate[i] + ui * touch.ax - at.y_rate[j] - uj * ex
+    turning = uj + touch.turn * move_j
+    out.residual[row] = 0.0
+    out.residual_rate[row] = tx * wx + ty * wy
+    out.gamma[row] = -turning * (tx * wy - ty * wx)
+    out.gamma[row] -= ui * (ty * ax_rate - tx * ay_rate) - uj * (ty * ex_rate - tx * ey_rate)
+    entry = out.jacobian[row]
+    clear(entry)
+    entry[3 * i] = tx
+    entry[3 * i + 1] = ty
+    entry[3 * i + 2] = ty * touch.ax - tx * touch.ay
+    entry[3 * j] = -tx
+    entry[3 * j + 1] = -ty
+    entry[3 * j + 2] = tx * ey - ty * ex

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Pose, Rows, Rubs, Strikes
+from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows, Rubs, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
@@ -29,7 +29,7 @@ from ..constraints.rows import active_rows, contact_row, row_count
 from ..dynamics.acceleration import derivative, scale_rows
 from ..dynamics.minimum_norm import minimum_norm
 from ..dynamics.sliding import hold, slide
-from ..vectors import largest
+from ..vectors import clear, largest
 
 #: An acceleration [m/s2], or a share of its terms, that may be missing.
 _ACCELERATION = 1e-8
@@ -244,10 +244,42 @@ def _try_impulses(block: Array, at: Pose) -> int:
     for k in range(rub.slip.shape[0]):
         if rub.row[k] >= 0:
             system.right_side[rub.row[k]] = -Rows(block).residual_rate[rub.row[k]]
+    if rub.slip.shape[0] == 0:
+        minimum_norm(block, count, Sizes(block).coordinates)
+        return count
+    gives = _given_impulses(block, at, count)
     minimum_norm(block, count, Sizes(block).coordinates)
-    if rub.slip.shape[0] > 0:
-        slide(block, at, count)
+    if gives:
+        for k in range(Sizes(block).coordinates):
+            system.solution[k] += Bodies(block).inverse_root_mass[k] * Loads(block).applied[k]
+    slide(block, at, count)
     return count
+
+
+@jit
+def _given_impulses(block: Array, at: Pose, count: int) -> bool:
+    """Let normal impulses that are given act on the rows, from the right side; whether there are any."""
+    keep_small()
+    n = Sizes(block).coordinates
+    given = Rubs(block).given
+    impulse = Loads(block).applied
+    row = Rows(block)
+    spare = spare_row(block)
+    gives = False
+    for c in range(Sizes(block).contacts):
+        if given[c] > 0.0:
+            if not gives:
+                clear(impulse)
+            gives = True
+            contact_row(block, at, c, spare)
+            for k in range(n):
+                impulse[k] += given[c] * row.jacobian[spare, k]
+    if gives:
+        for r in range(count):
+            for k in range(n):
+                change = Bodies(block).inverse_mass[k] * impulse[k]
+                LinearSystem(block).right_side[r] -= row.jacobian[r, k] * change
+    return gives
 
 
 @jit

@@ -12,12 +12,12 @@ from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row, tangent_row
-from ..constraints.rows import active_rows, contact_row, driver_power
+from ..constraints.rows import active_rows, contact_row
 from ..dynamics.acceleration import scale_rows
 from ..dynamics.minimum_norm import minimum_norm
-from .complementarity import COUNT, push_impulses
+from .complementarity import COUNT
 from .guards import gap
-from .rubbing import free_all
+from .impact_laws import exchange
 
 # Coulomb friction in an impact: the tangential impulse that the normal one allows.
 
@@ -115,19 +115,12 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
         if taking_part.role[c] != ABSENT:
             table.mode[c] = codes.CLOSED
     taking_part.problem[COUNT] = count
-    free_all(block)
-    outcome = push_impulses(block, at)
-    if outcome != status.OK:
-        return False, outcome
     for k in range(n):
         if round_ == 0:
             taking_part.rates_before[k] = rate[k]
-        rate[k] += Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
-    for c in range(table.mode.shape[0]):
-        taking_part.impulse[c] = 0.0
-        if table.mode[c] == codes.CLOSED:
-            taking_part.impulse[c] = LinearSystem(block).multiplier[table.row[c]]
-    Course(block).y_end[Sizes(block).y_work] += driver_power(block)  # of impulses: drivers do work at once
+    outcome = exchange(block, at)
+    if outcome != status.OK:
+        return False, outcome
     if Sizes(block).rubs == 0:
         rub(block)
     for c in range(table.mode.shape[0]):

@@ -145,8 +145,12 @@ def _normal(block: Array, rub: int, number: int, line: int) -> float:
         if Contacts(block).mode[rub] == codes.CLOSED:
             row = Contacts(block).row[rub]
             normal += _multiplier(block, row, number)
+            side = 1.0
+            if Contacts(block).value[rub, codes.GUIDED] > 0.5 and normal < 0.0:
+                side = -1.0  # it holds, and is pushed from its other side
             for b in range(number):
-                slope[b] = table.multiplier[table.sliding[b], row]
+                slope[b] = side * table.multiplier[table.sliding[b], row]
+            normal *= side
         return normal
     joint = rub - contacts
     row = Joints(block).row[joint]
@@ -213,6 +217,8 @@ def hold(block: Array, rub: int) -> float:
         normal: float = Rubs(block).given[rub]
         if Contacts(block).mode[rub] == codes.CLOSED:
             normal += system.multiplier[Contacts(block).row[rub]]
+            if Contacts(block).value[rub, codes.GUIDED] > 0.5:
+                normal = abs(normal)
     else:
         row = Joints(block).row[rub - contacts]
         normal = abs(system.multiplier[row])

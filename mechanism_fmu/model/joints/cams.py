@@ -28,10 +28,10 @@ class ProfileContact(ContactFacts):
         restitution: e of eq (4), 0..1, of a unilateral contact.
         closed: whether assembly puts the profiles in contact.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
+        friction: Coulomb coefficient along the common tangent [1], >= 0; 0 unless the friction of the mechanism is dry.
     """
 
     holds: ClassVar = "unilateral"
-    friction: ClassVar[Number] = 0.0
     pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
 
@@ -39,6 +39,7 @@ class ProfileContact(ContactFacts):
     restitution: Number
     closed: Number
     enabled: Number
+    friction: Number
 
     @property
     def guided(self) -> Number:
@@ -70,7 +71,7 @@ class CamFollower(ProfileContact):
         body_i, body_j: names of cam and follower (or `GROUND`).
         profile_i, profile_j: rho [m] over alpha [rad], about each profile's centre.
         centre_i, centre_j: s, the centres in the frame of each body [m].
-        unilateral, restitution, closed, enabled: as of `ProfileContact`.
+        unilateral, restitution, closed, enabled, friction: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.CAM_FOLLOWER
@@ -89,6 +90,7 @@ class CamFollower(ProfileContact):
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
+    friction: Number = 0.0
 
     @property
     def profiles(self) -> tuple[Curve | None, Curve | None]:
@@ -127,7 +129,7 @@ class CamFlatFollower(ProfileContact):
         direction_j: along the face in the frame of body j (any length > 0; u_j is its unit vector), so that R u_j,
             u_j turned by +90 deg, points from the face towards the cam.
         centre_i: s, the centre of the profile in the frame of body i [m].
-        unilateral, restitution, closed, enabled: as of `ProfileContact`.
+        unilateral, restitution, closed, enabled, friction: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.CAM_FLAT_FOLLOWER
@@ -146,6 +148,7 @@ class CamFlatFollower(ProfileContact):
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
+    friction: Number = 0.0
 
     @property
     def profiles(self) -> tuple[Curve | None, Curve | None]:
@@ -180,7 +183,7 @@ class PointFollower(ProfileContact):
         point_i: P in the frame of body i [m].
         profile_j: rho [m] over alpha [rad], about the profile's centre.
         centre_j: s, the centre of the profile in the frame of body j [m].
-        unilateral, restitution, closed, enabled: as of `ProfileContact`.
+        unilateral, restitution, closed, enabled, friction: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.POINT_FOLLOWER
@@ -198,6 +201,7 @@ class PointFollower(ProfileContact):
     restitution: Number = 0.0
     closed: Number = True
     enabled: Number = True
+    friction: Number = 0.0
 
     @property
     def profiles(self) -> tuple[Curve | None, Curve | None]:

@@ -1,0 +1,141 @@
+"""Impulses of one round of impacts, by Newton's, Poisson's or Stronge's law of restitution (docs/friction.md).
+
+Newton: every contact that approaches separates with e times its closing speed; with friction in one complementarity
+problem (Moreau, Glocker). Poisson: compression is the same with e = 0, and in the expansion each contact gives back at
+least e times the impulse of its compression, with a friction of its own. Stronge: the work of a contact in expansion is
+e^2 times that of its compression, along Routh's path of the impulses.
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Pose, Rows, Rubs, Strikes
+from ...tables.parts import Bodies, Contacts, Options
+from ...tables.sizes import Sizes
+from .. import status
+from ..compiler.subset import jit, keep_small
+from ..constraints.kinematics import place_bodies
+from ..constraints.point_line import spare_row
+from ..constraints.rows import contact_row, driver_power
+from ..dynamics.forces import kinetic_energy
+from .complementarity import push_impulses
+from .routh import along_routh
+from .rubbing import free_all
+
+#: An impact may seem to add this share of the kinetic energy, by rounding.
+_ROUNDING = 1e-13
+
+
+@jit
+def exchange(block: Array, at: Pose) -> int:
+    """Give the contacts that `strikes` names their impulses, and y_end the rates behind them; return a status."""
+    keep_small()
+    strike = Strikes(block)
+    mode = Contacts(block).mode
+    if Sizes(block).rubs == 0:
+        outcome = push_impulses(block, at)
+        if outcome == status.OK:
+            _apply(block)
+        return outcome
+    n = Sizes(block).coordinates
+    rate = Course(block).y_end[n:]
+    settings = Options(block).settings
+    for k in range(n):
+        strike.rates_of_round[k] = rate[k]
+    for c in range(mode.shape[0]):
+        strike.closed[c] = mode[c]
+    law = settings[codes.IMPACT_LAW]
+    if law == codes.POISSON:
+        return _poisson(block, at)
+    if law == codes.STRONGE:
+        outcome = along_routh(block, at)
+        if outcome != status.NO_CHOICE:
+            return outcome
+        return _by_poisson(block)
+    energy = kinetic_energy(Bodies(block).inverse_mass, rate, n)
+    work = Course(block).y_end[Sizes(block).y_work]
+    free_all(block)
+    outcome = push_impulses(block, at)
+    if outcome != status.OK:
+        return outcome
+    _apply(block)
+    gain = kinetic_energy(Bodies(block).inverse_mass, rate, n) - energy
+    gain -= Course(block).y_end[Sizes(block).y_work] - work
+    if settings[codes.ENERGY_GUARD] > 0.5 and gain > _ROUNDING * energy:
+        Course(block).y_end[Sizes(block).y_work] = work
+        return _by_poisson(block)
+    return status.OK
+
+
+@jit
+def _by_poisson(block: Array) -> int:
+    """Begin the round anew, by Poisson's law in place of another."""
+    keep_small()
+    n = Sizes(block).coordinates
+    y = Course(block).y_end
+    strike = Strikes(block)
+    for k in range(n):
+        y[n + k] = strike.rates_of_round[k]
+    for c in range(strike.closed.shape[0]):
+        Contacts(block).mode[c] = strike.closed[c]
+    Course(block).counters[codes.COUNT_BY_POISSON] += 1
+    return _poisson(block, place_bodies(block, y))
+
+
+@jit
+def _apply(block: Array) -> None:
+    """Change the rates at y_end by the impulses of the last problem, which become `strikes.impulse`."""
+    keep_small()
+    n = Sizes(block).coordinates
+    y = Course(block).y_end
+    table = Contacts(block)
+    strike = Strikes(block)
+    for k in range(n):
+        y[n + k] += Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
+    for c in range(table.mode.shape[0]):
+        strike.impulse[c] = 0.0
+        if table.mode[c] == codes.CLOSED:
+            strike.impulse[c] = LinearSystem(block).multiplier[table.row[c]]
+    y[Sizes(block).y_work] += driver_power(block)  # of impulses: drivers do work at once
+
+
+@jit
+def _poisson(block: Array, at: Pose) -> int:
+    """Compression, and expansion with at least e times its impulses."""
+    keep_small()
+    table = Contacts(block)
+    strike = Strikes(block)
+    rub = Rubs(block)
+    contacts = table.mode.shape[0]
+    for c in range(contacts):
+        strike.restitution[c] = 0.0
+        if strike.closing[c] > 0.0:
+            strike.restitution[c] = max(0.0, strike.target[c] / strike.closing[c] - 1.0)
+            strike.target[c] = min(strike.target[c], strike.closing[c])
+    free_all(block)
+    outcome = push_impulses(block, at)
+    if outcome != status.OK:
+        return outcome
+    _apply(block)
+    gives = False
+    for c in range(contacts):
+        strike.compression[c] = strike.impulse[c]
+        rub.given[c] = max(0.0, strike.restitution[c] * strike.impulse[c])
+        gives = gives or rub.given[c] > 0.0
+    if not gives:
+        return status.OK
+    at = place_bodies(block, Course(block).y_end)
+    for c in range(contacts):
+        if table.mode[c] == codes.CLOSED or rub.given[c] > 0.0:
+            contact_row(block, at, c, spare_row(block))
+            strike.target[c] = -Rows(block).residual_rate[spare_row(block)]
+    free_all(block)
+    outcome = push_impulses(block, at)
+    if outcome == status.OK:
+        _apply(block)
+        for c in range(contacts):
+            strike.impulse[c] += strike.compression[c] + rub.given[c]
+    for c in range(contacts):
+        rub.given[c] = 0.0
+    return outcome
