@@ -117,7 +117,7 @@ MEMBER_FORCE = 32  # index 3 * member + (along it, moments on its start and end)
 MEMBER_STRESS = 33
 BEAM_DEFLECTION = 34
 BEAM_STRESS = 35
-SLIP_SPEED = 36  # index: of dry friction, contacts and then joints
+SLIP_SPEED = 36  # index: of dry friction, contacts, joints, and elements
 FRICTION_FORCE = 37
 STICKS_NOW = 38
 
@@ -160,7 +160,7 @@ STOP_BEFORE_EVENT = 4  # ... or at an event that has not happened yet: outputs a
 # columns of an event record
 EVENT_TIME = 0
 EVENT_GUARD = 1
-EVENT_SUBJECT = 2  # number of the contact, pattern or logical function; of friction, contacts and then joints
+EVENT_SUBJECT = 2  # number of the contact, pattern or logical function; of friction, contacts, joints, and elements
 EVENT_OLD_MODE = 3  # sum of 2^c over closed contacts c
 EVENT_NEW_MODE = 4
 EVENT_IMPULSE = 5  # total normal impulse over all contacts [N s]

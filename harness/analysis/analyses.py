@@ -85,8 +85,8 @@ class Analysis(Protocol):
 
 
 @dataclass(frozen=True)
-class Stress(Analysis):
-    """The beam that is struck, and the stress that each impact leaves in it."""
+class _OfBeam(Analysis):
+    """An analysis of the beam that impacts strike."""
 
     struck: Struck
 
@@ -94,6 +94,11 @@ class Stress(Analysis):
     def variables(self) -> tuple[str, ...]:
         """Sizes of the beam."""
         return self.struck.variables
+
+
+@dataclass(frozen=True)
+class Stress(_OfBeam):
+    """The beam that is struck, and the stress that each impact leaves in it."""
 
     @property
     def columns(self) -> Mapping[str, str]:
@@ -113,15 +118,8 @@ class Stress(Analysis):
 
 
 @dataclass(frozen=True)
-class Damage(Analysis):
+class Damage(_OfBeam):
     """What all impacts together do to the beam."""
-
-    struck: Struck
-
-    @property
-    def variables(self) -> tuple[str, ...]:
-        """Sizes of the beam."""
-        return self.struck.variables
 
     @property
     def tables(self) -> Mapping[str, Mapping[str, str]]:

@@ -47,7 +47,33 @@ class Buffer:
         return [unit.get(slot) for slot in self._slots[:filled]]
 
 
-_LOST = "impacts_lost"
+class Collector:
+    """An observer that keeps what stands in a buffer after every step.
+
+    Attributes:
+        lost: how much did not fit into the buffer, when the FMU counts it.
+    """
+
+    def __init__(self, description: Description, buffer: Buffer, counter: str) -> None:
+        self._buffer = buffer
+        self._counters = (counter,) if counter in description.variables else ()
+        self._rows: list[list[Value]] = []
+        self.lost = 0
+
+    def started(self, unit: Observable, time: float) -> None:
+        """No step, nothing in the buffer."""
+
+    def stepped(self, unit: Observable, time: float) -> None:
+        """Keep what the step that ends at `time` has left."""
+        new = self._buffer.read(unit)
+        self._rows += new
+        if new and self._counters:
+            self.lost = self._lost_of(int(unit.get(self._counters)[0]))
+
+    def _lost_of(self, counted: int) -> int:
+        """How much did not fit so far, by the FMU's counter: of what did not fit, unless a collector knows better."""
+        return counted
+
 
 #: A body whose beam's tip moves by less than this share of the closing speed is held. Rounding leaves some 1e-16 of it,
 #: and a heavy one, the paper's wheel of 5.6 kg, moves by 7.5e-3 of it where it is free.
@@ -59,7 +85,7 @@ UNITS_OF_STOPS = (
 )
 
 
-class ImpactCollector:
+class ImpactCollector(Collector):
     """An observer that keeps the impacts in `impacts[1].time`, `impacts[1].velocity`, ... after every step.
 
     An FMU without these variables has no impacts.
@@ -70,21 +96,8 @@ class ImpactCollector:
     """
 
     def __init__(self, description: Description) -> None:
-        self._buffer = Buffer(description, "impacts")
-        self._counts_lost = _LOST in description.variables
-        self._rows: list[list[Value]] = []
+        super().__init__(description, Buffer(description, "impacts"), "impacts_lost")
         self.fields = self._buffer.fields
-        self.lost = 0
-
-    def started(self, unit: Observable, time: float) -> None:
-        """No step, no impact."""
-
-    def stepped(self, unit: Observable, time: float) -> None:
-        """Keep the impacts of the step that ends at `time`."""
-        new = self._buffer.read(unit)
-        self._rows += new
-        if new and self._counts_lost:
-            self.lost = int(unit.get((_LOST,))[0])
 
     def table(self) -> pd.DataFrame:
         """One row for each impact, in the order of time, with a column for each field."""

@@ -76,10 +76,11 @@ def sweep(
     Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.
     """
     from .commands.designs_run import run_sweep
+    from .commands.designs_shared import Runners
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_sweep(file, output, workers, scheduler, fast, trust))
+        raise typer.Exit(run_sweep(file, output, Runners(workers, scheduler, fast, trust)))
 
 
 def optimise(
@@ -120,7 +121,8 @@ def optimise(
     Exit code: 0 all well, 1 no design keeps all constraints, 2 wrong use, 130 interrupted.
     """
     from .commands.designs_run import run_optimise
+    from .commands.designs_shared import Runners
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(run_optimise(file, output, workers, scheduler, fast, trust))
+        raise typer.Exit(run_optimise(file, output, Runners(workers, scheduler, fast, trust)))

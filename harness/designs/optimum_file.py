@@ -11,7 +11,7 @@ from ..errors import UsageError
 from ..fmu.description import Description, Variable
 from ..fmu.values import parse_value
 from ..toml_file import TomlFile, as_text, is_number
-from .task import MOST_DESIGNS, Quantity, Result, Task, UnknownQuantityError, column, recorded, with_slenderness
+from .task import MOST_DESIGNS, Design, Quantity, Result, Task, UnknownQuantityError, column, recorded, with_slenderness
 from .variation import Axis, axes, shared
 
 # What makes a design better than another.
@@ -211,6 +211,11 @@ class Optimum:
         return self.count + (0 if self.around is None else self.around.designs(len(near(self.axes))))
 
     @property
+    def designs(self) -> tuple[Design, ...]:
+        """Those that are known from the beginning: none."""
+        return ()
+
+    @property
     def how(self) -> tuple[str, Mapping[str, Any]]:
         """What besides the designs decides which designs there are, for the `identity`."""
         limits = {c.quantity.column: [c.at_least, c.at_most] for c in self.goal.constraints}
@@ -237,10 +242,7 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
     Raises:
         UsageError: mistakes in the file, all of them.
     """
-    if "sweep" in file.data:
-        file.wrong(("sweep",), f"belongs to a sweep: mechanism-fmu sweep {file.path}")
-        file.check()
-    title, running, fixed = shared(file, TABLES, description)
+    title, running, fixed = shared(file, TABLES, description, ("sweep", "a sweep"))
     section = file.section("optimise", why='write [optimise] and below it e.g. minimise = "largest_impact.stress_max"')
     for name in ("minimise", "maximise"):
         section.take(name)

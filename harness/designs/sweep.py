@@ -100,10 +100,7 @@ def read_sweep(file: TomlFile, description: Description) -> Sweep:
     Raises:
         UsageError: mistakes in the file, all of them.
     """
-    if "optimise" in file.data:
-        file.wrong(("optimise",), f"belongs to an optimum: mechanism-fmu optimise {file.path}")
-        file.check()
-    title, running, fixed = shared(file, TABLES, description)
+    title, running, fixed = shared(file, TABLES, description, ("optimise", "an optimum"))
     section = file.section("sweep", why='write [sweep] and below it method = "latin_hypercube" and count = 64')
     method = section.choice("method", (_GRID, *METHODS), needed='write e.g. method = "latin_hypercube"')
     by_grid = method == _GRID

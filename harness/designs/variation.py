@@ -46,8 +46,20 @@ def source(file: TomlFile) -> Source:
     return Source(None if path is None else file.path.parent / path, model or "")
 
 
-def shared(file: TomlFile, tables: Sequence[str], description: Description) -> tuple[str, Course, dict[str, Value]]:
-    """What a sweep and an optimum have in common: the title, [run] and [set]; nothing else than `tables` is known."""
+def shared(
+    file: TomlFile, tables: Sequence[str], description: Description, other: tuple[str, str]
+) -> tuple[str, Course, dict[str, Value]]:
+    """What a sweep and an optimum have in common: the title, [run] and [set]; nothing else than `tables` is known.
+
+    `other` is the table that only the other of the two has, which is also its command, and what that is called.
+
+    Raises:
+        UsageError: the file is the other's.
+    """
+    table, what = other
+    if table in file.data:
+        file.wrong((table,), f"belongs to {what}: mechanism-fmu {table} {file.path}")
+        file.check()
     file.only_tables(tables)
     title = file.data.get("title", file.path.stem)
     if not isinstance(title, str):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 import zipfile
 import zlib
@@ -11,14 +10,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from .resources import FlawError, parsed
+
 #: A number in SI units, or the name of a parameter or calculated parameter.
 Quantity = float | str
 #: One, or a column of a table of them.
 Size = Quantity | tuple[Quantity, ...]
 
-#: Path within the FMU, and the format of it that is understood.
+#: Path within the FMU.
 FILE = "resources/analysis.json"
-_FORMAT = 1
 
 #: What is said where nothing leaves a stress, and how it is to be had.
 NO_BEAM = (
@@ -161,15 +161,9 @@ def read_declared(path: Path, variables: Mapping[str, object]) -> Declared:
     except (OSError, RuntimeError, EOFError, zipfile.BadZipFile, zlib.error, UnicodeDecodeError) as error:
         return _objection(f"it cannot be read ({error})")
     try:
-        return _declared(json.loads(text), variables)
-    except _DeclarationError as error:
-        return _objection(str(error))
+        return _declared(parsed(text, "analyses")["analyses"], variables)
     except (ValueError, RecursionError) as error:
-        return _objection(f"it is no JSON ({error})")
-
-
-class _DeclarationError(Exception):
-    """What is wrong with a declaration."""
+        return _objection(str(error))
 
 
 def _objection(problem: str) -> Declared:
@@ -178,12 +172,9 @@ def _objection(problem: str) -> Declared:
     )
 
 
-def _declared(data: Any, variables: Mapping[str, object]) -> Declared:
-    entries = data.get("analyses") if isinstance(data, dict) else None
-    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
-        raise _DeclarationError("it holds no list of analyses")
-    if data.get("format") != _FORMAT:
-        raise _DeclarationError(f"its format is {data.get('format')!r}, and this harness knows format {_FORMAT}")
+def _declared(entries: list[Any], variables: Mapping[str, object]) -> Declared:
+    if not all(isinstance(entry, dict) for entry in entries):
+        raise FlawError("it holds no list of analyses")
     found: dict[str, Any] = {}
     for entry in entries:
         kind = entry.get("kind")
@@ -193,7 +184,7 @@ def _declared(data: Any, variables: Mapping[str, object]) -> Declared:
         elif kind == "SeriesCompliance":
             found["chain"] = _chain(reader, entry)
         else:
-            raise _DeclarationError(f"an analysis is of the unknown kind {kind!r}")
+            raise FlawError(f"an analysis is of the unknown kind {kind!r}")
     return Declared(**found)
 
 
@@ -212,13 +203,13 @@ class _Reader:
     def text(self, entry: Any, key: str, default: str | None = None) -> str:
         value = entry.get(key, default) if isinstance(entry, dict) else None
         if not isinstance(value, str) or (not value and default is None):
-            raise _DeclarationError(f"{key} of {self.label} is {value!r}, and no text")
+            raise FlawError(f"{key} of {self.label} is {value!r}, and no text")
         return value
 
     def column(self, entry: Any, key: str) -> tuple[Quantity, ...]:
         value = entry.get(key)
         if not isinstance(value, list):
-            raise _DeclarationError(f"{key} of {self.label} is {value!r}, and no list")
+            raise FlawError(f"{key} of {self.label} is {value!r}, and no list")
         return tuple(self.quantity({key: one}, key) for one in value)
 
     def quantity(self, entry: Any, key: str) -> Quantity:
@@ -226,13 +217,13 @@ class _Reader:
         if isinstance(value, str):
             return self.variable(entry, key)
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
-            raise _DeclarationError(f"{key} of {self.label} is {value!r}, neither a number nor the name of a variable")
+            raise FlawError(f"{key} of {self.label} is {value!r}, neither a number nor the name of a variable")
         return float(value)
 
     def variable(self, entry: Any, key: str) -> str:
         name = self.text(entry, key)
         if name not in self.variables:
-            raise _DeclarationError(f"{key} of {self.label} is the variable '{name}', which the FMU has not")
+            raise FlawError(f"{key} of {self.label} is the variable '{name}', which the FMU has not")
         return name
 
     def link(self, entry: Any, numbers: tuple[str, ...], outputs: tuple[str, ...]) -> Link:
@@ -247,7 +238,7 @@ def _struck(read: _Reader, entry: Mapping[str, Any]) -> Struck:
     beam = entry.get("beam")
     kind = read.text(beam, "kind")
     if kind not in SIZES or not isinstance(beam, dict):
-        raise _DeclarationError(f"its beam is of the unknown kind {kind!r}")
+        raise FlawError(f"its beam is of the unknown kind {kind!r}")
     sizes = SIZES[kind] + ((_THICKNESS,) if _THICKNESS in beam else ())
     return Struck(
         kind,
@@ -265,7 +256,7 @@ def _struck(read: _Reader, entry: Mapping[str, Any]) -> Struck:
 def _chain(read: _Reader, entry: Mapping[str, Any]) -> Chain:
     contact = entry.get("contact")
     if not isinstance(contact, int) or isinstance(contact, bool):
-        raise _DeclarationError(f"contact of {read.label} is {contact!r}, and no number of a contact")
+        raise FlawError(f"contact of {read.label} is {contact!r}, and no number of a contact")
     bar, wheel = ("length", "width", "depth", "stiffness"), entry.get("wheel")
     return Chain(
         contact,

@@ -14,10 +14,11 @@ from ..fmu.description import Variable
 from ..machine.connection import own_of, part_of
 from ..machine.running import MachineRun
 from ..machine.structure import dependency_order
-from .animation import MOST_IMPACTS, Scene, flags, legend, names_of, picture_data, player, rounded, times_data
+from .animation import MOST_IMPACTS, flags, legend, picture_data, player, rounded, times_data
 from .motion import QUANTITIES, Contact, contacts_among, intervals, joined
 from .page import COLOURS, IMPACT_COLOUR, chart, charts, layout, section, table
 from .plot import Curve, FloatArray, Plot, interactive, strongest, thin
+from .scene import Scene, names_of
 
 # A whole machine in motion: the pictures of its components beside each other, with one player for all.
 

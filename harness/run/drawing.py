@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -10,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..fmu.description import Description
+from ..fmu.resources import FlawError, resource
 from .master import recorded_variables
 
 #: A number, or the name of a variable, with a leading "-" for its negative.
@@ -17,9 +17,6 @@ Quantity = float | str
 
 #: A point (x, y) [m], the name of the bar whose far end it is, or "<link>.<number>" for a point of a link or outline.
 Place = tuple[Quantity, Quantity] | str
-
-#: The format of drawing.json that is understood.
-_FORMAT = 1
 
 #: What each kind of shape needs besides its place: lengths in m, angles in rad.
 _QUANTITIES = {
@@ -83,36 +80,16 @@ class Drawing:
 
 def read_drawing(folder: Path, description: Description) -> Drawing:
     """The drawing in the extracted FMU `folder`; one that cannot be used is an objection and never an error."""
-    path = folder / "resources" / "drawing.json"
     try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        return Drawing()
-    except (OSError, UnicodeDecodeError) as error:
-        return _objection(f"it cannot be read ({error})")
-    try:
-        return Drawing(tuple(_shapes(json.loads(text), description)))
-    except _DrawingError as error:
-        return _objection(str(error))
+        data = resource(folder, "drawing.json", "shapes")
+        return Drawing() if data is None else Drawing(tuple(_shapes(data, description)))
     except (ValueError, RecursionError) as error:
-        return _objection(f"it is no JSON ({error})")
+        return Drawing(
+            objection=f"The FMU's drawing (resources/drawing.json) cannot be shown: {error}. Build the FMU again."
+        )
 
 
-class _DrawingError(Exception):
-    """What is wrong with a drawing."""
-
-
-def _objection(problem: str) -> Drawing:
-    return Drawing(
-        objection=f"The FMU's drawing (resources/drawing.json) cannot be shown: {problem}. Build the FMU again."
-    )
-
-
-def _shapes(data: Any, description: Description) -> Iterator[Shape]:
-    if not isinstance(data, dict) or not isinstance(data.get("shapes"), list):
-        raise _DrawingError("it holds no list of shapes")
-    if data.get("format") != _FORMAT:
-        raise _DrawingError(f"its format is {data.get('format')!r}, and this harness knows format {_FORMAT}")
+def _shapes(data: Mapping[str, Any], description: Description) -> Iterator[Shape]:
     variables = [*recorded_variables(description), *description.of("parameter", "calculatedParameter")]
     reader = _Reader({variable.name for variable in variables if variable.type in ("Real", "Integer")})
     for number, raw in enumerate(data["shapes"], start=1):
@@ -133,15 +110,15 @@ class _Reader:
     def shape(self, raw: Any, label: str) -> Shape:
         kind = raw.get("kind") if isinstance(raw, dict) else None
         if not isinstance(kind, str) or kind not in _QUANTITIES:
-            raise _DrawingError(f"{label} is of the unknown kind {kind!r}")
+            raise FlawError(f"{label} is of the unknown kind {kind!r}")
         name = raw.get("name", "")
         if not isinstance(name, str) or (kind not in _UNNAMED and not name):
-            raise _DrawingError(f"{label} has no name")
+            raise FlawError(f"{label} has no name")
         if name:
             label = f"{kind} '{name}'"
         outline = raw.get("points" if kind in WITH_POINTS else "outline", [])
         if not isinstance(outline, list) or (kind in ("wheel", *WITH_POINTS) and not outline):
-            raise _DrawingError(f"{label} has no outline")
+            raise FlawError(f"{label} has no outline")
         shape = Shape(
             kind,
             self._place(raw.get("at"), label),
@@ -161,19 +138,19 @@ class _Reader:
         if not isinstance(raw, str):
             return self._pair(raw, f"place of {label}")
         if raw not in self._bars:
-            raise _DrawingError(f"{label} starts from '{raw}', which is no bar before it")
+            raise FlawError(f"{label} starts from '{raw}', which is no bar before it")
         return raw
 
     def _pair(self, raw: Any, label: str) -> tuple[Quantity, Quantity]:
         if not isinstance(raw, list) or len(raw) != 2:
-            raise _DrawingError(f"the {label} is no pair of numbers")
+            raise FlawError(f"the {label} is no pair of numbers")
         return self._quantity(raw[0], label), self._quantity(raw[1], label)
 
     def _quantity(self, raw: Any, label: str) -> Quantity:
         if isinstance(raw, str):
             if raw.removeprefix("-") not in self._variables:
-                raise _DrawingError(f"the {label} is the variable '{raw.removeprefix('-')}', which the FMU has not")
+                raise FlawError(f"the {label} is the variable '{raw.removeprefix('-')}', which the FMU has not")
             return raw
         if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not math.isfinite(raw):
-            raise _DrawingError(f"the {label} is {raw!r}, neither a number nor the name of a variable")
+            raise FlawError(f"the {label} is {raw!r}, neither a number nor the name of a variable")
         return float(raw)

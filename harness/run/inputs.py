@@ -285,9 +285,7 @@ def _check_times(times: npt.NDArray[np.float64], start_time: float, stop_time: f
 def _typed(number: float, variable: Variable) -> Value:
     if variable.type == "Integer":
         return round(number)
-    if variable.type == "Boolean":
-        return bool(number)
-    return float(number)
+    return bool(number) if variable.type == "Boolean" else float(number)
 
 
 def check_no_overlap(inputs: InputSignals, start_values: Mapping[str, Value]) -> None:

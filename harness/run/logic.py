@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -14,14 +13,11 @@ import pandas as pd
 from mechanism_fmu.statechart import Logic, taken
 from mechanism_fmu.statechart.records import decode
 
-from ..analysis.impacts import Buffer
+from ..analysis.impacts import Buffer, Collector
 from ..errors import UsageError
 from ..fmu.description import Description, Value
-from ..fmu.interface import Observable
+from ..fmu.resources import FlawError, resource
 from ..fmu.values import parse_value
-
-#: The format of logic.json that is understood.
-_FORMAT = 1
 
 
 @dataclass(frozen=True)
@@ -66,21 +62,13 @@ def read_logic(folder: Path) -> LogicFile:
 
     It is read once for all runs with the FMU: nothing changes in an extracted one.
     """
-    path = folder / "resources" / "logic.json"
     try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        return LogicFile()
-    except (OSError, UnicodeDecodeError) as error:
-        return _objection(f"it cannot be read ({error})")
-    try:
-        data = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        return _objection(f"it is no JSON ({error})")
-    try:
-        return _checked(data)
+        data = resource(folder, "logic.json", "variants")
+        return LogicFile() if data is None else _checked(data)
     except ValueError as error:
-        return _objection(str(error))
+        return LogicFile(
+            objection=f"The FMU's modes (resources/logic.json) cannot be shown: {error}. Build the FMU again."
+        )
 
 
 def default_parameters(description: Description, settings: Mapping[str, Value]) -> dict[str, Value]:
@@ -94,21 +82,11 @@ def default_parameters(description: Description, settings: Mapping[str, Value]) 
     return values | dict(settings)
 
 
-def _objection(problem: str) -> LogicFile:
-    return LogicFile(
-        objection=f"The FMU's modes (resources/logic.json) cannot be shown: {problem}. Build the FMU again."
-    )
-
-
-def _checked(data: Any) -> LogicFile:
-    if not isinstance(data, dict) or not isinstance(data.get("variants"), list):
-        raise ValueError("it holds no list of variants")
-    if data.get("format") != _FORMAT:
-        raise ValueError(f"its format is {data.get('format')!r:.60}, and this harness knows format {_FORMAT}")
+def _checked(data: dict[str, Any]) -> LogicFile:
     variants = tuple(decode(variant) for variant in data["variants"])
     choices = data.get("choices")
     if not isinstance(choices, dict) or not all(_is_place(place, len(variants)) for place in choices.values()):
-        raise ValueError("its choices name variants that are not there")
+        raise FlawError("its choices name variants that are not there")
     return LogicFile(_names(data, "contacts"), _events(data), _names(data, "switches"), choices, variants)
 
 
@@ -119,33 +97,32 @@ def _is_place(place: Any, count: int) -> bool:
 def _names(data: dict[str, Any], key: str) -> tuple[str, ...]:
     names = data.get(key)
     if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
-        raise ValueError(f"it has no list of {key}")
+        raise FlawError(f"it has no list of {key}")
     return tuple(names)
 
 
 def _events(data: dict[str, Any]) -> dict[tuple[int, int], str]:
     raw = data.get("events")
     if not isinstance(raw, list):
-        raise ValueError("it has no list of events")
+        raise FlawError("it has no list of events")
     events: dict[tuple[int, int], str] = {}
     for entry in raw:
         guard, subject, name = (entry.get(k) if isinstance(entry, dict) else None for k in ("guard", "subject", "name"))
         if not (isinstance(guard, int) and isinstance(subject, int) and isinstance(name, str)):
-            raise ValueError("an event has no guard, subject and name")
+            raise FlawError("an event has no guard, subject and name")
         events[guard, subject] = name
     return events
 
 
 # Every event of a run, from the FMU's buffer of the events of the last communication step.
 
-_COUNT = "event_count"
 _FIELDS = ("time", "guard", "subject", "old_mode", "new_mode", "impulse")
 
 #: Columns of the table of events, with their units.
 UNITS = {"time": "s", "guard": "1", "old_mode": "1", "new_mode": "1", "impulse": "N.s"}
 
 
-class EventCollector:
+class EventCollector(Collector):
     """An observer that keeps the events in `events[1].time`, `events[1].guard`, ... after every step.
 
     Attributes:
@@ -154,21 +131,11 @@ class EventCollector:
     """
 
     def __init__(self, description: Description) -> None:
-        self._buffer = Buffer(description, "events", _FIELDS)
-        self._counts = _COUNT in description.variables
-        self._rows: list[list[Value]] = []
+        super().__init__(description, Buffer(description, "events", _FIELDS), "event_count")
         self.reports = bool(self._buffer.fields)
-        self.lost = 0
 
-    def started(self, unit: Observable, time: float) -> None:
-        """No step, no event."""
-
-    def stepped(self, unit: Observable, time: float) -> None:
-        """Keep the events of the step that ends at `time`."""
-        new = self._buffer.read(unit)
-        self._rows += new
-        if new and self._counts:
-            self.lost = int(unit.get((_COUNT,))[0]) - len(self._rows)
+    def _lost_of(self, counted: int) -> int:
+        return counted - len(self._rows)
 
     def table(self, logic: LogicFile) -> pd.DataFrame:
         """One row for each event, in the order of time, in words: the columns of `UNITS`."""

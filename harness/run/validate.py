@@ -312,6 +312,4 @@ def _same_value(variable: Variable, value: Value) -> bool:
     start = variable.start_value
     if isinstance(value, float) and start is not None:
         return math.isclose(float(start), value, rel_tol=_ROUNDED.get(variable.fmi_type, 1e-15))
-    if variable.type == "Binary":
-        return str(start).lower() == value
-    return start == value
+    return str(start).lower() == value if variable.type == "Binary" else start == value

@@ -59,14 +59,12 @@ def _rests(_block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> 
 
 @jit
 def _unknown(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
-    value: float = Stages(block).y_at[index]
-    return value
+    return float(Stages(block).y_at[index])
 
 
 @jit
 def _unknown_rate(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
-    rate: float = Stages(block).dy_at[index]
-    return rate
+    return float(Stages(block).dy_at[index])
 
 
 @jit
@@ -104,8 +102,7 @@ def _stop_clicks(block: Array, _at: Pose, index: int, _slot: int, _value: float)
 
 @jit
 def _stop_reference(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
-    value: float = Contacts(block).line[index, 0]
-    return value
+    return float(Contacts(block).line[index, 0])
 
 
 @jit
@@ -115,8 +112,7 @@ def _pattern_index(block: Array, _at: Pose, index: int, _slot: int, _value: floa
 
 @jit
 def _joint_force(block: Array, _at: Pose, index: int, _slot: int, value: float) -> float:
-    value *= LinearSystem(block).multiplier[index]
-    return value
+    return float(value * LinearSystem(block).multiplier[index])
 
 
 @jit
@@ -154,14 +150,12 @@ def _spring_power(block: Array, at: Pose, _index: int, _slot: int, _value: float
 
 @jit
 def _energy_lost(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
-    lost: float = Course(block).ledger[codes.LEDGER_LOST] + Stages(block).y_at[Sizes(block).y_loss]
-    return lost
+    return float(Course(block).ledger[codes.LEDGER_LOST] + Stages(block).y_at[Sizes(block).y_loss])
 
 
 @jit
 def _power_lost(block: Array, _at: Pose, _index: int, _slot: int, _value: float) -> float:
-    rate: float = Stages(block).dy_at[Sizes(block).y_loss]
-    return rate
+    return float(Stages(block).dy_at[Sizes(block).y_loss])
 
 
 @jit
@@ -176,14 +170,12 @@ def _impact_flag(block: Array, _at: Pose, _index: int, _slot: int, _value: float
 
 @jit
 def _last_impact(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
-    value: float = Course(block).last_impact[index]
-    return value
+    return float(Course(block).last_impact[index])
 
 
 @jit
 def _buffered_impact(block: Array, _at: Pose, index: int, slot: int, _value: float) -> float:
-    value: float = Course(block).impacts[slot, index]
-    return value
+    return float(Course(block).impacts[slot, index])
 
 
 @jit

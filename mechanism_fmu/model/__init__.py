@@ -19,6 +19,7 @@ from .analysis import (
     TrapezoidTooth as TrapezoidTooth,
     WedgeTooth as WedgeTooth,
 )
+from .areas import CircularHole as CircularHole
 from .body import GROUND as GROUND, Body as Body, End as End
 from .compile import MechanismTables as MechanismTables, compile_mechanism as compile_mechanism
 from .contacts import (
@@ -102,7 +103,6 @@ from .solids import (
     BRASS as BRASS,
     POM as POM,
     STEEL as STEEL,
-    CircularHole as CircularHole,
     Material as Material,
     bar as bar,
     disc as disc,

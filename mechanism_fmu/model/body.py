@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 
@@ -30,11 +31,14 @@ class End:
     direction: Point | None = None
 
 
-class Frame:
+class Frame(ABC):
     """What can be built on: a frame of a body, or the fixed one, in which points are given."""
 
+    __slots__ = ()
+
+    @abstractmethod
     def _end(self, point: Point, direction: Point | None = None) -> End:
-        raise NotImplementedError
+        """The end at a point of the frame [m], along a direction."""
 
     def at(self, x: Number, y: Number) -> End:
         """The point (x, y) [m] of the frame in which the body was drawn, as numbers or texts such as "5 mm".

@@ -8,6 +8,7 @@ from typing import ClassVar
 from .. import codes
 from .attached import Attached
 from .body import Point
+from .curves import Curve
 from .findings import (
     Finding,
     both,
@@ -34,6 +35,9 @@ class ContactFacts(Attached):
         has_memory: whether it clicks (see `AngleStop`).
         holds: name of the number that says whether it also pulls.
         readings: what an `Output` may read, with the source "<contact>.<name>", as codes.
+        rows, alphas: how many constraint rows and contact coordinates it has.
+        friction: coefficient of Coulomb friction [1].
+        pattern: name of what repeats it, or None.
     """
 
     angular: ClassVar[bool] = False
@@ -45,9 +49,19 @@ class ContactFacts(Attached):
         "closed": codes.CONTACT_CLOSED,
     }
 
+    rows: ClassVar[int] = 1
+    alphas: ClassVar[int] = 0
+    friction: Number = 0.0
+    pattern: str | None = None
+
     name: str
     body_i: str
     body_j: str
+
+    @property
+    def profiles(self) -> tuple[Curve | None, Curve | None]:
+        """The profiles of body i and body j, None of one that has none."""
+        return getattr(self, "profile_i", None), getattr(self, "profile_j", None)
 
     def findings(self) -> Iterator[Finding]:
         """Every problem that its numbers can have, but for its shape and for those that are not finite."""

@@ -18,7 +18,6 @@ from .. import codes
 from .attached import Slot
 from .body import Point
 from .contact_facts import ContactFacts, no_unit_length
-from .curves import Curve
 from .findings import Finding, positive, refuse_unless
 from .functions import Number
 from .joints import HigherPair
@@ -52,9 +51,6 @@ class PointLineContact(ContactFacts):
     """
 
     kind: ClassVar[int] = codes.POINT_LINE
-    rows: ClassVar[int] = 1
-    alphas: ClassVar[int] = 0
-    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
     slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "line_point", "normal", "normal"))
 
     name: str
@@ -85,11 +81,20 @@ class PointLineContact(ContactFacts):
         return f"the point of {self.body_i!r} is", f"m behind the line on {self.body_j!r}"
 
 
+@dataclass(frozen=True, init=False)
 class _OfAngles(ContactFacts):
     """A contact whose gap is an angle."""
 
     angular: ClassVar = True
+    closed: ClassVar[Number] = False
+    guided: ClassVar[Number] = False
+    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
+    units: ClassVar = {"angle": "rad", "pitch": "rad"}
 
+    name: str
+    body_i: str
+    body_j: str
+    angle: Number
     pitch: Number | None
 
     def findings(self) -> Iterator[Finding]:
@@ -127,21 +132,8 @@ class AngleStop(_OfAngles):
     kind: ClassVar[int] = codes.ANGLE_STOP
     has_memory: ClassVar = True
     readings: ClassVar = {**ContactFacts.readings, "clicks": codes.STOP_CLICKS, "latched": codes.STOP_REFERENCE}
-    rows: ClassVar[int] = 1
-    alphas: ClassVar[int] = 0
-    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
-    closed: ClassVar[Number] = False
-    friction: ClassVar[Number] = 0.0
-    guided: ClassVar[Number] = False
-    pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
-    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
-    units: ClassVar = {"angle": "rad", "pitch": "rad"}
 
-    name: str
-    body_i: str
-    body_j: str
-    angle: Number
     pitch: Number | None = None
     restitution: Number = 0.0
     enabled: Number = True
@@ -171,21 +163,8 @@ class AngleLock(_OfAngles):
     """
 
     kind: ClassVar[int] = codes.ANGLE_LOCK
-    rows: ClassVar[int] = 1
-    alphas: ClassVar[int] = 0
-    profiles: ClassVar[tuple[Curve | None, Curve | None]] = (None, None)
-    closed: ClassVar[Number] = False
     restitution: ClassVar[Number] = 0.0
-    friction: ClassVar[Number] = 0.0
-    guided: ClassVar[Number] = False
-    pattern: ClassVar[str | None] = None
-    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
-    units: ClassVar = {"angle": "rad", "pitch": "rad"}
 
-    name: str
-    body_i: str
-    body_j: str
-    angle: Number
     pitch: Number
     closed_while: str
     enabled: Number = True

@@ -11,10 +11,9 @@ from .port_builders.outputs import (
     body_angle_output,
     body_speed_output,
     energy_outputs,
-    event_buffer_outputs,
-    impact_outputs,
     whole_output,
 )
+from .port_builders.records import event_buffer_outputs, impact_outputs
 from .ports import Output
 from .sources import MOST_CONTACTS_OF_A_MODE
 

@@ -97,7 +97,17 @@ class Striker:
 
 
 @dataclass(frozen=True)
-class Link:
+class _Points:
+    """Points of a rigid body."""
+
+    name: str
+    at: Place
+    angle: Quantity
+    points: tuple[tuple[Quantity, Quantity], ...]
+
+
+@dataclass(frozen=True)
+class Link(_Points):
     """A rigid body as its points show it: a rod between two, else the plate that their hull makes.
 
     Attributes:
@@ -108,28 +118,27 @@ class Link:
             counts with its value at the start.
     """
 
-    name: str
-    at: Place
-    angle: Quantity
-    points: tuple[tuple[Quantity, Quantity], ...]
-
 
 @dataclass(frozen=True)
-class Outline:
+class Outline(_Points):
     """A line through points of a rigid body, closed where there are three or more: a plate, a wall, a guide.
 
     Attributes:
         name, at, angle, points: as of `Link`.
     """
 
+
+@dataclass(frozen=True)
+class _Between:
+    """What reaches from one place to another."""
+
     name: str
     at: Place
-    angle: Quantity
-    points: tuple[tuple[Quantity, Quantity], ...]
+    to: Place
 
 
 @dataclass(frozen=True)
-class Spring:
+class Spring(_Between):
     """A coil spring between two places.
 
     Attributes:
@@ -137,23 +146,15 @@ class Spring:
         at, to: its ends.
     """
 
-    name: str
-    at: Place
-    to: Place
-
 
 @dataclass(frozen=True)
-class Rod:
+class Rod(_Between):
     """A thin rod between two places.
 
     Attributes:
         name: as of `Bar`.
-        at, to: its ends.
+        at, to: as of `Spring`.
     """
-
-    name: str
-    at: Place
-    to: Place
 
 
 @dataclass(frozen=True)

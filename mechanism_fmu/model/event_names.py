@@ -26,7 +26,7 @@ def event_name(mechanism: Mechanism, guard: int, subject: int) -> str:
     if guard == codes.GUARD_FUNCTION:
         return mechanism.functions[subject].name
     if guard in _OF_FRICTION:
-        return f"{(*mechanism.contacts, *mechanism.joints)[subject].name}.{_OF_FRICTION[guard]}"
+        return f"{(*mechanism.contacts, *mechanism.joints, *mechanism.elements)[subject].name}.{_OF_FRICTION[guard]}"
     if guard in _OF_PATTERN:
         return f"{mechanism.patterns[subject].name}.{_OF_PATTERN[guard]}"
     return f"{mechanism.contacts[subject].name}.{_OF_CONTACT[guard]}"

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from .drawing import Bar, Hinge, Shape
 from .findings import Finding, at_most, first, size
 from .functions import Number, atan2, cos, sin, sqrt, where_positive
-from .port_builders import body_angle_output, body_speed_output, flag_parameter
+from .port_builders import body_motion_outputs, flag_parameter
 from .ports import Calculated
 
 # Sides and angles of triangles, in a form that also has a value where there is no such triangle.
@@ -115,12 +115,7 @@ CROSSED = flag_parameter(
     "Whether coupler and rocker are assembled on the other side of the line from crank pin to rocker hinge",
 )
 
-MOTIONS = (
-    body_angle_output("crank", "theta"),
-    body_angle_output("coupler", "phi"),
-    body_angle_output("rocker", "psi"),
-    *(body_speed_output(link) for link in ("crank", "coupler", "rocker")),
-)
+MOTIONS = body_motion_outputs({"crank": "theta", "coupler": "phi", "rocker": "psi"})
 
 _CRANK_HINGE, _ROCKER_HINGE = (0.0, 0.0), ("ground_length", 0.0)
 

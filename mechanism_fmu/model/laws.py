@@ -15,6 +15,7 @@ from ..tables.kinds import OPERATIONS
 from .curves import Curve, Piece, Term, plain_places
 from .errors import MechanismError, place_of
 from .functions import Number, is_plain, where_positive
+from .operators import Recorded
 
 #: Most operations of one law.
 MOST_OPERATIONS = 500
@@ -99,7 +100,7 @@ def _refuse_number(*_: object) -> NoReturn:
     )
 
 
-class LawNumber:
+class LawNumber(Recorded):
     """An argument of a law, or what came of one.
 
     Attributes:
@@ -119,29 +120,8 @@ class LawNumber:
     def __repr__(self) -> str:
         return f"LawNumber({self.number})"
 
-    def __add__(self, other: Number) -> LawNumber:
-        return self.law.apply("add", self, other)
-
-    def __radd__(self, other: Number) -> LawNumber:
-        return self.law.apply("add", other, self)
-
-    def __sub__(self, other: Number) -> LawNumber:
-        return self.law.apply("subtract", self, other)
-
-    def __rsub__(self, other: Number) -> LawNumber:
-        return self.law.apply("subtract", other, self)
-
-    def __mul__(self, other: Number) -> LawNumber:
-        return self.law.apply("multiply", self, other)
-
-    def __rmul__(self, other: Number) -> LawNumber:
-        return self.law.apply("multiply", other, self)
-
-    def __truediv__(self, other: Number) -> LawNumber:
-        return self.law.apply("divide", self, other)
-
-    def __rtruediv__(self, other: Number) -> LawNumber:
-        return self.law.apply("divide", other, self)
+    def _binary(self, name: str, left: Number, right: Number) -> LawNumber:
+        return self.law.apply(name, left, right)
 
     def __pow__(self, exponent: Number) -> LawNumber:
         if not (isinstance(exponent, int) and 1 <= exponent <= 12):

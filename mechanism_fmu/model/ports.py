@@ -12,15 +12,22 @@ from .quantities import quantity
 VariableType = Literal["Real", "Integer", "Boolean"]
 
 
-def _numbers_of(port: Parameter | Input) -> None:
-    for what in ("start", "minimum", "maximum"):
-        value = getattr(port, what)
-        if isinstance(value, str):
-            object.__setattr__(port, what, quantity(value, port.unit, f"{port.name}: {what}"))
+class _OfTexts:
+    """A port whose start value and limits may be texts with units, which become numbers."""
+
+    name: str
+    unit: str
+
+    def __post_init__(self) -> None:
+        """Make numbers of the texts."""
+        for what in ("start", "minimum", "maximum"):
+            value = getattr(self, what)
+            if isinstance(value, str):
+                object.__setattr__(self, what, quantity(value, self.unit, f"{self.name}: {what}"))
 
 
 @dataclass(frozen=True)
-class Parameter:
+class Parameter(_OfTexts):
     """A number that is fixed before initialization.
 
     Attributes:
@@ -45,13 +52,9 @@ class Parameter:
     type: VariableType = "Real"
     display_unit: str | None = None
 
-    def __post_init__(self) -> None:
-        """Texts with units become numbers."""
-        _numbers_of(self)
-
 
 @dataclass(frozen=True)
-class Input:
+class Input(_OfTexts):
     """A number that the outside may change at every communication point; it is held in between.
 
     Attributes:
@@ -71,10 +74,6 @@ class Input:
     display_unit: str | None = None
     factor: float = 1.0
     offset: float = 0.0
-
-    def __post_init__(self) -> None:
-        """Texts with units become numbers."""
-        _numbers_of(self)
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple, Protocol
 
+from .areas import CircularHole, circle_area, polygon
 from .body import Body, Point
 from .errors import MechanismError
 from .findings import length as length_of
-from .functions import Number, atan2, cos, is_plain, sin, where_positive
+from .functions import Number, atan2, cos, is_plain, sin
 from .members import Section
 from .quantities import quantity
 
@@ -52,67 +52,6 @@ ALUMINIUM = Material(2700.0, 7.0e10)
 BRASS = Material(8470.0, 9.7e10)
 #: Polyoxymethylene (POM-C), usual handbook values.
 POM = Material(1410.0, 2.8e9)
-
-# Areas, by Green's theorem.
-
-
-class CircularHole(NamedTuple):
-    """A round hole of a plate: its centre and radius [m].
-
-    Attributes:
-        centre: in the frame of the plate [m].
-        radius: [m], > 0.
-    """
-
-    centre: Point
-    radius: Number
-
-
-class Area(NamedTuple):
-    """Moments of a plane area.
-
-    Attributes:
-        area: A [m2].
-        first: integrals of x and y over it [m3].
-        polar: integral of x^2 + y^2 over it [m4].
-    """
-
-    area: Number
-    first: Point
-    polar: Number
-
-    def without(self, hole: Area) -> Area:
-        """What is left when another area is taken out of it."""
-        (x, y), (x_hole, y_hole) = self.first, hole.first
-        return Area(self.area - hole.area, (x - x_hole, y - y_hole), self.polar - hole.polar)
-
-
-def polygon(corners: Sequence[Point]) -> Area:
-    """The area inside a polygon whose edges do not cross, with its corners [m] in either sense.
-
-    By Green's theorem, with c = x_k y_k+1 - x_k+1 y_k: A = sum c/2, integral x = sum c (x_k + x_k+1)/6,
-    integral x^2 = sum c (x_k^2 + x_k x_k+1 + x_k+1^2)/12.
-    """
-    area: Number = 0.0
-    x_moment: Number = 0.0
-    y_moment: Number = 0.0
-    polar: Number = 0.0
-    for (x, y), (u, v) in pairwise([*corners, corners[0]]):
-        cross = x * v - u * y
-        area = area + cross / 2
-        x_moment = x_moment + cross * (x + u) / 6
-        y_moment = y_moment + cross * (y + v) / 6
-        polar = polar + cross * (x * x + x * u + u * u + y * y + y * v + v * v) / 12
-    side = where_positive(area, 1.0, -1.0)  # the corners may stand clockwise
-    return Area(side * area, (side * x_moment, side * y_moment), side * polar)
-
-
-def circle_area(centre: Point, radius: Number) -> Area:
-    """The area inside a circle with its centre and radius [m]."""
-    (x, y), square = centre, radius * radius
-    area = math.pi * square
-    return Area(area, (x * area, y * area), area * (square / 2 + x * x + y * y))
-
 
 # Bodies.
 

@@ -214,7 +214,7 @@ def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, in
 
 
 def _of_friction(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
-    names = [part.name for part in (*mechanism.contacts, *mechanism.joints)]
+    names = [part.name for part in (*mechanism.contacts, *mechanism.joints, *mechanism.elements)]
     if part not in names or quantity not in _OF_FRICTION:
         return None
     if mechanism.friction_law != "coulomb":

@@ -7,6 +7,7 @@ from typing import NoReturn
 
 from .errors import MechanismError
 from .functions import Number, is_plain
+from .operators import Recorded
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ def _refuse_power(*_: object) -> NoReturn:
     )
 
 
-class Symbol:
+class Symbol(Recorded):
     """A number of a calculation that is being recorded: it can be calculated with, but has no value to look at.
 
     Attributes:
@@ -108,30 +109,6 @@ class Symbol:
 
     def __repr__(self) -> str:
         return f"Symbol({self.number})"
-
-    def __add__(self, other: Number) -> Number:
-        return self._binary("add", self, other)
-
-    def __radd__(self, other: Number) -> Number:
-        return self._binary("add", other, self)
-
-    def __sub__(self, other: Number) -> Number:
-        return self._binary("subtract", self, other)
-
-    def __rsub__(self, other: Number) -> Number:
-        return self._binary("subtract", other, self)
-
-    def __mul__(self, other: Number) -> Number:
-        return self._binary("multiply", self, other)
-
-    def __rmul__(self, other: Number) -> Number:
-        return self._binary("multiply", other, self)
-
-    def __truediv__(self, other: Number) -> Number:
-        return self._binary("divide", self, other)
-
-    def __rtruediv__(self, other: Number) -> Number:
-        return self._binary("divide", other, self)
 
     def __neg__(self) -> Symbol:
         return self.recorder.apply("negate", self)

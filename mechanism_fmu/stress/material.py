@@ -82,6 +82,17 @@ def _estimated(least_yield: float, least_tensile: float) -> Strength:
     return Strength(least_yield, least_tensile, 1.5 * least_tensile, -0.087)
 
 
+def _structural(name: str, text: str, strength: Strength, standard: str) -> MaterialCard:
+    """A structural or heat-treatable steel by a standard, which says the least R_e and R_m."""
+    sources = (_EUROCODE, _PAPER_DAMPING, f"R_e, R_m: least of {standard}", _UNIFORM_MATERIAL_LAW)
+    return MaterialCard(name, text, _EUROCODE_STEEL, strength, sources)
+
+
+def _tested(name: str, text: str, strength: Strength) -> MaterialCard:
+    """A steel with measured fatigue."""
+    return MaterialCard(name, text, STEEL, strength, (_HANDBOOK, _PAPER_DAMPING, _DOWLING))
+
+
 _CARDS = (
     MaterialCard(
         "steel",
@@ -90,48 +101,26 @@ _CARDS = (
         _estimated(235e6, 360e6),
         (_HANDBOOK, _PAPER_DAMPING, "R_e, R_m: least of S235, EN 10025-2, up to 16 mm thick", _UNIFORM_MATERIAL_LAW),
     ),
-    MaterialCard(
-        "S355",
-        "Structural steel S355J2",
-        _EUROCODE_STEEL,
-        _estimated(355e6, 470e6),
-        (_EUROCODE, _PAPER_DAMPING, "R_e, R_m: least of EN 10025-2, up to 16 mm thick", _UNIFORM_MATERIAL_LAW),
-    ),
-    MaterialCard(
+    _structural("S355", "Structural steel S355J2", _estimated(355e6, 470e6), "EN 10025-2, up to 16 mm thick"),
+    _structural(
         "C45E",
         "Heat-treatable steel C45E, quenched and tempered",
-        _EUROCODE_STEEL,
         _estimated(430e6, 650e6),
-        (_EUROCODE, _PAPER_DAMPING, "R_e, R_m: least of EN 10083-2, 16 to 40 mm diameter", _UNIFORM_MATERIAL_LAW),
+        "EN 10083-2, 16 to 40 mm diameter",
     ),
-    MaterialCard(
+    _structural(
         "42CrMo4",
         "Heat-treatable steel 42CrMo4, quenched and tempered",
-        _EUROCODE_STEEL,
         _estimated(750e6, 1000e6),
-        (_EUROCODE, _PAPER_DAMPING, "R_e, R_m: least of EN 10083-3, 16 to 40 mm diameter", _UNIFORM_MATERIAL_LAW),
+        "EN 10083-3, 16 to 40 mm diameter",
     ),
-    MaterialCard(
-        "SAE1015",
-        "Carbon steel SAE 1015, normalised",
-        STEEL,
-        Strength(228e6, 415e6, 1020e6, -0.138),
-        (_HANDBOOK, _PAPER_DAMPING, _DOWLING),
-    ),
-    MaterialCard(
+    _tested("SAE1015", "Carbon steel SAE 1015, normalised", Strength(228e6, 415e6, 1020e6, -0.138)),
+    _tested(
         "SAE4142",
         "Alloy steel SAE 4142, quenched and tempered to 450 HB",
-        STEEL,
         Strength(1584e6, 1757e6, 1937e6, -0.0762),
-        (_HANDBOOK, _PAPER_DAMPING, _DOWLING),
     ),
-    MaterialCard(
-        "AISI4340",
-        "Alloy steel AISI 4340, aircraft quality",
-        STEEL,
-        Strength(1103e6, 1172e6, 1758e6, -0.0977),
-        (_HANDBOOK, _PAPER_DAMPING, _DOWLING),
-    ),
+    _tested("AISI4340", "Alloy steel AISI 4340, aircraft quality", Strength(1103e6, 1172e6, 1758e6, -0.0977)),
 )
 
 #: All cards by name.

@@ -62,6 +62,7 @@ FORCES = Kinds(
     nonlinear_spring="point.x point.y reaction_point.x reaction_point.y",
     nonlinear_torsion_spring="",
     marker="point.x point.y",
+    brake="limit",
 )
 
 JOINTS = Kinds(

@@ -217,7 +217,7 @@ class Watch(Table, rows="guards", prefix="guard_"):
 
 
 class Rubs(Table, rows="rubs", prefix="rub_"):
-    """Dry friction of contacts, in their order, and then of joints.
+    """Dry friction of contacts, in their order, of joints, and of brakes among the force elements.
 
     State: how each slips (`codes.STICKS` ...), and where along its line, or at which angle, one that sticks began to.
 

@@ -62,10 +62,7 @@ _IMPACT = (
 )
 
 OUTPUTS = (
-    ports.body_angle_output("cam", "theta"),
-    ports.body_angle_output("follower", "psi"),
-    ports.body_speed_output("cam"),
-    ports.body_speed_output("follower"),
+    *ports.body_motion_outputs({"cam": "theta", "follower": "psi"}),
     ports.force_output(
         "contact_force",
         "contact.force",

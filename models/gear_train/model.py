@@ -132,10 +132,7 @@ INPUTS = (
 )
 
 OUTPUTS = (
-    ports.body_angle_output("pinion", "phi_1"),
-    ports.body_angle_output("wheel", "phi_2"),
-    ports.body_speed_output("pinion"),
-    ports.body_speed_output("wheel"),
+    *ports.body_motion_outputs({"pinion": "phi_1", "wheel": "phi_2"}),
     ports.force_output(
         "mesh_force",
         "gears.force",

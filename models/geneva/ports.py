@@ -123,10 +123,7 @@ _IMPACT = (
 )
 
 OUTPUTS = (
-    ports.body_angle_output("driver", "theta"),
-    ports.body_angle_output("wheel", "psi"),
-    ports.body_speed_output("driver"),
-    ports.body_speed_output("wheel"),
+    *ports.body_motion_outputs({"driver": "theta", "wheel": "psi"}),
     ports.force_output(
         "pin_force",
         "slot.force",

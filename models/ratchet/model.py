@@ -37,7 +37,7 @@ from mechanism_fmu.model import (
     Wheel,
 )
 from mechanism_fmu.model.body import Point, rotor_body
-from mechanism_fmu.model.functions import cos, sin
+from mechanism_fmu.model.functions import Number, cos, sin
 
 from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
 from .start import crank_pin, objections, pawl_angle, starts_on_slope, tooth, warnings
@@ -188,32 +188,25 @@ def _contacts(values: SimpleNamespace, tip: Point) -> tuple[Contact, ...]:
     geometry = tooth(values)
     root = (values.wheel_inner_radius, 0.0)
     free = 1 - values.guided
+
+    def flank(name: str, normal: Point, closed: Number = False) -> PointLineContact:
+        return PointLineContact(
+            name,
+            "pawl",
+            tip,
+            "wheel",
+            root,
+            normal,
+            closed=closed,
+            restitution=values.restitution,
+            friction=values.friction,
+            guided=values.guided,
+            pattern="teeth",
+        )
+
     return (
-        PointLineContact(
-            "slope",
-            "pawl",
-            tip,
-            "wheel",
-            root,
-            geometry.slope_normal,
-            closed=starts_on_slope(values),
-            restitution=values.restitution,
-            friction=values.friction,
-            guided=values.guided,
-            pattern="teeth",
-        ),
-        PointLineContact(
-            "face",
-            "pawl",
-            tip,
-            "wheel",
-            root,
-            geometry.face_normal,
-            restitution=values.restitution,
-            friction=values.friction,
-            guided=values.guided,
-            pattern="teeth",
-        ),
+        flank("slope", geometry.slope_normal, starts_on_slope(values)),
+        flank("face", geometry.face_normal),
         AngleStop(
             "holding_pawl",
             "wheel",

@@ -114,10 +114,7 @@ INPUTS = (
 )
 
 OUTPUTS = (
-    ports.body_angle_output("crank", "theta"),
-    ports.body_angle_output("rod", "phi"),
-    ports.body_speed_output("crank"),
-    ports.body_speed_output("rod"),
+    *ports.body_motion_outputs({"crank": "theta", "rod": "phi"}),
     Output("slider_position", "slider.x", "Position of the slider along its line (x)", "m", nominal=0.1),
     Output("slider_velocity", "slider.x_rate", "Rate of slider_position", "m/s", nominal=0.1),
     ports.shaft_torque_output("crank"),

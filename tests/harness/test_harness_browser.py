@@ -10,6 +10,7 @@ import pytest
 from chromium import PROGRAM, Browser, Page, chromium, opened
 
 from harness.app.commands.designs_run import run_optimise, run_sweep
+from harness.app.commands.designs_shared import Runners
 from harness.app.commands.machine_run import run_file
 from harness.fmu import open_fmu
 from harness.papers.study.study import ratchet_study
@@ -97,7 +98,7 @@ def reports(ratchet_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> dict
 def _designs(command: Callable[..., int], text: str, fmu: Path, folder: Path) -> Path:
     file = folder.with_suffix(".toml")
     file.write_text(text + DESIGNS.format(fmu=fmu.as_posix()))
-    assert command(file, folder, None, None, fast=True) == 0
+    assert command(file, folder, Runners(fast=True)) == 0
     return folder / "report.html"
 
 

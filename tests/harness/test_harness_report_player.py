@@ -8,12 +8,9 @@ import numpy as np
 import pytest
 
 from harness.report.animation import (
-    Scene,
-    bounds,
     decimals,
     flags,
     legend,
-    names_of,
     picture_data,
     player,
     playing_speeds,
@@ -21,6 +18,7 @@ from harness.report.animation import (
     times_data,
 )
 from harness.report.motion import Contact
+from harness.report.scene import Scene, bounds, names_of
 from harness.run.drawing import Shape
 
 SHAPES = (

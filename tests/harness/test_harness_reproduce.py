@@ -14,13 +14,14 @@ import typer
 from harness.app.cli import main
 from harness.app.commands.papers_run import run_reproduce
 from harness.errors import UsageError
-from harness.papers.reproduce.bench import Bench, alpha_star, gamma_on_slope, joint_deviations, slope_gap, solid_wheel
+from harness.papers.reproduce.bench import Bench, joint_deviations
 from harness.papers.reproduce.figures.all_figures import FIGURES
 from harness.papers.reproduce.me451.joint_rows import PARTS, PLACED, phi_by_hand, two_bodies
 from harness.papers.reproduce.papers_page import markdown
 from harness.papers.reproduce.pennestri.stress_rows import LAMBDAS, RATIOS, frequencies, largest
 from harness.papers.reproduce.perform import ASSUMPTIONS, CHOICES, MISPRINTS, ROWS, chosen, perform
 from harness.papers.reproduce.row import Document, Found, judged, within
+from harness.papers.reproduce.wheel_by_hand import alpha_star, gamma_on_slope, slope_gap, solid_wheel
 from harness.run.checks import Verdict
 from mechanism_fmu.kinematics.equations import Equations
 

@@ -6,8 +6,8 @@ import pandas as pd
 import pytest
 from hypothesis import given, strategies as st
 
-from harness.report.animation import Scene, bounds, names_of
 from harness.report.plot import frame_rows, strongest
+from harness.report.scene import Scene, bounds, names_of
 from harness.run.drawing import Shape
 
 CRANK = Shape("bar", (1.0, 0.0), "crank", {"angle": "phi", "length": "a"})

@@ -14,21 +14,21 @@ from ...designs.by_fmu import design_with_largest
 from ...designs.optimum_file import Optimum, read_optimum
 from ...designs.search import Best, History, InterruptedSearchError, best_of, search
 from ...designs.sensitivity import NoIndicesError, Sensitivity, sensitivity
-from ...designs.store import Store, contents, failures, identity, numbers_of
+from ...designs.store import Store, failures, numbers_of
 from ...designs.sweep import Progress, Sweep, range_cells, read_sweep
 from ...designs.workers import Executor
 from ...fmu import Fmu
 from ...fmu.values import shown
 from ...run.master import seconds
 from ...run.results import write_json
-from ..execution import alone_in, interruption
+from ..execution import interruption
 from ..terminal import FAILED, INTERRUPTED, console, show_error, show_files, show_table, show_wide_table
 from .designs_shared import (
     ENDING,
     DesignsBar,
+    Runners,
     executor_of,
-    keep_built,
-    prepared,
+    opened,
     seen_again,
     show_beam_theory,
     show_input_note,
@@ -40,21 +40,12 @@ from .designs_shared import (
 _MOST_SHOWN = 10
 
 
-def run_sweep(
-    path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool, trust: bool = False
-) -> int:
+def run_sweep(path: Path, folder: Path | None, runners: Runners) -> int:
     """Run the designs of a file that are not there yet, keep them as they come, and write table and report."""
-    folder = Path(path.stem) if folder is None else folder
-    with prepared(path) as (file, fmu, built):
-        sweep = read_sweep(file, fmu.description)
-        known = identity(contents(fmu), sweep.task, sweep.axes, sweep.how, sweep.designs)
-        with alone_in(folder):
-            store = Store(folder, known, sweep.axes, sweep.task.quantities)
-            if built:
-                keep_built(fmu, folder)
-            with executor_of(fmu, sweep.task, workers, scheduler, fast, trust or built) as executor:
-                progress, table = _performed(sweep, store, executor)
-            return _ending(fmu, sweep, store, progress, table)
+    with opened(path, folder, runners, read_sweep) as (sweep, fmu, store, trusted):
+        with executor_of(fmu, sweep.task, trusted) as executor:
+            progress, table = _performed(sweep, store, executor)
+        return _ending(fmu, sweep, store, progress, table)
 
 
 def _performed(sweep: Sweep, store: Store, executor: Executor) -> tuple[sweeps.Progress, pa.Table]:
@@ -111,43 +102,34 @@ def show_failures(failed: Sequence[tuple[int, str]]) -> None:
 # What the command `optimise` does.
 
 
-def run_optimise(
-    path: Path, folder: Path | None, workers: int | None, scheduler: str | None, fast: bool, trust: bool = False
-) -> int:
+def run_optimise(path: Path, folder: Path | None, runners: Runners) -> int:
     """Look for the best design of a file, go on where it stopped, and write history, optimum and report."""
-    folder = Path(path.stem) if folder is None else folder
-    with prepared(path) as (file, fmu, built):
-        optimum = read_optimum(file, fmu.description)
-        known = identity(contents(fmu), optimum.task, optimum.axes, optimum.how)
-        with alone_in(folder):
-            store = Store(folder, known, optimum.axes, optimum.task.quantities)
-            if built:
-                keep_built(fmu, folder)
-            what = "largest" if optimum.goal.largest else "smallest"
-            console.print(
-                f"[bold]{escape(optimum.title)}[/]: the {what} {escape(optimum.goal.objective.column)} in up to "
-                f"{optimum.total} designs ({optimum.method})",
-                soft_wrap=True,
+    with opened(path, folder, runners, read_optimum) as (optimum, fmu, store, trusted):
+        what = "largest" if optimum.goal.largest else "smallest"
+        console.print(
+            f"[bold]{escape(optimum.title)}[/]: the {what} {escape(optimum.goal.objective.column)} in up to "
+            f"{optimum.total} designs ({optimum.method})",
+            soft_wrap=True,
+        )
+        show_input_note(optimum.task)
+        with (
+            executor_of(fmu, optimum.task, trusted) as executor,
+            DesignsBar(optimum.total) as bar,
+            interruption(lambda: console.print(ENDING)) as stop_requested,
+        ):
+            history = History(
+                store,
+                executor,
+                optimum.count,
+                stop_requested,
+                lambda history: bar.show(_progress(history, optimum)),
             )
-            show_input_note(optimum.task)
-            with (
-                executor_of(fmu, optimum.task, workers, scheduler, fast, trust or built) as executor,
-                DesignsBar(optimum.total) as bar,
-                interruption(lambda: console.print(ENDING)) as stop_requested,
-            ):
-                history = History(
-                    store,
-                    executor,
-                    optimum.count,
-                    stop_requested,
-                    lambda history: bar.show(_progress(history, optimum)),
-                )
-                try:
-                    best = search(optimum, history)
-                    near_it = _sensitivity(optimum, best, history)
-                except InterruptedSearchError:
-                    return _interrupted(optimum, history, store)
-            return _ending_of_search(fmu, optimum, history, best, near_it, store)
+            try:
+                best = search(optimum, history)
+                near_it = _sensitivity(optimum, best, history)
+            except InterruptedSearchError:
+                return _interrupted(optimum, history, store)
+        return _ending_of_search(fmu, optimum, history, best, near_it, store)
 
 
 def _sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity | None:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -17,36 +19,75 @@ from mechanism_fmu.stress import beam_theory_note
 
 from ...designs import sweep as sweeps
 from ...designs.by_fmu import InMotion, in_motion
+from ...designs.optimum_file import Optimum
+from ...designs.store import Store, contents, identity
+from ...designs.sweep import Sweep
 from ...designs.task import Design, Task, wants_stress
 from ...designs.variation import Source, source
 from ...designs.workers import BY_FMU, Executor, Processes, Work, by_batch_in, here
 from ...errors import UsageError
 from ...fmu import Fmu, open_fmu
+from ...fmu.description import Description
 from ...fmu.instances.workspace import temporary_folder
 from ...run.master import seconds
 from ...run.results import UNFINISHED, sweep_up
 from ...toml_file import TomlFile
-from ..execution import instances_of, interruption
+from ..execution import alone_in, instances_of, interruption
 from ..terminal import RunDisplay, console, show_note
 
 #: What is said when somebody presses Ctrl-C.
 ENDING = "Ending: designs on their way are awaited and kept; Ctrl-C again to break off."
 
 
+@dataclass(frozen=True)
+class Runners:
+    """Who runs the designs, as the options of the commands say.
+
+    Attributes:
+        workers: how many; None: as many as there are processors.
+        scheduler: address of a cluster's; None: this machine.
+        fast: whether the designs run in this process, by the Python sources in the FMU.
+        trust: whether these may be run, though no build of this user has made the FMU.
+    """
+
+    workers: int | None = None
+    scheduler: str | None = None
+    fast: bool = False
+    trust: bool = False
+
+
+_Asked = TypeVar("_Asked", Sweep, Optimum)
+
+
 @contextmanager
-def prepared(path: Path) -> Iterator[tuple[TomlFile, Fmu, bool]]:
-    """The file of a command, its FMU, and whether that was built for it, from a ready-made model.
+def opened(
+    path: Path, folder: Path | None, runners: Runners, read: Callable[[TomlFile, Description], _Asked]
+) -> Iterator[tuple[_Asked, Fmu, Store, Runners]]:
+    """What the file of a command asks for, its FMU, the results, and the runners, who trust an FMU that is built here.
+
+    Args:
+        path: of the file.
+        folder: where the results are, or will be; nobody else writes them meanwhile. None: named like the file.
+        runners: of the designs.
+        read: reads the file for an FMU.
 
     Raises:
-        UsageError: the file says no FMU, or there is none.
+        UsageError: mistakes in the file, no FMU, other results, somebody else who writes them, or the disk refuses.
     """
+    folder = Path(path.stem) if folder is None else folder
     file = TomlFile.read(path)
     wanted = source(file)
     with _fmu_file(wanted) as found, open_fmu(found) as fmu:
-        yield file, fmu, wanted.path is None
+        asked, built = read(file, fmu.description), wanted.path is None
+        known = identity(contents(fmu), asked.task, asked.axes, asked.how, asked.designs)
+        with alone_in(folder):
+            store = Store(folder, known, asked.axes, asked.task.quantities)
+            if built:
+                _keep_built(fmu, folder)
+            yield asked, fmu, store, replace(runners, trust=runners.trust or built)
 
 
-def keep_built(fmu: Fmu, folder: Path) -> None:
+def _keep_built(fmu: Fmu, folder: Path) -> None:
     """Leave an FMU that was built beside its results, once these are known to be its own.
 
     Raises:
@@ -123,29 +164,24 @@ class DesignsBar:
 
 
 @contextmanager
-def executor_of(
-    fmu: Fmu, task: Task, workers: int | None, scheduler: str | None, fast: bool, trusted: bool
-) -> Iterator[Executor]:
+def executor_of(fmu: Fmu, task: Task, runners: Runners) -> Iterator[Executor]:
     """Those who run the designs: processes, a cluster, or (`fast`) threads of this process.
 
     Args:
         fmu: that they run.
         task: of every design.
-        workers: how many; None: as many as there are processors.
-        scheduler: address of a cluster's; None: this machine.
-        fast: whether the designs run in this process, by the Python sources in the FMU.
-        trusted: whether these may be run, though no build of this user has made the FMU.
+        runners: who they are.
 
     Raises:
         UsageError: the cluster cannot be used, the designs of this FMU cannot run in one call, or `fast` would run
             Python that nobody trusts.
     """
-    if fast:
-        if scheduler is not None:
+    if runners.fast:
+        if runners.scheduler is not None:
             raise UsageError(
                 "--fast uses the threads of this machine, --scheduler the machines of a cluster; choose one."
             )
-        if not trusted and not was_built_here(fmu.path):
+        if not runners.trust and not was_built_here(fmu.path):
             raise UsageError(
                 f"--fast runs the Python sources in '{fmu.path}' in this very process, and no build of yours has made "
                 "this file. Build it here, name its model in [fmu], or add --trust if you trust whoever made it; "
@@ -154,10 +190,10 @@ def executor_of(
         from ...designs.by_batch import require_batch
 
         require_batch(fmu.path)
-        yield partial(here, Work(fmu, task, by_batch_in(workers)))
+        yield partial(here, Work(fmu, task, by_batch_in(runners.workers)))
         return
-    if scheduler is None:
-        with Processes(Work(fmu, task, BY_FMU), workers or os.cpu_count() or 1) as processes:
+    if runners.scheduler is None:
+        with Processes(Work(fmu, task, BY_FMU), runners.workers or os.cpu_count() or 1) as processes:
             yield processes.run
         return
     try:
@@ -168,7 +204,7 @@ def executor_of(
         raise UsageError(
             '--scheduler needs Dask, which is not installed: python -m pip install "mechanism_fmu[cluster]"'
         ) from None
-    with connected(scheduler) as client:
+    with connected(runners.scheduler) as client:
         yield partial(on_cluster, client, fmu.path, task, BY_FMU)
 
 

@@ -21,8 +21,8 @@ from ...machine.observers.record import FORMATS, Recorder, chosen
 from ...machine.observers.watched import statistics, statistics_rows
 from ...machine.running import Frames, MachineRun, Prepared, bond_cautions, cautions, loop_cautions, run_machine
 from ...machine.stepping import algorithm_of
-from ...report.animation import names_of
 from ...report.motion import SUFFIX
+from ...report.scene import names_of
 from ...run.drawing import Drawing, read_drawing
 from ...run.master import Ending, Observer, TimeGrid
 from ..execution import interruption

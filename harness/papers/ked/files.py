@@ -73,25 +73,25 @@ def agreement(fmu: Fmu, mechanism: Any, found: Solution, parameters: dict[str, V
     missing = [name for name in (start, speed) if name not in fmu.description.variables]
     expected = _expected(found, ports)
     if missing or not ports.torque or not expected:
-        lacks = [*missing, *(() if ports.torque else (f"an input of the torque on {ports.crank!r}",))]
-        lacks += [] if expected else ["outputs of elastic members"]
+        torque = () if ports.torque else (f"an input of the torque on {ports.crank!r}",)
+        lacks = [*missing, *torque, *(() if expected else ("outputs of elastic members",))]
         return Agreement({}, 0, f"the FMU cannot be put into the positions of the turn: it lacks {', '.join(lacks)}")
     chosen = np.unique(np.linspace(0, len(found.angle) - 1, min(_POSITIONS, len(found.angle)), dtype=int))
     rows = []
     for k in chosen.tolist():
-        values: dict[str, Value] = {**parameters, start: float(found.angle[k]), speed: found.speed}
-        values[ports.torque] = float(found.rigid.torque[k])
+        angle = float(found.angle[k])
+        values: dict[str, Value] = {start: angle, speed: found.speed, ports.torque: float(found.rigid.torque[k])}
         # the shaft turns along and gives no torque of its own
-        values |= {ports.shaft_speed: found.speed} if ports.shaft_speed else {}
-        values |= {ports.shaft_angle: float(found.angle[k])} if ports.shaft_angle else {}
+        shaft = {ports.shaft_speed: found.speed, ports.shaft_angle: angle}
+        values = {**parameters, **values, **{name: value for name, value in shaft.items() if name}}
         with fmu.instantiate(fmu.description.model) as one:
             one.set(values)
             one.initialize(0.0, 1.0)
             rows.append([float(value) for value in one.get(list(expected))])
-    differences = {}
-    for column, (name, values_there) in zip(np.transpose(rows), expected.items(), strict=True):
-        off = np.abs(column - values_there[chosen]).max()
-        differences[name] = float(off / np.abs(values_there).max())
+    differences = {
+        name: float(np.abs(column - there[chosen]).max() / np.abs(there).max())
+        for column, (name, there) in zip(np.transpose(rows), expected.items(), strict=True)
+    }
     return Agreement(differences, len(chosen))
 
 

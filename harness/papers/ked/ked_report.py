@@ -96,22 +96,20 @@ def ked_report(result: Result) -> str:
 
 
 def _figures(found: Solution) -> list[tuple[str, str]]:
-    torque = found.rigid.fluctuation
-    figures = []
-    for kind, bent in (("quasi-static", found.static), ("elastodynamic", found.dynamic)):
-        at = math.degrees(bent.largest_at)
-        figures.append((f"largest deviation, {kind}, at {at:.2f}°", engineering(bent.largest_deviation, "m", 5)))
-    member = int(np.argmax(found.dynamic.largest_stress))
-    stress = engineering(float(found.dynamic.largest_stress[member]), "Pa")
-    figures.append((f"largest stress, elastodynamic, in {found.members[member]}", stress))
-    force, moment = found.rigid.largest_shaking
-    figures.append((f"shaking force, at {force.degrees:g}°", engineering(force.value, "N")))
-    figures.append((f"shaking moment, at {moment.degrees:g}°", engineering(moment.value, "N.m")))
-    if found.rigid.flywheel is not None:
-        wheel = found.rigid.flywheel
-        figures.append((f"flywheel for a fluctuation of {wheel.coefficient:g}", f"{wheel.inertia:.4g} kg.m2"))
-    figures.append(("input torque", f"{torque.least:.3g} … {torque.largest:.3g} N.m"))
-    return figures
+    torque, wheel, stresses = found.rigid.fluctuation, found.rigid.flywheel, found.dynamic.largest_stress
+    (force, moment), member = found.rigid.largest_shaking, int(np.argmax(stresses))
+    deviations = [
+        (f"largest deviation, {kind}, at {math.degrees(bent.largest_at):.2f}°", bent.largest_deviation)
+        for kind, bent in (("quasi-static", found.static), ("elastodynamic", found.dynamic))
+    ]
+    return [
+        *((name, engineering(deviation, "m", 5)) for name, deviation in deviations),
+        (f"largest stress, elastodynamic, in {found.members[member]}", engineering(float(stresses[member]), "Pa")),
+        (f"shaking force, at {force.degrees:g}°", engineering(force.value, "N")),
+        (f"shaking moment, at {moment.degrees:g}°", engineering(moment.value, "N.m")),
+        *([(f"flywheel for a fluctuation of {wheel.coefficient:g}", f"{wheel.inertia:.4g} kg.m2")] if wheel else []),
+        ("input torque", f"{torque.least:.3g} … {torque.largest:.3g} N.m"),
+    ]
 
 
 def _friction(result: Result) -> list[str]:
@@ -149,9 +147,11 @@ def _synthesis(result: Result) -> list[str]:
 def _over_the_turn(found: Solution) -> list[Plot]:
     angle = round_turn(found.degrees, 360.0)
     path = found.rigid.path
-    shown = [("rigid", path, _RIGID)]
-    for kind, bent, colour in (("quasi-static", found.static, _STATIC), ("elastodynamic", found.dynamic, _DYNAMIC)):
-        shown.append((kind, path + bent.deflection[:, :2], colour))
+    shown = [
+        ("rigid", path, _RIGID),
+        ("quasi-static", path + found.static.deflection[:, :2], _STATIC),
+        ("elastodynamic", path + found.dynamic.deflection[:, :2], _DYNAMIC),
+    ]
     stresses = [
         Curve(member, angle, round_turn(1e-6 * stress), COLOURS[k % len(COLOURS)])
         for k, (member, stress) in enumerate(zip(found.members, found.dynamic.stress.T, strict=True))

@@ -150,12 +150,9 @@ def synthesised(
         nonlocal judged, angle
         mechanism = describe({**given, **dict(zip(names, map(float, design), strict=True))})
         cycle = quasi_static(turn(mechanism, speed, _SAMPLES))
-        pose = cycle.configurations.pose
+        pose, static = cycle.configurations.pose, by is JudgedBy.QUASI_STATIC
         angle = pose.position[:, pose.bodies.index(crank_of(mechanism)), 2]
-        if by is JudgedBy.QUASI_STATIC:
-            found = judge_quasi_static(cycle, place)
-        else:
-            found = judge_steady_state(cycle, place, damping)
+        found = judge_quasi_static(cycle, place) if static else judge_steady_state(cycle, place, damping)
         judged += 1
         stress, deviation = 1e-6 * float(found.stress.max()), 1e3 * float(found.deviation.max())
         text = f"Design {judged}: {found.mass:.4g} kg, {deviation:.4g} mm, {stress:.4g} MPa"

@@ -141,36 +141,37 @@ def frequency_rows(found: Solution) -> Shown:
 
 def largest_rows(found: Solution) -> Shown:
     """The largest deviation and stress of both solutions, and where they are."""
-    rows = []
-    for kind, bent in (("quasi-static", found.static), ("elastodynamic", found.dynamic)):
-        member = int(np.argmax(bent.largest_stress))
-        rows.append(
-            [
-                kind,
-                f"{1e3 * bent.largest_deviation:.5f}",
-                f"{math.degrees(bent.largest_at):.3f}",
-                f"{1e-6 * bent.largest_stress[member]:.2f}",
-                found.members[member],
-                f"{round(math.degrees(bent.stress_at[member]), 9):g}",
-            ]
-        )
+    solutions = [
+        (kind, bent, int(np.argmax(bent.largest_stress)))
+        for kind, bent in (("quasi-static", found.static), ("elastodynamic", found.dynamic))
+    ]
+    rows = [
+        [
+            kind,
+            f"{1e3 * bent.largest_deviation:.5f}",
+            f"{math.degrees(bent.largest_at):.3f}",
+            f"{1e-6 * bent.largest_stress[member]:.2f}",
+            found.members[member],
+            f"{round(math.degrees(bent.stress_at[member]), 9):g}",
+        ]
+        for kind, bent, member in solutions
+    ]
     return Shown(["", "deviation [mm]", "at [deg]", "stress [MPa]", "in", "at [deg]"], rows)
 
 
 def joint_rows(found: Solution) -> Shown:
     """What each joint carries at most and, where joints rub, its friction and what that takes in a turn."""
-    headings = ["joint", "largest force [N]", "at [deg]"]
-    if found.rigid.rubs:
-        headings += ["largest friction", "", "lost in a turn [J]"]
-    rows = []
     rigid = found.rigid
     parts = zip(rigid.joints, rigid.largest_forces, rigid.largest_friction, rigid.lost_energy.tolist(), strict=True)
-    for joint, force, friction, lost in parts:
-        row = [joint.joint, f"{force.value:.2f}", f"{force.degrees:g}"]
-        if rigid.rubs:
-            row += [f"{friction.value:.4g}", "N.m" if joint.turning else "N", f"{lost:.4g}"]
-        rows.append(row)
-    return Shown(headings, rows)
+    rows = [
+        [
+            *(joint.joint, f"{force.value:.2f}", f"{force.degrees:g}"),
+            *(f"{friction.value:.4g}", "N.m" if joint.turning else "N", f"{lost:.4g}"),
+        ]
+        for joint, force, friction, lost in parts
+    ]
+    headings = ["joint", "largest force [N]", "at [deg]", "largest friction", "", "lost in a turn [J]"]
+    return Shown(headings, rows).without(() if rigid.rubs else (3, 4, 5))
 
 
 def frame_sentence(found: Solution) -> str:

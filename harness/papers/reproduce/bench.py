@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -20,13 +20,12 @@ from mechanism_fmu.kinematics.equations import Equations, Rows
 from mechanism_fmu.model import Mechanism, PointLineContact
 from mechanism_fmu.model.sawtooth import Sawtooth, sawtooth
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.stress import WedgeTooth
 
 from ...fmu import Fmu
 from ...run.experiment import Experiment, Run, perform
 from ..study.study import Study, ratchet_study
 from ..study.wheels import BASE_CASE, SLOPE_ANGLES_DEG, TOOTH_COUNTS, Wheel
-
-# What several rows need: the study of twenty wheels, the guided ratchet at its impact, the path generator.
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -34,8 +33,15 @@ FloatArray = npt.NDArray[np.float64]
 HINGES, CRANK, PAWL, RADIUS, SLOPE_RATIO = 0.130, 0.110, 0.100, 0.100, 1.115
 #: Section 5: phi and psi at the start [rad].
 PHI, PSI = math.radians(77), math.radians(75)
+#: Its bodies.
+PARTS = ("crank", "pawl", "wheel")
 #: The first impact comes before this time [s].
 AFTER_IMPACT = 1.2
+
+#: nt and beta_0 [deg] of the twenty wheels; those that follow each other by nt, and by beta_0.
+CASES = tuple((count, angle) for count in TOOTH_COUNTS for angle in SLOPE_ANGLES_DEG)
+STEPS_OF_COUNT = tuple(((m, angle), (n, angle)) for angle in SLOPE_ANGLES_DEG for m, n in pairwise(TOOTH_COUNTS))
+STEPS_OF_ANGLE = tuple(((count, a), (count, b)) for count in TOOTH_COUNTS for a, b in pairwise(SLOPE_ANGLES_DEG))
 
 
 @dataclass(frozen=True)
@@ -46,8 +52,7 @@ class AtImpact:
         time: t_I [s].
         q: coordinates, shape (9,).
         before, after: their rates just before and just after, as the engine has them, shape (9,).
-        rows: number of rows that hold before the impact; row `face` is added by it.
-        jacobian: A_21: rows that hold, then the face's, shape (rows + 1, 9).
+        jacobian: A_21: rows that hold before the impact, then the face's, which it adds, shape (rows + 1, 9).
         mass: diagonal of M, shape (9,).
         gap: s at t_I, as the FMU gives it [m].
     """
@@ -56,10 +61,43 @@ class AtImpact:
     q: FloatArray
     before: FloatArray
     after: FloatArray
-    rows: int
     jacobian: FloatArray
     mass: FloatArray
     gap: float
+
+    @property
+    def approach(self) -> float:
+        """(ds/dq) q' just before [m/s], negative."""
+        return float(self.jacobian[-1] @ self.before)
+
+    @property
+    def jump(self) -> FloatArray:
+        """Of the rates, as the engine has it, shape (9,)."""
+        return self.after - self.before
+
+
+@dataclass(frozen=True)
+class AtAngle:
+    """The four-bar path generator at one angle of its crank.
+
+    Attributes:
+        turn: whole turn that it is of.
+        number: of the configuration in it.
+        rows, columns: numbers of the paper's element coordinates and of the eight displacements of Case 2.
+        b: B for these displacements, shape (8, 8).
+        flexibility: F in the paper's order of coordinates, shape (8, 8).
+        phi, coupler, psi: angles of crank, coupler and follower [rad].
+    """
+
+    turn: Configurations
+    number: int
+    rows: list[int]
+    columns: list[int]
+    b: FloatArray
+    flexibility: FloatArray
+    phi: float
+    coupler: float
+    psi: float
 
 
 @dataclass
@@ -86,9 +124,19 @@ class Bench:
         """The wheel of the base case."""
         return self.wheel(*BASE_CASE)
 
+    @property
+    def struck(self) -> tuple[WedgeTooth, float]:
+        """The tooth of the base case as a beam, and v_I [m/s]."""
+        return self.base.tooth, self.base.impact_velocity
+
     def wheel(self, count: int, angle_deg: int) -> Wheel:
         """One of the study's wheels."""
         return next(w for w in self.study.wheels if (w.tooth_count, w.slope_angle_deg) == (count, angle_deg))
+
+    @cached_property
+    def stresses(self) -> dict[tuple[int, int], float]:
+        """Sigma_max of each wheel [Pa], by nt and beta_0 [deg]."""
+        return {case: self.wheel(*case).stress_max for case in CASES}
 
     def parameter(self, name: str, wheel: Wheel | None = None) -> float:
         """A parameter of the FMU, of a wheel of the study."""
@@ -105,15 +153,17 @@ class Bench:
             raise run.outcome.error
         return run
 
+    def first_impact(self, step: float = 0.4, **values: float) -> pd.Series:
+        """The FMU's own record of the first impact, with other values and communication steps of `step` [s]."""
+        return self.run(AFTER_IMPACT, step, **values).impacts.iloc[0]
+
     @cached_property
     def first_impacts(self) -> dict[tuple[int, int], pd.Series]:
         """The FMU's own record of the first impact of each wheel, by nt and beta_0 [deg]."""
-        found = {}
-        for wheel in self.study.wheels:
-            case = wheel.tooth_count, wheel.slope_angle_deg
-            run = self.run(AFTER_IMPACT, 0.4, tooth_count=case[0], tooth_slope_angle=math.radians(case[1]))
-            found[case] = run.impacts.iloc[0]
-        return found
+        return {
+            (count, angle): self.first_impact(tooth_count=count, tooth_slope_angle=math.radians(angle))
+            for count, angle in CASES
+        }
 
     @cached_property
     def ratchet(self) -> Mechanism:
@@ -127,37 +177,52 @@ class Bench:
         simulation.begin_step()
         simulation.go_on(AFTER_IMPACT, codes.STOP_AT_IMPACT)
         now = simulation.read()
-        angles = [now[f"{part}_angle"] for part in ("crank", "pawl", "wheel")]
-        rates = [[now[f"impact_{part}_speed{end}"] for part in ("crank", "pawl", "wheel")] for end in ("_before", "")]
+        angles = [now[f"{part}_angle"] for part in PARTS]
+        rates = [[now[f"impact_{part}_speed{end}"] for part in PARTS] for end in ("_before", "")]
         q = positions(angles)
         equations, closed = closed_ratchet(self.ratchet, q)
-        jacobian = equations.at(q, 0.0).jacobian
-        order = [k for k, owner in enumerate(equations.owners) if owner != "face"]
-        order += [k for k, owner in enumerate(equations.owners) if owner == "face"]
+        # the face's row last: sorting keeps the order of the others
+        order = sorted(range(len(equations.owners)), key=lambda k: equations.owners[k] == "face")
         return AtImpact(
             time=now["impact_time"],
             q=q,
             before=velocities(angles, rates[0]),
             after=velocities(angles, rates[1]),
-            rows=len(order) - 1,
-            jacobian=jacobian[order],
+            jacobian=equations.at(q, 0.0).jacobian[order],
             mass=mass_of(closed),
             gap=now["face_gap"],
         )
 
     @cached_property
-    def start_rows(self) -> tuple[FloatArray, Rows, FloatArray, FloatArray]:
-        """Of the base case at the start: q, rows of joints and slope, diagonal of M, F; shapes (9,), (7, ...)."""
+    def start_rows(self) -> tuple[Rows, FloatArray, FloatArray]:
+        """Of the base case at the start: rows of joints and slope, diagonal of M, F; shapes (7, ...), (9,), (9,)."""
         equations = Equations(self.ratchet, 0.0)
-        q = equations.start
-        force = np.zeros(9)
-        force[2] = 1e-3  # the drive torque; the spring is relaxed
-        return q, equations.at(q, 0.0, np.zeros(9)), mass_of(self.ratchet), force
+        # of all forces only the drive torque: the spring is relaxed
+        return equations.at(equations.start, 0.0, np.zeros(9)), mass_of(self.ratchet), 1e-3 * np.eye(9)[2]
 
     @cached_property
     def path_generator(self) -> Configurations:
         """The four-bar path generator at each degree of a turn at 500 rpm, crank angle 0 first."""
         return turn(build_fmu.mechanism("four_bar_path_generator"), 500 * 2 * math.pi / 60, 360)
+
+    def crank_at(self, degrees: int) -> AtAngle:
+        """The path generator at an angle of its crank."""
+        here = self.path_generator
+        crank, coupler, rocker = (here.pose.position[:-1, here.pose.bodies.index(body), 2] for body in _BODIES)
+        number = int(np.argmin(np.abs((crank - math.radians(degrees) + math.pi) % (2 * math.pi) - math.pi)))
+        rows = [here.linkage.coordinates.index(name) for name in COORDINATES]
+        columns = [here.coordinates.index(name) for name in PLACES]
+        return AtAngle(
+            turn=here,
+            number=number,
+            rows=rows,
+            columns=columns,
+            b=here.transfer[number][np.ix_(rows, columns)],
+            flexibility=here.linkage.flexibility[np.ix_(rows, rows)],
+            phi=float(crank[number]),
+            coupler=float(coupler[number]),
+            psi=float(rocker[number]),
+        )
 
 
 def tooth(count: int, angle_deg: float) -> Sawtooth:
@@ -170,16 +235,15 @@ def mass_of(mechanism: Mechanism) -> FloatArray:
     return np.array([float(m) for b in mechanism.bodies for m in (b.mass, b.mass, b.inertia)])
 
 
-def positions(angles: Any) -> FloatArray:
+def positions(angles: Sequence[float]) -> FloatArray:
     """Coordinates of crank, pawl and wheel from phi, gamma, psi, shape (9,)."""
     phi, gamma, psi = angles
-    pin = HINGES + CRANK * math.cos(phi), CRANK * math.sin(phi)
-    crank = HINGES + CRANK / 2 * math.cos(phi), CRANK / 2 * math.sin(phi), phi
-    pawl = pin[0] + PAWL / 2 * math.cos(gamma), pin[1] + PAWL / 2 * math.sin(gamma), gamma
-    return np.array([*crank, *pawl, 0.0, 0.0, psi])
+    along = CRANK * math.cos(phi), CRANK * math.sin(phi)
+    pawl = HINGES + along[0] + PAWL / 2 * math.cos(gamma), along[1] + PAWL / 2 * math.sin(gamma)
+    return np.array([HINGES + along[0] / 2, along[1] / 2, phi, *pawl, gamma, 0.0, 0.0, psi])
 
 
-def velocities(angles: Any, rates: Any) -> FloatArray:
+def velocities(angles: Sequence[float], rates: Sequence[float]) -> FloatArray:
     """Their rates from those of the angles, shape (9,)."""
     (phi, gamma, _), (dphi, dgamma, dpsi) = angles, rates
     pin = -CRANK * math.sin(phi) * dphi, CRANK * math.cos(phi) * dphi
@@ -197,40 +261,15 @@ def closed_ratchet(mechanism: Mechanism, q: FloatArray) -> tuple[Equations, Mech
 
 #: The paper's order of element coordinates.
 COORDINATES = (
-    "arm.axial",
-    "arm.transverse",
-    "arm.rotation",
-    "crank_bar.axial",
-    "crank_bar.transverse",
-    "coupler_bar.rotation",
-    "coupler_bar.axial",
-    "rocker_bar.axial",
+    *("arm.axial", "arm.transverse", "arm.rotation", "crank_bar.axial", "crank_bar.transverse"),
+    *("coupler_bar.rotation", "coupler_bar.axial", "rocker_bar.axial"),
 )
-
-
 #: Its system forces: at the path point, and in Case 2 also at the joints.
-PLACES = (*(f"arm.end.{c}" for c in ("x", "y", "angle")), *(f"arm.start.{c}" for c in ("x", "y", "angle")))
-PLACES += ("coupler_bar.end.x", "coupler_bar.end.y")
-
-
+PLACES = (
+    *("arm.end.x", "arm.end.y", "arm.end.angle", "arm.start.x", "arm.start.y", "arm.start.angle"),
+    *("coupler_bar.end.x", "coupler_bar.end.y"),
+)
 _BODIES = ("crank", "coupler", "rocker")
-
-
-def at_angle(bench: Bench, degrees: int) -> tuple[int, FloatArray]:
-    """Number of the configuration at an angle of the crank, and B for the eight displacements there, shape (8, 8)."""
-    here = bench.path_generator
-    crank = here.pose.position[:-1, here.pose.bodies.index("crank"), 2]
-    number = int(np.argmin(np.abs((crank - math.radians(degrees) + math.pi) % (2 * math.pi) - math.pi)))
-    rows = [here.linkage.coordinates.index(name) for name in COORDINATES]
-    columns = [here.coordinates.index(name) for name in PLACES]
-    return number, here.transfer[number][np.ix_(rows, columns)]
-
-
-def angles_at(bench: Bench, number: int) -> tuple[float, float, float]:
-    """Phi, lambda, psi [rad] of crank, coupler and follower."""
-    position = bench.path_generator.pose.position[number, :, 2]
-    phi, coupler, psi = (float(position[bench.path_generator.pose.bodies.index(b)]) for b in _BODIES)
-    return phi, coupler, psi
 
 
 # How far numbers are off each other, and Phi_q, nu and gamma off differences of Phi along a motion.
@@ -244,6 +283,29 @@ _STEP = 0.02
 def off_by(found: Any, wanted: Any) -> float:
     """The largest deviation [1], relative to the largest number wanted; arrays of one shape."""
     return float(np.abs(np.asarray(found) - np.asarray(wanted)).max() / np.abs(np.asarray(wanted)).max())
+
+
+def each_off_by(found: Any, wanted: Any) -> float:
+    """The largest deviation [1], each number relative to the one wanted; arrays of one shape."""
+    return float(np.abs(np.asarray(found) / np.asarray(wanted) - 1).max())
+
+
+def off_by_scale(found: FloatArray, wanted: FloatArray) -> float:
+    """The largest deviation [1] of a matrix of mixed units, each entry in parts of the roots of both diagonal ones."""
+    scale = np.sqrt(np.outer(wanted.diagonal(), wanted.diagonal()))
+    return off_by(found / scale, wanted / scale)
+
+
+def first_derivative(function: Callable[[Any], Any], at: Any, step: float, axis: Any = 1) -> FloatArray:
+    """At a place, by central differences of eighth order, along an axis if the place is an array of coordinates."""
+    near = ((w, k * step * axis) for k, w in enumerate(_FIRST, 1))
+    return np.asarray(sum(w * (function(at + d) - function(at - d)) for w, d in near) / step)
+
+
+def second_derivative(function: Callable[[Any], Any], at: Any, step: float) -> FloatArray:
+    """At a place, by central differences of eighth order."""
+    around = sum(w * (function(at + k * step) + function(at - k * step)) for k, w in enumerate(_SECOND[1:], 1))
+    return np.asarray((_SECOND[0] * function(at) + around) / step**2)
 
 
 def joint_deviations(
@@ -262,78 +324,19 @@ def joint_deviations(
     """
     rows = equations.at(q, time, rate)
 
-    def phi(place: FloatArray, when: float) -> FloatArray:
+    def phi(place: FloatArray, when: float = time) -> FloatArray:
         return np.array(equations.at(place, when).residual)
 
     def along(t: float) -> FloatArray:
         return phi(q + rate * t + acceleration * t * t / 2, time + t)
 
-    columns = [_first(lambda t, k=k: phi(q + t * np.eye(len(q))[k], time)) for k in range(len(q))]
-    jacobian = _relative(np.transpose(columns), rows.jacobian)
-    velocity = _relative(_first(along), rows.jacobian @ rate - rows.nu)
-    second = _relative(_second(along), rows.jacobian @ acceleration - rows.gamma)
-    return jacobian, velocity, second
-
-
-def _first(function: object) -> FloatArray:
-    f = function
-    return np.asarray(
-        sum(w * (f(k * _STEP) - f(-k * _STEP)) for k, w in enumerate(_FIRST, start=1)) / _STEP  # type: ignore[operator]
+    columns = [first_derivative(phi, q, _STEP, axis) for axis in np.eye(len(q))]
+    return (
+        _relative(np.transpose(columns), rows.jacobian),
+        _relative(first_derivative(along, 0.0, _STEP), rows.jacobian @ rate - rows.nu),
+        _relative(second_derivative(along, 0.0, _STEP), rows.jacobian @ acceleration - rows.gamma),
     )
-
-
-def _second(function: object) -> FloatArray:
-    f = function
-    around = sum(w * (f(k * _STEP) + f(-k * _STEP)) for k, w in enumerate(_SECOND[1:], start=1))  # type: ignore[operator]
-    return np.asarray((_SECOND[0] * f(0.0) + around) / _STEP**2)  # type: ignore[operator]
 
 
 def _relative(found: FloatArray, wanted: FloatArray) -> float:
     return float(np.abs(found - wanted).max() / max(1.0, np.abs(wanted).max()))
-
-
-# Geometry of the paper's ratchet by hand: where the tip starts, the angle of Fig. 7, mass and inertia of a wheel.
-
-#: nt and beta_0 [deg] of the twenty wheels.
-CASES = tuple((count, angle) for count in TOOTH_COUNTS for angle in SLOPE_ANGLES_DEG)
-
-_STEEL, _THICKNESS = 7850.0, 0.02
-
-
-def gamma_on_slope(angle_deg: float) -> float:
-    """Gamma(0) [rad] with the tip on the line of the slope, phi = 77 deg and psi = 75 deg, as the text says."""
-    pin = HINGES + CRANK * math.cos(PHI), CRANK * math.sin(PHI)
-    normal = PSI + math.radians(angle_deg) - math.pi / 2
-    root = RADIUS * math.cos(PSI), RADIUS * math.sin(PSI)
-    height = (pin[0] - root[0]) * math.cos(normal) + (pin[1] - root[1]) * math.sin(normal)
-    return normal + math.acos(-height / PAWL)
-
-
-def slope_gap(angle_deg: float, gamma_deg: float) -> float:
-    """Distance of the tip from the line of the slope at the start [m], positive outside the tooth."""
-    gamma = math.radians(gamma_deg)
-    tip = HINGES + CRANK * math.cos(PHI) + PAWL * math.cos(gamma), CRANK * math.sin(PHI) + PAWL * math.sin(gamma)
-    normal = PSI + math.radians(angle_deg) - math.pi / 2
-    return (tip[0] - RADIUS * math.cos(PSI)) * math.cos(normal) + (tip[1] - RADIUS * math.sin(PSI)) * math.sin(normal)
-
-
-def alpha_star(count: int, angle_deg: float) -> float:
-    """Alpha + alpha_2 [deg]."""
-    shape = tooth(count, angle_deg)
-    return math.degrees(float(shape.apex_angle) + float(shape.chord_angle))
-
-
-def solid_wheel(count: int, angle_deg: float, bore: float) -> tuple[float, float]:
-    """Mass [kg] and inertia about its hinge [kg m2] of a steel wheel with these teeth: a sum over triangles."""
-    shape = tooth(count, angle_deg)
-    x, y = (float(c) for c in shape.apex)
-    theta = float(shape.pitch)
-    corners = [(RADIUS, 0.0), (x, y), (RADIUS * math.cos(theta), -RADIUS * math.sin(theta))]
-    area = second = 0.0
-    for (px, py), (qx, qy) in pairwise(corners):
-        part = (py * qx - px * qy) / 2
-        area += part
-        second += part / 6 * (px * px + py * py + px * qx + py * qy + qx * qx + qy * qy)
-    plate = _STEEL * _THICKNESS
-    hole = math.pi * bore**2
-    return plate * (count * area - hole), plate * (count * second - hole * bore**2 / 2)

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
-from mechanism_fmu.stress import STEEL, ModeScaling, maximum_stress, ritz_modes
+from mechanism_fmu.stress import STEEL, ModeScaling, WedgeTooth, maximum_stress, ritz_modes
 
-from ...run.checks import Verdict
 from ..study.accuracy import SMALL, accuracy_findings
 from ..study.wheels import SLOPE_ANGLES_DEG, TOOTH_COUNTS
-from .bench import AFTER_IMPACT, PAWL, Bench, alpha_star, solid_wheel, tooth
-from .row import Found, Row, judged
+from .bench import CASES, PAWL, STEPS_OF_ANGLE, STEPS_OF_COUNT, Bench, tooth
+from .row import Found, Row, Verdict, judged
+from .wheel_by_hand import alpha_star, solid_wheel
 
 _CHOICE = Verdict.CHOICE
 _BORE = 6.5e-3
 
 
 def _gamma(bench: Bench) -> Found:
-    free = bench.run(AFTER_IMPACT, 0.01, guided=False, pawl_angle_start=math.radians(190)).impacts.iloc[0]
+    free = float(bench.first_impact(0.01, guided=False, pawl_angle_start=math.radians(190))["time"])
     return judged(
-        float(free["time"]) < bench.base.impact_time,
+        free < bench.base.impact_time,
         "γ(0) is solved anew for each β₀, so that the tip starts on the slope; of the "
         "“initial configurations” φ and ψ are “kept constant”",
-        f"a free pawl from 190° at (10, 90°) would fly first and strike the slope at t = {float(free['time']):.4f} s",
+        f"a free pawl from 190° at (10, 90°) would fly first and strike the slope at t = {free:.4f} s",
         verdict=_CHOICE,
     )
 
@@ -33,16 +32,9 @@ def _table2(bench: Bench) -> Found:
     worked, changes = [], []
     for count, angle in ((25, 85), (10, 105)):
         mass, inertia = solid_wheel(count, angle, _BORE)
-        own = bench.run(
-            AFTER_IMPACT,
-            0.4,
-            tooth_count=count,
-            tooth_slope_angle=math.radians(angle),
-            wheel_mass=mass,
-            wheel_inertia=inertia,
-        )
-        stress = float(own.impacts["stress_max"].iloc[0])
-        kept = bench.wheel(count, angle).stress_max
+        case = {"tooth_count": count, "tooth_slope_angle": math.radians(angle)}
+        stress = float(bench.first_impact(**case, wheel_mass=mass, wheel_inertia=inertia)["stress_max"])
+        kept = bench.stresses[count, angle]
         changes.append(100 * (stress / kept - 1))
         worked.append(f"({count}, {angle}°): own mass {mass:.4f} kg, {stress:.1f} Pa instead of {kept:.1f} Pa")
     return judged(
@@ -54,18 +46,9 @@ def _table2(bench: Bench) -> Found:
     )
 
 
-def _base(_bench: Bench) -> Found:
-    return Found(
-        "base case nt = 10, β₀ = 90°: the paper does not say whose wheel Table 2 is; mass and inertia say it "
-        "(X-inertia)",
-        _CHOICE,
-    )
-
-
-def _scale(bench: Bench) -> Found:
-    tooth_, speed = bench.base.tooth, bench.base.impact_velocity
-    projected = maximum_stress(tooth_, STEEL, speed, ritz_modes(tooth_, STEEL, 2, ModeScaling.PROJECTION))
-    taken = maximum_stress(tooth_, STEEL, speed)
+def _scale(tooth: WedgeTooth, speed: float) -> Found:
+    projected = maximum_stress(tooth, STEEL, speed, ritz_modes(tooth, STEEL, 2, ModeScaling.PROJECTION))
+    taken = maximum_stress(tooth, STEEL, speed)
     return judged(
         taken.position < projected.position,
         f"a_1 = 1 in both modes: C = {taken.coefficient:.6f} at x/l = {taken.position:.3f}, the paper's 40 %; scaled "
@@ -76,18 +59,16 @@ def _scale(bench: Bench) -> Found:
     )
 
 
+def _foot(case: tuple[int, int]) -> float:
+    """The other reading of l: L cos(alpha) for every wheel [m]."""
+    shape = tooth(*case)
+    return float(shape.slope_length) * math.cos(float(shape.apex_angle))
+
+
 def _length(bench: Bench) -> Found:
-    """The other reading: l = L cos(alpha) for every wheel."""
-    other = {}
-    for count in TOOTH_COUNTS:
-        for angle in SLOPE_ANGLES_DEG:
-            shape = tooth(count, angle)
-            beam = float(shape.slope_length) * math.cos(float(shape.apex_angle))
-            wheel = bench.wheel(count, angle)
-            other[count, angle] = wheel.stress_max * beam / wheel.tooth_length
-    rises = all(other[count, b] > other[count, a] for count in TOOTH_COUNTS for a, b in pairwise(SLOPE_ANGLES_DEG))
+    other = {case: bench.stresses[case] * _foot(case) / bench.wheel(*case).tooth_length for case in CASES}
     return judged(
-        not rises,
+        not all(other[after] > other[before] for before, after in STEPS_OF_ANGLE),
         "l = F while α* < 90°, else L cos α: the leg of the right-angled triangle that lies within the tooth. With l "
         f"= L cos α for all, σ_max(10, 90°) would be {other[10, 90]:.1f} Pa, and the claim that it rises with β₀ "
         "would fail",
@@ -99,8 +80,8 @@ def _length(bench: Bench) -> Found:
 def _velocity(bench: Bench) -> Found:
     """What the claims of Fig. 11 would be with the pawl's closing speed for v_I, over all wheels."""
     closing = {case: float(first["closing_speed"]) for case, first in bench.first_impacts.items()}
-    falls = [closing[b, angle] < closing[a, angle] for angle in SLOPE_ANGLES_DEG for a, b in pairwise(TOOTH_COUNTS)]
-    rises = [closing[count, b] > closing[count, a] for count in TOOTH_COUNTS for a, b in pairwise(SLOPE_ANGLES_DEG)]
+    falls = [closing[after] < closing[before] for before, after in STEPS_OF_COUNT]
+    rises = [closing[after] > closing[before] for before, after in STEPS_OF_ANGLE]
     return judged(
         not (all(falls) and all(rises)),
         f"v_I = l (ω(t_I+) − ω(t_I−)), {bench.base.impact_velocity:.6e} m/s in the base case. With the pawl's closing "
@@ -129,25 +110,24 @@ def _gravity(_bench: Bench) -> Found:
 
 def _small(bench: Bench) -> Found:
     """The verdicts of P-triangle and P-second-mode at other limits."""
-    lines = []
-    for limit in (0.10, SMALL, 0.20, 0.30):
-        wedge, _, second = accuracy_findings(bench.study.wheels, limit)
-        lines.append(f"{limit:.0%}: triangle {wedge.verdict}, second mode {second.verdict}")
+    found = {limit: accuracy_findings(bench.study.wheels, limit) for limit in (0.10, SMALL, 0.20, 0.30)}
     return judged(
         SMALL == 0.15,
         f"up to {SMALL:.0%} of a frequency or a stress counts as small, a limit of this project's own without a "
-        "source; the verdicts by other limits: " + "; ".join(lines),
+        "source; the verdicts by other limits: "
+        + "; ".join(
+            f"{limit:.0%}: triangle {wedge.verdict}, second mode {second.verdict}"
+            for limit, (wedge, _, second) in found.items()
+        ),
         "a place along the tooth: 0.02 of its length, as “about 40 %” says",
         verdict=_CHOICE,
     )
 
 
 def _spring(bench: Bench) -> Found:
-    strained = bench.run(AFTER_IMPACT, 0.4, spring_preload=1e-4).impacts.iloc[0]
-    return Found(
-        "the wheel's spring is relaxed at ψ(0) = 75°",
-        _CHOICE,
-        (f"0.1 N mm of preload would move t_I to {float(strained['time']):.5f} s",),
+    moved = float(bench.first_impact(spring_preload=1e-4)["time"])
+    return _simple(
+        "the wheel's spring is relaxed at ψ(0) = 75°", f"0.1 N mm of preload would move t_I to {moved:.5f} s"
     )
 
 
@@ -168,7 +148,15 @@ CHOICES = (
         _table2,
     ),
     Row(
-        "C-base", "Pennestrì, Table 2", "Whose wheel it is.", "not printed", ("harness/papers/study/wheels.py",), _base
+        "C-base",
+        "Pennestrì, Table 2",
+        "Whose wheel it is.",
+        "not printed",
+        ("harness/papers/study/wheels.py",),
+        _simple(
+            "base case nt = 10, β₀ = 90°: the paper does not say whose wheel Table 2 is; mass and inertia say it "
+            "(X-inertia)"
+        ),
     ),
     Row(
         "C-a1",
@@ -176,7 +164,7 @@ CHOICES = (
         "Scale of the mode shapes.",
         "not printed",
         ("mechanism_fmu/stress/ritz.py",),
-        _scale,
+        lambda bench: _scale(*bench.struck),
     ),
     Row(
         "C-length", "Pennestrì, Fig. 7", "Reading of l.", "drawing lost", ("mechanism_fmu/model/sawtooth.py",), _length
@@ -195,7 +183,7 @@ CHOICES = (
         "E and ρ.",
         "not printed",
         ("mechanism_fmu/stress/material.py",),
-        lambda _b: _simple("E = 2.06e11 Pa, ρ = 7850 kg/m³; σ_max is proportional to √(ρE)"),
+        _simple("E = 2.06e11 Pa, ρ = 7850 kg/m³; σ_max is proportional to √(ρE)"),
     ),
     Row(
         "C-small",
@@ -220,7 +208,7 @@ CHOICES = (
         "Centres of mass.",
         "not printed",
         ("models/ratchet/model.py",),
-        lambda _b: _simple("crank and follower at mid-length, wheel at its hinge; inertias about them"),
+        _simple("crank and follower at mid-length, wheel at its hinge; inertias about them"),
     ),
     Row(
         "C-guided",
@@ -228,7 +216,7 @@ CHOICES = (
         "Slope and face as rows.",
         "“the path of the pawl tip”",
         ("models/ratchet/model.py",),
-        lambda _b: _simple(
+        _simple(
             "both hold on both sides, as in the paper (guided); before the impact the slope, with e = 0 afterwards "
             "both",
             "free pawl with one-sided contacts: `--set guided=false`, docs/decisions/005-one-sided-contacts.md",
@@ -240,7 +228,7 @@ CHOICES = (
         "Which masses are lumped.",
         "“a concentrated or a disk mass at each joint”",
         ("mechanism_fmu/elastodynamics/structure/masses.py",),
-        lambda _b: _simple("half of each link's mass at either end, and disks where the model has them"),
+        _simple("half of each link's mass at either end, and disks where the model has them"),
     ),
     Row(
         "C-example",
@@ -248,9 +236,7 @@ CHOICES = (
         "Numbers of the example.",
         "beyond the pages at hand",
         ("models/four_bar_path_generator/model.py",),
-        lambda _b: _simple(
-            "an example with links of 10, 4, 10, 8, 6 in, steel ¼ × ½ in, 500 rpm; it is this project's own"
-        ),
+        _simple("an example with links of 10, 4, 10, 8, 6 in, steel ¼ × ½ in, 500 rpm; it is this project's own"),
         "mechanism-fmu ked four_bar_path_generator",
     ),
     Row(
@@ -259,9 +245,7 @@ CHOICES = (
         "Directions of element coordinates.",
         "drawing lost",
         ("mechanism_fmu/elastodynamics/elements.py",),
-        lambda _b: _simple(
-            "tension positive, transverse to the left; column 7 says that the document's crank has them reversed"
-        ),
+        _simple("tension positive, transverse to the left; column 7 says that the document's crank has them reversed"),
     ),
     Row(
         "C-disc",
@@ -269,7 +253,7 @@ CHOICES = (
         "How gear 2 falls.",
         "mass and time not given",
         ("mechanism_fmu/slides.py",),
-        lambda _b: _simple("a homogeneous disc of 1 kg under 9.81 m/s², from rest; φ₂ does not depend on it"),
+        _simple("a homogeneous disc of 1 kg under 9.81 m/s², from rest; φ₂ does not depend on it"),
         "mechanism-fmu reproduce S-3.4.1",
     ),
 )

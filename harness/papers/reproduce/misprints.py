@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 
 import numpy as np
@@ -14,9 +15,10 @@ from mechanism_fmu.slides import CAM
 
 from ...run.checks import Verdict
 from ..study.wheels import SLOPE_ANGLES_DEG
-from .bench import CASES, CRANK, PAWL, RADIUS, Bench, angles_at, at_angle, gamma_on_slope, slope_gap, solid_wheel
-from .erdman.flexibility_rows import bprime
+from .bench import CASES, CRANK, PAWL, RADIUS, AtAngle, Bench
+from .erdman.flexibility_rows import bprime, length_of, pin_b
 from .row import Found, Row, judged
+from .wheel_by_hand import gamma_on_slope, slope_gap, solid_wheel
 
 # Misprints: what is printed and cannot be right, each with a proof by calculation.
 
@@ -25,43 +27,38 @@ _BORE, _STEEL, _THICKNESS = 6.5e-3, 7850.0, 0.02
 _MISPRINT = Verdict.MISPRINT
 
 
-def _inertia(bench: Bench) -> Found:
+def _inertia(_bench: Bench) -> Found:
     """Only one wheel of the study has Table 2's mass and inertia with one bore; rods explain crank and follower."""
-    fits = {}
-    for case in CASES:
-        if solid_wheel(*case, 0.0)[0] <= 5.6264:
-            continue
-        bore = math.sqrt((solid_wheel(*case, 0.0)[0] - 5.6264) / (_STEEL * _THICKNESS * math.pi))
-        fits[case] = bore, solid_wheel(*case, bore)[1] / 32.7948e-3 - 1
-    best, second = sorted(fits, key=lambda case: abs(fits[case][1]))[:2]
-    bore, off = fits[best]
+    surplus = {case: (solid_wheel(*case, 0.0)[0] - 5.6264) / (_STEEL * _THICKNESS * math.pi) for case in CASES}
+    bores = {case: math.sqrt(area) for case, area in surplus.items() if area > 0}
+    off = {case: solid_wheel(*case, bore)[1] / 32.7948e-3 - 1 for case, bore in bores.items()}
+    best, second = sorted(off, key=lambda case: abs(off[case]))[:2]
     mass, inertia = solid_wheel(10, 90, _BORE)
-    rods = 0.1 * CRANK**2 / 12, 0.0976 * PAWL**2 / 12
-    radius = math.sqrt(32.7948e-6 / 5.6264)
     return judged(
-        best == (10, 90) and abs(off) < 2e-4 and abs(mass - 5.6264) < 5e-5,
-        f"taken: 10⁻³ kg m². A steel wheel, nt = 10, β₀ = 90°, bore {1e3 * bore:.2f} mm, has 5.6264 kg and "
+        best == (10, 90) and abs(off[best]) < 2e-4 and abs(mass - 5.6264) < 5e-5,
+        f"taken: 10⁻³ kg m². A steel wheel, nt = 10, β₀ = 90°, bore {1e3 * bores[best]:.2f} mm, has 5.6264 kg and "
         f"{1e3 * inertia:.4f}·10⁻³ kg m²",
-        f"kg mm² would put all mass of the wheel {1e3 * radius:.2f} mm from its hinge; it reaches to 100 mm and more",
-        f"with 7850 kg/m³, 0.02 m and the bore that gives the mass, the inertia is off by {off:.1e}; next best wheel "
-        f"(nt = {second[0]}, β₀ = {second[1]}°): {fits[second][1]:.1e}; so the base case is found, too",
-        f"crank as a rod: m a²/12 = {1e3 * rods[0]:.4f}·10⁻³ (printed 0.0900), follower: m b²/12 = "
-        f"{1e3 * rods[1]:.4f}·10⁻³ kg m² (printed 0.0853): both of that size; in kg mm² they would be a thousandth of "
-        "it",
+        f"kg mm² would put all mass of the wheel {1e3 * math.sqrt(32.7948e-6 / 5.6264):.2f} mm from its hinge; it "
+        "reaches to 100 mm and more",
+        f"with 7850 kg/m³, 0.02 m and the bore that gives the mass, the inertia is off by {off[best]:.1e}; next best "
+        f"wheel (nt = {second[0]}, β₀ = {second[1]}°): {off[second]:.1e}; so the base case is found, too",
+        f"crank as a rod: m a²/12 = {1e3 * 0.1 * CRANK**2 / 12:.4f}·10⁻³ (printed 0.0900), follower: m b²/12 = "
+        f"{1e3 * 0.0976 * PAWL**2 / 12:.4f}·10⁻³ kg m² (printed 0.0853): both of that size; in kg mm² they would be a "
+        "thousandth of it",
         verdict=_MISPRINT,
     )
 
 
 def _gamma(_bench: Bench) -> Found:
     angle = float(brentq(lambda beta: math.degrees(gamma_on_slope(beta)) - 190.0, 85.0, 105.0))
-    normal_gap = {beta: 1e3 * slope_gap(beta, 190.0) for beta in SLOPE_ANGLES_DEG}
     return judged(
         abs(angle - 92.4) < 0.1,
         "taken: γ(0) solved for each β₀. With φ = 77° and ψ = 75° the tip is on the slope at γ = 190° for β₀ = "
         f"{angle:.4f}° only, which is none of the five",
         "distance of the tip from the slope at γ = 190° (negative: inside the tooth): "
-        + ", ".join(f"{beta}°: {gap:.3f} mm" for beta, gap in normal_gap.items()),
-        "γ(0) on the slope: " + ", ".join(f"{beta}°: {math.degrees(gamma_on_slope(beta)):.4f}°" for beta in normal_gap),
+        + ", ".join(f"{beta}°: {1e3 * slope_gap(beta, 190.0):.3f} mm" for beta in SLOPE_ANGLES_DEG),
+        "γ(0) on the slope: "
+        + ", ".join(f"{beta}°: {math.degrees(gamma_on_slope(beta)):.4f}°" for beta in SLOPE_ANGLES_DEG),
         verdict=_MISPRINT,
     )
 
@@ -87,29 +84,19 @@ def _three(_bench: Bench) -> Found:
     )
 
 
-def _column6(bench: Bench) -> Found:
-    """Equilibrium of pin B and of the crank pin under a unit moment on the coupler, with the printed column."""
-    number, _ = at_angle(bench, 60)
-    phi, coupler, psi = angles_at(bench, number)
-    elements = bench.path_generator.linkage.elements
-    length = next(e.length for e in elements if e.member.name == "coupler_bar")
-    left = np.array([-math.sin(coupler), math.cos(coupler)])
-    along = np.array([math.cos(coupler), math.sin(coupler)])
-    follower = np.array([math.cos(psi), math.sin(psi)])
-
-    def left_over(column: np.ndarray[tuple[int], np.dtype[np.float64]]) -> float:
-        return float(np.linalg.norm(column[5] / length * left - column[6] * along - column[7] * follower)) * length
-
-    printed, right = np.eye(8)[5], bprime(bench, 60)[:, 5]
-    inch = right.copy()
-    inch[[3, 4, 6, 7]] *= 0.0254
+def _column6(at: AtAngle) -> Found:
+    """Equilibrium of pin B under a unit moment on the coupler, with the printed column."""
+    right, length = bprime(at)[:, 5], length_of(at, "coupler_bar")
+    printed, left = (pin_b(at, column) * length for column in (np.eye(8)[5], right))
     return judged(
-        left_over(printed) > 0.99 and left_over(right) < 1e-10,
-        "taken: rows 4 to 8 = " + ", ".join(f"{value:.6f}" for value in inch[3:]) + " at φ = 60°, forces per inch",
-        f"printed (0, 0, 0, 0, 0, 1, 0, 0): a force of {left_over(printed):.3f}/l₂ is left at pin B for a unit "
-        "moment; with the right column nothing is",
+        printed > 0.99 and left < 1e-10,
+        "taken: rows 4 to 8 = "
+        + ", ".join(f"{value:.6f}" for value in right[3:] * [0.0254, 0.0254, 1, 0.0254, 0.0254])
+        + " at φ = 60°, forces per inch",
+        f"printed (0, 0, 0, 0, 0, 1, 0, 0): a force of {printed:.3f}/l₂ is left at pin B for a unit moment; with the "
+        "right column nothing is",
         "a moment on the coupler is carried by a couple of pin forces 1/l₂, which crank and follower must take: φ, λ, "
-        f"ψ = {math.degrees(phi):.3f}°, {math.degrees(coupler):.3f}°, {math.degrees(psi):.3f}°",
+        f"ψ = {math.degrees(at.phi):.3f}°, {math.degrees(at.coupler):.3f}°, {math.degrees(at.psi):.3f}°",
         verdict=_MISPRINT,
     )
 
@@ -146,7 +133,7 @@ MISPRINTS = (
         "Column 6 of B'.",
         "0, 0, 0, 0, 0, 1, 0, 0",
         ("mechanism_fmu/elastodynamics/structure/configuration.py",),
-        _column6,
+        lambda bench: _column6(bench.crank_at(60)),
     ),
 )
 
@@ -158,16 +145,18 @@ _FAILS = Verdict.ASSUMPTION
 
 def _pulls(bench: Bench) -> Found:
     """The first pull of the guided slope, located by the engine, beside the impact of the same wheel."""
-    first = {}
-    for angle in (90, 95, 105):
+
+    def first_pull(angle: int) -> float:
         simulation = Simulation(build_fmu.mechanism("ratchet", tooth_slope_angle=math.radians(angle)))
         simulation.advance(6.0)
-        first[angle] = simulation.pulling_contacts().get("slope", math.inf), bench.wheel(10, angle).impact_time
-    early, late = first[105], first[95]
+        return simulation.pulling_contacts().get("slope", math.inf)
+
+    early, late = first_pull(105), first_pull(95)
+    impact = {angle: bench.wheel(10, angle).impact_time for angle in (95, 105)}
     return judged(
-        early[0] < early[1] and late[1] < late[0] and not first[90][0] < 6.0,
-        f"taken: the paper's guided slope, with a warning. At 105° it pulls from t = {early[0]:.4f} s on, before the "
-        f"impact at {early[1]:.4f} s; at 95° from t = {late[0]:.3f} s",
+        early < impact[105] and impact[95] < late and not first_pull(90) < 6.0,
+        f"taken: the paper's guided slope, with a warning. At 105° it pulls from t = {early:.4f} s on, before the "
+        f"impact at {impact[105]:.4f} s; at 95° from t = {late:.3f} s",
         "a slope of steel can only push; `--set guided=false` gives a pawl that may leave it",
         "nt = 10; at 90° it pushes throughout the first 6 s",
         verdict=_FAILS,
@@ -193,14 +182,12 @@ def _at_rest(bench: Bench) -> Found:
 def _struck(bench: Bench) -> Found:
     """Where along the face the tip is at the impact."""
     q = bench.impact.q
-    tip = q[3] + PAWL / 2 * math.cos(q[5]), q[4] + PAWL / 2 * math.sin(q[5])
-    root = RADIUS * math.cos(q[8]), RADIUS * math.sin(q[8])
-    away = math.hypot(tip[0] - root[0], tip[1] - root[1])
+    tip = complex(q[3], q[4]) + cmath.rect(PAWL / 2, q[5])
     return judged(
-        away < 1e-7,
+        abs(tip - cmath.rect(RADIUS, q[8])) < 1e-7,
         "taken: the jump of the wheel's rate starts every tooth of it alike. The striker does not meet the free end "
         "of the beam: at t_I the tip of the pawl stands in the root P₀, at the clamped end, to less than 0.1 µm",
-        f"base case: the tip is {1e3 * math.hypot(*tip):.6f} mm from the wheel's hinge, r = 100 mm; the beam is "
+        f"base case: the tip is {1e3 * abs(tip):.6f} mm from the wheel's hinge, r = 100 mm; the beam is "
         f"{1e3 * bench.base.tooth_length:.4f} mm long",
         "what the push at the root does to the struck tooth itself is outside this law",
         verdict=_FAILS,

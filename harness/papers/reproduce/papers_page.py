@@ -66,13 +66,26 @@ _MEANINGS = {
 _JUDGEMENT = "\\*"
 
 
+#: Of the numbers of verdicts.
+_COUNTED = ["verdict", *(document.short for document in Document), "which means"]
+
+
 def markdown(made: Reproduction) -> str:
     """The page; of some rows only, one with their worked numbers."""
     if not made.whole:
-        return "# Some rows of the papers reproduced\n\n" + "\n".join(
-            _worked_of_page(result) for result in made.everything
-        )
-    parts = [_INTRODUCTION, _summary(made), _misprints(made), _assumptions(made), _choices(made)]
+        return "# Some rows of the papers reproduced\n\n" + "\n".join(map(_worked_of_page, made.everything))
+    calculated = "all numbers are calculated.\n"
+    parts = [
+        _INTRODUCTION,
+        f"## Summary\n\n{_table(_COUNTED, summary_rows(made), right=(1, 2, 3))}\n{judgements(made)}\n",
+        "## Misprints\n",
+        f"What is printed, why it cannot be right, and what this project takes; {calculated}",
+        *map(_proof_of_page, made.misprints),
+        "## Assumptions that fail\n",
+        f"Nothing is misprinted here, but what is assumed or left unsaid is not so; {calculated}",
+        *map(_proof_of_page, made.assumptions),
+        _choices(made),
+    ]
     for document, title in _TITLES.items():
         parts += [f"## {title}\n", _rows_of_page(made.of(document)), _figures(document, made.figures)]
     return "\n".join(part for part in parts if part)
@@ -80,14 +93,10 @@ def markdown(made: Reproduction) -> str:
 
 def summary_rows(made: Reproduction) -> list[list[str]]:
     """Verdicts, and how many rows of each document have it; the last line counts all."""
-    shown = [verdict for verdict in Verdict if verdict is not Verdict.CHOICE]
-    lines = []
-    for verdict in shown:
-        counts = [_count(made.weighed(document), verdict) for document in Document]
-        if any(counts):
-            lines.append([str(verdict), *map(str, counts), _MEANINGS.get(verdict, "")])
-    totals = [str(len(made.weighed(document))) for document in Document]
-    return [*lines, ["all", *totals, ""]]
+    weighed = [made.weighed(document) for document in Document]
+    counts = {verdict: [_count(of, verdict) for of in weighed] for verdict in Verdict if verdict is not Verdict.CHOICE}
+    lines = [[str(v), *map(str, of), _MEANINGS.get(v, "")] for v, of in counts.items() if any(of)]
+    return [*lines, ["all", *(str(len(of)) for of in weighed), ""]]
 
 
 def _count(results: Iterable[Result], verdict: Verdict) -> int:
@@ -96,35 +105,20 @@ def _count(results: Iterable[Result], verdict: Verdict) -> int:
 
 def judgements(made: Reproduction) -> str:
     """How many verdicts are judgements, in words."""
-    weighed = [result for document in Document for result in made.weighed(document)]
+    weighed = made.weighed()
     by_person = sum(not result.found.calculated for result in weighed)
     return f"{by_person} of {len(weighed)} verdicts are judgements by a person, the others follow from calculations."
 
 
-def _summary(made: Reproduction) -> str:
-    headings = ["verdict", *(document.short for document in Document), "which means"]
-    return f"## Summary\n\n{_table(headings, summary_rows(made), right=(1, 2, 3))}\n{judgements(made)}\n"
-
-
-def _misprints(made: Reproduction) -> str:
-    note = "What is printed, why it cannot be right, and what this project takes; all numbers are calculated.\n"
-    return "\n".join(["## Misprints\n", note, *map(_proof_of_page, made.misprints)])
-
-
-def _assumptions(made: Reproduction) -> str:
-    note = "Nothing is misprinted here, but what is assumed or left unsaid is not so; all numbers are calculated.\n"
-    return "\n".join(["## Assumptions that fail\n", note, *map(_proof_of_page, made.assumptions)])
-
-
 def _proof_of_page(result: Result) -> str:
-    row, found = result.row, result.found
-    parts = [f"**{row.id}** {row.place}: {row.says} Printed: {row.printed}.", f"{_capital(found.ours)}.\n"]
-    parts += [f"- {line}" for line in found.worked]
-    return "\n".join([*parts, f"- shown by `{row.shown_by}`\n"])
-
-
-def _capital(text: str) -> str:
-    return text[0].upper() + text[1:]
+    row, said = result.row, result.found.ours
+    return "\n".join(
+        (
+            f"**{row.id}** {row.place}: {row.says} Printed: {row.printed}.",
+            f"{said[0].upper()}{said[1:]}.\n",
+            *(f"- {line}" for line in (*result.found.worked, f"shown by `{row.shown_by}`\n")),
+        )
+    )
 
 
 def _choices(made: Reproduction) -> str:
@@ -138,22 +132,15 @@ def _choices(made: Reproduction) -> str:
 
 def _rows_of_page(results: Sequence[Result]) -> str:
     headings = ["id", "place", "what it says", "printed", "this project", "verdict", "code", "shown by"]
-    return _table(
-        headings,
-        [
-            [
-                r.row.id,
-                r.row.place,
-                r.row.says,
-                r.row.printed,
-                r.found.ours,
-                _verdict_of_page(r),
-                _code(r),
-                f"`{r.row.shown_by}`",
-            ]
-            for r in results
-        ],
-    )
+    lines = [
+        [*(r.row.id, r.row.place, r.row.says, r.row.printed, r.found.ours), _verdict_of_page(r), _code(r), _shown_by(r)]
+        for r in results
+    ]
+    return _table(headings, lines)
+
+
+def _shown_by(result: Result) -> str:
+    return f"`{result.row.shown_by}`"
 
 
 def _verdict_of_page(result: Result) -> str:
@@ -164,20 +151,23 @@ def _code(result: Result) -> str:
     return ", ".join(f"[{path.rsplit('/', 1)[-1]}](../{path})" for path in result.row.code)
 
 
+def _drawn(document: Document, drawn: dict[str, str]) -> list[Figure]:
+    return [figure for figure in FIGURES if figure.name in drawn and figure.row.startswith(document.value)]
+
+
 def _figures(document: Document, drawn: dict[str, str]) -> str:
-    shown = [f for f in FIGURES if f.name in drawn and f.row.startswith(document.value)]
-    parts = [f"**{f.place}**, {f.caption}:\n\n![{f.place}: {f.caption}]({FIGURE_FOLDER}/{f.name}.svg)\n" for f in shown]
+    parts = [
+        f"**{f.place}**, {f.caption}:\n\n![{f.place}: {f.caption}]({FIGURE_FOLDER}/{f.name}.svg)\n"
+        for f in _drawn(document, drawn)
+    ]
     return "\n".join(["### Figures\n", *parts]) if parts else ""
 
 
 def _worked_of_page(result: Result) -> str:
     row, found = result.row, result.found
-    lines = [
-        f"## {row.id}: {row.place}\n",
-        f"{row.says} Printed: {row.printed}.\n",
-        f"{_verdict_of_page(result)}: {found.ours}\n",
-    ]
-    return "\n".join([*lines, *(f"- {line}" for line in found.worked), f"- code: {', '.join(row.code)}\n"])
+    said = f"{row.says} Printed: {row.printed}.\n\n{_verdict_of_page(result)}: {found.ours}\n"
+    worked = (f"- {line}" for line in (*found.worked, f"code: {', '.join(row.code)}\n"))
+    return "\n".join((f"## {row.id}: {row.place}\n", said, *worked))
 
 
 def _table(headings: Sequence[str], lines: Iterable[Sequence[str]], right: Sequence[int] = ()) -> str:
@@ -229,49 +219,32 @@ def write_reproduce_report(made: Reproduction, path: Path) -> Path:
 
 def reproduce_report(made: Reproduction) -> str:
     """The report as HTML."""
-    weighed = [result for document in Document for result in made.weighed(document)]
-    counted = [
-        (str(verdict), str(sum(r.found.verdict is verdict for r in weighed)))
-        for verdict in Verdict
-        if verdict != "choice"
-    ]
-    body = [cards([(what, count) for what, count in counted if count != "0"])]
+    counts = {verdict: _count(made.weighed(), verdict) for verdict in Verdict if verdict is not Verdict.CHOICE}
+    body = [cards([(str(verdict), str(count)) for verdict, count in counts.items() if count])]
     if made.whole:
-        headings = ["verdict", *(document.short for document in Document), "which means"]
-        body.append(
-            section(
-                "Verdicts by document", table(headings, summary_rows(made), numeric=(1, 2, 3)), note=judgements(made)
-            )
-        )
-    if made.misprints:
-        body.append(section("Misprints", *map(_proof, made.misprints), note="What is printed cannot be right."))
-    if made.assumptions:
-        note = "What is assumed or left unsaid is not so."
-        body.append(section("Assumptions that fail", *map(_proof, made.assumptions), note=note))
-    if made.choices:
-        body.append(section("Choices", *map(_proof, made.choices), note="What the documents leave open."))
+        counted = table(_COUNTED, summary_rows(made), numeric=(1, 2, 3))
+        body.append(section("Verdicts by document", counted, note=judgements(made)))
+    proven = (
+        ("Misprints", made.misprints, "What is printed cannot be right."),
+        ("Assumptions that fail", made.assumptions, "What is assumed or left unsaid is not so."),
+        ("Choices", made.choices, "What the documents leave open."),
+    )
+    body += [section(title, *map(_proof, results), note=note) for title, results, note in proven if results]
     for document in Document:
-        rows = made.of(document)
+        rows, drawn = made.of(document), _drawn(document, made.figures)
         if rows:
             body.append(section(document.short, _rows(rows)))
-        drawn = [f for f in FIGURES if f.name in made.figures and f.row.startswith(document.value)]
         if drawn:
-            pictures = "".join(
-                f"<figure>{_fitting(made.figures[f.name])}<figcaption>{_caption(f)}</figcaption></figure>"
-                for f in drawn
-            )
+            pictures = "".join(_picture(figure, made.figures[figure.name]) for figure in drawn)
             body.append(section(f"{document.short}: figures", f'<div class="charts">{pictures}</div>'))
     subtitle = "every equation, table, figure, example and claim of three documents"
     return page("The papers reproduced", subtitle if made.whole else "some rows", body)
 
 
-def _caption(figure: Figure) -> str:
-    return escape(f"{figure.place}: {figure.caption}")
-
-
-def _fitting(svg: str) -> str:
-    """A drawing that is no wider than its place."""
-    return svg.replace("<svg ", '<svg style="max-width:100%;height:auto" ', 1)
+def _picture(figure: Figure, svg: str) -> str:
+    """A drawing that is no wider than its place, with its caption."""
+    fitting = svg.replace("<svg ", '<svg style="max-width:100%;height:auto" ', 1)
+    return f"<figure>{fitting}<figcaption>{escape(f'{figure.place}: {figure.caption}')}</figcaption></figure>"
 
 
 def _verdict(result: Result) -> str:
@@ -281,25 +254,21 @@ def _verdict(result: Result) -> str:
 
 
 def _worked(lines: Sequence[str]) -> str:
-    if not lines:
-        return ""
-    return "<details><summary>worked</summary>" + "<br>".join(map(escape, lines)) + "</details>"
+    unfolded = "<details><summary>worked</summary>" + "<br>".join(map(escape, lines)) + "</details>"
+    return unfolded if lines else ""
 
 
 def _rows(results: Sequence[Result]) -> str:
     """A table with verdicts in colour and worked numbers that unfold."""
     head = "".join(f"<th>{heading}</th>" for heading in _HEADINGS)
-    lines = []
-    for r in results:
-        said = f"{escape(r.row.says)}<br><small>Printed: {escape(r.row.printed)}</small>"
-        shown = (
-            f"{escape(r.found.ours)}<br><small><code>{escape(r.row.shown_by)}</code></small>{_worked(r.found.worked)}"
-        )
-        lines.append(
-            f'<tr><td id="{r.row.id}">{r.row.id}<br><small>{escape(r.row.place)}</small></td><td>{_verdict(r)}</td>'
-            f'<td class="long">{said}</td><td class="long">{shown}</td></tr>'
-        )
-    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{"".join(lines)}</tbody></table></div>'
+    lines = "".join(
+        f'<tr><td id="{r.row.id}">{r.row.id}<br><small>{escape(r.row.place)}</small></td><td>{_verdict(r)}</td>'
+        f'<td class="long">{escape(r.row.says)}<br><small>Printed: {escape(r.row.printed)}</small></td>'
+        f'<td class="long">{escape(r.found.ours)}<br><small><code>{escape(r.row.shown_by)}</code></small>'
+        f"{_worked(r.found.worked)}</td></tr>"
+        for r in results
+    )
+    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>'
 
 
 def _proof(result: Result) -> str:

@@ -71,10 +71,10 @@ class Reproduction:
         """The rows of a document."""
         return tuple(result for result in self.rows if result.row.document is document)
 
-    def weighed(self, document: Document) -> tuple[Result, ...]:
-        """The rows of a document, and the misprints and assumptions that are its own."""
+    def weighed(self, document: Document | None = None) -> tuple[Result, ...]:
+        """The rows of a document, and the misprints and assumptions that are its own; without one, of all."""
         everything = (*self.rows, *self.misprints, *self.assumptions)
-        return tuple(result for result in everything if result.row.document is document)
+        return tuple(result for result in everything if document in (None, result.row.document))
 
 
 def chosen(asked: Sequence[str]) -> tuple[Row, ...]:
@@ -86,25 +86,20 @@ def chosen(asked: Sequence[str]) -> tuple[Row, ...]:
         UsageError: there is none of that name.
     """
     everything = (*ROWS, *MISPRINTS, *ASSUMPTIONS, *CHOICES)
-    if not asked:
-        return everything
-    for name in asked:
-        if not any(_begins(row.id, name) for row in everything):
-            raise UsageError(
-                f"No row's id begins with '{name}'. Give P (Pennestrì), E (Erdman), S (slides), X (misprints and "
-                "assumptions), C (choices), or more of an id, e.g. P-eq7, E-eq13, S-3.4.1, X-gamma; without any, all "
-                "rows are worked."
-            )
-    ids = {row.id.lower() for row in everything}
-
-    def wanted(row: Row, name: str) -> bool:
-        return row.id.lower() == name.lower() if name.lower() in ids else _begins(row.id, name)
-
-    return tuple(row for row in everything if any(wanted(row, name) for name in asked))
+    found = [row for name in asked for row in _named(name, everything)]
+    return tuple(row for row in everything if row in found) if asked else everything
 
 
-def _begins(row: str, name: str) -> bool:
-    return row.lower().startswith(name.lower())
+def _named(name: str, rows: Sequence[Row]) -> list[Row]:
+    exact = [row for row in rows if row.id.lower() == name.lower()]
+    found = exact or [row for row in rows if row.id.lower().startswith(name.lower())]
+    if not found:
+        raise UsageError(
+            f"No row's id begins with '{name}'. Give P (Pennestrì), E (Erdman), S (slides), X (misprints and "
+            "assumptions), C (choices), or more of an id, e.g. P-eq7, E-eq13, S-3.4.1, X-gamma; without any, all "
+            "rows are worked."
+        )
+    return found
 
 
 def perform(asked: Sequence[str], bench: Bench, on_row: Callable[[Row, int, int], None]) -> Reproduction:
@@ -122,12 +117,16 @@ def perform(asked: Sequence[str], bench: Bench, on_row: Callable[[Row, int, int]
     results = {}
     for number, row in enumerate(rows, start=1):
         on_row(row, number, len(rows))
-        results[row.id] = Result(row, row.find(bench))
+        results[row.id] = Result(row, row.found(bench))
 
-    def those(of: tuple[Row, ...]) -> tuple[Result, ...]:
+    def those(of: Sequence[Row]) -> tuple[Result, ...]:
         return tuple(results[row.id] for row in of if row.id in results)
 
-    figures = {figure.name: drawing_of(figure, bench) for figure in FIGURES if figure.row in results}
     return Reproduction(
-        those(ROWS), those(MISPRINTS), those(ASSUMPTIONS), those(CHOICES), figures, len(rows) == len(chosen(()))
+        rows=those(ROWS),
+        misprints=those(MISPRINTS),
+        assumptions=those(ASSUMPTIONS),
+        choices=those(CHOICES),
+        figures={figure.name: drawing_of(figure, bench) for figure in FIGURES if figure.row in results},
+        whole=len(rows) == len(chosen(())),
     )

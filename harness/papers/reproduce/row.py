@@ -63,7 +63,7 @@ class Row:
         says: what it says.
         printed: the printed number, or the equation in short.
         code: files of this project where it lives.
-        find: makes the finding.
+        find: makes the finding; or the finding, where there is nothing to calculate.
         command: a command line that shows it; by default `mechanism-fmu reproduce` with this row's id.
     """
 
@@ -72,7 +72,7 @@ class Row:
     says: str
     printed: str
     code: tuple[str, ...]
-    find: Callable[[Bench], Found]
+    find: Callable[[Bench], Found] | Found
     command: str = ""
 
     @property
@@ -86,6 +86,10 @@ class Row:
         """The command line that shows it."""
         return self.command or f"mechanism-fmu reproduce {self.id}"
 
+    def found(self, bench: Bench) -> Found:
+        """What this project finds."""
+        return self.find if isinstance(self.find, Found) else self.find(bench)
+
 
 @dataclass(frozen=True)
 class Result:
@@ -97,10 +101,9 @@ class Result:
 
 def within(deviation: float, limit: float, ours: str, *worked: str, verdict: Verdict = Verdict.REPRODUCED) -> Found:
     """A finding that stands only while a deviation stays below a limit; deviations themselves are rounding."""
-    if deviation <= limit:
-        return Found(ours, verdict, worked, calculated=True)
-    text = f"{ours} (off by {deviation:.3g}, more than {limit:g})"
-    return Found(text, Verdict.FAILED, worked, calculated=True)
+    right = deviation <= limit
+    text = ours if right else f"{ours} (off by {deviation:.3g}, more than {limit:g})"
+    return judged(right, text, *worked, verdict=verdict)
 
 
 def judged(true: bool, ours: str, *worked: str, verdict: Verdict = Verdict.HOLDS) -> Found:

@@ -26,6 +26,11 @@ FILE = Path(__file__).with_name("plane_teeth.csv")
 PLACE = 0.4
 
 
+def _larger(stress: str) -> property:
+    """The larger one of both flanks, of a stress [-]."""
+    return property(lambda tooth: max(getattr(tooth, f"{stress}_{flank}") for flank in ("face", "slope")))
+
+
 @dataclass(frozen=True)
 class PlaneTooth:
     """A tooth as a plate (plane stress, Poisson's ratio 0.3) beside the paper's beam; all ratios [-].
@@ -62,25 +67,10 @@ class PlaneTooth:
         """How much lower the first frequency of the whole tooth lies than that of the wedge [-]."""
         return 1.0 - self.beam_to_wedge_frequency / self.beam_to_tooth_frequency
 
-    @property
-    def static_wedge(self) -> float:
-        """The larger one of both flanks."""
-        return max(self.static_wedge_face, self.static_wedge_slope)
-
-    @property
-    def static_tooth(self) -> float:
-        """The larger one of both flanks."""
-        return max(self.static_tooth_face, self.static_tooth_slope)
-
-    @property
-    def impact_wedge(self) -> float:
-        """The larger one of both flanks."""
-        return max(self.impact_wedge_face, self.impact_wedge_slope)
-
-    @property
-    def impact_tooth(self) -> float:
-        """The larger one of both flanks."""
-        return max(self.impact_tooth_face, self.impact_tooth_slope)
+    static_wedge = _larger("static_wedge")
+    static_tooth = _larger("static_tooth")
+    impact_wedge = _larger("impact_wedge")
+    impact_tooth = _larger("impact_tooth")
 
 
 def plane_teeth() -> tuple[PlaneTooth, ...]:
@@ -105,8 +95,7 @@ def accuracy_findings(wheels: Sequence[Wheel], small: float = SMALL) -> tuple[Fi
     """The paper's claims about its wedge, its beam and its modes.
 
     The first two come from a file made by finite elements for the paper's teeth (harness/papers/study/plane_teeth.csv);
-    they are
-    left out when none of the wheels has such teeth.
+    they are left out when none of the wheels has such teeth.
 
     Args:
         wheels: of the study, one or more.

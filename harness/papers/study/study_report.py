@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -124,24 +124,12 @@ def _stress_along_tooth(study: Study) -> list[Plot]:
 
 def _maximum_stress(wheels: Sequence[Wheel]) -> list[Plot]:
     by_angle = [
-        Curve(
-            f"{count} teeth",
-            [wheel.slope_angle_deg for wheel in group],
-            [wheel.stress_max / 1e3 for wheel in group],
-            colour,
-            dots=True,
-        )
+        _stress_over([wheel.slope_angle_deg for wheel in group], group, f"{count} teeth", colour)
         for (count, group), colour in zip(_by_count(wheels), COLOURS, strict=False)
     ]
     by_count = [
-        Curve(
-            _angle_name(group[0]),
-            [wheel.tooth_count for wheel in group],
-            [wheel.stress_max / 1e3 for wheel in group],
-            colour,
-            dots=True,
-        )
-        for group, colour in zip(_by_angle(wheels), COLOURS, strict=False)
+        _stress_over([wheel.tooth_count for wheel in group], group, _angle_name(group[0]), colour)
+        for (_, group), colour in zip(_by_angle(wheels), COLOURS, strict=False)
     ]
     return [
         Plot("Over the slope angle", "slope angle β₀ [deg]", "maximum stress [kPa]", by_angle, from_zero=True),
@@ -149,18 +137,24 @@ def _maximum_stress(wheels: Sequence[Wheel]) -> list[Plot]:
     ]
 
 
+def _stress_over(places: list[int], wheels: Sequence[Wheel], name: str, colour: str) -> Curve:
+    return Curve(name, places, [wheel.stress_max / 1e3 for wheel in wheels], colour, dots=True)
+
+
 def _angle_name(wheel: Wheel) -> str:
     return f"β₀ = {wheel.slope_angle_deg}°"
 
 
+def _grouped(wheels: Sequence[Wheel], by: Callable[[Wheel], int]) -> list[tuple[int, list[Wheel]]]:
+    return [(value, [wheel for wheel in wheels if by(wheel) == value]) for value in sorted(set(map(by, wheels)))]
+
+
 def _by_count(wheels: Sequence[Wheel]) -> list[tuple[int, list[Wheel]]]:
-    counts = sorted({wheel.tooth_count for wheel in wheels})
-    return [(count, [wheel for wheel in wheels if wheel.tooth_count == count]) for count in counts]
+    return _grouped(wheels, lambda wheel: wheel.tooth_count)
 
 
-def _by_angle(wheels: Sequence[Wheel]) -> list[list[Wheel]]:
-    angles = sorted({wheel.slope_angle_deg for wheel in wheels})
-    return [[wheel for wheel in wheels if wheel.slope_angle_deg == angle] for angle in angles]
+def _by_angle(wheels: Sequence[Wheel]) -> list[tuple[int, list[Wheel]]]:
+    return _grouped(wheels, lambda wheel: wheel.slope_angle_deg)
 
 
 _FINDINGS_NOTE = "Findings, not checks: this project computes what the paper computes, and says here how far that goes."

@@ -1,8 +1,8 @@
 """Rows along which contacts and joints with dry friction slide: they are constraints where these stick.
 
-Contacts come first, in their order, then joints. Slip is that of the point of body i along its line on body j, of the
-material of body i along the common tangent of two profiles, of point j along the axis of a slider on body i, and of a
-pin's body i against body j.
+Contacts come first, in their order, then joints, then force elements, of which only brakes have friction. Slip is that
+of the point of body i along its line on body j, of the material of body i along the common tangent of two profiles, of
+point j along the axis of a slider on body i, and of the body of a pin or brake against the other.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.kinds import JOINTS
+from ...tables.kinds import FORCES, JOINTS
 from ...tables.motion import Pose, Rows, Rubs, Strikes
-from ...tables.parts import Contacts, Joints
+from ...tables.parts import Contacts, Forces, Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..vectors import clear
@@ -21,12 +21,19 @@ from .point_line import angle_row, point_line, tangent_line
 from .profile_row import slip_row
 
 REVOLUTE = JOINTS.number("revolute")
+BRAKE = FORCES.number("brake")
 
 
 @jit
 def coefficient(block: Array, rub: int) -> float:
-    """The coefficient of friction of a contact or slider [1], the friction radius of a pin [m]; 0: it is smooth."""
+    """The coefficient of a contact or slider [1], friction radius of a pin [m], torque of a brake [N m]; 0: smooth."""
     contacts = Sizes(block).contacts
+    first = contacts + Sizes(block).joints
+    if rub >= first:
+        element = Forces(block)
+        is_brake = element.kind[rub - first] == BRAKE
+        of_brake: float = element.data[rub - first, 0]
+        return of_brake if is_brake else 0.0
     if rub >= contacts:
         of_joint: float = Joints(block).friction[rub - contacts]
         return of_joint
@@ -61,6 +68,11 @@ def friction_row(block: Array, at: Pose, rub: int, row: int) -> None:
             point_line(at, out, row, table.body_i[rub], table.body_j[rub], table.data[rub], line)
         else:
             slip_row(block, at, rub, row)
+    elif rub >= contacts + Sizes(block).joints:
+        element = Forces(block)
+        k = rub - contacts - Sizes(block).joints
+        line[0] = 0.0
+        angle_row(at, out, row, element.body[k], element.reaction[k], line)
     else:
         joint = Joints(block)
         k = rub - contacts

@@ -31,8 +31,7 @@ def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
     keep_small()
     table = Contacts(block)
     out = Rows(block)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     kind = table.kind[contact]
     touch = look(block, at, contact)
     tx, ty = touch.tx, touch.ty
@@ -48,10 +47,7 @@ def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
     second = tx * (ex_rate + uj * touch.by) + ty * (ey_rate - uj * touch.bx) - uj * gap
     move_i, move_j, fit = change(kind, touch, gap, first, second)
     alpha = table.alpha[contact]
-    if kind == codes.POINT_FOLLOWER:
-        at.alpha_rate[alpha] = move_j
-    else:
-        at.alpha_rate[alpha] = move_i
+    at.alpha_rate[alpha] = move_j if kind == codes.POINT_FOLLOWER else move_i
     if kind == codes.CAM_FOLLOWER:
         at.alpha_rate[alpha + 1] = move_j
     out.residual[row] = gap
@@ -77,7 +73,8 @@ def profile_row(block: Array, at: Pose, contact: int, row: int) -> float:
 def slip_row(block: Array, at: Pose, contact: int, row: int) -> None:
     """Write the row of the slip of body i along body j where their profiles touch: the difference of their materials.
 
-    Slip counts along t = -R n, the normal turned by -90 deg, as that of a point on a line. With w = r_i' + u_i R a - r_j' - u_j R e and the turning of the tangent w_t = u_j + turn alpha_j': s' = t.w,
+    Slip counts along t = -R n, the normal turned by -90 deg, as that of a point on a line. With the relative velocity
+    w = r_i' + u_i R a - r_j' - u_j R e and the turning of the tangent w_t = u_j + turn alpha_j': s' = t.w,
     s_q = [t, t.R a, -t, -t.R e], gamma = -w_t (R t).w - t.(u_i R a' - u_j R e'), where a' and e' follow the point of
     contact. There is no s: what has rolled off is not counted.
     """

@@ -57,8 +57,7 @@ def joint_rows(block: Array, at: Pose) -> None:
         clear(out.jacobian[r])
     for k in range(table.kind.shape[0]):
         row = table.row[k]
-        i = table.body_i[k]
-        j = table.body_j[k]
+        i, j = table.body_i[k], table.body_j[k]
         if table.curve[k] == codes.NONE:
             _joint(table.kind[k], at, out, row, i, j, table.data[k])
         else:
@@ -71,8 +70,7 @@ def _drive(block: Array, at: Pose, joint: int) -> None:
     keep_small()
     table = Joints(block)
     c, c_rate, c_bend, _ = curve(block, table.curve[joint], at.instant[0])
-    i = table.body_i[joint]
-    j = table.body_j[joint]
+    i, j = table.body_i[joint], table.body_j[joint]
     _driver(table.kind[joint], at, Rows(block), table.row[joint], i, j, table.data[joint], c, c_rate, c_bend)
 
 
@@ -83,8 +81,7 @@ def contact_row(block: Array, at: Pose, contact: int, row: int) -> None:
     table = Contacts(block)
     out = Rows(block)
     clear(out.jacobian[row])
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     if table.kind[contact] == codes.POINT_LINE:
         point_line(at, out, row, i, j, table.data[contact], table.line[contact])
     elif table.alpha[contact] != codes.NONE:

@@ -45,8 +45,7 @@ def _profile_rows(block: Array, at: Pose, contact: int, row: int) -> None:
     keep_small()
     out = Rows(block)
     table = Contacts(block)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     data = table.data[contact]
     first = table.alpha[contact]
     column = Sizes(block).columns + first

@@ -187,8 +187,7 @@ def _beyond(block: Array, at: Pose, pattern: int, boundary: Array) -> tuple[floa
     """How far a pattern's point is beyond a boundary, and its rate."""
     keep_small()
     table = Patterns(block)
-    i = table.body_i[pattern]
-    j = table.body_j[pattern]
+    i, j = table.body_i[pattern], table.body_j[pattern]
     point_line(at, Rows(block), spare_row(block), i, j, table.data[pattern], boundary)
     return _spare(block)
 

@@ -64,14 +64,11 @@ def _dissipative_share(block: Array) -> float:
     keep_small()
     n = Sizes(block).coordinates
     solution = LinearSystem(block).solution
-    along = 0.0
-    square = 0.0
+    along = square = 0.0
     for k in range(n):
         along -= Course(block).y_end[n + k] / Bodies(block).inverse_root_mass[k] * solution[k]
         square += solution[k] * solution[k]
-    if not along > 0.0:
-        return 0.0
-    return min(1.0, along / square)
+    return 0.0 if not along > 0.0 else min(1.0, along / square)
 
 
 # The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7)), for all touching contacts together.

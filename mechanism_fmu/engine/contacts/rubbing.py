@@ -5,6 +5,7 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rows, Rubs
+from ...tables.sizes import Sizes
 from ...tolerances import SLIPS_ABOVE
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, touches
@@ -54,13 +55,19 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool) -> None:
 
 @jit
 def free_all(block: Array) -> None:
-    """In an impact all friction may end in stick or slip; what has begun to touch is taken to stick."""
+    """In an impact all friction may end in stick or slip; what has begun to touch is taken to stick.
+
+    A brake, whose torque is bounded, has no impulse.
+    """
     keep_small()
     table = Rubs(block)
     at = place_bodies(block, Course(block).y_end)
     look_at_slip(block, at, False)
     for k in range(table.slip.shape[0]):
-        if coefficient(block, k) > 0.0:
+        if k >= Sizes(block).contacts + Sizes(block).joints:
+            table.free[k] = 0
+            table.slip[k] = codes.APART
+        elif coefficient(block, k) > 0.0:
             table.free[k] = 1
 
 

@@ -66,9 +66,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
-    struck = codes.NONE
-    if guard == codes.GUARD_GAP:
-        struck = subject
+    struck = subject if guard == codes.GUARD_GAP else codes.NONE
     fired = struck
     impulse = 0.0
     hits = 0
@@ -120,10 +118,7 @@ def _take_effect(block: Array, guard: int, subject: int) -> int:
     table = Contacts(block)
     at = place_bodies(block, Course(block).y_end)
     if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
-        move = 1
-        if guard == codes.GUARD_PREVIOUS:
-            move = -1
-        Patterns(block).copy[subject] += move
+        Patterns(block).copy[subject] += -1 if guard == codes.GUARD_PREVIOUS else 1
         place_pattern(block, at, subject)
         for c in range(table.mode.shape[0]):
             if table.pattern[c] == subject and table.function[c] == codes.NONE:

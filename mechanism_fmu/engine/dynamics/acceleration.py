@@ -104,8 +104,7 @@ def _with_friction(block: Array, at: Pose, count: int) -> float:
             load.last_multiplier[r] = multiplier[r]
         lost = resist(block, at)
         accelerate(block, count)
-        change = 0.0
-        largest = 0.0
+        change = largest = 0.0
         for r in range(count):
             change = max(change, abs(multiplier[r] - load.last_multiplier[r]))
             largest = max(largest, abs(multiplier[r]))

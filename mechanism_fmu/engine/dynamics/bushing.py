@@ -42,9 +42,7 @@ class Give(NamedTuple):
 def _give(block: Array, at: Pose, k: int) -> Give:
     keep_small()
     table = Forces(block)
-    data = table.data[k]
-    i = table.body[k]
-    j = table.reaction[k]
+    data, i, j = table.data[k], table.body[k], table.reaction[k]
     ax, ay = turned(at, i, data[POINT_X], data[POINT_Y])
     bx = at.x[i] + ax - at.x[j]
     by = at.y[i] + ay - at.y[j]
@@ -72,9 +70,7 @@ def _give(block: Array, at: Pose, k: int) -> Give:
 def _bushing(block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float, lost: float) -> tuple[float, float]:
     keep_small()
     table = Forces(block)
-    data = table.data[k]
-    i = table.body[k]
-    j = table.reaction[k]
+    data, i, j = table.data[k], table.body[k], table.reaction[k]
     give = _give(block, at, k)
     x = -data[STIFFNESS_X] * give.x - data[DAMPING_X] * give.x_rate
     y = -data[STIFFNESS_Y] * give.y - data[DAMPING_Y] * give.y_rate

@@ -52,8 +52,7 @@ def apply_forces(block: Array, at: Pose, y: Array, dy: Array) -> tuple[float, fl
     """
     clear(Loads(block).force)
     kind = Forces(block).kind
-    given = 0.0
-    lost = 0.0
+    given = lost = 0.0
     for k in range(kind.shape[0]):
         given, lost = _act(kind[k], block, at, k, y, dy, given, lost)
     return given, lost

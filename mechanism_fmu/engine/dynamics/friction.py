@@ -87,8 +87,7 @@ def _pin(block: Array, at: Pose, joint: int) -> float:
     force = Loads(block).force
     multiplier = LinearSystem(block).multiplier
     row = table.row[joint]
-    i = table.body_i[joint]
-    j = table.body_j[joint]
+    i, j = table.body_i[joint], table.body_j[joint]
     slip = at.phi_rate[i] - at.phi_rate[j]
     normal = math.sqrt(multiplier[row] * multiplier[row] + multiplier[row + 1] * multiplier[row + 1])
     torque = -table.friction[joint] * normal * math.tanh(slip / SLIP_RATE)
@@ -105,12 +104,11 @@ def _slider(block: Array, at: Pose, joint: int) -> float:
     keep_small()
     table = Joints(block)
     force = Loads(block).force
-    i = table.body_i[joint]
-    j = table.body_j[joint]
+    i, j = table.body_i[joint], table.body_j[joint]
     data = table.data[joint]
     length = math.sqrt(data[4] * data[4] + data[5] * data[5])
-    vx = (at.cosine[i] * data[4] - at.sine[i] * data[5]) / length
-    vy = (at.sine[i] * data[4] + at.cosine[i] * data[5]) / length
+    vx, vy = turned(at, i, data[4], data[5])
+    vx, vy = vx / length, vy / length
     bx, by = turned(at, j, data[2], data[3])
     # from the centre of mass of body i to the point of body j
     cx = at.x[j] + bx - at.x[i]

@@ -101,9 +101,7 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
     best_fraction = -1.0
     for s in range(r, count):
         i = system.order[s]
-        fraction = 0.0
-        if system.row_norm[i, 0] > 0.0:
-            fraction = system.row_norm[i, 1] / system.row_norm[i, 0]
+        fraction = system.row_norm[i, 1] / system.row_norm[i, 0] if system.row_norm[i, 0] > 0.0 else 0.0
         if fraction > best_fraction:
             best_fraction = fraction
             best = s
@@ -175,10 +173,7 @@ def _solve_deficient(block: Array, count: int, rank: int) -> None:
 @jit
 def _dot(a: Array, b: Array, length: int) -> float:
     """Scalar product of the first `length` entries, in four sums: one would wait for each addition."""
-    first = 0.0
-    second = 0.0
-    third = 0.0
-    fourth = 0.0
+    first = second = third = fourth = 0.0
     whole = length - length % 4
     for k in range(0, whole, 4):
         first += a[k] * b[k]

@@ -111,9 +111,7 @@ def _read_motor(block: Array, at: Pose, k: int, y: Array, which: int) -> float:
 
 @jit
 def _read_motor_rate(block: Array, _at: Pose, k: int, dy: Array, which: int) -> float:
-    if which == 2:
-        return math.nan
-    return _of_current(block, k, dy, which)
+    return math.nan if which == 2 else _of_current(block, k, dy, which)
 
 
 @jit

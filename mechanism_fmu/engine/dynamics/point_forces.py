@@ -60,8 +60,7 @@ def weight(block: Array, body: int) -> tuple[float, float]:
     """Sum of the forces on a body's centre of mass [N]."""
     keep_small()
     table = Forces(block)
-    x = 0.0
-    y = 0.0
+    x = y = 0.0
     for k in range(table.kind.shape[0]):
         if table.kind[k] == _FORCE and table.body[k] == body:
             x += table.data[k, X]
@@ -112,8 +111,7 @@ def _between(block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float
     """Stores the energy of its linear part, or of its table; the work of its preload, or of its law, is given."""
     keep_small()
     table = Forces(block)
-    i = table.body[k]
-    j = table.reaction[k]
+    i, j = table.body[k], table.reaction[k]
     line = _line(block, at, k)
     pull, comes_in, goes = _pull(block, k, line)
     fx = pull * line.ux
@@ -133,9 +131,7 @@ def _line(block: Array, at: Pose, k: int) -> Line:
     """The line between the points of a spring."""
     keep_small()
     table = Forces(block)
-    data = table.data[k]
-    i = table.body[k]
-    j = table.reaction[k]
+    data, i, j = table.data[k], table.body[k], table.reaction[k]
     ax, ay = turned(at, i, data[POINT_X], data[POINT_Y])
     bx, by = turned(at, j, data[REACTION_X], data[REACTION_Y])
     x = at.x[j] + bx - at.x[i] - ax
@@ -215,9 +211,7 @@ def _read_between(block: Array, at: Pose, k: int, _y: Array, which: int) -> floa
 
 @jit
 def _read_between_rate(block: Array, at: Pose, k: int, _dy: Array, which: int) -> float:
-    if which == LENGTH:
-        return _line(block, at, k).speed
-    return math.nan
+    return _line(block, at, k).speed if which == LENGTH else math.nan
 
 
 ELEMENTS = {

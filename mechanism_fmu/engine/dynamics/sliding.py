@@ -51,10 +51,14 @@ def slide(block: Array, at: Pose, count: int) -> float:
         for r in range(count):
             system.multiplier[r] += force * table.multiplier[k, r]
     contacts = Sizes(block).contacts
+    joints = Sizes(block).joints
     for k in range(table.slip.shape[0]):
         if sticks(block, k):
             table.force[k] = system.multiplier[table.row[k]]
-        if k >= contacts:
+        if k >= contacts + joints:
+            if coefficient(block, k) > 0.0:
+                Loads(block).torque[k - contacts - joints] = table.force[k]
+        elif k >= contacts:
             Loads(block).rubbing[k - contacts] = table.force[k]
     return lost
 
@@ -156,6 +160,8 @@ def _normal(block: Array, rub: int, number: int, line: int) -> float:
                 slope[b] = side * table.multiplier[table.sliding[b], row]
             normal *= side
         return normal
+    if rub >= contacts + Sizes(block).joints:
+        return 1.0  # the coefficient of a brake is its torque
     joint = rub - contacts
     row = Joints(block).row[joint]
     first = _multiplier(block, row, number)
@@ -223,6 +229,8 @@ def hold(block: Array, rub: int) -> float:
             normal += system.multiplier[Contacts(block).row[rub]]
             if Contacts(block).value[rub, codes.GUIDED] > 0.5:
                 normal = abs(normal)
+    elif rub >= contacts + Sizes(block).joints:
+        normal = 1.0
     else:
         row = Joints(block).row[rub - contacts]
         normal = abs(system.multiplier[row])

@@ -12,6 +12,7 @@ from ...tables.parts import Bodies
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..dynamics.point_forces import weight
+from ..vectors import turned
 
 # A hinged bar that bends under the forces on its tip and its own inertia (docs/elastodynamics.md).
 #
@@ -45,9 +46,7 @@ def beam_reading(block: Array, at: Pose, kind: int, beam: int) -> float:
     # M' = first + 2 second x + 3 third x^2 = 0; where second or third vanish, so does a root or the numbers end
     root = math.sqrt(max(second * second - 3.0 * third * first, 0.0))
     for side in range(2):
-        bottom = -second - root
-        if side == 1:
-            bottom = -second + root
+        bottom = -second + root if side == 1 else -second - root
         if bottom != 0.0:
             x = first / bottom
             if 0.0 < x < length:
@@ -64,8 +63,7 @@ def _moment(block: Array, at: Pose, beam: int) -> tuple[float, float, float, flo
     data = table.data[beam]
     i = table.body[beam]
     row = table.row[beam]
-    tx = at.cosine[i] * data[codes.BEAM_ALONG_X] - at.sine[i] * data[codes.BEAM_ALONG_Y]
-    ty = at.sine[i] * data[codes.BEAM_ALONG_X] + at.cosine[i] * data[codes.BEAM_ALONG_Y]
+    tx, ty = turned(at, i, data[codes.BEAM_ALONG_X], data[codes.BEAM_ALONG_Y])
     multiplier = LinearSystem(block).multiplier
     hinge = data[codes.BEAM_SIDE] * (tx * multiplier[row + 1] - ty * multiplier[row])
     length = data[codes.BEAM_SPAN]

@@ -20,7 +20,7 @@ from ...tables.parts import Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..dynamics.point_forces import weight
-from ..vectors import clear
+from ..vectors import clear, turned
 from .linear_equations import factorise, solve, solve_transposed
 
 # What loads the structure: the inertia of the rigid motion, and what is applied to the bodies.
@@ -75,8 +75,7 @@ def _rub(block: Array, at: Pose) -> None:
             continue
         p = tie.node[k]
         rubbing = Loads(block).rubbing[joint]
-        i = table.body_i[joint]
-        j = table.body_j[joint]
+        i, j = table.body_i[joint], table.body_j[joint]
         if Nodes(block).body[p] == i:
             rubbing = -rubbing  # as of a force on body j; the torque of a pin is given on body i
         if table.kind[joint] == _REVOLUTE:
@@ -84,8 +83,8 @@ def _rub(block: Array, at: Pose) -> None:
             continue
         data = table.data[joint]
         length = math.sqrt(data[4] * data[4] + data[5] * data[5])
-        x = rubbing * (at.cosine[i] * data[4] - at.sine[i] * data[5]) / length
-        y = rubbing * (at.sine[i] * data[4] + at.cosine[i] * data[5]) / length
+        x, y = turned(at, i, data[4], data[5])
+        x, y = rubbing * x / length, rubbing * y / length
         # from the node to the point of body j, where it acts
         away_x = at.x[j] + at.cosine[j] * data[2] - at.sine[j] * data[3] - at.x[Nodes(block).body[p]] - place[p, 0]
         away_y = at.y[j] + at.sine[j] * data[2] + at.cosine[j] * data[3] - at.y[Nodes(block).body[p]] - place[p, 1]
@@ -125,8 +124,7 @@ def _place_nodes(block: Array, at: Pose) -> None:
     place = node.place
     for k in range(node.body.shape[0]):
         i = node.body[k]
-        place[k, 0] = at.cosine[i] * node.point[k, 0] - at.sine[i] * node.point[k, 1]
-        place[k, 1] = at.sine[i] * node.point[k, 0] + at.cosine[i] * node.point[k, 1]
+        place[k, 0], place[k, 1] = turned(at, i, node.point[k, 0], node.point[k, 1])
 
 
 @jit

@@ -30,17 +30,11 @@ def curve(block: Array, number: int, x: float) -> tuple[float, float, float, flo
         else:
             last = middle - 1
     x -= table.piece_start[first]
-    f0 = 0.0
-    f1 = 0.0
-    f2 = 0.0
-    f3 = 0.0
+    f0 = f1 = f2 = f3 = 0.0
     begin = table.piece_term[first]
     for t in range(begin, begin + table.piece_terms[first]):
         term = table.term_data[t]
-        p0 = 0.0
-        p1 = 0.0
-        p2 = 0.0
-        p3 = 0.0
+        p0 = p1 = p2 = p3 = 0.0
         for back in range(_DEGREE + 1):  # Horner's scheme, with the derivatives over their factorials
             p3 = p3 * x + p2
             p2 = p2 * x + p1

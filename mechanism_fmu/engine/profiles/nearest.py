@@ -78,9 +78,7 @@ def find_nearest(block: Array, at: Pose, contact: int) -> None:
     """Bring a pair's contact coordinates to the nearest points of all."""
     keep_small()
     alpha = Contacts(block).alpha[contact]
-    last = alpha
-    if Contacts(block).kind[contact] == codes.CAM_FOLLOWER:
-        last = alpha + 1
+    last = alpha + 1 if Contacts(block).kind[contact] == codes.CAM_FOLLOWER else alpha
     _find(block, at, contact)
     found_i = at.alpha[alpha]
     found_j = at.alpha[last]
@@ -138,8 +136,7 @@ def _newton_step(block: Array, at: Pose, contact: int) -> tuple[float, float, fl
     keep_small()
     table = Contacts(block)
     touch = look(block, at, contact)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     dx = at.x[i] + touch.ax - at.x[j] - touch.bx
     dy = at.y[i] + touch.ay - at.y[j] - touch.by
     gap = touch.ty * dx - touch.tx * dy
@@ -162,15 +159,12 @@ def _find(block: Array, at: Pose, contact: int) -> None:
     keep_small()
     table = Contacts(block)
     alpha = table.alpha[contact]
-    first = table.curve_i[contact]
-    second = table.curve_j[contact]
-    samples = _SAMPLES
-    others = 0
+    first, second = table.curve_i[contact], table.curve_j[contact]
+    samples, others = _SAMPLES, 0
     if table.kind[contact] == codes.POINT_FOLLOWER:
         first = second
     elif table.kind[contact] == codes.CAM_FOLLOWER:
-        samples = _PAIRED_SAMPLES
-        others = _PAIRED_SAMPLES
+        samples = others = _PAIRED_SAMPLES
     least = math.inf
     best_i = 0.0
     best_j = 0.0
@@ -196,9 +190,7 @@ def _descend(block: Array, at: Pose, contact: int, least: float, step: float) ->
     """From where the distance is `least`, go on to less in steps of `step` [rad] at first, until Newton's are safe."""
     keep_small()
     first = Contacts(block).alpha[contact]
-    last = first
-    if Contacts(block).kind[contact] == codes.CAM_FOLLOWER:
-        last = first + 1
+    last = first + 1 if Contacts(block).kind[contact] == codes.CAM_FOLLOWER else first
     while step > _NEAR:
         moved = False
         for k in range(first, last + 1):

@@ -44,9 +44,7 @@ def overlap(block: Array, at: Pose, contact: int) -> float:
         at.alpha[alpha] = sample(block, table.curve_i[contact], k, _SAMPLES)
         deepest = max(deepest, _depth(block, at, contact))
     at.alpha[alpha] = kept
-    if deepest > _OVERLAP:
-        return deepest
-    return 0.0
+    return deepest if deepest > _OVERLAP else 0.0
 
 
 @jit
@@ -55,8 +53,7 @@ def _depth(block: Array, at: Pose, contact: int) -> float:
     keep_small()
     table = Contacts(block)
     touch = look(block, at, contact)
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     dx = at.x[i] + touch.ax - at.x[j]
     dy = at.y[i] + touch.ay - at.y[j]
     depth: float = touch.tx * (dy - touch.by) - touch.ty * (dx - touch.bx)

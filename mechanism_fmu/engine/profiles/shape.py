@@ -86,8 +86,7 @@ def examine_profiles(block: Array) -> int:
         table.hollow[c] = codes.CONVEX
         if table.alpha[c] == codes.NONE or table.value[c, codes.ENABLED] < 0.5:
             continue
-        least_i = math.inf
-        least_j = math.inf
+        least_i = least_j = math.inf
         alpha = table.alpha[c]
         if table.curve_i[c] != codes.NONE:
             rho, least_i = _least(block, table.curve_i[c])
@@ -104,9 +103,7 @@ def examine_profiles(block: Array) -> int:
             return status.AT_CENTRE
         if not min(least_i, least_j) > _STRAIGHT / rho:
             table.hollow[c] = codes.HOLLOW
-            total = least_i
-            if table.kind[c] == codes.CAM_FOLLOWER:
-                total = least_i + least_j
+            total = least_i + least_j if table.kind[c] == codes.CAM_FOLLOWER else least_i
             if not total > 0.0:
                 table.hollow[c] = codes.BRIDGES
     return status.OK
@@ -116,8 +113,7 @@ def examine_profiles(block: Array) -> int:
 def _least(block: Array, number: int) -> tuple[float, float]:
     """The least radius [m] and the least curvature [1/m] of a profile; the latter is below zero in a hollow."""
     keep_small()
-    least = math.inf
-    least_rho = math.inf
+    least = least_rho = math.inf
     for k in range(_SAMPLES):
         rho, rate, bend, _ = curve(block, number, sample(block, number, k, _SAMPLES))
         square = rho * rho + rate * rate

@@ -84,10 +84,8 @@ def look(block: Array, at: Pose, contact: int) -> Touch:
     """The curve points of a contact at the present pose and contact coordinates."""
     keep_small()
     table = Contacts(block)
-    data = table.data[contact]
-    kind = table.kind[contact]
-    i = table.body_i[contact]
-    j = table.body_j[contact]
+    data, kind = table.data[contact], table.kind[contact]
+    i, j = table.body_i[contact], table.body_j[contact]
     first = table.alpha[contact]
     gx, gy, hx, hy, stretch, turn = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     if kind == codes.POINT_FOLLOWER:
@@ -99,9 +97,7 @@ def look(block: Array, at: Pose, contact: int) -> Touch:
         bx, by = turned(at, j, data[2], data[3])
         tx, ty = turned(at, j, -data[4], -data[5])
     else:
-        last = first
-        if kind == codes.CAM_FOLLOWER:
-            last = first + 1
+        last = first + 1 if kind == codes.CAM_FOLLOWER else first
         alpha = at.alpha[last]
         profile = curve(block, table.curve_j[contact], alpha)
         bx, by, tx, ty, kx, ky, _, _ = profile_point(at, j, data[2], data[3], alpha, profile)

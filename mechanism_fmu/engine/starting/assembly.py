@@ -71,9 +71,7 @@ def assemble(block: Array) -> int:
         worst = after
     at = place_bodies(block, now.y_end)
     active_rows(block, at)
-    if worst <= CLOSED_WITHIN:
-        return status.OK
-    return status.NOT_ASSEMBLED
+    return status.OK if worst <= CLOSED_WITHIN else status.NOT_ASSEMBLED
 
 
 @jit

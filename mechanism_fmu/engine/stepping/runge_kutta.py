@@ -144,8 +144,7 @@ def initial_step_size(block: Array) -> float:
     now = Course(block)
     s = Stages(block)
     relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
-    size_y = 0.0
-    size_dy = 0.0
+    size_y = size_dy = 0.0
     for i in range(n):
         scale = relative * (ABSOLUTE_FRACTION + abs(now.y_end[i]))
         size_y += (now.y_end[i] / scale) * (now.y_end[i] / scale)

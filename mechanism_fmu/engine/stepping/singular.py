@@ -68,10 +68,7 @@ def is_singular(block: Array) -> bool:
     dips = before or (inside < at[0] and inside < at[_LAST])
     if not dips or min(inside, at[0]) > _LOOK_BELOW:
         return False
-    begin = 0.0
-    if before:
-        begin = -_BACK
-    return _least(block, begin) < _SINGULAR_BELOW
+    return _least(block, -_BACK if before else 0.0) < _SINGULAR_BELOW
 
 
 @jit

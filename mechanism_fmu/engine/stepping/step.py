@@ -115,10 +115,7 @@ def take_step(block: Array) -> int:
         return status.OK
     _keep(block, start, step)
     watch_step(block)
-    struck = codes.NONE
-    if guard == codes.GUARD_GAP:
-        struck = subject
-    release(block, struck)
+    release(block, subject if guard == codes.GUARD_GAP else codes.NONE)
     return _mend_and_check(block)
 
 

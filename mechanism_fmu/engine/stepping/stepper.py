@@ -73,9 +73,7 @@ def _begin_step(block: Array) -> int:
     now = Course(block)
     now.counters[codes.STEPS_IN_STEP] = 0
     now.clock[codes.STEP_BEGUN] = now.clock[codes.TIME]
-    if inputs_changed(block):
-        return resume(block)
-    return status.OK
+    return resume(block) if inputs_changed(block) else status.OK
 
 
 @jit

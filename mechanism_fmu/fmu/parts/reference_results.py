@@ -79,9 +79,7 @@ def _rows(model: Model, library: CDLL | None) -> list[list[str]] | None:
 
 
 def _value(variable: Variable, value: float) -> str:
-    if variable.type == "Real":
-        return _text(value)
-    return str(int(value))
+    return _text(value) if variable.type == "Real" else str(int(value))
 
 
 def _text(value: float) -> str:

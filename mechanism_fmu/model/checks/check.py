@@ -69,6 +69,7 @@ def check(mechanism: Mechanism) -> None:
         raise MechanismError(" ".join(misplaced))  # what else is asked of parts, these do not know
     problems = [
         *messages(number_findings(mechanism)),
+        *_dry(mechanism),
         *_names(mechanism),
         *_references(mechanism),
         *check_contacts(mechanism),
@@ -99,6 +100,20 @@ def _misplaced(mechanism: Mechanism) -> Iterator[str]:
             if curve is not None and not isinstance(curve, Curve):
                 example = "polynomial_motion(start, speed)" if place == "joints" else "circle(radius)"
                 yield f"{label}: its {needed.rstrip('s')} is {curve!r}, but must be a curve, e.g. {example}."
+
+
+def _dry(mechanism: Mechanism) -> Iterator[str]:
+    """Elements that need dry friction, where it is smooth; words that are no law."""
+    laws = {"friction_law": ("smooth", "coulomb"), "impact_law": ("newton", "poisson", "stronge")}
+    for name, known in laws.items():
+        if getattr(mechanism, name) not in known:
+            yield f"{name} = {getattr(mechanism, name)!r} is none of {', '.join(known)}."
+    if mechanism.friction_law != "coulomb":
+        for force in mechanism.forces:
+            if force.dry:
+                yield f"{type(force).__name__} {force.name!r} is dry; give the mechanism friction_law='coulomb'."
+        if mechanism.impact_law != "newton":
+            yield f"impact_law = {mechanism.impact_law!r} is of dry friction; give friction_law='coulomb', too."
 
 
 def _names(mechanism: Mechanism) -> Iterator[str]:

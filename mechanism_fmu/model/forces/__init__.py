@@ -3,11 +3,12 @@
 from .at_points import Bushing, Force, PointForce, SpringDamper
 from .base import Element as Element, Quantity as Quantity
 from .by_law import NonlinearSpring, NonlinearTorsionSpring
-from .driven import DCMotor, SlipClutch
+from .driven import Brake, DCMotor, SlipClutch
 from .markers import Marker
 from .torsional import CompliantShaft, Damper, Torque, TorsionSpring, TorsionSpringDamper
 
 __all__ = [
+    "Brake",
     "Bushing",
     "CompliantShaft",
     "DCMotor",
@@ -32,6 +33,7 @@ ForceElement = (
     | CompliantShaft
     | Force
     | SlipClutch
+    | Brake
     | DCMotor
     | SpringDamper
     | TorsionSpringDamper

@@ -9,7 +9,7 @@ from ..attached import Slot
 from ..body import GROUND, Point
 from ..errors import MechanismError
 from ..functions import Number
-from .base import Element, OneSided, Quantity, side_of
+from .base import Element, OneSided, PointElement, Quantity, length_quantities
 
 
 @dataclass(frozen=True, init=False)
@@ -40,7 +40,7 @@ class Force(Element):
 
 
 @dataclass(frozen=True, init=False)
-class SpringDamper(Element):
+class SpringDamper(PointElement):
     """A spring, a damper and a constant force side by side between two points (ME451's TSDA).
 
     With the distance l of the points, the force that pulls them together is
@@ -69,32 +69,15 @@ class SpringDamper(Element):
 
     row: ClassVar = "spring_damper"
     writable: ClassVar = ("preload",)
-    quantities: ClassVar = {
-        "length": Quantity("m", "Distance of the points"),
-        "speed": Quantity("m/s", "Rate of the distance of the points"),
-        "force": Quantity("N", "Force that pulls the points together", ("preload",)),
-        "power": Quantity("W", "Power that the bodies get", ("preload",)),
-    }
-    acts: ClassVar = "at points"
+    quantities: ClassVar = length_quantities("preload")
     not_negative: ClassVar = {"stiffness": "N/m", "free_length": "m", "damping": "N.s/m"}
-    slots: ClassVar = (Slot("body", "point"), Slot("reaction", "reaction_point"))
     units: ClassVar = {**not_negative, "preload": "N"}
 
-    name: str
-    body: str
-    point: Point
-    reaction: str
-    reaction_point: Point
     stiffness: Number = 0.0
     free_length: Number = 0.0
     damping: Number = 0.0
     preload: Number = 0.0
     one_sided: OneSided = "no"
-
-    @property
-    def side(self) -> float:
-        """Of the table `force_data`: 0, or the sign of the stretches at which it acts."""
-        return side_of(self, self.one_sided)
 
 
 @dataclass(frozen=True, init=False)
@@ -139,7 +122,7 @@ class PointForce(Element):
 
 
 @dataclass(frozen=True, init=False)
-class Bushing(Element):
+class Bushing(PointElement):
     """A rubber bushing: a spring and a damper for each direction of the frame of `reaction`, and for the angle.
 
     With the point of `body` at (x, y) from that of `reaction`, in the frame of `reaction`, and the relative angle a
@@ -170,7 +153,6 @@ class Bushing(Element):
         "torque": Quantity("N.m", "Torque on the body"),
         "power": Quantity("W", "Power that the bodies get"),
     }
-    acts: ClassVar = "at points"
     not_negative: ClassVar = {
         "stiffness_x": "N/m",
         "stiffness_y": "N/m",
@@ -179,14 +161,8 @@ class Bushing(Element):
         "torsional_stiffness": "N.m/rad",
         "torsional_damping": "N.m.s/rad",
     }
-    slots: ClassVar = (Slot("body", "point"), Slot("reaction", "reaction_point"))
     units: ClassVar = {**not_negative, "free_angle": "rad"}
 
-    name: str
-    body: str
-    point: Point
-    reaction: str
-    reaction_point: Point
     stiffness_x: Number = 0.0
     stiffness_y: Number = 0.0
     damping_x: Number = 0.0

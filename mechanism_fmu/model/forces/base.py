@@ -6,10 +6,12 @@ What an element does is in `mechanism_fmu.engine.dynamics`; the two meet in a ro
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, NamedTuple
 
 from ...tables.kinds import FORCES
-from ..attached import Attached
+from ..attached import Attached, Slot
+from ..body import GROUND, Point
 from ..curves import Curve
 from ..errors import MechanismError
 from ..findings import Finding, finite_positive, literal, not_negative, refuse_unless
@@ -31,6 +33,12 @@ class Quantity(NamedTuple):
     feedthrough: tuple[str, ...] = ()
 
 
+#: Whether a spring acts on both sides of its free length or angle, or only where it is longer or shorter.
+OneSided = Literal["no", "stretched", "compressed"]
+
+_SIDES: Mapping[str, float] = {"no": 0.0, "stretched": 1.0, "compressed": -1.0}
+
+
 class Element(Attached):
     """What all force elements have.
 
@@ -41,7 +49,9 @@ class Element(Attached):
         own: how many first-order states of its own it has.
         acts: as a torque, at the centre of mass, at points of the bodies, which loads no elastic member, or nowhere.
         positive, not_negative: units of the numbers that must be so.
+        dry: whether it needs the dry law of friction.
         law: how its force follows from its length and rate: a function of both, a curve over the length, or None.
+        one_sided: of a spring that can be so.
     """
 
     row: ClassVar[str]
@@ -51,7 +61,9 @@ class Element(Attached):
     acts: ClassVar[Literal["torque", "at centre", "at points", "nowhere"]]
     positive: ClassVar[Mapping[str, str]] = {}
     not_negative: ClassVar[Mapping[str, str]] = {}
+    dry: ClassVar = False
     law: Callable[[Number, Number], Number] | Curve | None = None
+    one_sided: OneSided = "no"
 
     name: str
 
@@ -91,6 +103,17 @@ class Element(Attached):
         return potential(self.law, self._label) if isinstance(self.law, Curve) else None
 
     @property
+    def side(self) -> float:
+        """Of a spring, its column `side`: 0, or the sign of the stretches and forces that there are.
+
+        Raises:
+            MechanismError: `one_sided` is no such word.
+        """
+        if self.one_sided not in _SIDES:
+            raise MechanismError(f"{self._label}: one_sided = {self.one_sided!r} is none of {', '.join(_SIDES)}.")
+        return _SIDES[self.one_sided]
+
+    @property
     def _label(self) -> str:
         return f"{type(self).__name__} {self.name!r}"
 
@@ -105,20 +128,58 @@ class Element(Attached):
             yield refuse_unless(not_negative(getattr(self, what)), text, getattr(self, what))
 
 
-#: Whether a spring acts on both sides of its free length or angle, or only where it is longer or shorter.
-OneSided = Literal["no", "stretched", "compressed"]
+@dataclass(frozen=True, init=False)
+class TorqueElement(Element):
+    """A torque between two bodies.
 
-_SIDES: Mapping[str, float] = {"no": 0.0, "stretched": 1.0, "compressed": -1.0}
-
-
-def side_of(element: Element, one_sided: str) -> float:
-    """What stands in the column `side`: 0, or the sign of the stretches and forces that there are.
-
-    Raises:
-        MechanismError: there is no such word.
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
     """
-    if one_sided not in _SIDES:
-        raise MechanismError(
-            f"{type(element).__name__} {element.name!r}: one_sided = {one_sided!r} is none of {', '.join(_SIDES)}."
-        )
-    return _SIDES[one_sided]
+
+    acts: ClassVar = "torque"
+    slots: ClassVar = (Slot("body"), Slot("reaction"))
+
+    name: str
+    body: str
+    reaction: str = GROUND
+
+
+@dataclass(frozen=True, init=False)
+class PointElement(Element):
+    """A force between points of two bodies.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies (or `GROUND`).
+        point, reaction_point: the points, in the frame of each body [m].
+    """
+
+    acts: ClassVar = "at points"
+    slots: ClassVar = (Slot("body", "point"), Slot("reaction", "reaction_point"))
+
+    name: str
+    body: str
+    point: Point
+    reaction: str
+    reaction_point: Point
+
+
+def angle_quantities(*written: str) -> dict[str, Quantity]:
+    """What can be read of a torque that follows from the relative angle; the entries `written` act at once."""
+    return {
+        "angle": Quantity("rad", "Relative angle of the bodies"),
+        "speed": Quantity("rad/s", "Rate of the relative angle"),
+        "torque": Quantity("N.m", "Torque on the body", written),
+        "power": Quantity("W", "Power that the bodies get", written),
+    }
+
+
+def length_quantities(*written: str) -> dict[str, Quantity]:
+    """What can be read of a force that follows from the distance; the entries `written` act at once."""
+    return {
+        "length": Quantity("m", "Distance of the points"),
+        "speed": Quantity("m/s", "Rate of the distance of the points"),
+        "force": Quantity("N", "Force that pulls the points together", written),
+        "power": Quantity("W", "Power that the bodies get", written),
+    }

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from ..attached import Slot
-from ..body import GROUND, Point
 from ..curves import Curve
 from ..laws import Law
-from .base import Element, Quantity
+from .base import PointElement, TorqueElement, angle_quantities, length_quantities
 
 
 @dataclass(frozen=True, init=False)
-class NonlinearSpring(Element):
+class NonlinearSpring(PointElement):
     """A force between two points by a law: of their distance and its rate, as a function or a table.
 
     A table (`characteristic`, or any `Curve` of polynomials up to the fourth degree) gives the force over the length;
@@ -31,25 +29,13 @@ class NonlinearSpring(Element):
     """
 
     row: ClassVar = "nonlinear_spring"
-    quantities: ClassVar = {
-        "length": Quantity("m", "Distance of the points"),
-        "speed": Quantity("m/s", "Rate of the distance of the points"),
-        "force": Quantity("N", "Force that pulls the points together"),
-        "power": Quantity("W", "Power that the bodies get"),
-    }
-    acts: ClassVar = "at points"
-    slots: ClassVar = (Slot("body", "point"), Slot("reaction", "reaction_point"))
+    quantities: ClassVar = length_quantities()
 
-    name: str
-    body: str
-    point: Point
-    reaction: str
-    reaction_point: Point
     law: Law | Curve = field(kw_only=True)
 
 
 @dataclass(frozen=True, init=False)
-class NonlinearTorsionSpring(Element):
+class NonlinearTorsionSpring(TorqueElement):
     """A torque between two bodies by a law: of their relative angle and its rate, as a function or a table.
 
     The torque on `body` is -law, as that of a `TorsionSpring`: a law that grows with the angle drives back. Tables,
@@ -64,16 +50,6 @@ class NonlinearTorsionSpring(Element):
     """
 
     row: ClassVar = "nonlinear_torsion_spring"
-    quantities: ClassVar = {
-        "angle": Quantity("rad", "Relative angle of the bodies"),
-        "speed": Quantity("rad/s", "Rate of the relative angle"),
-        "torque": Quantity("N.m", "Torque on the body"),
-        "power": Quantity("W", "Power that the bodies get"),
-    }
-    acts: ClassVar = "torque"
-    slots: ClassVar = (Slot("body"), Slot("reaction"))
+    quantities: ClassVar = angle_quantities()
 
-    name: str
-    body: str
-    reaction: str = GROUND
     law: Law | Curve = field(kw_only=True)

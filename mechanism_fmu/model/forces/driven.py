@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..attached import Slot
-from ..body import GROUND
 from ..functions import Number
-from .base import Element, Quantity
+from .base import Quantity, TorqueElement
 
 
 @dataclass(frozen=True, init=False)
-class SlipClutch(Element):
+class SlipClutch(TorqueElement):
     """A clutch or brake with Coulomb friction: it holds up to a torque, and slips beyond.
 
     A spring and a damper in series with a slider: torque on `body` = stiffness * twist + damping * (speed - (phi' -
@@ -33,18 +31,13 @@ class SlipClutch(Element):
     """
 
     row: ClassVar = "slip_clutch"
-    acts: ClassVar = "torque"
     writable: ClassVar = ("limit", "speed")
     quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the clutch on its body", ("limit", "speed"))}
     positive: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
     not_negative: ClassVar = {"limit": "N.m"}
     own: ClassVar = 1
-    slots: ClassVar = (Slot("body"), Slot("reaction"))
     units: ClassVar = {**positive, **not_negative, "speed": "rad/s"}
 
-    name: str
-    body: str
-    reaction: str = GROUND
     stiffness: Number = 1.0
     damping: Number = 1.0
     limit: Number = 0.0
@@ -52,7 +45,32 @@ class SlipClutch(Element):
 
 
 @dataclass(frozen=True, init=False)
-class DCMotor(Element):
+class Brake(TorqueElement):
+    """A brake or clutch with dry friction: it holds two bodies together up to a torque, and slips beyond.
+
+    While it holds nothing turns, as if the bodies were one; while it slips its torque is `limit` against the slip. It
+    needs `Mechanism(friction_law="coulomb")`. Outputs: "<name>.friction_force" [N m], its torque on `body`,
+    "<name>.slip_speed" [rad/s] and "<name>.sticks". In impacts it has no part: a torque is no impulse.
+
+    Attributes:
+        name: unique within the mechanism.
+        body, reaction: names of the two bodies.
+        limit: largest torque [N m], >= 0; an `Input` may write "<name>.limit".
+
+    Source: Coulomb friction, -torque in limit Sgn(slip): Glocker, Pfeiffer, Nonlinear Dynamics 7 (1995) 471.
+    """
+
+    row: ClassVar = "brake"
+    dry: ClassVar = True
+    writable: ClassVar = ("limit",)
+    not_negative: ClassVar = {"limit": "N.m"}
+    units: ClassVar = {**not_negative}
+
+    limit: Number = 0.0
+
+
+@dataclass(frozen=True, init=False)
+class DCMotor(TorqueElement):
     """A direct-current motor between two bodies, with a PI controller of its speed whose voltage is limited.
 
     With the speed w = phi' - phi_reaction' and e = speed - w: torque on `body` = constant * i,
@@ -81,7 +99,6 @@ class DCMotor(Element):
     """
 
     row: ClassVar = "dc_motor"
-    acts: ClassVar = "torque"
     writable: ClassVar = ("voltage", "speed")
     quantities: ClassVar = {
         "torque": Quantity("N.m", "Torque of the motor on its body"),
@@ -97,12 +114,8 @@ class DCMotor(Element):
         "anti_windup": "rad/(V.s)",
     }
     own: ClassVar = 2
-    slots: ClassVar = (Slot("body"), Slot("reaction"))
     units: ClassVar = {**positive, **not_negative, "constant": "N.m/A", "speed": "rad/s"}
 
-    name: str
-    body: str
-    reaction: str = GROUND
     constant: Number = 1.0
     resistance: Number = 1.0
     inductance: Number = 1.0

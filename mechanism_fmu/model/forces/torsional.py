@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..attached import Slot
-from ..body import GROUND
 from ..functions import Number
-from .base import Element, OneSided, Quantity, side_of
+from .base import OneSided, Quantity, TorqueElement, angle_quantities
 
 
 @dataclass(frozen=True, init=False)
-class Torque(Element):
+class Torque(TorqueElement):
     """A torque on `body`, counter-clockwise positive, with its reaction on `reaction`.
 
     Attributes:
@@ -24,19 +22,14 @@ class Torque(Element):
     """
 
     row: ClassVar = "torque"
-    acts: ClassVar = "torque"
     writable: ClassVar = ("torque",)
-    slots: ClassVar = (Slot("body"), Slot("reaction"))
     units: ClassVar = {"torque": "N.m"}
 
-    name: str
-    body: str
-    reaction: str = GROUND
     torque: Number = 0.0
 
 
 @dataclass(frozen=True, init=False)
-class TorsionSpring(Element):
+class TorsionSpring(TorqueElement):
     """A torsion spring: torque on `body` = -(stiffness * (phi - phi_reaction - free_angle) + preload).
 
     The energy of the linear part counts as spring energy; the work of the preload, which an input may change at any
@@ -53,22 +46,17 @@ class TorsionSpring(Element):
     """
 
     row: ClassVar = "torsion_spring"
-    acts: ClassVar = "torque"
     writable: ClassVar = ("preload",)
     not_negative: ClassVar = {"stiffness": "N.m/rad"}
-    slots: ClassVar = (Slot("body"), Slot("reaction"))
     units: ClassVar = {**not_negative, "free_angle": "rad", "preload": "N.m"}
 
-    name: str
-    body: str
-    reaction: str = GROUND
     stiffness: Number = 0.0
     free_angle: Number = 0.0
     preload: Number = 0.0
 
 
 @dataclass(frozen=True, init=False)
-class Damper(Element):
+class Damper(TorqueElement):
     """A viscous damper: torque on `body` = -damping * (phi' - phi_reaction'). What it takes counts as energy lost.
 
     Attributes:
@@ -80,19 +68,14 @@ class Damper(Element):
     """
 
     row: ClassVar = "damper"
-    acts: ClassVar = "torque"
     not_negative: ClassVar = {"damping": "N.m.s/rad"}
-    slots: ClassVar = (Slot("body"), Slot("reaction"))
     units: ClassVar = not_negative
 
-    name: str
-    body: str
-    reaction: str = GROUND
     damping: Number = 0.0
 
 
 @dataclass(frozen=True, init=False)
-class CompliantShaft(Element):
+class CompliantShaft(TorqueElement):
     """A shaft whose other end is moved from outside.
 
     Torque on `body` = stiffness * (angle - (phi - phi_reaction)) + damping * (speed - (phi' - phi_reaction')). All of
@@ -110,16 +93,11 @@ class CompliantShaft(Element):
     """
 
     row: ClassVar = "shaft"
-    acts: ClassVar = "torque"
     writable: ClassVar = ("angle", "speed")
     quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the shaft on its body", ("angle", "speed"))}
     not_negative: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
-    slots: ClassVar = (Slot("body"), Slot("reaction"))
     units: ClassVar = {**not_negative, "angle": "rad", "speed": "rad/s"}
 
-    name: str
-    body: str
-    reaction: str = GROUND
     stiffness: Number = 0.0
     damping: Number = 0.0
     angle: Number = 0.0
@@ -127,7 +105,7 @@ class CompliantShaft(Element):
 
 
 @dataclass(frozen=True, init=False)
-class TorsionSpringDamper(Element):
+class TorsionSpringDamper(TorqueElement):
     """A torsion spring, a damper and a constant torque side by side (ME451's RSDA); with an end stop's one side.
 
     With the angle phi - phi_reaction, the torque on `body` is -m,
@@ -152,28 +130,13 @@ class TorsionSpringDamper(Element):
     """
 
     row: ClassVar = "torsion_spring_damper"
-    acts: ClassVar = "torque"
     writable: ClassVar = ("preload",)
-    quantities: ClassVar = {
-        "angle": Quantity("rad", "Relative angle of the bodies"),
-        "speed": Quantity("rad/s", "Rate of the relative angle"),
-        "torque": Quantity("N.m", "Torque on the body", ("preload",)),
-        "power": Quantity("W", "Power that the bodies get", ("preload",)),
-    }
+    quantities: ClassVar = angle_quantities("preload")
     not_negative: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
-    slots: ClassVar = (Slot("body"), Slot("reaction"))
     units: ClassVar = {**not_negative, "free_angle": "rad", "preload": "N.m"}
 
-    name: str
-    body: str
-    reaction: str = GROUND
     stiffness: Number = 0.0
     free_angle: Number = 0.0
     damping: Number = 0.0
     preload: Number = 0.0
     one_sided: OneSided = "no"
-
-    @property
-    def side(self) -> float:
-        """Of the table `force_data`: 0, or the sign of the stretches at which it acts."""
-        return side_of(self, self.one_sided)

@@ -8,6 +8,7 @@ from typing import ClassVar, NamedTuple
 from ...tables.kinds import JOINTS
 from ..attached import Attached
 from ..body import Point
+from ..curves import Curve
 from ..findings import Finding, finite_positive, length, literal, refuse_unless
 from ..functions import Number, where_positive
 
@@ -41,8 +42,7 @@ class JointFacts(Attached):
     Attributes:
         row: name of the kind in `tables.kinds.JOINTS`.
         rows: how many constraint rows it has.
-        motion: of a driver, its curve over time.
-        friction: the joint's entry in the table `joint_friction`, and what that is called.
+        friction: the joint's entry in the table `joint_friction`; `friction_name` is what that is called.
         efforts: by name.
         axes: names of directions, which must have a length.
         sizes: names of lengths [m], which must be positive.
@@ -50,6 +50,7 @@ class JointFacts(Attached):
 
     row: ClassVar[str]
     rows: ClassVar[int] = 1
+    friction: Number = 0.0
     friction_name: ClassVar[str] = "friction"
     efforts: ClassVar[Mapping[str, Effort]] = {}
     axes: ClassVar[tuple[str, ...]] = ()
@@ -87,6 +88,12 @@ class JointFacts(Attached):
     def label(self) -> str:
         """Its class and name, for messages."""
         return f"{type(self).__name__} {literal(repr(self.name))}"
+
+
+class UndrivenJoint(JointFacts):
+    """A joint that follows no curve over time."""
+
+    motion: ClassVar[Curve | None] = None
 
 
 def no_direction(what: str, axis: Point) -> Finding:

@@ -32,7 +32,6 @@ class ProfileContact(ContactFacts):
     """
 
     holds: ClassVar = "unilateral"
-    pattern: ClassVar[str | None] = None
     closed_while: ClassVar[str | None] = None
 
     unilateral: Number
@@ -92,11 +91,6 @@ class CamFollower(ProfileContact):
     enabled: Number = True
     friction: Number = 0.0
 
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """The profiles of body i and body j."""
-        return self.profile_i, self.profile_j
-
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, centre_j."""
         return (*self.centre_i, *self.centre_j)
@@ -150,11 +144,6 @@ class CamFlatFollower(ProfileContact):
     enabled: Number = True
     friction: Number = 0.0
 
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """The profile of body i, and none of body j."""
-        return self.profile_i, None
-
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, point_j, u_j."""
         return (*self.centre_i, *self.point_j, *unit_vector(self.direction_j))
@@ -202,11 +191,6 @@ class PointFollower(ProfileContact):
     closed: Number = True
     enabled: Number = True
     friction: Number = 0.0
-
-    @property
-    def profiles(self) -> tuple[Curve | None, Curve | None]:
-        """None of body i, and the profile of body j."""
-        return None, self.profile_j
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: point_i, centre_j."""

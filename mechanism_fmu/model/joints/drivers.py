@@ -28,7 +28,6 @@ class PointDriver(JointFacts):
         body_i, point_i: what they are driven against: the ground at its origin unless given.
     """
 
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_j", "point_j"), Slot("body_i", "point_i"))
 
     name: str
@@ -87,12 +86,7 @@ class YDriver(PointDriver):
     Outputs: `force` [N], of the driver on body j along y.
 
     Attributes:
-        name: unique within the mechanism.
-        body_j: body that is driven.
-        point_j: P in its frame [m].
-        motion: C(t) [m], with two derivatives.
-        body_i: what it is driven against: the ground unless given.
-        point_i: P in its frame [m]: the origin unless given.
+        name, body_j, point_j, motion, body_i, point_i: as of `XDriver`.
     """
 
     row: ClassVar = "y_driver"
@@ -123,7 +117,6 @@ class AngleDriver(JointFacts):
 
     row: ClassVar = "angle_driver"
     efforts: ClassVar = {"torque": Effort(0, unit="N.m")}
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_j"), Slot("body_i"))
 
     name: str
@@ -198,7 +191,6 @@ class TranslationalDriver(JointFacts):
     row: ClassVar = "translational_driver"
     efforts: ClassVar = {"force": Effort(0)}
     axes: ClassVar = ("axis_i",)
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_j", "point_j"), Slot("body_i", "point_i", "axis_i"))
 
     name: str

@@ -8,22 +8,19 @@ from typing import ClassVar
 
 from ..attached import Slot
 from ..body import Point
-from ..curves import Curve
 from ..findings import Finding, plain, refuse_unless
 from ..functions import Number
-from .base import Effort, JointFacts
+from .base import Effort, UndrivenJoint
 
 # What external and internal gears have in common.
 
 
 @dataclass(frozen=True, init=False)
-class GearPair(JointFacts):
+class GearPair(UndrivenJoint):
     """Two gears, as of `Gears`."""
 
     efforts: ClassVar = {"force": Effort(0, -1.0)}
     sizes: ClassVar = ("radius_i", "radius_j")
-    motion: ClassVar[Curve | None] = None
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
     units: ClassVar = {"radius_i": "m", "angle_i": "rad", "radius_j": "m", "angle_j": "rad"}
 
@@ -115,7 +112,7 @@ class InternalGears(GearPair):
 
 
 @dataclass(frozen=True, init=False)
-class RackAndPinion(JointFacts):
+class RackAndPinion(UndrivenJoint):
     """A rack, body i, on which the pitch circle of a pinion, body j, rolls (ME451, rack and pinion).
 
     1. Allows: rolling along the rack, one relative degree of freedom.
@@ -146,8 +143,6 @@ class RackAndPinion(JointFacts):
     efforts: ClassVar = {"force": Effort(1), "normal_force": Effort(0)}
     sizes: ClassVar = ("radius_j",)
     rows: ClassVar = 2
-    motion: ClassVar[Curve | None] = None
-    friction: ClassVar[Number] = 0.0
     slots: ClassVar = (
         Slot("body_i", "point_i", "direction_i", "angle"),
         Slot("body_j", "point_j"),

@@ -7,16 +7,46 @@ from typing import ClassVar
 
 from ..attached import Slot
 from ..body import Point
-from ..curves import Curve
 from ..findings import length
 from ..functions import Number
-from .base import Effort, JointFacts, unit_vector
+from .base import Effort, UndrivenJoint, unit_vector
+
+# What pins and rods have in common, and what slides and guides have.
+
+
+@dataclass(frozen=True, init=False)
+class _OfPoints(UndrivenJoint):
+    """A joint of two points."""
+
+    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
+
+    name: str
+    body_i: str
+    point_i: Point
+    body_j: str
+    point_j: Point
+
+
+@dataclass(frozen=True, init=False)
+class _OfGuide(UndrivenJoint):
+    """A joint whose body i has a line."""
+
+    axes: ClassVar[tuple[str, ...]] = ("axis_i",)
+    slots: ClassVar = (Slot("body_i", "point_i", "axis_i"), Slot("body_j", "point_j"))
+
+    name: str
+    body_i: str
+    point_i: Point
+    axis_i: Point
+    body_j: str
+    point_j: Point
+
 
 # Revolute joint.
 
 
 @dataclass(frozen=True, init=False)
-class Revolute(JointFacts):
+class Revolute(_OfPoints):
     """A pin: point P of `body_i` and point P of `body_j` coincide (ME451, revolute).
 
     1. Allows: both bodies turn freely about P; one degree of freedom remains of three.
@@ -38,15 +68,8 @@ class Revolute(JointFacts):
     efforts: ClassVar = {"force_x": Effort(0), "force_y": Effort(1)}
     friction_name: ClassVar = "friction_radius"
     rows: ClassVar = 2
-    motion: ClassVar[Curve | None] = None
-    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
     units: ClassVar = {"friction_radius": "m"}
 
-    name: str
-    body_i: str
-    point_i: Point
-    body_j: str
-    point_j: Point
     friction_radius: Number = 0.0
 
     @property
@@ -63,7 +86,7 @@ class Revolute(JointFacts):
 
 
 @dataclass(frozen=True, init=False)
-class Translational(JointFacts):
+class Translational(_OfGuide):
     """A slider: the bodies keep their relative angle and slide along a common axis (ME451, translational).
 
     1. Allows: sliding along the axis; one degree of freedom remains of three.
@@ -89,15 +112,8 @@ class Translational(JointFacts):
     efforts: ClassVar = {"force": Effort(0, "axis_length")}
     axes: ClassVar = ("axis_i", "axis_j")
     rows: ClassVar = 2
-    motion: ClassVar[Curve | None] = None
     slots: ClassVar = (Slot("body_i", "point_i", "axis_i"), Slot("body_j", "point_j", "axis_j"))
 
-    name: str
-    body_i: str
-    point_i: Point
-    axis_i: Point
-    body_j: str
-    point_j: Point
     axis_j: Point
     friction: Number = 0.0
 
@@ -115,7 +131,7 @@ class Translational(JointFacts):
 
 
 @dataclass(frozen=True, init=False)
-class Distance(JointFacts):
+class Distance(_OfPoints):
     """A massless rod with a pin at either end (ME451, revolute-revolute composite).
 
     1. Allows: both bodies turn freely and point P_j moves on a circle about P_i; two degrees of freedom remain.
@@ -136,16 +152,8 @@ class Distance(JointFacts):
     row: ClassVar = "distance"
     efforts: ClassVar = {"force": Effort(0, "effort_factor")}
     sizes: ClassVar = ("distance",)
-    motion: ClassVar[Curve | None] = None
-    friction: ClassVar[Number] = 0.0
-    slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "point_j"))
     units: ClassVar = {"distance": "m"}
 
-    name: str
-    body_i: str
-    point_i: Point
-    body_j: str
-    point_j: Point
     distance: Number
 
     def data(self) -> tuple[Number, ...]:
@@ -162,7 +170,7 @@ class Distance(JointFacts):
 
 
 @dataclass(frozen=True, init=False)
-class RevoluteTranslational(JointFacts):
+class RevoluteTranslational(_OfGuide):
     """A pin of `body_j` in a straight guide of `body_i`, with a massless slider between (ME451, of that name).
 
     1. Allows: point P_j slides along a line fixed in body i, and body j turns; two degrees of freedom remain.
@@ -184,18 +192,8 @@ class RevoluteTranslational(JointFacts):
 
     row: ClassVar = "revolute_translational"
     efforts: ClassVar = {"force": Effort(0)}
-    axes: ClassVar = ("axis_i",)
-    motion: ClassVar[Curve | None] = None
-    friction: ClassVar[Number] = 0.0
-    slots: ClassVar = (Slot("body_i", "point_i", "axis_i"), Slot("body_j", "point_j"))
     units: ClassVar = {"distance": "m"}
 
-    name: str
-    body_i: str
-    point_i: Point
-    axis_i: Point
-    body_j: str
-    point_j: Point
     distance: Number = 0.0
 
     def data(self) -> tuple[Number, ...]:

@@ -1,80 +1,15 @@
 import ast
-import importlib.util
-import marshal
 import os
-import shutil
 import subprocess
 import sys
 import textwrap
 import tomllib
-from collections.abc import Callable, Iterator
-from importlib.machinery import EXTENSION_SUFFIXES, SourceFileLoader
 from pathlib import Path
-from types import ModuleType
 
 import pytest
+from start_resources import SOURCES, START, Load, contents, write_resources
 
 import mechanism_fmu.fmu.start as original
-
-START = Path(original.__file__)
-
-#: A package as an FMU carries it, reduced to what the start module touches.
-SOURCES = {
-    "__init__.py": "",
-    "fmu/__init__.py": "",
-    "fmu/instance/slave.py": "def make_slave_class(model):\n    return type(model, (), {'made_in': __file__})\n",
-    "models/tiny.py": "MODEL = 'Tiny'\n",
-}
-
-
-def write_resources(folder: Path, digest: str, sources: dict[str, str] = SOURCES) -> Path:
-    """The resources folder of an FMU."""
-    for name, text in sources.items():
-        path = folder / f"mechanism_fmu_{digest}" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    shutil.copy(START, folder / f"start_{digest}.py")
-    (folder / "requirements.txt").write_text("numba>=0.68,<0.69\nnumpy>=2.0\n")
-    return folder
-
-
-@pytest.fixture
-def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("MECHANISM_FMU_CACHE", str(tmp_path / "cache"))
-    return tmp_path / "cache" / "mechanism_fmu"
-
-
-@pytest.fixture
-def load() -> Iterator[Callable[[Path, str], ModuleType]]:
-    """Import the start module of a resources folder, as in a new process."""
-    before, path = set(sys.modules), sys.path[:]
-
-    def forget() -> None:
-        for name in set(sys.modules) - before:
-            if name.startswith(("mechanism_fmu_", "start_")):
-                del sys.modules[name]
-
-    def load(resources: Path, digest: str) -> ModuleType:
-        forget()
-        spec = importlib.util.spec_from_file_location(f"start_{digest}", resources / f"start_{digest}.py")
-        assert spec is not None
-        assert spec.loader is not None
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        return module
-
-    yield load
-    forget()
-    sys.path[:] = path
-
-
-Load = Callable[[Path, str], ModuleType]
-
-
-def contents(folder: Path) -> dict[str, str]:
-    return {
-        p.relative_to(folder).as_posix(): p.read_text() for p in folder.rglob("*") if p.suffix != ".pyc" and p.is_file()
-    }
 
 
 def test_the_package_is_imported_from_the_cache(tmp_path: Path, cache: Path, load: Load) -> None:
@@ -105,114 +40,6 @@ def test_the_second_start_from_another_folder_writes_nothing(tmp_path: Path, cac
             first = inodes
     assert inodes == first
     assert len(inodes) == len(SOURCES)
-
-
-#: Deletes the package that it stands in, the first time that it is imported.
-VANISHING = """
-import shutil
-from pathlib import Path
-
-package = Path(__file__).parents[1]
-if not package.with_name("gone").exists():
-    package.with_name("gone").touch()
-    shutil.rmtree(package)
-"""
-
-
-def test_a_cache_that_is_deleted_while_it_is_read_is_written_anew(tmp_path: Path, cache: Path, load: Load) -> None:
-    sources = SOURCES | {"fmu/__init__.py": VANISHING}
-    start = load(write_resources(tmp_path / "unzipped", "aaa", sources), "aaa")
-    assert start.slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
-    assert (cache / "gone").is_file()
-    assert contents(cache / "mechanism_fmu_aaa") == sources
-
-
-@pytest.mark.parametrize("damage", ["truncated", "changed", "missing", "folder gone", "all gone"])
-def test_a_damaged_cache_is_repaired(damage: str, tmp_path: Path, cache: Path, load: Load) -> None:
-    resources = write_resources(tmp_path / "unzipped", "aaa")
-    load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
-    victim = cache / "mechanism_fmu_aaa" / "models" / "tiny.py"
-    if damage == "truncated":
-        victim.write_text("MODEL = ")
-    elif damage == "changed":
-        victim.write_text("MODEL = 'Evil'\n")
-    elif damage == "missing":
-        victim.unlink()
-    elif damage == "folder gone":
-        shutil.rmtree(victim.parent)
-    else:
-        shutil.rmtree(cache)
-        (cache / "mechanism_fmu_aaa").mkdir(parents=True)
-    assert load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
-    assert contents(cache / "mechanism_fmu_aaa") == SOURCES
-
-
-def compiled(cache: Path, name: str) -> Path:
-    """What Python keeps of a module."""
-    (path,) = (cache / "mechanism_fmu_aaa" / "models" / "__pycache__").glob(f"{name}.*.pyc")
-    return path
-
-
-def other_code(path: Path) -> bytes:
-    """Compiled code that Python would take for that of the source, but that does something else."""
-    forged = compile("import pathlib; pathlib.Path(__file__).with_name('was_here').touch(); MODEL = 1", "x", "exec")
-    return path.read_bytes()[:16] + marshal.dumps(forged)
-
-
-#: What becomes of compiled code.
-CODE_DAMAGES: dict[str, Callable[[Path], object]] = {
-    "cut off": lambda path: os.truncate(path, path.stat().st_size - 40),
-    "cut off in its digest": lambda path: os.truncate(path, path.stat().st_size - 1),
-    "emptied": lambda path: path.write_bytes(b""),
-    "one bit": lambda path: path.write_bytes(path.read_bytes()[:30] + b"\xff" + path.read_bytes()[31:]),
-    "replaced": lambda path: path.write_bytes(other_code(path)),
-    "gone": lambda path: path.unlink(),
-    "a folder": lambda path: (path.unlink(), path.mkdir()),
-}
-
-
-@pytest.mark.parametrize("damage", CODE_DAMAGES)
-def test_compiled_code_is_read_as_it_was_written_or_not_at_all(
-    damage: str, tmp_path: Path, cache: Path, load: Load, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sys, "dont_write_bytecode", False)
-    monkeypatch.setattr(sys, "pycache_prefix", None)
-    resources = write_resources(tmp_path / "unzipped", "aaa")
-    load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
-    path = compiled(cache, "tiny")
-    whole = path.read_bytes()
-    CODE_DAMAGES[damage](path)
-    assert load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
-    assert not list(cache.rglob("was_here"))
-    if damage != "a folder":
-        assert path.read_bytes() == whole
-
-
-def test_whole_compiled_code_is_used(tmp_path: Path, cache: Path, load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "dont_write_bytecode", False)
-    monkeypatch.setattr(sys, "pycache_prefix", None)
-    resources = write_resources(tmp_path / "unzipped", "aaa")
-    for _ in range(2):
-        start = load(resources, "aaa")
-        compilations: list[object] = []
-        count = compilations.append
-        monkeypatch.setattr(
-            start.CheckedLoader,
-            "source_to_code",
-            lambda self, *a, count=count, **k: (count(a), SourceFileLoader.source_to_code(self, *a, **k))[1],
-        )
-        start.slave_class("mechanism_fmu_aaa", "models.tiny")
-    assert compilations == []
-
-
-@pytest.mark.parametrize("name", [f"tiny{EXTENSION_SUFFIXES[0]}", f"tiny{EXTENSION_SUFFIXES[-1]}"])
-def test_no_library_stands_in_for_a_source(name: str, tmp_path: Path, cache: Path, load: Load) -> None:
-    """Python looks for libraries first."""
-    resources = write_resources(tmp_path / "unzipped", "aaa")
-    load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
-    planted = cache / "mechanism_fmu_aaa" / "models" / name
-    planted.write_text("MODEL = 1")
-    assert load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
 
 
 def test_leftovers_of_a_killed_process_do_no_harm(tmp_path: Path, cache: Path, load: Load) -> None:

@@ -53,6 +53,7 @@ from mechanism_fmu.model import (
     polynomial_motion,
 )
 from mechanism_fmu.model.attached import Attached
+from mechanism_fmu.model.body import Frame
 from tests.unit.model.test_joint_specs import EGG, ROUND
 
 #: The frame of `rod` stands 0.1 m beside its centre of mass; that of `crank` in it.
@@ -274,3 +275,13 @@ def test_names_in_place_of_whole_bodies_are_no_old_form() -> None:
         warnings.simplefilter("error")
         assert Torque("x", "crank", "rod") == Torque("x", CRANK, ROD)
         assert AngleStop("x", "crank", GROUND, angle=0.0) == AngleStop("x", CRANK, GROUND, angle=0.0)
+
+
+def test_a_frame_must_say_where_its_points_are() -> None:
+    """What forgets it is refused where it is made, not when the first part is attached."""
+
+    class Floating(Frame):
+        pass
+
+    with pytest.raises(TypeError, match="abstract"):
+        Floating()

@@ -6,9 +6,18 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given, strategies as st
 
-from mechanism_fmu.model import MechanismError, dyad, four_bar_points, toward
+from mechanism_fmu.model import (
+    Body,
+    Mechanism,
+    MechanismError,
+    Model,
+    dyad,
+    four_bar_points,
+    length_parameter,
+)
 from mechanism_fmu.model.four_bar import start
-from mechanism_fmu.model.symbol import Recorder, Symbol
+from mechanism_fmu.model.symbol import Symbol
+from mechanism_fmu.model.trace import trace
 
 
 @given(st.floats(-2, 2), st.floats(-2, 2), st.floats(0.6, 1.5), st.floats(0.6, 1.5), st.sampled_from(["left", "right"]))
@@ -46,19 +55,16 @@ def test_links_that_do_not_reach_each_other_are_refused() -> None:
 
 
 def test_of_parameters_links_that_do_not_reach_each_other_are_no_number() -> None:
-    recorder = Recorder()
-    x, _ = dyad((0, 0), (4, 0), from_a=recorder.parameter(0), from_b=2.0)
-    assert isinstance(x, Symbol)
-    assert [operation.name for operation in recorder.operations].count("sqrt") == 1
+    """A formula cannot refuse; where they do reach, it is the pin of plain lengths to the bit."""
+    drawn = []
 
+    def pinned(values: SimpleNamespace) -> Mechanism:
+        drawn.append(dyad((0, 0), (4, 0), from_a=values.link, from_b=2.0))
+        return Mechanism(bodies=(Body("pin", 1.0, 1.0, (*drawn[-1], 0.0)),))
 
-def test_a_point_on_the_way() -> None:
-    assert toward((1.0, 1.0), (4.0, 5.0), "250 cm") == pytest.approx((2.5, 3.0), rel=1e-15)
-    assert toward((1.0, 1.0), (4.0, 5.0), -5.0) == pytest.approx((-2.0, -3.0), rel=1e-15)
-
-
-def test_words_that_are_no_side_or_branch() -> None:
-    with pytest.raises(MechanismError, match="side = 'up' is neither left nor right"):
-        dyad((0, 0), (1, 0), from_a=1, from_b=1, side="up")
-    with pytest.raises(MechanismError, match="branch = 'shut' is neither open nor crossed"):
-        four_bar_points((0, 0), (1, 0), crank=1, coupler=1, rocker=1, angle=0, branch="shut")
+    link = length_parameter("link", 3.0, "Length of the link that begins at the origin")
+    traced = trace(Model("Pin", "The pin of two links", (link,), pinned))
+    pin = next(point for point in drawn if isinstance(point[0], Symbol))
+    assert tuple(traced.numbers(pin, SimpleNamespace(link=3.5))) == dyad((0, 0), (4, 0), from_a=3.5, from_b=2.0)
+    with pytest.raises(ValueError, match=r"nonnegative|math domain error"):
+        traced.numbers(pin, SimpleNamespace(link=1.0))

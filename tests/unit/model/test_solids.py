@@ -28,7 +28,7 @@ from mechanism_fmu.model import (
     plate,
     rigid_body,
 )
-from mechanism_fmu.model.solids import polygon
+from mechanism_fmu.model.areas import polygon
 from mechanism_fmu.model.trace import trace
 
 STEEL_OF_10_MM = {"thickness": "10 mm", "material": STEEL}

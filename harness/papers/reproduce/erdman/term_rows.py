@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 import build_fmu
 from mechanism_fmu.elastodynamics import (
     DRIVE,
+    Cycle,
     deflection_of,
     deformed_links,
     elastic_cycle,
@@ -19,22 +21,16 @@ from mechanism_fmu.elastodynamics import (
     turn,
     with_friction,
 )
+from mechanism_fmu.model import Mechanism
 
-from ....run.checks import Verdict
-from ..bench import Bench
+from ..bench import Bench, FloatArray
 from ..figures.all_figures import redrawn
-from ..row import KED, Found, Row, judged
+from ..row import KED, Found, Row, Verdict, judged
 
 # What the abstract and the introduction of Erdman, Sandor and Oakberg promise, and Case 3.
 
-#: Crank of this project's own example, 4 in [m].
-_CRANK = 0.1016
-#: 500 rpm, of this project's own example [rad/s].
-_SPEED = 500 * math.pi / 30
-
-
-def _case3(_bench: Bench) -> Found:
-    return Found("named (“three cases”) and not described in the pages at hand", Verdict.NOT_DETERMINED)
+#: Of this project's own example: crank of 4 in [m], 500 rpm [rad/s].
+_CRANK, _SPEED = 0.1016, 500 * math.pi / 30
 
 
 def _operators(_bench: Bench) -> Found:
@@ -49,33 +45,24 @@ def _operators(_bench: Bench) -> Found:
     )
 
 
+def _largest_deviations(rpm: int) -> tuple[float, float]:
+    """Of the path point, quasi-static and by the periodic solution [m]."""
+    cycle = quasi_static(turn(build_fmu.mechanism("four_bar_path_generator"), rpm * math.pi / 30, 360))
+    equations = elastic_cycle(cycle, 0.02)
+    response = periodic_response(equations).samples(equations.samples)
+    moved = deflection_of(cycle.configurations, np.vstack([response, response[:1]]), "arm.end")[:, :2]
+    return float(cycle.deviation("arm.end").max()), float(np.linalg.norm(moved, axis=1).max())
+
+
 def _speeds(_bench: Bench) -> Found:
-    mechanism = build_fmu.mechanism("four_bar_path_generator")
-    largest = {}
-    for rpm in (50, 500):
-        cycle = quasi_static(turn(mechanism, rpm * math.pi / 30, 360))
-        static = float(cycle.deviation("arm.end").max())
-        equations = elastic_cycle(cycle, 0.02)
-        response = periodic_response(equations).samples(equations.samples)
-        moved = np.vstack([response, response[:1]])
-        dynamic = deflection_of(cycle.configurations, moved, "arm.end")[:, :2]
-        largest[rpm] = static, float(np.linalg.norm(dynamic, axis=1).max())
-    slow, fast = largest[50], largest[500]
-    apart = [abs(dynamic / static - 1) for static, dynamic in (slow, fast)]
+    (slow_static, slow), (fast_static, fast) = map(_largest_deviations, (50, 500))
+    apart = abs(slow / slow_static - 1), abs(fast / fast_static - 1)
     return judged(
-        slow[1] < 1e-3 * _CRANK and fast[1] > 1e-2 * _CRANK and apart[0] < 0.1 < apart[1],
-        f"path generator: {1e6 * slow[1]:.1f} µm at 50 rpm, {1e3 * fast[1]:.2f} mm at 500 rpm, of a crank of "
+        slow < 1e-3 * _CRANK and fast > 1e-2 * _CRANK and apart[0] < 0.1 < apart[1],
+        f"path generator: {1e6 * slow:.1f} µm at 50 rpm, {1e3 * fast:.2f} mm at 500 rpm, of a crank of "
         f"{1e3 * _CRANK:.1f} mm; below a thousandth of it and above a hundredth. The quasi-static solution is off by "
         f"{100 * apart[0]:.1f} % at 50 rpm and by {100 * apart[1]:.0f} % at 500 rpm",
         "periodic solution, 2 % damping of each mode, at each degree",
-    )
-
-
-def _planar(_bench: Bench) -> Found:
-    return Found(
-        "any planar linkage of revolute joints, guides, rods and drivers; no gears, no cams; of spatial ones only the "
-        "elements (6), (9) and the operators",
-        Verdict.HOLDS_IN_PART,
     )
 
 
@@ -83,14 +70,17 @@ def _beyond(text: str) -> Found:
     return Found(f"beyond the pages at hand; {text}", Verdict.NOT_DETERMINED)
 
 
+def _motor(mechanism: Mechanism) -> tuple[Cycle, FloatArray, FloatArray]:
+    """A turn of the example at its speed, with the crank's angles [rad] and the motor's torque [N m] at them."""
+    cycle = quasi_static(turn(mechanism, _SPEED, 360))
+    torque = cycle.reactions.of(DRIVE)[:, 0]
+    return cycle, np.linspace(0.0, 2 * math.pi, len(torque)), torque
+
+
 def _friction(_bench: Bench) -> Found:
     """Of the example, without friction and with 0.1 on pins of 5 mm: what the motor gives, and what friction takes."""
     mechanism = build_fmu.mechanism("four_bar_path_generator")
-    mean = []
-    for rubbed in (mechanism, with_friction(mechanism, 0.1, 5e-3)):
-        cycle = quasi_static(turn(rubbed, _SPEED, 360))
-        torque = cycle.reactions.of(DRIVE)[:, 0]
-        mean.append(torque_fluctuation(np.linspace(0.0, 2 * math.pi, len(torque)), torque).mean)
+    mean = [torque_fluctuation(*_motor(of)[1:]).mean for of in (mechanism, with_friction(mechanism, 0.1, 5e-3))]
     return judged(
         abs(mean[0]) < 1e-6 < mean[1],
         f"beyond the pages at hand; here, 0.1 on pins of 5 mm takes a mean torque of {mean[1]:.4f} N m of the example "
@@ -100,11 +90,8 @@ def _friction(_bench: Bench) -> Found:
 
 
 def _fluctuation(_bench: Bench) -> Found:
-    cycle = quasi_static(turn(build_fmu.mechanism("four_bar_path_generator"), _SPEED, 360))
-    torque = cycle.reactions.of(DRIVE)[:, 0]
-    angle = np.linspace(0.0, 2 * math.pi, len(torque))
-    found = torque_fluctuation(angle, torque)
-    wheel = flywheel(angle, torque, _SPEED, 0.02)
+    cycle, angle, torque = _motor(build_fmu.mechanism("four_bar_path_generator"))
+    found, wheel = torque_fluctuation(angle, torque), flywheel(angle, torque, _SPEED, 0.02)
     gap = float(np.abs(cycle.power.balance).max() / np.abs(cycle.power.drives).max())
     return judged(
         gap < 1e-9 and abs(wheel.inertia * 0.02 * _SPEED**2 / found.energy - 1) < 1e-9,
@@ -116,7 +103,14 @@ def _fluctuation(_bench: Bench) -> Found:
 
 
 ROWS = (
-    Row("E-case3", "Case 3", "The third model.", "named", ("docs/elastodynamics-dynamics.md",), _case3),
+    Row(
+        "E-case3",
+        "Case 3",
+        "The third model.",
+        "named",
+        ("docs/elastodynamics-dynamics.md",),
+        Found("named (“three cases”) and not described in the pages at hand", Verdict.NOT_DETERMINED),
+    ),
     Row(
         "E-speed",
         "claim, introduction",
@@ -131,7 +125,11 @@ ROWS = (
         "Applies to any planar or spatial mechanism.",
         "in words",
         ("mechanism_fmu/elastodynamics/structure/linkage.py",),
-        _planar,
+        Found(
+            "any planar linkage of revolute joints, guides, rods and drivers; no gears, no cams; of spatial ones only "
+            "the elements (6), (9) and the operators",
+            Verdict.HOLDS_IN_PART,
+        ),
     ),
     Row(
         "E-friction",
@@ -156,7 +154,7 @@ ROWS = (
         "A general method of synthesis.",
         "announced",
         ("mechanism_fmu/elastodynamics/synthesis.py",),
-        lambda _bench: _beyond("`lightest`, sequential quadratic programming over sections, is this project's"),
+        _beyond("`lightest`, sequential quadratic programming over sections, is this project's"),
         f"{KED} --synthesise --limit-deviation 1mm --limit-stress 60MPa",
     ),
     Row(
@@ -174,7 +172,7 @@ ROWS = (
         "A numerical example.",
         "announced",
         ("models/four_bar_path_generator/model.py",),
-        lambda _bench: _beyond("an example with 10, 4, 10, 8, 6 in at 500 rpm is this project's"),
+        _beyond("an example with 10, 4, 10, 8, 6 in at 500 rpm is this project's"),
         KED,
     ),
 )
@@ -182,10 +180,8 @@ ROWS = (
 
 # The terms that Erdman, Sandor and Oakberg define, with what of them this project does; and their Figs 1 to 7.
 
-_KINEMATICS, _SIMULATION = "mechanism_fmu/kinematics/motion.py", "mechanism_fmu/moving.py"
 _CYCLE, _SYNTHESIS = "mechanism_fmu/elastodynamics/cycle.py", "mechanism_fmu/elastodynamics/synthesis.py"
-_SEARCH = "harness/designs/search.py"
-_GLOSSARY = "docs/glossary.md"
+_SEARCH, _GLOSSARY = "harness/designs/search.py", "docs/glossary.md"
 
 #: Term, short definition, where it lives, what this project does, verdict, command.
 _TERMS = (
@@ -193,7 +189,7 @@ _TERMS = (
         "kinematic-analysis",
         "Kinematic analysis",
         "displacements, velocity and acceleration ratios of rigid members",
-        _KINEMATICS,
+        "mechanism_fmu/kinematics/motion.py",
         "`analyse`, with a driver's position as the variable",
         Verdict.TAKEN_OVER,
         "mechanism-fmu reproduce S-composite",
@@ -202,7 +198,7 @@ _TERMS = (
         "dynamic-analysis",
         "Dynamic analysis",
         "the motion in time, with inertia forces of rigid members",
-        _SIMULATION,
+        "mechanism_fmu/moving.py",
         "every run of an FMU",
         Verdict.TAKEN_OVER,
         "mechanism-fmu run build/Ratchet.fmu",
@@ -293,53 +289,42 @@ _TERMS = (
     ),
 )
 
-#: Figure, what it shows, file, what must stand in it.
-_FIGURES = (
-    ("1", "Models: cantilever, two-force member, simply supported beam", "erdman_fig1_elements", ("(a)", "(b)", "(c)")),
-    ("2", "Models: torsion, spatial R–S member", "erdman_fig2_elements", ("(a)", "(b)")),
-    ("3", "Case I: the path generator", "erdman_fig3_generator", ("P", "1", "2", "3", "4", "α", "φ")),
-    ("4", "Case 1: element coordinates and system forces", "erdman_fig4_case1", ("x₁", "x₈", "P₁", "P₂", "P₃")),
-    ("7", "Case 2: system forces P1 to P8", "erdman_fig7_case2", tuple(f"P{k}" for k in "₁₂₃₄₅₆₇₈")),
-)
-_LOST = (("5", "Case 1: forces on the coupler"), ("6", "Case 1: forces on element 2"))
-
 
 def _term(key: str, term: str, definition: str, code: str, does: str, verdict: Verdict, command: str) -> Row:
-    return Row(
-        f"E-{key}", "definitions", f"{term}.", definition, (code, _GLOSSARY), lambda _b: Found(does, verdict), command
-    )
+    return Row(f"E-{key}", "definitions", f"{term}.", definition, (code, _GLOSSARY), Found(does, verdict), command)
 
 
-def _figure(number: str, shows: str, file: str, shown: tuple[str, ...]) -> Row:
-    own = (
-        "" if number in "12" else ", proportions of an example with 10, 4, 10, 8, 6 in; the document's arrows are lost"
-    )
-    return Row(
-        f"E-fig{number}",
-        f"Fig. {number}",
-        f"{shows}.",
-        "drawing lost",
-        _DRAWINGS,
-        lambda bench: redrawn(bench, file, shown, f"redrawn: {file}.svg{own}"),
-    )
+def _figure(number: str, shows: str, find: Callable[[Bench], Found] | Found) -> Row:
+    code = ("harness/papers/reproduce/figures/erdman_figures.py",)
+    return Row(f"E-fig{number}", f"Fig. {number}", f"{shows}.", "drawing lost", code, find)
 
 
-def _lost(number: str, shows: str) -> Row:
-    text = "the directions of its forces are lost; the balance itself is row E-eq11"
-    return Row(
-        f"E-fig{number}",
-        f"Fig. {number}",
-        f"{shows}.",
-        "drawing lost",
-        _DRAWINGS,
-        lambda _bench: Found(text, Verdict.NOT_DETERMINED),
-    )
+def _drawn(file: str, shown: Sequence[str], more: str = "") -> Callable[[Bench], Found]:
+    return lambda bench: redrawn(bench, file, shown, f"redrawn: {file}.svg{more}")
 
 
-_DRAWINGS = ("harness/papers/reproduce/figures/erdman_figures.py",)
+_SIZES = ", proportions of an example with 10, 4, 10, 8, 6 in; the document's arrows are lost"
+_LOST = Found("the directions of its forces are lost; the balance itself is row E-eq11", Verdict.NOT_DETERMINED)
 
 TERMS = (
     *(_term(*term) for term in _TERMS),
-    *(_figure(*figure) for figure in _FIGURES),
-    *(_lost(*figure) for figure in _LOST),
+    _figure(
+        "1",
+        "Models: cantilever, two-force member, simply supported beam",
+        _drawn("erdman_fig1_elements", ("(a)", "(b)", "(c)")),
+    ),
+    _figure("2", "Models: torsion, spatial R–S member", _drawn("erdman_fig2_elements", ("(a)", "(b)"))),
+    _figure(
+        "3", "Case I: the path generator", _drawn("erdman_fig3_generator", ("P", "1", "2", "3", "4", "α", "φ"), _SIZES)
+    ),
+    _figure(
+        "4",
+        "Case 1: element coordinates and system forces",
+        _drawn("erdman_fig4_case1", ("x₁", "x₈", "P₁", "P₂", "P₃"), _SIZES),
+    ),
+    _figure(
+        "7", "Case 2: system forces P1 to P8", _drawn("erdman_fig7_case2", tuple(f"P{k}" for k in "₁₂₃₄₅₆₇₈"), _SIZES)
+    ),
+    _figure("5", "Case 1: forces on the coupler", _LOST),
+    _figure("6", "Case 1: forces on element 2", _LOST),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -44,18 +44,15 @@ def drawing_of(figure: Figure, bench: Bench) -> str:
 
 
 def _paper(number: int) -> Callable[[Bench], str]:
-    def draw(bench: Bench) -> str:
-        return svg_text(paper_figures(bench.study)[number].plots)
-
-    return draw
+    return lambda bench: svg_text(paper_figures(bench.study)[number].plots)
 
 
-_P, _F, _E = pennestri_figures, pennestri_figures, erdman_figures
+_P, _E = pennestri_figures, erdman_figures
 
 FIGURES = (
     Figure("fig01_gap", "Fig. 1", "Impact between bodies", "P-fig1", lambda _b: _P.fig01_gap()),
-    Figure("fig02_procedure", "Fig. 2", "What the program does: motion", "P-fig2", lambda _b: _F.fig02_procedure()),
-    Figure("fig03_stress", "Fig. 3", "What the program does: stress", "P-fig3", lambda _b: _F.fig03_stress()),
+    Figure("fig02_procedure", "Fig. 2", "What the program does: motion", "P-fig2", lambda _b: _P.fig02_procedure()),
+    Figure("fig03_stress", "Fig. 3", "What the program does: stress", "P-fig3", lambda _b: _P.fig03_stress()),
     Figure("fig04_nomenclature", "Fig. 4", "The mechanism, to scale", "P-fig4", lambda _b: _P.fig04_nomenclature()),
     Figure("fig05_tooth", "Fig. 5", "The tooth, to scale", "P-fig5", lambda _b: _P.fig05_tooth()),
     Figure("fig06_beam", "Fig. 6", "The cantilever", "P-fig6", lambda _b: _P.fig06_beam()),
@@ -66,9 +63,15 @@ FIGURES = (
     Figure("fig11_maximum", "Fig. 11", "Maximum bending stress", "P-fig11", _paper(3)),
     Figure("erdman_fig1_elements", "Erdman, Fig. 1", "Elements", "E-fig1", lambda _b: _E.fig1_elements()),
     Figure("erdman_fig2_elements", "Erdman, Fig. 2", "Torsion, spatial link", "E-fig2", lambda _b: _E.fig2_elements()),
-    Figure("erdman_fig3_generator", "Erdman, Fig. 3", "Path generator", "E-fig3", _E.fig3_generator),
-    Figure("erdman_fig4_case1", "Erdman, Fig. 4", "Case 1", "E-fig4", _E.fig4_case1),
-    Figure("erdman_fig7_case2", "Erdman, Fig. 7", "Case 2", "E-fig7", _E.fig7_case2),
+    Figure(
+        "erdman_fig3_generator",
+        "Erdman, Fig. 3",
+        "Path generator",
+        "E-fig3",
+        lambda b: _E.fig3_generator(b.crank_at(60)),
+    ),
+    Figure("erdman_fig4_case1", "Erdman, Fig. 4", "Case 1", "E-fig4", lambda b: _E.fig4_case1(b.crank_at(60))),
+    Figure("erdman_fig7_case2", "Erdman, Fig. 7", "Case 2", "E-fig7", lambda b: _E.fig7_case2(b.crank_at(60))),
 )
 
 
@@ -92,17 +95,20 @@ _ROOT = Path(__file__).parents[4]
 _STROKES = re.compile(r"<(path|line|polyline|polygon|circle|rect|use|text)\b")
 
 
-def redrawn(bench: Bench, name: str, shown: tuple[str, ...], text: str, *worked: str, true: bool = True) -> Found:
+def redrawn(bench: Bench, name: str, shown: Sequence[str], text: str, *worked: str, true: bool = True) -> Found:
     """A figure of this page: its drawing must hold all texts of `shown`, and what it is drawn from must be `true`."""
     drawing = drawing_of(next(figure for figure in FIGURES if figure.name == name), bench)
     missing = [word for word in shown if word not in html.unescape(drawing)]
-    said = f"{text}{f'; missing: {missing}' if missing else ''}"
-    return judged(true and not missing, said, *worked, verdict=Verdict.REDRAWN)
+    text += f"; missing: {missing}" if missing else ""
+    return judged(true and not missing, text, *worked, verdict=Verdict.REDRAWN)
 
 
 def redrawn_joint(*files: str) -> Found:
     """A figure that stands on a joint's page."""
     counts = [len(_STROKES.findall((_ROOT / "docs/joints" / file).read_text(encoding="utf-8"))) for file in files]
-    named = " and ".join(f"docs/joints/{file}" for file in files)
-    strokes = ", ".join(map(str, counts))
-    return judged(min(counts) > 5, f"redrawn: {named}", f"drawn elements: {strokes}", verdict=Verdict.REDRAWN)
+    return judged(
+        min(counts) > 5,
+        "redrawn: " + " and ".join(f"docs/joints/{file}" for file in files),
+        "drawn elements: " + ", ".join(map(str, counts)),
+        verdict=Verdict.REDRAWN,
+    )

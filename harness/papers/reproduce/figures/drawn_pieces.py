@@ -48,22 +48,19 @@ class View:
         steps = max(4, math.ceil(abs(end - start) / 0.06))
         points = [polar(centre, radius, start + (end - start) * k / steps) for k in range(steps + 1)]
         places = [self.at(point) for point in points]
-        middle = polar(centre, radius + out / self.scale, (start + end) / 2)
+        beside = polar(centre, radius + out / self.scale, (start + end) / 2)
         drawn = f'<polyline points="{_places(places)}" stroke="{SOFT}" stroke-width="1.1"/>'
-        return drawn + _head(places[-2], places[-1], SOFT) + (self.text(middle, text) if text else "")
+        return drawn + _head(places[-2], places[-1], SOFT) + (self.text(beside, text) if text else "")
 
     def size(self, start: Point, end: Point, text: str, offset: float = 0.0) -> str:
         """A dimension `offset` px to the left of start -> end."""
-        dx, dy = end[0] - start[0], end[1] - start[1]
-        length = math.hypot(dx, dy)
-        nx, ny = -dy / length / self.scale, dx / length / self.scale
-        a = start[0] + offset * nx, start[1] + offset * ny
-        b = end[0] + offset * nx, end[1] + offset * ny
+        across = direction(start, end) + math.pi / 2
+        a, b = (polar(point, offset / self.scale, across) for point in (start, end))
         thin = [self.line([p, q], SOFT, 0.7) for p, q in ((start, a), (end, b)) if offset]
         # a long name stands farther from an upright line
-        side = math.copysign(_OFF + 3.2 * (len(text) - 1) * abs(nx) * self.scale, offset or 1.0)
-        middle = (a[0] + b[0]) / 2 + side * nx, (a[1] + b[1]) / 2 + side * ny
-        return "".join([*thin, self.arrow(a, b, SOFT, both=True), self.text(middle, text)])
+        side = math.copysign(_OFF + 3.2 * (len(text) - 1) * abs(math.cos(across)), offset or 1.0)
+        place = polar(middle(a, b), side / self.scale, across)
+        return "".join([*thin, self.arrow(a, b, SOFT, both=True), self.text(place, text)])
 
     def dot(self, point: Point, radius: float = 3.5, colour: str = INK) -> str:
         """A point."""
@@ -86,14 +83,13 @@ class View:
 
     def wall(self, start: Point, end: Point) -> str:
         """A clamp along start -> end, hatched to its left."""
-        (ax, ay), (bx, by) = self.at(start), self.at(end)
-        length = math.hypot(bx - ax, by - ay)
-        ex, ey = (bx - ax) / length, (by - ay) / length
+        a, b = self.at(start), self.at(end)
+        ex, ey = polar((0.0, 0.0), 1.0, direction(a, b))
         hatch = "".join(
-            f"M{ax + k * ex:.1f} {ay + k * ey:.1f}l{7 * (ey - ex):.1f} {7 * (-ex - ey):.1f}"
-            for k in range(4, int(length) + 1, 8)
+            f"M{a[0] + k * ex:.1f} {a[1] + k * ey:.1f}l{7 * (ey - ex):.1f} {7 * (-ex - ey):.1f}"
+            for k in range(4, int(math.dist(a, b)) + 1, 8)
         )
-        return f'<path d="M{ax:.1f} {ay:.1f}L{bx:.1f} {by:.1f}{hatch}" stroke="{INK}" stroke-width="1.5"/>'
+        return f'<path d="M{a[0]:.1f} {a[1]:.1f}L{b[0]:.1f} {b[1]:.1f}{hatch}" stroke="{INK}" stroke-width="1.5"/>'
 
     def text(self, point: Point, text: str, dx: float = 0.0, dy: float = 0.0, size: float = 14.0) -> str:
         """A label centred at a point, moved by px, with a white edge."""
@@ -112,20 +108,16 @@ def label(at: Point, text: str, size: float = 14.0, anchor: str = "middle") -> s
 def box(x: float, y: float, width: float, lines: Sequence[str], kind: str = "step") -> str:
     """A box of a flow chart, its upper middle at (x, y) [px]: "step", "choice" or "end"."""
     height = box_height(lines, kind)
-    left = x - width / 2
-    if kind == "choice":
-        middle = y + height / 2
-        points = ((x, y), (x + width / 2, middle), (x, y + height), (left, middle))
-        shape = f'<polygon points="{_places(points)}" fill="#fff4d6" stroke="{INK}" stroke-width="1.3"/>'
-    else:
-        radius = height / 2 if kind == "end" else 4
-        shape = (
-            f'<rect x="{left:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}" rx="{radius:g}" '
-            f'fill="{"#e3f1e6" if kind == "end" else "#eef3f7"}" stroke="{INK}" stroke-width="1.3"/>'
-        )
-    first = y + height / 2 - 9 * (len(lines) - 1)
-    texts = "".join(_plain((x, first + 18 * k), line) for k, line in enumerate(lines))
-    return shape + texts
+    left, half = x - width / 2, y + height / 2
+    corners = _places(((x, y), (x + width / 2, half), (x, y + height), (left, half)))
+    at = f'x="{left:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}"'
+    shape = {
+        "choice": f'<polygon points="{corners}" fill="#fff4d6"',
+        "end": f'<rect {at} rx="{height / 2:g}" fill="#e3f1e6"',
+        "step": f'<rect {at} rx="4" fill="#eef3f7"',
+    }[kind]
+    texts = "".join(_plain((x, half + 18 * k - 9 * (len(lines) - 1)), line) for k, line in enumerate(lines))
+    return f'{shape} stroke="{INK}" stroke-width="1.3"/>{texts}'
 
 
 def box_height(lines: Sequence[str], kind: str = "step") -> float:
@@ -140,13 +132,12 @@ def flow(points: Sequence[Point], text: str = "", at: Point | None = None) -> st
     return line + _head(points[-2], points[-1], INK) + said
 
 
-def sheet(width: int, height: int, title: str, parts: Sequence[str]) -> str:
+def sheet(width: int, height: int, title: str, *parts: str) -> str:
     """The whole SVG text."""
-    size = f'viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
     return "\n".join(
         [
-            f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="{_FONT}" fill="none" '
-            'stroke-linejoin="round" stroke-linecap="round">',
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
+            f'height="{height}" font-family="{_FONT}" fill="none" stroke-linejoin="round" stroke-linecap="round">',
             f"<title>{escape(title)}</title>",
             f'<rect width="{width}" height="{height}" fill="#ffffff"/>',
             *parts,
@@ -160,6 +151,16 @@ def polar(centre: Point, radius: float, angle: float) -> Point:
     return centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
 
 
+def direction(start: Point, end: Point) -> float:
+    """Of a line from start to end [rad]."""
+    return math.atan2(end[1] - start[1], end[0] - start[0])
+
+
+def middle(a: Point, b: Point) -> Point:
+    """Halfway between two points."""
+    return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
+
+
 def _plain(at: Point, text: str) -> str:
     return (
         f'<text x="{at[0]:.1f}" y="{at[1]:.1f}" dy="0.35em" font-size="13" text-anchor="middle" '
@@ -169,11 +170,9 @@ def _plain(at: Point, text: str) -> str:
 
 def _head(start: Point, end: Point, colour: str) -> str:
     """The head of an arrow on the sheet that ends in `end`."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    length = math.hypot(dx, dy) or 1.0
-    ex, ey = dx / length, dy / length
-    base = end[0] - _HEAD * ex, end[1] - _HEAD * ey
-    corners = (end, (base[0] - _HALF * ey, base[1] + _HALF * ex), (base[0] + _HALF * ey, base[1] - _HALF * ex))
+    back = direction(end, start)
+    base = polar(end, _HEAD, back)
+    corners = (end, polar(base, _HALF, back - math.pi / 2), polar(base, _HALF, back + math.pi / 2))
     return f'<polygon points="{_places(corners)}" fill="{colour}"/>'
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 
 import numpy as np
@@ -15,44 +16,40 @@ from mechanism_fmu.slides import (
     tangents_of_the_rows,
 )
 
-from ....run.checks import Verdict
-from ..bench import Bench, off_by
+from ..bench import Bench, FloatArray, first_derivative, off_by
 from ..figures.all_figures import redrawn_joint
-from ..row import Found, Row, judged, within
+from ..row import Found, Row, Verdict, judged, within
 from .gear_rows import SLIDES
-from .joint_rows import PARTS, egg, turned, two_bodies
+from .joint_rows import PARTS, egg_tangent, two_bodies
+
+PROFILES = ("mechanism_fmu/kinematics/profiles.py",)
 
 
 def _tangents(_bench: Bench) -> Found:
-    worst, worked = 0.0, []
-    for degrees in (0, 15, 30, 60, 110, 200):
-        alpha = math.radians(degrees)
-        g1, g2 = cam_tangent(alpha), roller_tangent(alpha)
-        rows = tangents_of_the_rows(alpha, alpha)
-        worst = max(worst, float(np.abs(rows[0] - g1).max()), float(np.abs(rows[1] - g2).max()))
-        worked.append(f"α = {degrees}°: g₁ = ({g1[0]:.6f}, {g1[1]:.6f}), g₂ = ({g2[0]:.6f}, {g2[1]:.6f})")
+    angles = {degrees: math.radians(degrees) for degrees in (0, 15, 30, 60, 110, 200)}
+    found = {degrees: (cam_tangent(alpha), roller_tangent(alpha)) for degrees, alpha in angles.items()}
+    rows = [tangents_of_the_rows(alpha, alpha) for alpha in angles.values()]
     return within(
-        worst,
+        float(np.abs(np.subtract(rows, list(found.values()))).max()),
         1e-12,
         "g₁ = ρ' e + ρ R e with ρ' = ¾ sin 3α up to 2π/3, 0 beyond; g₂ = ¼ R e; the rows of CamFollower have the same",
-        *worked,
+        *(
+            f"α = {degrees}°: g₁ = ({g1[0]:.6f}, {g1[1]:.6f}), g₂ = ({g2[0]:.6f}, {g2[1]:.6f})"
+            for degrees, (g1, g2) in found.items()
+        ),
         verdict=Verdict.ANSWERED,
     )
 
 
+def _point_of_cam(alpha: float) -> FloatArray:
+    """Of the slides' cam, where its radius is a cosine [m]."""
+    return (1.25 - 0.25 * math.cos(3 * alpha)) * np.array([math.cos(alpha), math.sin(alpha)])
+
+
 def _boundary(_bench: Bench) -> Found:
-    h = 1e-3
-    worst = 0.0
-    for alpha in np.linspace(0.05, 2.0, 14):
-
-        def point(a: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-            rho = 1.25 - 0.25 * math.cos(3 * a)
-            return np.array([rho * math.cos(a), rho * math.sin(a)])
-
-        slope = (8 * (point(alpha + h) - point(alpha - h)) - point(alpha + 2 * h) + point(alpha - 2 * h)) / (12 * h)
-        worst = max(worst, float(np.abs(slope - cam_tangent(float(alpha))).max()))
+    angles = np.linspace(0.05, 2.0, 14)
     return within(
-        worst,
+        max(float(np.abs(first_derivative(_point_of_cam, a, 1e-3) - cam_tangent(float(a))).max()) for a in angles),
         1e-9,
         "r^P = r + A (s + ρ e) and g = ∂r^P/∂α, by differences along the slides' cam",
         verdict=Verdict.ANSWERED,
@@ -83,18 +80,12 @@ def _convex(_bench: Bench) -> Found:
 
 
 def _slot(_bench: Bench) -> Found:
-    """The columns of alpha in Phi_q are -g_j: against differences of a point of the slot, placed by hand."""
+    """The columns of alpha in Phi_q are -g_j: against differences of points of the slot, as it is turned."""
     equations = Equations(two_bodies(PARTS["point"]), 0.0)
     q = equations.start
-    alpha, phi, h = float(q[6]), float(q[5]), 1e-3
-    places = [
-        turned(egg(alpha + k * h) * np.array([math.cos(alpha + k * h), math.sin(alpha + k * h)]), phi)
-        for k in (-2, -1, 1, 2)
-    ]
-    wanted = (places[0] - 8 * places[1] + 8 * places[2] - places[3]) / (12 * h)
-    g = -equations.at(q, 0.0).jacobian[:, 6]
+    g, wanted = -equations.at(q, 0.0).jacobian[:, 6], egg_tangent(q[6]) * cmath.rect(1.0, q[5])
     return within(
-        off_by(g, wanted),
+        off_by(g, [wanted.real, wanted.imag]),
         1e-9,
         f"the tangent of the slot by differences of its points is −Φ_α of this project: g_j = ({g[0]:.6f}, "
         f"{g[1]:.6f}) m; without it α_j would be free",
@@ -103,26 +94,9 @@ def _slot(_bench: Bench) -> Found:
     )
 
 
-_CHATTER = "unilateral pairs open and strike here; the slides' pair is `unilateral=False`"
-
-
 ROWS = (
-    Row(
-        "S-boundary",
-        "Boundary of a convex body",
-        "Place and tangent over α.",
-        "r^P(α), g(α)",
-        (SLIDES,),
-        _boundary,
-    ),
-    Row(
-        "S-convex",
-        "Boundary of a convex body",
-        "Assumption: the bodies are convex.",
-        "in words",
-        ("mechanism_fmu/kinematics/profiles.py",),
-        _convex,
-    ),
+    Row("S-boundary", "Boundary of a convex body", "Place and tangent over α.", "r^P(α), g(α)", (SLIDES,), _boundary),
+    Row("S-convex", "Boundary of a convex body", "Assumption: the bodies are convex.", "in words", PROFILES, _convex),
     Row(
         "S-coordinates",
         "Cam–follower, point–follower",
@@ -137,7 +111,7 @@ ROWS = (
         "Assumption: no chattering.",
         "in words",
         ("mechanism_fmu/model/joints/cams.py",),
-        lambda _bench: Found(_CHATTER, Verdict.TAKEN_OVER),
+        Found("unilateral pairs open and strike here; the slides' pair is `unilateral=False`", Verdict.TAKEN_OVER),
     ),
     Row(
         "S-tangents",
@@ -169,7 +143,7 @@ ROWS = (
         "Flat-faced follower in an engine.",
         "drawing lost",
         ("docs/joints/cam_flat_follower.md",),
-        lambda _bench: Found("no sizes of the engine are in the text; not drawn", Verdict.NOT_DETERMINED),
+        Found("no sizes of the engine are in the text; not drawn", Verdict.NOT_DETERMINED),
     ),
     Row(
         "S-gj",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from cmath import phase, rect
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -28,51 +29,42 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.joints import Joint
 
-from ....run.checks import Verdict
-from ..bench import Bench, FloatArray, joint_deviations
-from ..row import Found, Row, judged
+from ..bench import FloatArray, first_derivative, joint_deviations
+from ..row import Found, Row, Verdict, judged
 
 # Two bodies placed by hand as each joint of the ME451 slides says, so that its Phi must vanish there.
 #
 # Each function takes numbers at will, as many as degrees of freedom remain, and returns the coordinates of both bodies
 # (and contact angles), from geometry alone: distances, arcs and tangents by differences, without any constraint row.
+# Points of the plane are complex numbers.
 
-A, B = np.array([0.3, -0.2]), np.array([-0.25, 0.4])
+A, B = 0.3 - 0.2j, -0.25 + 0.4j
 #: Distances, radii, marks and directions of the parts, as in `PARTS`.
 ROD, OFFSET, ROLLER = 1.1, 0.7, 0.25
-GEARS, RING, RACK = (0.5, 0.3, 0.9, 3.3), (1.9, 0.3, 0.6, 0.4), (0.2, 0.5, 1.1)
-RACK_ORIGIN = A + 0.6 * np.array([math.cos(0.2), math.sin(0.2)])
+GEAR_PAIR, RING, RACK = (0.5, 0.3, 0.9, 3.3), (1.9, 0.3, 0.6, 0.4), (0.2, 0.5, 1.1)
+RACK_ORIGIN = A + rect(0.6, 0.2)
 AXIS_I, AXIS_J, GUIDE, FACE = (1.0, 0.4), (1.0, 0.3), (0.2, 1.0), (0.3, -1.0)
 
 Free = Sequence[float]
 
 
-def egg(alpha: float) -> float:
-    """Radius of the profile without any symmetry [m]."""
-    return 1.0 + 0.1 * math.cos(alpha) + 0.05 * math.cos(2 * alpha) + 0.02 * math.sin(alpha)
+def egg(alpha: float) -> complex:
+    """Point of the profile without any symmetry [m]."""
+    return rect(1.0 + 0.1 * math.cos(alpha) + 0.05 * math.cos(2 * alpha) + 0.02 * math.sin(alpha), alpha)
 
 
-def turned(vector: Sequence[float] | FloatArray, angle: float) -> FloatArray:
-    """A vector turned by an angle."""
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
+def _direction(vector: tuple[float, float]) -> float:
+    return math.atan2(vector[1], vector[0])
 
 
-def _direction(vector: Sequence[float] | FloatArray) -> float:
-    return math.atan2(float(vector[1]), float(vector[0]))
-
-
-def _unit(angle: float) -> FloatArray:
-    return np.array([math.cos(angle), math.sin(angle)])
-
-
-def _placed(free: Free, point: FloatArray, phi_j: float, on_j: FloatArray, *alphas: float) -> FloatArray:
+def _placed(free: Free, point: complex, phi_j: float, on_j: complex, *alphas: float) -> FloatArray:
     """Body i at free[:3], body j turned by phi_j with its point `on_j` at `point`."""
-    return np.array([*free[:3], *(point - turned(on_j, phi_j)), phi_j, *alphas])
+    centre = point - on_j * rect(1.0, phi_j)
+    return np.array([*free[:3], centre.real, centre.imag, phi_j, *alphas])
 
 
-def _on_i(free: Free, point: Sequence[float] | FloatArray) -> FloatArray:
-    return np.array(free[:2]) + turned(point, free[2])
+def _on_i(free: Free, point: complex) -> complex:
+    return complex(free[0], free[1]) + point * rect(1.0, free[2])
 
 
 def _revolute(free: Free) -> FloatArray:
@@ -82,72 +74,63 @@ def _revolute(free: Free) -> FloatArray:
 def _translational(free: Free) -> FloatArray:
     """Both axes on one line, at any distance along it."""
     axis = free[2] + _direction(AXIS_I)
-    return _placed(free, _on_i(free, A) + free[3] * _unit(axis), axis - _direction(AXIS_J), B)
+    return _placed(free, _on_i(free, A) + rect(free[3], axis), axis - _direction(AXIS_J), B)
 
 
 def _distance(free: Free) -> FloatArray:
-    return _placed(free, _on_i(free, A) + ROD * _unit(free[3]), free[4], B)
+    return _placed(free, _on_i(free, A) + rect(ROD, free[3]), free[4], B)
 
 
 def _revolute_translational(free: Free) -> FloatArray:
     """P_j at c from the axis, any way along it."""
-    axis = free[2] + _direction(GUIDE)
-    return _placed(free, _on_i(free, A) + free[3] * _unit(axis) + OFFSET * _unit(axis + math.pi / 2), free[4], B)
+    return _placed(free, _on_i(free, A) + complex(free[3], OFFSET) * rect(1.0, free[2] + _direction(GUIDE)), free[4], B)
 
 
 def _gears(free: Free) -> FloatArray:
     """Centres R_i + R_j apart; the arcs from the marks to the point of contact are equal."""
-    ri, mark_i, rj, mark_j = GEARS
-    line = free[3]
+    (ri, mark_i, rj, mark_j), line = GEAR_PAIR, free[3]
     arc = ri * (line - (free[2] + mark_i))
     # the contact is on the other side of gear j, and it turns the other way
-    phi_j = line + math.pi + arc / rj - mark_j
-    return _placed(free, _on_i(free, A) + (ri + rj) * _unit(line), phi_j, B)
+    return _placed(free, _on_i(free, A) + rect(ri + rj, line), line + math.pi + arc / rj - mark_j, B)
 
 
 def _ring(free: Free) -> FloatArray:
     """Centres R_i - R_j apart; both marks are on the same side, and both arcs run the same way."""
-    ri, mark_i, rj, mark_j = RING
-    line = free[3]
-    phi_j = line - ri * (line - (free[2] + mark_i)) / rj - mark_j
-    return _placed(free, _on_i(free, A) + (ri - rj) * _unit(line), phi_j, B)
+    (ri, mark_i, rj, mark_j), line = RING, free[3]
+    arc = ri * (line - (free[2] + mark_i))
+    return _placed(free, _on_i(free, A) + rect(ri - rj, line), line - arc / rj - mark_j, B)
 
 
 def _rack(free: Free) -> FloatArray:
     """The centre R_j to the left of the pitch line; Q_iD is as long as the arc Q_jD."""
-    own, rj, mark = RACK
-    along, way = free[2] + own, free[3]
-    centre = _on_i(free, RACK_ORIGIN) + way * _unit(along) + rj * _unit(along + math.pi / 2)
+    (own, rj, mark), way = RACK, free[3]
+    along = free[2] + own
+    centre = _on_i(free, RACK_ORIGIN) + complex(way, rj) * rect(1.0, along)
     # rolling forward turns the pinion clockwise; at way 0 its mark points at the rack
     return _placed(free, centre, along - math.pi / 2 - way / rj - mark, B)
 
 
-def _boundary(alpha: float) -> tuple[FloatArray, float]:
-    """Place and direction of the egg's tangent [rad], the latter by differences."""
-    h = 1e-3
-    place = [egg(alpha + k * h) * _unit(alpha + k * h) for k in (-2, -1, 0, 1, 2)]
-    return place[2], _direction(place[0] - 8 * place[1] + 8 * place[3] - place[4])
+def egg_tangent(alpha: float) -> complex:
+    """Derivative of the egg's point [m], by differences."""
+    return complex(first_derivative(egg, alpha, 1e-3))
 
 
 def _cam(free: Free) -> FloatArray:
     """A circle that touches the egg from outside."""
-    place, tangent = _boundary(free[3])
-    contact, outward = _on_i(free, A + place), free[2] + tangent - math.pi / 2
-    centre = contact + ROLLER * _unit(outward)
+    outward = free[2] + phase(egg_tangent(free[3])) - math.pi / 2
+    centre = _on_i(free, A + egg(free[3])) + rect(ROLLER, outward)
     return _placed(free, centre, free[4], B, free[3], outward + math.pi - free[4])
 
 
 def _flat(free: Free) -> FloatArray:
     """The face along the tangent of the egg, the point of contact anywhere on it."""
-    place, tangent = _boundary(free[3])
-    along = free[2] + tangent
-    return _placed(free, _on_i(free, A + place) + free[4] * _unit(along), along - _direction(FACE), B, free[3])
+    along = free[2] + phase(egg_tangent(free[3]))
+    return _placed(free, _on_i(free, A + egg(free[3])) + rect(free[4], along), along - _direction(FACE), B, free[3])
 
 
 def _point(free: Free) -> FloatArray:
     """The pin of body i anywhere on the egg of body j."""
-    alpha, phi_j = free[3], free[4]
-    return _placed(free, _on_i(free, A), phi_j, B + egg(alpha) * _unit(alpha), alpha)
+    return _placed(free, _on_i(free, A), free[4], B + egg(free[3]), free[3])
 
 
 #: By the keys of `PARTS`, with how many numbers are free.
@@ -165,16 +148,12 @@ PLACED: dict[str, tuple[Callable[[Free], FloatArray], int]] = {
 }
 
 
-JOINTS = "mechanism_fmu/model/joints"
-ROWS_OF_JOINTS = "mechanism_fmu/engine/constraints/joints"
 #: What differences of eighth order leave, with a safe margin.
 _LIMIT = 1e-6
 #: A profile without any symmetry [m].
 _EGG = harmonic_profile(1.0, (0.1, 0.05), (0.02,))
-
-_A, _B = (0.3, -0.2), (-0.25, 0.4)
-#: Q of the rack, on its pitch line through _A [m].
-_Q = (0.3 + 0.6 * math.cos(0.2), -0.2 + 0.6 * math.sin(0.2))
+#: The points as the parts take them; Q of the rack on its pitch line through the first [m].
+_A, _B, _Q = ((point.real, point.imag) for point in (A, B, RACK_ORIGIN))
 
 
 def two_bodies(part: Joint | Contact) -> Mechanism:
@@ -208,42 +187,35 @@ def phi_by_hand(equations: Equations, kind: str) -> float:
     """
     place, free = PLACED[kind]
     positions = [place([1.1 * math.sin(k + 2.3 * n) for n in range(free)]) for k in range(6)]
-    largest = max(float(np.abs(equations.at(q, 0.0).residual).max()) for q in positions)
-    beside = [q + 1e-3 * np.eye(len(q))[4] for q in positions]
-    opened = max(float(np.abs(equations.at(q, 0.0).residual).max()) for q in beside)
+    largest, opened = (
+        max(float(np.abs(equations.at(q + off * np.eye(len(q))[4], 0.0).residual).max()) for q in positions)
+        for off in (0.0, 1e-3)
+    )
     return largest if opened > 1e-5 else math.inf
 
 
-def five_steps(kind: str, removed: int, verdict: Verdict = Verdict.ANSWERED) -> Callable[[Bench], Found]:
+def five_steps(kind: str, removed: int, verdict: Verdict) -> Found:
     """The finding of a joint that removes so many degrees of freedom between two bodies."""
-
-    def find(_bench: Bench) -> Found:
-        mechanism = two_bodies(PARTS[kind])
-        equations = Equations(mechanism, 0.0)
-        count = len(equations.start)
-        # any state will do: the rows need not be closed where they are compared
-        q = equations.start + 0.05 * np.sin(1.0 + np.arange(count))
-        rate, acceleration = np.cos(2.0 * np.arange(count)), np.sin(3.0 + np.arange(count))
-        deviations = (phi_by_hand(equations, kind), *joint_deviations(equations, q, rate, acceleration))
-        contact = count - 6
-        freedom = mobility(mechanism).degrees_of_freedom
-        names = ("Φ", "Φ_q", "ν", "γ")
-        bad = [name for name, off in zip(names, deviations, strict=True) if not off <= _LIMIT]
-        rows = f"{len(equations.rows)} row{'s' if len(equations.rows) > 1 else ''}"
-        alphas = f", contact coordinates {', '.join(c.split('.')[1] for c in equations.coordinates[6:])}"
-        right = not bad and 6 - freedom == removed
-        wrong = "" if right else f"; off: {', '.join(bad) or 'degrees of freedom'}"
-        return judged(
-            right,
-            f"{rows}{alphas if contact else ''}; removes {6 - freedom} degree{'s' if freedom != 5 else ''} of "
-            "freedom; Φ = 0 in 6 positions made by hand from what the slides say; Φ_q, ν, γ = differences of Φ to "
-            f"10⁻⁶{wrong}",
-            "1 allows, 2 Φ, 3 Φ_q, 4 ν, 5 γ stand in the docstring and on the joint's page",
-            "sizes and positions: harness/papers/reproduce/me451/joint_rows.py; two bodies moving at random",
-            verdict=verdict,
-        )
-
-    return find
+    mechanism = two_bodies(PARTS[kind])
+    equations, lost = Equations(mechanism, 0.0), 6 - mobility(mechanism).degrees_of_freedom
+    # any state will do: the rows need not be closed where they are compared
+    numbers = np.arange(len(equations.start))
+    state = equations.start + 0.05 * np.sin(1.0 + numbers), np.cos(2.0 * numbers), np.sin(3.0 + numbers)
+    deviations = (phi_by_hand(equations, kind), *joint_deviations(equations, *state))
+    bad = [name for name, off in zip(("Φ", "Φ_q", "ν", "γ"), deviations, strict=True) if not off <= _LIMIT]
+    right = not bad and lost == removed
+    wrong = "" if right else f"; off: {', '.join(bad) or 'degrees of freedom'}"
+    alphas = ", ".join(name.split(".")[1] for name in equations.coordinates[6:])
+    return judged(
+        right,
+        f"{len(equations.rows)} row{'s' if len(equations.rows) > 1 else ''}"
+        f"{f', contact coordinates {alphas}' if alphas else ''}; removes {lost} degree{'s' if lost > 1 else ''} of "
+        "freedom; Φ = 0 in 6 positions made by hand from what the slides say; Φ_q, ν, γ = differences of Φ to "
+        f"10⁻⁶{wrong}",
+        "1 allows, 2 Φ, 3 Φ_q, 4 ν, 5 γ stand in the docstring and on the joint's page",
+        "sizes and positions: harness/papers/reproduce/me451/joint_rows.py; two bodies moving at random",
+        verdict=verdict,
+    )
 
 
 #: The file of each joint, by the name of its page, in the model and in the engine.
@@ -258,8 +230,9 @@ _FILES = {
 def _joint(
     key: str, place: str, says: str, printed: str, file: str, removed: int, verdict: Verdict = Verdict.ANSWERED
 ) -> Row:
-    code = (f"{JOINTS}/{_FILES[file]}.py", f"{ROWS_OF_JOINTS}/{_FILES[file]}.py", f"docs/joints/{file}.md")
-    return Row(f"S-{key}", place, says, printed, code, five_steps(key, removed, verdict))
+    folders = ("mechanism_fmu/model/joints", "mechanism_fmu/engine/constraints/joints")
+    code = (*(f"{folder}/{_FILES[file]}.py" for folder in folders), f"docs/joints/{file}.md")
+    return Row(f"S-{key}", place, says, printed, code, lambda _bench: five_steps(key, removed, verdict))
 
 
 _STEPS = "steps 1 to 5 asked, not answered"

@@ -3,27 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
-from ....run.checks import Finding, Verdict
 from ...study.accuracy import accuracy_findings
 from ..bench import AFTER_IMPACT, Bench
-from ..row import STUDY, Found, Row, judged
+from ..row import STUDY, Found, Row, Verdict, judged
 from . import beam_rows, case_rows, impact_rows, stress_rows
 
 ACCURACY = ("harness/papers/study/accuracy.py", "harness/papers/study/plane_teeth.csv")
 
 
-def _weighed(finding: Finding) -> Found:
+def _claim(bench: Bench, number: int) -> Found:
     """A finding of the study as one of the page."""
+    finding = accuracy_findings(bench.study.wheels)[number]
     return Found(finding.evidence, finding.verdict, calculated=finding.verdict is not Verdict.TAKEN_OVER)
-
-
-def _triangle(bench: Bench) -> Found:
-    return _weighed(accuracy_findings(bench.study.wheels)[0])
-
-
-def _cantilever(bench: Bench) -> Found:
-    return _weighed(accuracy_findings(bench.study.wheels)[1])
 
 
 def _ode(bench: Bench) -> Found:
@@ -58,14 +51,6 @@ def _proportions(bench: Bench) -> Found:
     )
 
 
-def _resembles(_bench: Bench) -> Found:
-    return Found(
-        "taken over; of W. Goldsmith's book only what the paper quotes is at hand. What starts the modes here is no "
-        "striker at the free end: assumption X-struck",
-        Verdict.TAKEN_OVER,
-    )
-
-
 ROWS = (
     Row(
         "P-ode",
@@ -90,7 +75,11 @@ ROWS = (
         "Impact on a beam as mass, spring and damper (Goldsmith).",
         "in words",
         ("mechanism_fmu/stress/recovery.py",),
-        _resembles,
+        Found(
+            "taken over; of W. Goldsmith's book only what the paper quotes is at hand. What starts the modes here is "
+            "no striker at the free end: assumption X-struck",
+            Verdict.TAKEN_OVER,
+        ),
     ),
     Row(
         "P-proportions",
@@ -106,7 +95,7 @@ ROWS = (
         "A right-angled triangle “without accuracy loss”; the grey part can be regarded as rigid.",
         "in words",
         ACCURACY,
-        _triangle,
+        lambda bench: _claim(bench, 0),
         STUDY,
     ),
     Row(
@@ -115,7 +104,7 @@ ROWS = (
         "“The tooth has been modelled as a cantilever beam”, which “may not seem appropriate”: what it costs.",
         "in words",
         ACCURACY,
-        _cantilever,
+        lambda bench: _claim(bench, 1),
         STUDY,
     ),
 )
@@ -127,34 +116,15 @@ _ROWS = {row.id: row for module in (impact_rows, stress_rows, beam_rows, case_ro
 _STANDS = (Verdict.REPRODUCED, Verdict.HOLDS, Verdict.TAKEN_OVER)
 
 
-def _rests_on(bench: Bench, text: str, ids: tuple[str, ...], verdict: Verdict = Verdict.HOLDS) -> Found:
-    """Works the rows anew, and stands only while all of them do."""
-    found = {name: _ROWS[name].find(bench).verdict for name in ids}
-    lines = (f"{name}: {result}" for name, result in found.items())
-    return judged(all(result in _STANDS for result in found.values()), text, *lines, verdict=verdict)
+def _rests_on(text: str, ids: Sequence[str], verdict: Verdict = Verdict.HOLDS) -> Callable[[Bench], Found]:
+    """A finding that works other rows anew, and stands only while all of them do."""
 
+    def find(bench: Bench) -> Found:
+        found = {name: _ROWS[name].found(bench).verdict for name in ids}
+        lines = (f"{name}: {result}" for name, result in found.items())
+        return judged(all(result in _STANDS for result in found.values()), text, *lines, verdict=verdict)
 
-def _extension(bench: Bench) -> Found:
-    return _rests_on(
-        bench,
-        "eq (7) gives the engine's jump, also with redundant rows; rows P-eq4, P-eq7, P-features stand",
-        ("P-eq4", "P-eq7", "P-features"),
-    )
-
-
-def _model(bench: Bench) -> Found:
-    ids = ("P-eq8", "P-eq9", "P-eq10", "P-eq11", "P-eq12", "P-eq13", "P-eq14", "P-eq15", "P-eq16")
-    return _rests_on(bench, "from the impact to bending stress; rows P-eq8 to P-eq16 stand", ids)
-
-
-def _procedure(bench: Bench) -> Found:
-    return _rests_on(
-        bench,
-        "a table of 20 wheels, calculated again (rows P-cases, P-falls, P-rises, P-predict stand); it states no "
-        "objective or constraint and names no optimum. A search with both is this project's",
-        ("P-cases", "P-falls", "P-rises", "P-predict"),
-        Verdict.HOLDS_IN_PART,
-    )
+    return find
 
 
 CONTRIBUTIONS = (
@@ -164,7 +134,10 @@ CONTRIBUTIONS = (
         "The formulation of Udwadia and Kalaba is extended to impacts.",
         "eq (7)",
         ("mechanism_fmu/engine/contacts/impact.py",),
-        _extension,
+        _rests_on(
+            "eq (7) gives the engine's jump, also with redundant rows; rows P-eq4, P-eq7, P-features stand",
+            ("P-eq4", "P-eq7", "P-features"),
+        ),
     ),
     Row(
         "P-contribution2",
@@ -172,7 +145,10 @@ CONTRIBUTIONS = (
         "An engineering model of impacts in ratchet mechanisms.",
         "section 4",
         ("mechanism_fmu/stress/recovery.py", "models/ratchet/model.py"),
-        _model,
+        _rests_on(
+            "from the impact to bending stress; rows P-eq8 to P-eq16 stand",
+            [f"P-eq{number}" for number in range(8, 17)],
+        ),
     ),
     Row(
         "P-contribution3",
@@ -180,7 +156,12 @@ CONTRIBUTIONS = (
         "A procedure of optimal design of ratchet mechanisms.",
         "a study of 20 wheels",
         ("harness/papers/study/study.py", "harness/designs/search.py"),
-        _procedure,
+        _rests_on(
+            "a table of 20 wheels, calculated again (rows P-cases, P-falls, P-rises, P-predict stand); it states no "
+            "objective or constraint and names no optimum. A search with both is this project's",
+            ("P-cases", "P-falls", "P-rises", "P-predict"),
+            Verdict.HOLDS_IN_PART,
+        ),
         STUDY,
     ),
 )

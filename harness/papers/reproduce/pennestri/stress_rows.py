@@ -21,7 +21,7 @@ from mechanism_fmu.stress import (
     ritz_modes,
 )
 
-from ..bench import Bench, FloatArray, off_by
+from ..bench import Bench, FloatArray, each_off_by, first_derivative, off_by, second_derivative
 from ..figures.all_figures import redrawn
 from ..row import Found, Row, within
 
@@ -40,30 +40,24 @@ _DAMPING = 0.03
 
 def frequencies(terms: int) -> FloatArray:
     """Lambda with powers xi^2 to xi^(terms + 1), in units of sqrt(E/rho) tan(alpha) / l, shape (terms,)."""
-    powers = np.arange(2, terms + 2)
-    i, j = np.meshgrid(powers, powers)
+    i, j = np.meshgrid(*[np.arange(2, terms + 2)] * 2)
     stiffness = i * (i - 1) * j * (j - 1) * beta(i + j - 3, 4) / 12
-    mass = beta(i + j + 1, 2)
-    return np.asarray(np.sqrt(eigh(stiffness, mass, eigvals_only=True)))
+    return np.asarray(np.sqrt(eigh(stiffness, beta(i + j + 1, 2), eigvals_only=True)))
 
 
 def swings(times: FloatArray) -> list[FloatArray]:
     """Eta of both modes by integrating eq (10) from 0 and 1, each of shape (times,)."""
-    found = []
-    for rate in LAMBDAS:
 
-        def slope(_t: float, y: FloatArray, rate: float = rate) -> list[float]:
-            return [y[1], -2 * _DAMPING * rate * y[1] - rate**2 * y[0]]
+    def slope(_t: float, y: FloatArray, rate: float) -> list[float]:
+        return [y[1], -2 * _DAMPING * rate * y[1] - rate**2 * y[0]]
 
-        span = (0.0, float(times[-1]))
-        found.append(solve_ivp(slope, span, [0.0, 1.0], "DOP853", times, rtol=1e-11, atol=1e-13).y[0])
-    return found
+    span, options = (0.0, float(times[-1])), {"rtol": 1e-11, "atol": 1e-13}
+    return [solve_ivp(slope, span, [0.0, 1.0], "DOP853", times, args=(rate,), **options).y[0] for rate in LAMBDAS]
 
 
 def stress(xi: FloatArray, eta: list[FloatArray]) -> FloatArray:
     """Sigma of eqs (13) and (16) for a_1 = 1, without its sign, shape (places, times)."""
-    field = sum(np.outer((1 - xi) / 2 * (2 + 6 * ratio * xi), swing) for ratio, swing in zip(RATIOS, eta, strict=True))
-    return np.asarray(field)
+    return np.asarray(np.transpose([(1 - xi) / 2 * (2 + 6 * ratio * xi) for ratio in RATIOS]) @ np.array(eta))
 
 
 def largest() -> tuple[float, float]:
@@ -81,16 +75,10 @@ def largest() -> tuple[float, float]:
     return -float(best.fun), float(best.x[0])
 
 
-RITZ, RECOVERY = "mechanism_fmu/stress/ritz.py", "mechanism_fmu/stress/recovery.py"
-
-TOOTH, MODES = "mechanism_fmu/stress/tooth.py", "mechanism_fmu/stress/modes.py"
-
-RESPONSE = "mechanism_fmu/stress/recovery.py"
+RITZ, RECOVERY, TOOTH, MODES = (f"mechanism_fmu/stress/{name}.py" for name in ("ritz", "recovery", "tooth", "modes"))
 
 #: Places and times at which fields are compared, in parts of the length and of the first period.
 XI = np.linspace(0.05, 0.9, 18)
-
-_FINE = 1e-7
 
 
 def times_of(modes: tuple[BeamMode, ...]) -> FloatArray:
@@ -98,9 +86,13 @@ def times_of(modes: tuple[BeamMode, ...]) -> FloatArray:
     return np.linspace(0.0, 2.0, 41) * 2 * math.pi / modes[0].natural_frequency
 
 
-def _eq8(bench: Bench) -> Found:
+def swing(mode: BeamMode, speed: float, t: FloatArray) -> FloatArray:
+    """Eta of one mode, of shape (times,)."""
+    return np.asarray(damped_response(np.array([mode.natural_frequency]), STEEL.damping_ratio, speed, t)[0])
+
+
+def _eq8(tooth: WedgeTooth, speed: float) -> Found:
     """One mode: the moment at all times is one curve along the tooth, times a function of time."""
-    tooth, speed = bench.base.tooth, bench.base.impact_velocity
     mode = ritz_modes(tooth, STEEL)[:1]
     field = bending_moment(tooth, STEEL, speed, XI * tooth.length, times_of(mode), mode)
     values = np.linalg.svd(field, compute_uv=False)
@@ -112,14 +104,16 @@ def _eq8(bench: Bench) -> Found:
     )
 
 
-def _eq9(bench: Bench) -> Found:
-    tooth = bench.base.tooth
-    worst, worked = 0.0, []
-    for mode in ritz_modes(tooth, STEEL):
-        m, k = by_quadrature(tooth, mode)
-        worst = max(worst, abs(m / mode.mass - 1), abs(k / mode.stiffness - 1))
-        worked.append(f"m = {m:.6e} kg, k = {k:.6e} N/m, √(k/m) = {math.sqrt(k / m):.2f} rad/s")
-    return within(worst, 1e-10, f"base case, first mode: {worked[0]}; integrals by adaptive quadrature", *worked)
+def _eq9(tooth: WedgeTooth) -> Found:
+    modes = ritz_modes(tooth, STEEL)
+    found = [by_quadrature(tooth, mode) for mode in modes]
+    worked = [f"m = {m:.6e} kg, k = {k:.6e} N/m, √(k/m) = {math.sqrt(k / m):.2f} rad/s" for m, k in found]
+    return within(
+        each_off_by(found, [(mode.mass, mode.stiffness) for mode in modes]),
+        1e-10,
+        f"base case, first mode: {worked[0]}; integrals by adaptive quadrature",
+        *worked,
+    )
 
 
 def by_quadrature(tooth: WedgeTooth, mode: BeamMode) -> tuple[float, float]:
@@ -139,114 +133,135 @@ def by_quadrature(tooth: WedgeTooth, mode: BeamMode) -> tuple[float, float]:
     )
 
 
-def _eq10(bench: Bench) -> Found:
+def _left_over(mode: BeamMode, speed: float) -> float:
+    """By the closed form in eq (10), by differences, in parts of the largest force of the spring."""
+    c, h = 2 * STEEL.damping_ratio * math.sqrt(mode.stiffness * mode.mass), 0.01 / mode.natural_frequency
+    t = np.linspace(4, 300, 100) * h
+
+    def eta(when: FloatArray) -> FloatArray:
+        return swing(mode, speed, when)
+
+    spring = mode.stiffness * eta(t)
+    left = mode.mass * second_derivative(eta, t, h) + c * first_derivative(eta, t, h) + spring
+    return float(np.abs(left).max() / np.abs(spring).max())
+
+
+def _eq10(tooth: WedgeTooth, speed: float) -> Found:
     """The closed form put into the equation, by differences."""
-    tooth, speed = bench.base.tooth, bench.base.impact_velocity
-    worst = 0.0
-    for mode in ritz_modes(tooth, STEEL):
-        c = 2 * STEEL.damping_ratio * math.sqrt(mode.stiffness * mode.mass)
-        h = 0.01 / mode.natural_frequency
-        t = np.linspace(3, 300, 100) * h
-        eta = [
-            damped_response(np.array([mode.natural_frequency]), STEEL.damping_ratio, speed, t + k * h)[0]
-            for k in (-2, -1, 0, 1, 2)
-        ]
-        rate = (eta[0] - 8 * eta[1] + 8 * eta[3] - eta[4]) / (12 * h)
-        bend = (-eta[0] + 16 * eta[1] - 30 * eta[2] + 16 * eta[3] - eta[4]) / (12 * h * h)
-        left = mode.mass * bend + c * rate + mode.stiffness * eta[2]
-        worst = max(worst, float(np.abs(left).max() / np.abs(mode.stiffness * eta[2]).max()))
-    first = ritz_modes(tooth, STEEL)[0].natural_frequency
-    damped = first * math.sqrt(1 - STEEL.damping_ratio**2)
+    modes, root = ritz_modes(tooth, STEEL), math.sqrt(1 - STEEL.damping_ratio**2)
+    damped = modes[0].natural_frequency * root
     return within(
-        worst,
+        max(_left_over(mode, speed) for mode in modes),
         1e-6,
         "η = v_I/Λ_d e^(−ζΛt) sin Λ_d t, Λ_d = Λ√(1 − ζ²), put into (10) leaves nothing; η(0) = 0, η'(0) = v_I",
         f"base case: Λ_d = {damped:.2f} rad/s; a period takes {2 * math.pi / damped * 1e6:.4f} µs, and the swing "
-        f"falls to {math.exp(-2 * math.pi * STEEL.damping_ratio / math.sqrt(1 - 0.03**2)):.4f} in it",
+        f"falls to {math.exp(-2 * math.pi * STEEL.damping_ratio / root):.4f} in it",
     )
 
 
-def _eq11(bench: Bench) -> Found:
-    tooth = bench.base.tooth
+def _eq11(tooth: WedgeTooth) -> Found:
     unit = math.sqrt(STEEL.youngs_modulus / STEEL.density) * math.tan(tooth.apex_angle) / tooth.length
-    worst, worked = 0.0, []
-    for terms in (2, 3, 4):
-        found = np.array([mode.natural_frequency for mode in ritz_modes(tooth, STEEL, terms)]) / unit
-        by_hand = frequencies(terms)
-        worst = max(worst, off_by(found / by_hand, np.ones(terms)))
-        worked.append(f"{terms} terms: " + ", ".join(f"{value:.5f}" for value in by_hand))
+    found = {n: np.array([mode.natural_frequency for mode in ritz_modes(tooth, STEEL, n)]) / unit for n in (2, 3, 4)}
     return within(
-        worst,
+        max(each_off_by(values, frequencies(terms)) for terms, values in found.items()),
         1e-9,
         "powers ξ², ξ³, … (a_0 = a_1 = 0, the root is clamped): Λ with 2, 3, 4 terms = scipy's eigenvalues of "
         "matrices of beta functions",
-        *worked,
+        *(f"{terms} terms: " + ", ".join(f"{value:.5f}" for value in frequencies(terms)) for terms in found),
     )
 
 
-def _eq12(bench: Bench) -> Found:
+def _eq12(tooth: WedgeTooth) -> Found:
     """The gradient of V - Lambda^2 T at the mode shapes, by differences of the energies."""
-    tooth = bench.base.tooth
-    worst, worked = 0.0, []
-    for mode in ritz_modes(tooth, STEEL):
-        square = mode.natural_frequency**2
+    modes = ritz_modes(tooth, STEEL)
 
-        def balance(a: FloatArray, mode: BeamMode = mode, square: float = square) -> float:
-            m, k = by_quadrature(tooth, replace(mode, coefficients=tuple(a)))
-            return (k - square * m) / mode.stiffness
+    def balance(a: FloatArray, mode: BeamMode) -> float:
+        m, k = by_quadrature(tooth, replace(mode, coefficients=tuple(a)))
+        return (k - mode.natural_frequency**2 * m) / mode.stiffness
 
-        gradient = approx_fprime(np.array(mode.coefficients), balance, 1e-6)
-        worst = max(worst, float(np.abs(gradient).max()))
-        worked.append(f"a_2/a_1 = {mode.coefficients[1]:.7f}")
+    gradients = [approx_fprime(np.array(mode.coefficients), balance, 1e-6, mode) for mode in modes]
     return within(
-        worst,
+        float(np.abs(gradients).max()),
         1e-4,
-        f"∂V/∂a_i − Λ² ∂T/∂a_i vanishes at both modes; {worked[0]}, {worked[1].removeprefix('a_2/a_1 = ')}",
+        "∂V/∂a_i − Λ² ∂T/∂a_i vanishes at both modes; a_2/a_1 = "
+        + ", ".join(f"{mode.coefficients[1]:.7f}" for mode in modes),
         "energies by quadrature, gradient by differences (1e-6)",
     )
 
 
 def _eq13(bench: Bench) -> Found:
-    tooth, speed = bench.base.tooth, bench.base.impact_velocity
+    tooth, speed = bench.struck
     modes = ritz_modes(tooth, STEEL)
     x, t = XI * tooth.length, times_of(modes)
-    h = 1e-3
-    bend = np.zeros((len(x), len(t)))
-    for mode in modes:
-        eta = damped_response(np.array([mode.natural_frequency]), STEEL.damping_ratio, speed, t)[0]
-        u = [mode.shape(XI + k * h) for k in (-1, 0, 1)]
-        bend = bend + np.outer((u[0] - 2 * u[1] + u[2]) / (h * tooth.length) ** 2, eta)
-    height = (tooth.length - x) * math.tan(tooth.apex_angle)
-    moment = -STEEL.youngs_modulus * (tooth.thickness / 12 * height**3)[:, None] * bend
-    stress = moment / (tooth.thickness / 6 * height**2)[:, None]
-    deviation = max(
-        off_by(bending_moment(tooth, STEEL, speed, x, t), moment),
-        off_by(bending_stress(tooth, STEEL, speed, x, t), stress),
-    )
+    curvatures = [second_derivative(mode.shape, XI, 1e-3) / tooth.length**2 for mode in modes]
+    bend = sum(np.outer(u, swing(mode, speed, t)) for u, mode in zip(curvatures, modes, strict=True))
+    height = ((tooth.length - x) * math.tan(tooth.apex_angle))[:, None]
+    moment = -STEEL.youngs_modulus * tooth.thickness / 12 * height**3 * bend
     return within(
-        deviation,
-        _FINE,
+        max(
+            off_by(bending_moment(tooth, STEEL, speed, x, t), moment),
+            off_by(bending_stress(tooth, STEEL, speed, x, t), moment / (tooth.thickness / 6 * height**2)),
+        ),
+        1e-7,
         f"M_b and σ_b from differences of w agree; largest |σ_b| of the base case {bench.base.stress_max:.2f} Pa",
         f"{len(x)} places, {len(t)} times",
     )
 
 
-def _fig3(bench: Bench) -> Found:
-    return redrawn(
-        bench,
-        "fig03_stress",
-        tuple(f"({k})" for k in (7, 9, 10, 11, 12, 13, 14, 15, 16)),
-        "redrawn: fig03_stress.svg, what this program does, with the equations of section 4; the paper's chart may "
-        "differ",
-    )
-
-
 ROWS = (
-    Row("P-eq8", "eq (8)", "Deflection is a mode shape times a function of time.", "w = u(x) η(t)", (RECOVERY,), _eq8),
-    Row("P-eq9", "eq (9)", "Equivalent mass and stiffness of a mode.", "½ m η'², ½ k η²", (RITZ,), _eq9),
-    Row("P-eq10", "eq (10)", "The mode swings.", "m η'' + c η' + k η = 0, c = 2ζ√(km)", (RESPONSE,), _eq10),
-    Row("P-eq11", "eq (11)", "The shape is a polynomial.", "u = Σ a_i x^i", (MODES,), _eq11),
-    Row("P-eq12", "eq (12)", "Rayleigh–Ritz.", "∂V/∂a_i − Λ² ∂T/∂a_i = 0", (RITZ,), _eq12),
+    Row(
+        "P-eq8",
+        "eq (8)",
+        "Deflection is a mode shape times a function of time.",
+        "w = u(x) η(t)",
+        (RECOVERY,),
+        lambda bench: _eq8(*bench.struck),
+    ),
+    Row(
+        "P-eq9",
+        "eq (9)",
+        "Equivalent mass and stiffness of a mode.",
+        "½ m η'², ½ k η²",
+        (RITZ,),
+        lambda bench: _eq9(bench.base.tooth),
+    ),
+    Row(
+        "P-eq10",
+        "eq (10)",
+        "The mode swings.",
+        "m η'' + c η' + k η = 0, c = 2ζ√(km)",
+        (RECOVERY,),
+        lambda bench: _eq10(*bench.struck),
+    ),
+    Row(
+        "P-eq11",
+        "eq (11)",
+        "The shape is a polynomial.",
+        "u = Σ a_i x^i",
+        (MODES,),
+        lambda bench: _eq11(bench.base.tooth),
+    ),
+    Row(
+        "P-eq12",
+        "eq (12)",
+        "Rayleigh–Ritz.",
+        "∂V/∂a_i − Λ² ∂T/∂a_i = 0",
+        (RITZ,),
+        lambda bench: _eq12(bench.base.tooth),
+    ),
     Row("P-eq13", "eq (13)", "Moment and stress.", "M_b = −E I_n w'', σ_b = M_b/W_b", (RECOVERY,), _eq13),
-    Row("P-fig3", "Fig. 3", "Flow chart of the stress recovery.", "drawing lost", (RECOVERY,), _fig3),
+    Row(
+        "P-fig3",
+        "Fig. 3",
+        "Flow chart of the stress recovery.",
+        "drawing lost",
+        (RECOVERY,),
+        lambda bench: redrawn(
+            bench,
+            "fig03_stress",
+            tuple(f"({k})" for k in (7, *range(9, 17))),
+            "redrawn: fig03_stress.svg, what this program does, with the equations of section 4; the paper's chart "
+            "may differ",
+        ),
+    ),
 )

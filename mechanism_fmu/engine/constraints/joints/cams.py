@@ -83,15 +83,7 @@ def cam_follower(
 
 @jit
 def cam_flat_follower(
-    at: Pose,
-    rows: Rows,
-    row: int,
-    i: int,
-    j: int,
-    data: Array,
-    first: int,
-    column: int,
-    profile: Profile,
+    at: Pose, rows: Rows, row: int, i: int, j: int, data: Array, first: int, column: int, profile: Profile
 ) -> None:
     """Write the two rows with `data` = (centre_i, point_j, u_j); alpha_i stands at `first`, its column is `column`.
 
@@ -102,9 +94,8 @@ def cam_flat_follower(
     """
     keep_small()
     px, py, gx, gy, hx, hy, kx, ky = profile_point(at, i, data[0], data[1], at.alpha[first], profile)
-    cj, sj = at.cosine[j], at.sine[j]
-    bx, by = cj * data[2] - sj * data[3], sj * data[2] + cj * data[3]
-    ux, uy = cj * data[4] - sj * data[5], sj * data[4] + cj * data[5]
+    bx, by = turned(at, j, data[2], data[3])
+    ux, uy = turned(at, j, data[4], data[5])
     nx, ny = -uy, ux
     ui, uj = at.phi_rate[i], at.phi_rate[j]
     v = at.alpha_rate[first]
@@ -148,15 +139,7 @@ def cam_flat_follower(
 
 @jit
 def point_follower(
-    at: Pose,
-    rows: Rows,
-    row: int,
-    i: int,
-    j: int,
-    data: Array,
-    first: int,
-    column: int,
-    profile: Profile,
+    at: Pose, rows: Rows, row: int, i: int, j: int, data: Array, first: int, column: int, profile: Profile
 ) -> None:
     """Write the two rows with `data` = (point_i, centre_j); alpha_j stands at `first`, its column is `column`.
 

@@ -1,0 +1,119 @@
+"""What becomes of a cache that is damaged, and of compiled code in it."""
+
+import marshal
+import os
+import shutil
+import sys
+from collections.abc import Callable
+from importlib.machinery import EXTENSION_SUFFIXES, SourceFileLoader
+from pathlib import Path
+
+import pytest
+from start_resources import SOURCES, Load, contents, write_resources
+
+#: Deletes the package that it stands in, the first time that it is imported.
+VANISHING = """
+import shutil
+from pathlib import Path
+
+package = Path(__file__).parents[1]
+if not package.with_name("gone").exists():
+    package.with_name("gone").touch()
+    shutil.rmtree(package)
+"""
+
+
+def test_a_cache_that_is_deleted_while_it_is_read_is_written_anew(tmp_path: Path, cache: Path, load: Load) -> None:
+    sources = SOURCES | {"fmu/__init__.py": VANISHING}
+    start = load(write_resources(tmp_path / "unzipped", "aaa", sources), "aaa")
+    assert start.slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
+    assert (cache / "gone").is_file()
+    assert contents(cache / "mechanism_fmu_aaa") == sources
+
+
+@pytest.mark.parametrize("damage", ["truncated", "changed", "missing", "folder gone", "all gone"])
+def test_a_damaged_cache_is_repaired(damage: str, tmp_path: Path, cache: Path, load: Load) -> None:
+    resources = write_resources(tmp_path / "unzipped", "aaa")
+    load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
+    victim = cache / "mechanism_fmu_aaa" / "models" / "tiny.py"
+    if damage == "truncated":
+        victim.write_text("MODEL = ")
+    elif damage == "changed":
+        victim.write_text("MODEL = 'Evil'\n")
+    elif damage == "missing":
+        victim.unlink()
+    elif damage == "folder gone":
+        shutil.rmtree(victim.parent)
+    else:
+        shutil.rmtree(cache)
+        (cache / "mechanism_fmu_aaa").mkdir(parents=True)
+    assert load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
+    assert contents(cache / "mechanism_fmu_aaa") == SOURCES
+
+
+def compiled(cache: Path, name: str) -> Path:
+    """What Python keeps of a module."""
+    (path,) = (cache / "mechanism_fmu_aaa" / "models" / "__pycache__").glob(f"{name}.*.pyc")
+    return path
+
+
+def other_code(path: Path) -> bytes:
+    """Compiled code that Python would take for that of the source, but that does something else."""
+    forged = compile("import pathlib; pathlib.Path(__file__).with_name('was_here').touch(); MODEL = 1", "x", "exec")
+    return path.read_bytes()[:16] + marshal.dumps(forged)
+
+
+#: What becomes of compiled code.
+CODE_DAMAGES: dict[str, Callable[[Path], object]] = {
+    "cut off": lambda path: os.truncate(path, path.stat().st_size - 40),
+    "cut off in its digest": lambda path: os.truncate(path, path.stat().st_size - 1),
+    "emptied": lambda path: path.write_bytes(b""),
+    "one bit": lambda path: path.write_bytes(path.read_bytes()[:30] + b"\xff" + path.read_bytes()[31:]),
+    "replaced": lambda path: path.write_bytes(other_code(path)),
+    "gone": lambda path: path.unlink(),
+    "a folder": lambda path: (path.unlink(), path.mkdir()),
+}
+
+
+@pytest.mark.parametrize("damage", CODE_DAMAGES)
+def test_compiled_code_is_read_as_it_was_written_or_not_at_all(
+    damage: str, tmp_path: Path, cache: Path, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    monkeypatch.setattr(sys, "pycache_prefix", None)
+    resources = write_resources(tmp_path / "unzipped", "aaa")
+    load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
+    path = compiled(cache, "tiny")
+    whole = path.read_bytes()
+    CODE_DAMAGES[damage](path)
+    assert load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
+    assert not list(cache.rglob("was_here"))
+    if damage != "a folder":
+        assert path.read_bytes() == whole
+
+
+def test_whole_compiled_code_is_used(tmp_path: Path, cache: Path, load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    monkeypatch.setattr(sys, "pycache_prefix", None)
+    resources = write_resources(tmp_path / "unzipped", "aaa")
+    for _ in range(2):
+        start = load(resources, "aaa")
+        compilations: list[object] = []
+        count = compilations.append
+        monkeypatch.setattr(
+            start.CheckedLoader,
+            "source_to_code",
+            lambda self, *a, count=count, **k: (count(a), SourceFileLoader.source_to_code(self, *a, **k))[1],
+        )
+        start.slave_class("mechanism_fmu_aaa", "models.tiny")
+    assert compilations == []
+
+
+@pytest.mark.parametrize("name", [f"tiny{EXTENSION_SUFFIXES[0]}", f"tiny{EXTENSION_SUFFIXES[-1]}"])
+def test_no_library_stands_in_for_a_source(name: str, tmp_path: Path, cache: Path, load: Load) -> None:
+    """Python looks for libraries first."""
+    resources = write_resources(tmp_path / "unzipped", "aaa")
+    load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
+    planted = cache / "mechanism_fmu_aaa" / "models" / name
+    planted.write_text("MODEL = 1")
+    assert load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
