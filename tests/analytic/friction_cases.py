@@ -12,7 +12,6 @@ import numpy as np
 
 from mechanism_fmu import codes
 from mechanism_fmu.model import (
-    GROUND,
     AngleDriver,
     Body,
     Mechanism,
@@ -85,9 +84,9 @@ class Moment(NamedTuple):
     time: float
     name: str
     state: dict[str, float]
-    #: Of each contact and then joint: o (apart, or smooth), s (it sticks), + or -.
+    #: Of each contact o (apart), s (it sticks), + or -; behind them s, + or - of what else has dry friction.
     modes: str
-    #: Of each contact and then joint, along its direction of slip [N, N m].
+    #: Of contacts, and behind them of joints and force elements, along the direction of slip [N, N m].
     friction: list[float]
 
 
@@ -114,8 +113,10 @@ def now(simulation: Simulation, name: str = "") -> Moment:
     """The present state."""
     state = simulation.read()
     modes = {codes.APART: "o", codes.STICKS: "s", codes.FORWARDS: "+", codes.BACKWARDS: "-"}
-    slips = "".join(modes[slip] for slip in simulation.field("rub_slip").tolist())
-    return Moment(simulation.time, name, state, slips, simulation.field("rub_force").tolist())
+    slips = [modes[slip] for slip in simulation.field("rub_slip").tolist()]
+    contacts = simulation.field("contact_mode").size
+    others = "".join(slips[contacts:]).replace("o", "")
+    return Moment(simulation.time, name, state, "".join(slips[:contacts]) + others, simulation.field("rub_force").tolist())
 
 
 def run(simulation: Simulation, until: float) -> list[Moment]:
@@ -167,19 +168,3 @@ def exciter(of: Body, force: float, frequency: float, phase: float) -> tuple[Seq
         ]
         parts["forces"].append(PointForce(f"{name}_force", name, (0.0, 0.0), (0.5 * force, 0.0), "body"))
     return bodies, parts
-
-
-def brake(turns: Body, torque: float, gravity: float) -> tuple[Sequence[Body], dict[str, Any]]:
-    """A constant friction torque between a body and the ground, exactly: that body and a drum on a pin; parts.
-
-    The drum takes half of the inertia and turns with the body. Its pin carries nothing but its weight and 1 N more.
-    """
-    load = 1.0
-    drum = Body("drum", 1.0, 0.5 * turns.inertia, (0.0, 0.0, turns.start[2]))
-    lighter = Body(turns.name, turns.mass, 0.5 * turns.inertia, turns.start)
-    radius = torque / (load + drum.mass * gravity)
-    joints = [
-        Revolute("brake", "drum", (0.0, 0.0), GROUND, (0.0, 0.0), friction_radius=radius),
-        AngleDriver("shaft", "drum", polynomial_motion(0.0), turns.name),
-    ]
-    return [lighter, drum], {"joints": joints, "forces": [PointForce("load", "drum", (0.0, 0.0), (0.0, -load))]}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from friction_cases import after, brake, now, numbered, run, simulation_of
-from mechanism_fmu.model import GROUND, Body, CamFlatFollower, Revolute, TorsionSpring, circle
+from friction_cases import after, now, numbered, run, simulation_of
+from mechanism_fmu.model import GROUND, Body, Brake, CamFlatFollower, Revolute, TorsionSpring, circle
 
 _BEYOND = 1.0 + 1e-6
 
@@ -83,9 +83,9 @@ def swings(simulation, body, name, results, part, seen):
 
 def braked(case, tolerance, seen):
     data, results = case["data"], case["results"]
-    bodies, parts = brake(pendulum(data), data["Tf"], data["g"])
-    parts["joints"].append(pin(data))
-    simulation = simulation_of(bodies, tolerance, gravity=(0.0, -data["g"]), **parts)
+    brake = (Brake("brake", "pendulum", limit=data["Tf"]),)
+    gravity = 0.0, -data["g"]
+    simulation = simulation_of([pendulum(data)], tolerance, joints=(pin(data),), forces=brake, gravity=gravity)
     swings(simulation, "pendulum", "brake.sticks", results, "a", seen)
 
 
@@ -100,10 +100,10 @@ def pinned(case, tolerance, seen):
 
 def on_torsion_spring(case, tolerance, seen):
     data, results = case["data"], case["results"]
-    bodies, parts = brake(Body("disc", 1.0, data["J_r"], (0.0, 0.0, data["phi0"])), data["T_r"], 0.0)
-    parts["joints"].append(Revolute("axle", "disc", (0.0, 0.0), GROUND, (0.0, 0.0)))
-    parts["forces"].append(TorsionSpring("spring", "disc", stiffness=data["k"]))
-    simulation = simulation_of(bodies, tolerance, **parts)
+    body = Body("disc", 1.0, data["J_r"], (0.0, 0.0, data["phi0"]))
+    axle = Revolute("axle", "disc", (0.0, 0.0), GROUND, (0.0, 0.0))
+    forces = TorsionSpring("spring", "disc", stiffness=data["k"]), Brake("brake", "disc", limit=data["T_r"])
+    simulation = simulation_of([body], tolerance, joints=(axle,), forces=forces)
     moments = run(simulation, 1.5 * results["c_rests_from"])
     assert [moment.name for moment in moments] == ["brake.sticks"] * len(results["c_turns"])
     assert ["s" in moment.modes for moment in moments] == [False] * (len(moments) - 1) + [True]
