@@ -25,10 +25,11 @@ def part_all(block: Array) -> None:
 
 
 @jit
-def look_at_slip(block: Array, at: Pose, only_touching: bool) -> None:
+def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> None:
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
-    What begins to touch, or comes to rest, is taken to stick, or to go on as it slipped; where it has not stuck before,
+    At rest is what slips no faster than `SLIPS_ABOVE`, and `stopped`, whose slip has just been found to end, whatever
+    speed the instant's rounding leaves. What begins to touch, or comes to rest, is taken to stick, or to go on as it slipped; where it has not stuck before,
     it does so here. All that has friction is looked at where not `only_touching`.
     """
     keep_small()
@@ -42,15 +43,15 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool) -> None:
         if begins:
             table.anchor[k] = 0.0
         friction_row(block, at, k, spare)
+        if begins:  # also where it slips: an impact may end that
+            table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
-        if abs(speed) > SLIPS_ABOVE:
+        if abs(speed) > SLIPS_ABOVE and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = 1
         if table.slip[k] == codes.APART:
             table.slip[k] = codes.STICKS
-        if begins:
-            table.anchor[k] = Rows(block).residual[spare]
 
 
 @jit
@@ -62,7 +63,7 @@ def free_all(block: Array) -> None:
     keep_small()
     table = Rubs(block)
     at = place_bodies(block, Course(block).y_end)
-    look_at_slip(block, at, False)
+    look_at_slip(block, at, False, codes.NONE)
     for k in range(table.slip.shape[0]):
         if k >= Sizes(block).contacts + Sizes(block).joints:
             table.free[k] = 0

@@ -68,6 +68,9 @@ def transit(block: Array, guard: int, subject: int) -> int:
         return outcome
     struck = subject if guard == codes.GUARD_GAP else codes.NONE
     fired = struck
+    stopped = codes.NONE
+    if guard == codes.GUARD_STICK:
+        stopped = subject
     impulse = 0.0
     hits = 0
     earlier = now.counters[codes.COUNT_IMPACTS]
@@ -85,7 +88,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
         struck = codes.NONE
     outcome = status.CHATTERING
     if settled:
-        outcome = _settle(block, fired, only_choose, hits > 0)
+        outcome = _settle(block, fired, stopped, only_choose, hits > 0)
     lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
@@ -162,8 +165,11 @@ def switch_contacts(block: Array, at: Pose) -> None:
 
 
 @jit
-def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
-    """Choose, among the contacts that touch and rest, those that push; `fired` is the one whose gap has become zero."""
+def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool) -> int:
+    """Choose, among the contacts that touch and rest, those that push, and how friction slips.
+
+    `fired` is the contact whose gap has become zero, `stopped` the friction whose slip has.
+    """
     keep_small()
     table = Contacts(block)
     near = GAP_NOISE
@@ -189,7 +195,7 @@ def _settle(block: Array, fired: int, only_choose: bool, hit: bool) -> int:
         return status.OK
     Strikes(block).problem[COUNT] = count
     at = place_bodies(block, Course(block).y_end)
-    look_at_slip(block, at, True)
+    look_at_slip(block, at, True, stopped)
     outcome = push_forces(block, at)
     part(block)
     if Sizes(block).rubs > 0 and not only_choose:

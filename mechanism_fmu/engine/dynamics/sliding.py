@@ -22,6 +22,8 @@ from .minimum_norm import solve_again
 
 #: Newton's method ends when no friction changes by more than this part of the largest.
 _AGREE = 1e-14
+#: Close to where no forces agree, rounding leaves more than that: it ends, too, when less than this shrinks no more.
+_NEARLY = 1e-8
 _ROUNDS = 40
 
 
@@ -111,6 +113,7 @@ def _agree(block: Array, number: int) -> bool:
     """Newton's method for `rubs.force` of what slips; whether it has found an answer."""
     keep_small()
     table = Rubs(block)
+    before = math.inf
     for _ in range(_ROUNDS):
         for a in range(number):
             k = table.sliding[a]
@@ -128,10 +131,11 @@ def _agree(block: Array, number: int) -> bool:
             table.force[k] += table.matrix[a, number]
             change = max(change, abs(table.matrix[a, number]))
             largest = max(largest, abs(table.force[k]))
-        if change <= _AGREE * largest:
+        if change <= _AGREE * largest or 0.5 * before < change <= _NEARLY * largest:
             return True
         if not change < math.inf:
             return False
+        before = change
     return False
 
 

@@ -1,0 +1,109 @@
+"""Dry friction against the numbers of an oracle, computed in two ways each: stick and slip, pins, impacts, jamming.
+
+One test a kind of case, which takes all numbers from the file. The environment variable FRICTION_ORACLE names another
+file of the same kinds with other numbers.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+import friction_blocks as blocks
+import friction_rods as rods
+import friction_rotors as rotors
+from friction_cases import AT_AN_INSTANT, SHARES, Comparison, cases_of
+
+LAWS = ("newton", "poisson", "stronge")
+
+
+def of_kind(number, *parts):
+    """All cases of a kind, each in its parts."""
+    pairs = [(case, part) for case in cases_of(number) for part in parts]
+    names = [f"{case['id']}-{part.__name__}" for case, part in pairs]
+    return pytest.mark.parametrize(("case", "part"), pairs, ids=names)
+
+
+tolerances = pytest.mark.parametrize("tolerance", SHARES)
+
+
+def compare(case, part, how, share):
+    seen = Comparison(share)
+    part(case, how, seen)
+    seen.check()
+
+
+@of_kind(1, blocks.thrown, blocks.pushed, blocks.shaken)
+@tolerances
+def test_block_on_a_plane(case, part, tolerance):
+    compare(case, part, tolerance, SHARES[tolerance])
+
+
+@of_kind(2, blocks.belt, blocks.den_hartog)
+@tolerances
+def test_mass_on_a_spring(case, part, tolerance):
+    compare(case, part, tolerance, SHARES[tolerance])
+
+
+@of_kind(3, rotors.rolls, rotors.released)
+@tolerances
+def test_round_body(case, part, tolerance):
+    compare(case, part, tolerance, SHARES[tolerance])
+
+
+@of_kind(4, rods.slides)
+@tolerances
+def test_rod_that_slides(case, part, tolerance):
+    compare(case, part, tolerance, SHARES[tolerance])
+
+
+@of_kind(4, rods.jams)
+@tolerances
+def test_rod_that_jams(case, part, tolerance):
+    compare(case, part, tolerance, case["tolerance"]["jam"])
+
+
+@of_kind(4, rods.table)
+def test_rod_at_an_instant(case, part):
+    compare(case, part, None, AT_AN_INSTANT)
+
+
+@pytest.mark.xfail(reason="no jump yet where no finite force exists")
+@of_kind(4, rods.shocks)
+def test_rod_that_jumps(case, part):
+    compare(case, part, None, AT_AN_INSTANT)
+
+
+@of_kind(5, rods.strikes)
+@pytest.mark.parametrize("law", LAWS)
+def test_rod_that_strikes(case, part, law):
+    compare(case, part, law, AT_AN_INSTANT)
+
+
+@of_kind(5, rods.strikes_guarded)
+@pytest.mark.parametrize("law", LAWS)
+def test_guard_of_the_energy(case, part, law):
+    compare(case, part, law, AT_AN_INSTANT)
+
+
+@of_kind(6, rods.rocks)
+@tolerances
+def test_block_that_rocks(case, part, tolerance):
+    compare(case, part, tolerance, SHARES[tolerance])
+
+
+@of_kind(6, rods.strikes_flat)
+@pytest.mark.parametrize("law", LAWS[:2])
+def test_block_that_strikes(case, part, law):
+    compare(case, part, law, AT_AN_INSTANT)
+
+
+@of_kind(7, blocks.stacked)
+@tolerances
+def test_stacked_blocks(case, part, tolerance):
+    compare(case, part, tolerance, SHARES[tolerance])
+
+
+@of_kind(8, rotors.braked, rotors.pinned, rotors.on_torsion_spring)
+@tolerances
+def test_pendulum(case, part, tolerance):
+    compare(case, part, tolerance, SHARES[tolerance])
