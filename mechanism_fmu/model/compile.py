@@ -251,9 +251,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             )
         ),
         {
-            "rubs": len(contacts) + len(mechanism.joints) + len(mechanism.elements)
-            if mechanism.friction_law == "coulomb"
-            else 0,
+            "rubs": len(mechanism.rubbing),
             "joint_rows": int(first_rows[-1]),
             "contact_rows": int(first_contact_rows[-1]),
             "alphas": int(first_alphas[-1]),

@@ -9,6 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .. import codes
+from .contacts import Contact
+from .forces import ForceElement
+from .functions import is_plain
+from .joints import Joint
 from .mechanism import Mechanism
 
 #: The event of inputs that have changed.
@@ -26,7 +30,7 @@ def event_name(mechanism: Mechanism, guard: int, subject: int) -> str:
     if guard == codes.GUARD_FUNCTION:
         return mechanism.functions[subject].name
     if guard in _OF_FRICTION:
-        return f"{(*mechanism.contacts, *mechanism.joints, *mechanism.elements)[subject].name}.{_OF_FRICTION[guard]}"
+        return f"{mechanism.rubbing[subject].name}.{_OF_FRICTION[guard]}"
     if guard in _OF_PATTERN:
         return f"{mechanism.patterns[subject].name}.{_OF_PATTERN[guard]}"
     return f"{mechanism.contacts[subject].name}.{_OF_CONTACT[guard]}"
@@ -43,4 +47,14 @@ def event_names(mechanism: Mechanism) -> Iterator[tuple[int, int, str]]:
         for subject in range(subjects[guard]):
             if guard != codes.GUARD_CLICK or mechanism.contacts[subject].has_memory:
                 yield guard, subject, event_name(mechanism, guard, subject)
+    for guard in _OF_FRICTION:
+        for subject, part in enumerate(mechanism.rubbing):
+            if may_rub(part):
+                yield guard, subject, event_name(mechanism, guard, subject)
     yield codes.GUARD_INPUT, codes.NONE, INPUT
+
+
+def may_rub(part: Contact | Joint | ForceElement) -> bool:
+    """Whether a part has dry friction for some values of the parameters."""
+    friction = getattr(part, "friction", 0.0)
+    return getattr(part, "dry", False) or not is_plain(friction) or friction > 0.0

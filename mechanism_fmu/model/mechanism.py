@@ -99,6 +99,11 @@ class Mechanism:
         weights = [Force(f"{body.name}.weight", body.name, (body.mass * x, body.mass * y)) for body in self.bodies]
         return (*self.forces, *weights, *self.markers)
 
+    @property
+    def rubbing(self) -> tuple[Contact | Joint | ForceElement, ...]:
+        """What may have dry friction, as the engine numbers it: contacts, joints, force elements; none where smooth."""
+        return (*self.contacts, *self.joints, *self.elements) if self.friction_law == "coulomb" else ()
+
 
 def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:
     """Motions of drivers, profiles of contacts, energies of springs, as the tables number them, each with its part."""

@@ -149,6 +149,7 @@ def _limited(value: float, limit: float) -> float:
 
 
 ELEMENTS = {
+    "brake": Element(),  # dry: see `sliding`
     "slip_clutch": Element(_clutch, _clutch_energy, _clutch_power, _clutch_torque),
     "dc_motor": Element(_motor, _motor_energy, _motor_power, _read_motor, _read_motor_rate),
 }

@@ -33,6 +33,8 @@ SUBJECTS = {
     codes.GUARD_PREVIOUS: "patterns",
     codes.GUARD_CLICK: "contacts",
     codes.GUARD_FUNCTION: "functions",
+    codes.GUARD_STICK: "rubs",
+    codes.GUARD_SLIP: "rubs",
 }
 
 

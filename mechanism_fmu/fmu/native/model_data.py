@@ -65,6 +65,7 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes, clock
         "contacts": "CONTACTS",
         "patterns": "PATTERNS",
         "functions": "FUNCTIONS",
+        "rubs": "RUBS",
         "unknowns": "UNKNOWNS",
         "rules": "RULES",
         "rule_count": len(held),
@@ -108,6 +109,7 @@ def _names(mechanism: Mechanism) -> list[str]:
         _array("Contact", "CONTACTS", contacts),
         _array("char *const", "PATTERNS", (c_text(pattern.name) for pattern in mechanism.patterns)),
         _array("char *const", "FUNCTIONS", (c_text(function.name) for function in mechanism.functions)),
+        _array("char *const", "RUBS", (c_text(part.name) for part in mechanism.rubbing)),
         _array("char *const", "UNKNOWNS", map(c_text, unknown_names(mechanism))),
     ]
 

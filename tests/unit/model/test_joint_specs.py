@@ -17,6 +17,7 @@ from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
     Body,
+    Brake,
     CamFlatFollower,
     CamFollower,
     Curve,
@@ -95,6 +96,7 @@ FORCE_ELEMENTS = (
     CompliantShaft("shaft", "a"),
     Force("force", "a"),
     SlipClutch("clutch", "a"),
+    Brake("brake", "a"),
     DCMotor("motor", "a"),
     SpringDamper("strut", "a", (0.0, 0.0), "b", (0.0, 0.0)),
     TorsionSpringDamper("stop", "a"),
@@ -324,6 +326,8 @@ def test_every_force_element_is_among_the_examples_and_says_how_it_acts():
     assert {type(force) for force in FORCE_ELEMENTS} == set(get_args(ForceElement))
     for force in FORCE_ELEMENTS:
         act = ELEMENTS[force.row].act
-        assert (act is None) == (force.acts == "nowhere")
+        assert (act is None) == (force.acts == "nowhere" or force.dry)  # a brake is a constraint where it sticks
+        if force.dry:
+            continue
         source = "" if act is None else inspect.getsource(getattr(act, "py_func", act))
         assert ("turn(block, k" in source) == (force.acts == "torque" or isinstance(force, Bushing))

@@ -76,6 +76,7 @@ typedef struct {
     const Contact *contacts;
     const char *const *patterns;
     const char *const *functions;
+    const char *const *rubs;
     const char *const *unknowns; /* of the engine, as messages name them */
     const Rule *rules;           /* what the words of the state may hold */
     size_t rule_count;

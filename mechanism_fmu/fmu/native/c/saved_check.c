@@ -24,12 +24,19 @@ static Status check_words(const Instance *x, const double *state) {
     return OK;
 }
 
+static int rubs(int64_t guard) { return guard == CODE_GUARD_STICK || guard == CODE_GUARD_SLIP; }
+
+static int has_subject(int64_t guard) {
+    return (guard >= CODE_GUARD_GAP && guard <= CODE_GUARD_FUNCTION) || rubs(guard);
+}
+
 /* Whether a guard can be about a subject. */
 static int fits(const Instance *x, int64_t guard, int64_t subject) {
     size_t count = guard == CODE_GUARD_NEXT || guard == CODE_GUARD_PREVIOUS ? SIZE(x, patterns)
                    : guard == CODE_GUARD_FUNCTION                           ? SIZE(x, functions)
+                   : rubs(guard)                                            ? SIZE(x, rubs)
                                                                             : SIZE(x, contacts);
-    if (guard >= CODE_GUARD_GAP && guard <= CODE_GUARD_FUNCTION) return subject >= 0 && (size_t)subject < count;
+    if (has_subject(guard)) return subject >= 0 && (size_t)subject < count;
     return subject == CODE_NONE;
 }
 
@@ -60,7 +67,7 @@ static Status check_together(const Instance *x, const double *state) {
     for (size_t k = 0; k < (size_t)counters[CODE_EVENTS_IN_STEP]; k++) {
         guard = (int64_t)events[k * CODE_EVENT_COLUMNS + CODE_EVENT_GUARD];
         subject = (int64_t)events[k * CODE_EVENT_COLUMNS + CODE_EVENT_SUBJECT];
-        if (guard < CODE_GUARD_GAP || guard > CODE_GUARD_INPUT || !fits(x, guard, subject))
+        if (!(has_subject(guard) || guard == CODE_GUARD_INPUT) || !fits(x, guard, subject))
             return refuse(x, "%sits event %lld cannot be about %lld.", CHANGED, (long long)guard, (long long)subject);
     }
     return OK;
