@@ -29,8 +29,9 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
     At rest is what slips no faster than `SLIPS_ABOVE`, and `stopped`, whose slip has just been found to end, whatever
-    speed the instant's rounding leaves. What begins to touch, or comes to rest, is taken to stick, or to go on as it slipped; where it has not stuck before,
-    it does so here. All that has friction is looked at where not `only_touching`.
+    speed the instant's rounding leaves. What begins to touch, or comes to rest, is taken to stick, or to go on as it
+    slipped; where it has not stuck before, it does so here. All that has friction is looked at where not
+    `only_touching`.
     """
     keep_small()
     table = Rubs(block)
