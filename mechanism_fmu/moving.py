@@ -16,6 +16,7 @@ from .model import Mechanism, MechanismError, compile_mechanism
 from .model.compile import unknown_names
 from .model.event_names import event_name
 from .tables.layout import field_of, pack, state_of
+from .tolerances import RATES_WITHIN
 
 __all__ = ["Event", "Impact", "MovingMechanism", "SimulationError", "StepBudgetError"]
 
@@ -31,6 +32,11 @@ _ABOUT_CONTACTS = (
     status.NO_CONTACT_POINT,
     status.BRIDGED,
 )
+
+
+def _shown(rates: Array) -> str:
+    """Three rates, each as nothing where rounding is all there is."""
+    return ", ".join(f"{0.0 if abs(rate) <= RATES_WITHIN else rate:.6g}" for rate in rates.tolist())
 
 
 class SimulationError(RuntimeError):
@@ -289,10 +295,12 @@ class MovingMechanism:
         """What a failure is about.
 
         The contacts of an event, and the joints that rub where friction is what failed; or the part that limited the
-        steps, and their last size.
+        steps, and their last size; or the driver that asks for too much.
         """
         if outcome in (*status.OUT_OF_STEPS, status.STEP_TOO_SMALL):
             return self._stiffest()
+        if outcome == status.OUT_OF_REACH:
+            return self._driven_too_far()
         if outcome not in _ABOUT_CONTACTS:
             return ""
         names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
@@ -312,26 +320,47 @@ class MovingMechanism:
         more = " or more" if events == len(self.field("events")) else ""
         return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
 
+    def _driven_too_far(self) -> str:
+        """Which driver is at the end of its range, and what it asks for there."""
+        driver = self._mechanism.joints[field_of(self._block, "stage_stiffest").item(0)]
+        asked = field_of(self._block, "residual").item(-1)
+        return f" Driver {driver.name!r} asks for {asked:.6g} {driver.unit} here, and goes on."
+
     def _residuals(self) -> str:
         """What is left of each joint and closed contact at the closest position found."""
         return f" Left open: {self._off('residual')} (m, or rad between directions)."
 
     def _contradictions(self) -> str:
-        """By how much each joint and closed contact contradicts the start rates."""
+        """The bodies to which the joints give other rates than the start rates; where there are none, the joints."""
+        left = self._off("residual_rate", RATES_WITHIN)
+        if left:
+            return (
+                f" No rates near them do; what is left: {left} (m/s, or rad/s). Drivers or closed contacts contradict "
+                "each other."
+            )
+        given = self.field("body_start_rate")
+        asked = self.field("y_end")[given.size : 2 * given.size].reshape(given.shape)
+        bodies = [
+            f"body {body.name!r} ({_shown(asked[i])}), not ({_shown(given[i])})"
+            for i, body in enumerate(self._mechanism.bodies)
+            if np.abs(asked[i] - given[i]).max() > RATES_WITHIN
+        ]
         return (
-            f" They are off: {self._off('residual_rate')} (m/s, or rad/s). Give start_rate to every body that moves, "
-            "or name a coordinate in held: the others then follow it."
+            f" They ask for other ones: {', '.join(bodies)} (of its centre of mass in m/s, and rad/s). Name in held "
+            "the coordinate whose rate you mean, as 'crank.angle', and leave out the rates that should follow; those "
+            "of driven bodies follow without held."
         )
 
-    def _off(self, field: str) -> str:
-        left = field_of(self._block, field)
+    def _off(self, field: str, more_than: float = -1.0) -> str:
+        """By how much joints and closed contacts are off, of those that are so by more than a limit."""
+        left = np.abs(field_of(self._block, field))
         parts, row = [], 0
-        for joint in self._mechanism.joints:
-            parts.append(f"{joint.name} by {np.abs(left[row : row + joint.rows]).max():.6g}")
-            row += joint.rows
-        for name in self.mode():
-            parts.append(f"{name} by {abs(left[row]):.6g}")
-            row += 1
+        joints = ((joint.name, joint.rows) for joint in self._mechanism.joints)
+        for name, rows in (*joints, *((contact, 1) for contact in self.mode())):
+            worst = left[row : row + rows].max()
+            if not worst <= more_than:
+                parts.append(f"{name} by {worst:.6g}")
+            row += rows
         return ", ".join(parts)
 
     def _profile(self) -> str:

@@ -5,6 +5,8 @@ Why each has its value: docs/decisions/005-one-sided-contacts.md.
 
 #: A gap less than this touches; one farther below zero at the start is inside [m, rad].
 TOUCHES_WITHIN = 1e-9
+#: Start rates agree with the joints within this [m/s, rad/s].
+RATES_WITHIN = 1e-9
 #: A touching contact whose gap changes more slowly than this is at rest [m/s, rad/s].
 RESTS_BELOW = 1e-9
 #: A contact that would come apart more slowly than this after an impact stays closed [m/s, rad/s]: bouncing ends.

@@ -177,11 +177,13 @@ def run(
         ),
     ] = None,
     material: Annotated[
-        str,
+        str | None,
         typer.Option(
-            metavar="NAME", help="Steel of what is struck: steel, S355, C45E, 42CrMo4, SAE1015, SAE4142 or AISI4340."
+            metavar="NAME",
+            help="Steel of what is struck: steel, S355, C45E, 42CrMo4, SAE1015, SAE4142 or AISI4340.",
+            show_default="steel",
         ),
-    ] = "steel",
+    ] = None,
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results.")] = Path(
         "result"
     ),
@@ -191,6 +193,10 @@ def run(
     ] = False,
 ) -> None:
     """Run an FMU and write results.csv, impacts.csv, events.csv, summary.json and report.html.
+
+    impacts.csv has a row for each impact: time, contact, closing speed, impulse and what else the FMU reports of it.
+
+    events.csv has a row for each event: time, guard (what happened), closed contacts before and after, total impulse.
 
     Try:
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..fmu.description import Description
+from ..fmu.description import Description, Variable
 from ..fmu.resources import FlawError, resource
 from .master import recorded_variables
 
@@ -76,6 +76,16 @@ class Drawing:
 
     shapes: tuple[Shape, ...] = ()
     objection: str = ""
+
+
+def is_of_drawing(variable: Variable) -> bool:
+    """Whether a variable is no more than a number of a default drawing's shape, which no table needs to show.
+
+    Args:
+        variable: of an FMU of this project.
+    """
+    drawn = variable.name.startswith("drawing_") and variable.description.startswith("Drawing: ")
+    return drawn and variable.causality == "calculatedParameter"
 
 
 def read_drawing(folder: Path, description: Description) -> Drawing:

@@ -23,7 +23,7 @@ from ..fmu.interface import Instances, Observable
 from ..fmu.values import parse_value, settable_variable
 from .checks import Check, run_checks
 from .division import HeldMessages
-from .drawing import Drawing, read_drawing
+from .drawing import Drawing, is_of_drawing, read_drawing
 from .inputs import InputSignals, check_no_overlap, read_inputs
 from .logic import UNITS as EVENT_UNITS, EventCollector, LogicFile, read_logic
 from .master import Observer, Outcome, Recorder, TimeGrid, never, recorded_variables, run_fixed_step, seconds
@@ -39,6 +39,7 @@ class Experiment:
         start_values: of inputs and parameters by name, in the units of the variables.
         input_file: table of input signals (`inputs.read_inputs`); None leaves inputs at their start values.
         material: of the beam that impacts strike.
+        asks_for_stress: whether the user has named the material, so that a run without stress owes a word.
     """
 
     stop_time: float
@@ -46,6 +47,7 @@ class Experiment:
     start_values: Mapping[str, Value] = field(default_factory=dict)
     input_file: Path | None = None
     material: MaterialCard = STEEL_CARD
+    asks_for_stress: bool = False
 
 
 @dataclass(frozen=True)
@@ -234,8 +236,8 @@ def performing(
 
 
 def may_have_beam(run: Run) -> bool:
-    """Whether something in the FMU could be struck, so that its stress is missed: it reports impacts of contacts."""
-    return bool(len(run.impacts.columns)) and bool(run.logic.contacts or not run.impacts.empty)
+    """Whether a stress is missed where none is declared: v_I of teeth is reported, or a material was asked for."""
+    return "velocity" in run.impacts.columns or run.experiment.asks_for_stress
 
 
 #: So many steps a run has whose step size is not given.
@@ -299,5 +301,7 @@ def _units(
         "impacts": {name: impact_units[name] for name in impact_columns},
         "events": dict(EVENT_UNITS),
         **found,
-        "parameters": {v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter")},
+        "parameters": {
+            v.name: v.unit or "1" for v in description.of("parameter", "calculatedParameter") if not is_of_drawing(v)
+        },
     }

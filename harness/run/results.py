@@ -21,6 +21,7 @@ from ..analysis.compliance import compliance_values
 from ..analysis.stress import beam_summary, damage_summary
 from ..errors import UsageError
 from ..fmu.description import Description, Value
+from .drawing import is_of_drawing
 from .experiment import Run
 
 # What made a result: the versions that another one needs to be the same.
@@ -190,7 +191,7 @@ def summary(run: Run) -> dict[str, Any]:
         "steps": outcome.steps,
         "wall_time": run.wall_time,
         "final_values": final_values(run),
-        "parameters": dict(run.parameters),
+        "parameters": shown_parameters(run),
         "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost},
         "events": {"collected": len(run.events), "lost": run.events_lost},
         "tooth": beam_summary(run.description.analysis.struck, run.beam),
@@ -212,11 +213,16 @@ def final_values(run: Run) -> dict[str, Value]:
     return {} if run.results.empty else {str(name): column.iloc[-1].item() for name, column in run.results.items()}
 
 
+def shown_parameters(run: Run) -> dict[str, Value]:
+    """Parameters and calculated parameters by name, without the numbers of a default drawing."""
+    return {name: value for name, value in run.parameters.items() if not is_of_drawing(run.description.variable(name))}
+
+
 def settings(run: Run) -> dict[str, Value]:
-    """Parameters, calculated parameters, and inputs at the start of the run, by name."""
+    """Parameters, calculated parameters, and inputs at the start of the run, by name; as of `shown_parameters`."""
     inputs = [variable.name for variable in run.description.of("input") if variable.name in run.results]
     first = {} if run.results.empty else {name: run.results[name].iloc[0].item() for name in inputs}
-    return {**run.parameters, **first}
+    return {**shown_parameters(run), **first}
 
 
 def write_with_units(table: pd.DataFrame, units: Mapping[str, str], path: Path) -> Path:

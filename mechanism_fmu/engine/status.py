@@ -17,6 +17,7 @@ SINGULAR = 13
 BRIDGED = 14
 AT_CENTRE = 15
 NO_PROGRESS = 16
+OUT_OF_REACH = 17
 
 #: How an event can fail, after which nothing goes on (see `codes.GUARD_FAILED`).
 EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY)
@@ -54,6 +55,8 @@ ADVICE = {
     SINGULAR: "A singular configuration lies ahead: the rank of the constraint rows drops there, and the motion may go "
     "on along more than one branch, as where a parallelogram lies flat. Keep the mechanism away from it, or add a part "
     "that leads it through, such as a third crank out of line.",
+    OUT_OF_REACH: "The joints cannot be kept from here on: a driver has come to the end of its range, where links lie "
+    "in one line, and asks for more. Let its motion turn back before, drive another body, or change lengths.",
     NO_PLACE: "No copy of a pattern was found on which the point can start. Give start positions nearer to the "
     "pattern, or check its pitch and boundary.",
 }

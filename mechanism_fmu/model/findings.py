@@ -114,7 +114,7 @@ def _is_known(
 
 # What is wrong, or odd, with parameter values: as data, so that it can be asked, shown, and traced like the tables.
 
-__all__ = ["Finding", "at_most", "either", "first", "refuse_unless", "where"]
+__all__ = ["Finding", "at_most", "either", "first", "refuse", "refuse_unless", "where"]
 
 #: Most numbers in one text: code without Python always hands so many to printf.
 MOST_NUMBERS = 8
@@ -217,6 +217,25 @@ def first(*findings: Finding) -> tuple[Finding, ...]:
         exclusive += where(silent, finding)
         silent = where_positive(finding.applies, 0.0, silent)
     return tuple(exclusive)
+
+
+def refuse(finding: Finding) -> None:
+    """Refuse parameter values where a finding applies, from within a helper of a model's function.
+
+    Of plain numbers it is said at once; of the symbols of a trace, it becomes one of the trace's objections, so that a
+    target without Python says the same.
+
+    Args:
+        finding: of the numbers that the helper was given.
+
+    Raises:
+        MechanismError: it applies to plain numbers.
+    """
+    if not is_plain(finding.applies):
+        if hasattr(finding.applies, "refuse"):
+            finding.applies.refuse(finding)
+    elif finding.applies > 0:
+        raise MechanismError(finding.message)
 
 
 def at_most(a: Number, b: Number) -> Number:

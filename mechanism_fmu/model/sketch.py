@@ -6,8 +6,8 @@ from typing import Literal, NamedTuple
 
 from .body import Point
 from .errors import MechanismError
-from .findings import length
-from .functions import Number, cos, is_plain, sin, sqrt, where_positive
+from .findings import length, refuse, refuse_unless
+from .functions import Number, cos, sin, sqrt, where_positive
 from .quantities import quantity
 
 
@@ -31,8 +31,8 @@ def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["l
     """The point at a distance from each of two points: the pin in which two links meet.
 
     With the distance d of the points and u = (d^2 + from_a^2 - from_b^2)/(2 d^2), it is a + u (b - a) +- h R (b - a),
-    h^2 = from_a^2/d^2 - u^2. Where links that follow from parameters do not reach each other, it is not a number, which
-    the check of start values refuses.
+    h^2 = from_a^2/d^2 - u^2. Links that follow from parameters and do not reach each other are an objection to the
+    values of these parameters, in the same words in every FMU.
 
     Args:
         a: one point [m].
@@ -42,13 +42,22 @@ def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["l
         side: on which side of the way from a to b.
 
     Raises:
-        MechanismError: the links do not reach each other, `side` is another word, or a text is no length.
+        MechanismError: the links do not reach each other or begin at one point, `side` is another word, or a text is no
+            length.
     """
     if side not in ("left", "right"):
         raise MechanismError(f"dyad: side = {side!r} is neither left nor right.")
     first, second = quantity(from_a, "m", "dyad: from_a"), quantity(from_b, "m", "dyad: from_b")
     x, y = b[0] - a[0], b[1] - a[1]
     square = x * x + y * y
+    refuse(
+        refuse_unless(
+            square,
+            "dyad: links of {:g} m and {:g} m have their other ends in one point, so that they can point anywhere; "
+            "move one of these ends.",
+            *(first, second),
+        )
+    )
     along = (square + first * first - second * second) / (2 * square)
     across = _across(first * first / square - along * along, first, second, square)
     if side == "right":
@@ -62,12 +71,15 @@ _ROUNDING = 1e-12
 
 def _across(square: Number, first: Number, second: Number, between: Number) -> Number:
     """The root of a square that rounding may make negative."""
-    if is_plain(square) and not square >= -_ROUNDING:
-        raise MechanismError(
-            f"dyad: links of {first:g} m and {second:g} m do not reach each other over the {between**0.5:g} m between "
-            "their other ends; change one of these lengths."
+    refuse(
+        refuse_unless(
+            square + _ROUNDING,
+            "dyad: links of {:g} m and {:g} m do not reach each other over the {:g} m between their other ends; change "
+            "one of these lengths.",
+            *(first, second, sqrt(between)),
         )
-    return sqrt(where_positive(square, square, where_positive(square + _ROUNDING, 0.0, square)))
+    )
+    return sqrt(where_positive(square, square, 0.0))
 
 
 class FourBarPoints(NamedTuple):

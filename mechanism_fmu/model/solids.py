@@ -15,8 +15,8 @@ from typing import NamedTuple, Protocol
 from .areas import CircularHole, circle_area, polygon
 from .body import Body, Point
 from .errors import MechanismError
-from .findings import length as length_of
-from .functions import Number, atan2, cos, is_plain, sin
+from .findings import length as length_of, literal, refuse, refuse_unless
+from .functions import Number, atan2, cos, sin
 from .members import Section
 from .quantities import quantity
 
@@ -174,10 +174,8 @@ def plate(
             left = left.without(circle_area(middle, quantity(hole.radius, "m", f"{label}: radius of {what}")))
         else:
             left = left.without(polygon([seen(corner) for corner in _corners(hole, label, what)]))
-    if is_plain(left.area) and not left.area > 0.0:
-        raise MechanismError(
-            f"{label} has an area of {left.area + 0.0:g} m2, but it must be positive; look at its corners."
-        )
+    text = f"{literal(label)} has an area of {{:g}} m2, but it must be positive; look at its corners."
+    refuse(refuse_unless(left.area, text, left.area + 0.0))
     total = _mass(label, mass, thickness, material, left.area)
     x, y = left.first[0] / left.area, left.first[1] / left.area
     inertia = total * (left.polar / left.area - (x * x + y * y))

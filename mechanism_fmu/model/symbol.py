@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import NoReturn
 
 from .errors import MechanismError
+from .findings import Finding
 from .functions import Number, is_plain
 from .operators import Recorded
 
@@ -40,9 +41,15 @@ class Recorder:
     """The operations of a calculation in their order, each once.
 
     Nothing is simplified or reordered: the same operations on floats give the same numbers to the last bit.
+
+    Attributes:
+        operations: them.
+        refusals: what helpers refuse in it (`findings.refuse`), in their order; floats are refused at the first that
+            applies.
     """
 
     operations: list[Operation] = field(default_factory=list)
+    refusals: list[Finding] = field(default_factory=list)
     _limits: dict[int, Limits] = field(default_factory=dict)
     _known: dict[tuple[str, tuple[int, ...], str], int] = field(default_factory=dict)
 
@@ -144,6 +151,10 @@ class Symbol(Recorded):
     def where_positive(self, positive: Number, otherwise: Number) -> Symbol:
         """`positive` where this number is positive, else `otherwise`."""
         return self.recorder.apply("where_positive", self, positive, otherwise)
+
+    def refuse(self, finding: Finding) -> None:
+        """Keep what is refused where this number is positive: `findings.refuse`."""
+        self.recorder.refusals.append(finding)
 
     def _binary(self, name: str, left: Number, right: Number) -> Number:
         if not all(isinstance(x, Symbol) or is_plain(x) for x in (left, right)):

@@ -15,8 +15,8 @@ from . import functions
 from .checks.check_numbers import number_findings
 from .compile import Array, MechanismTables, compile_mechanism, compile_tables
 from .errors import MechanismError, place_of
-from .findings import Finding
-from .functions import Number
+from .findings import Finding, where
+from .functions import Number, where_positive
 from .mechanism import Mechanism
 from .model import Model
 from .ports import Parameter
@@ -49,7 +49,9 @@ class Trace:
         mechanism: the mechanism with symbolic numbers: its parts in the order of the tables' rows.
         operations: in an order in which they can be carried out; some may be needed for nothing.
         tables: of dtype object where a number is symbolic.
-        objections, warnings: as the model gives them.
+        objections: as the model gives them, and what helpers such as `dyad` refuse while the mechanism is made; each
+            in its turn, so that those apply that the model itself would end with.
+        warnings: as the model gives them.
         problems: those of the mechanism's numbers (`number_findings`) that depend on parameters and that no
             limits of a parameter exclude.
     """
@@ -120,15 +122,32 @@ def trace(model: Model) -> Trace:
     try:
         mechanism = model.mechanism(values)
         tables = compile_tables(mechanism)
-        objections, warnings = tuple(model.objections(values)), tuple(model.warnings(values))
+        made = len(recorder.refusals)
+        own, warnings = tuple(model.objections(values)), tuple(model.warnings(values))
     except (ArithmeticError, AttributeError, MechanismError, TypeError, ValueError) as error:
         raise MechanismError(f"{model.name} cannot be traced, {place_of(error)}: {error}") from error
     _check_structure(model, tables.columns, plain.columns)
+    # A model's objections are asked before its mechanism is made; what is refused within either is said alone.
+    within, making = recorder.refusals[made:], recorder.refusals[:made]
+    objections = _in_turn(*((f,) for f in within), own, *((f,) for f in making))
     # What depends on no parameter, or only on one whose limits exclude it, is not asked again.
     problems = tuple(f for f in number_findings(mechanism) if isinstance(f.applies, Symbol))
     traced = Trace(model, mechanism, tuple(recorder.operations), tables, objections, problems, warnings)
     _check_numbers(traced, plain)
     return traced
+
+
+def _in_turn(*groups: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """The findings of all groups, each applying only where none of an earlier group does."""
+    silent: Number = 1.0
+    before: tuple[Finding, ...] = ()
+    found: list[Finding] = []
+    for group in groups:
+        for finding in before:
+            silent = where_positive(finding.applies, 0.0, silent)
+        found += where(silent, *group)
+        before = group
+    return tuple(found)
 
 
 def _check_numbers(traced: Trace, plain: MechanismTables) -> None:

@@ -1,6 +1,7 @@
 """Force elements: closed forms, and for random mechanisms of random elements momenta and a ledger that adds up."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -379,3 +380,20 @@ def test_a_marker_reads_place_velocity_and_acceleration_of_its_point(pose, rate,
     for one in both:
         one.advance(0.3)
     assert both[0].read() == both[1].read()
+
+
+def test_the_work_of_weights_is_work_done_as_the_page_says():
+    """2 kg that fall by h = g t^2/2 have been given m g h, and nothing is stored."""
+    page = " ".join((Path(__file__).parents[2] / "docs" / "fmu.md").read_text(encoding="utf-8").split())
+    assert (
+        "`gravity` has no potential energy in this ledger, and a body of mass m that falls by h has `work_done` m g h."
+        in page
+    )
+    simulation = Simulation(
+        Mechanism((Body("mass", 2.0, 1.0),), gravity=(0.0, -9.81), outputs=ENERGIES, settings=EXACT)
+    )
+    simulation.advance(0.5)
+    found = simulation.read()
+    assert found["work"] == pytest.approx(2.0 * 9.81 * (9.81 * 0.5**2 / 2), rel=1e-12)
+    assert found["kinetic"] == pytest.approx(found["work"], rel=1e-12)
+    assert found["spring"] == found["lost"] == 0.0

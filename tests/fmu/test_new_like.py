@@ -2,12 +2,14 @@
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
+from fmpy import read_model_description
 from typer.testing import CliRunner
 
 from harness.app.cli import New, main
@@ -172,3 +174,24 @@ def test_a_run_as_json_has_its_summary_and_times_have_units(tmp_path: Path, monk
     refused = CliRunner().invoke(main, ["run", "build/fall.fmu", "--stop-time", "5 m"])
     assert refused.exit_code == 2
     assert "--stop-time" in refused.stderr
+
+
+def test_numbers_of_the_default_drawing_are_in_the_fmu_and_in_no_table(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_new("bars", tmp_path, Like.FOUR_BAR)
+    assert CliRunner().invoke(main, ["build", "bars.py"]).exit_code == 0
+    result = CliRunner().invoke(main, ["run", "build/bars.fmu", "--stop-time", "100ms", "--json"])
+    drawn = [v for v in read_model_description("build/bars.fmu").modelVariables if v.name.startswith("drawing_")]
+    assert {v.causality for v in drawn} == {"calculatedParameter"}
+    summary = json.loads(Path("result/summary.json").read_text(encoding="utf-8"))
+    assert set(summary["parameters"]) == set(summary["units"]["parameters"]) > {"ground_length", "crank_mass"}
+    report = Path("result/report.html").read_text(encoding="utf-8")
+    for text in (*summary["parameters"], *summary["units"]["parameters"], result.stdout, _without_scripts(report)):
+        assert "drawing_" not in text
+    assert "The mechanism at the time shown below" in report  # it is drawn, none the less
+
+
+def _without_scripts(page: str) -> str:
+    return re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)

@@ -105,12 +105,30 @@ def test_a_lever_of_any_section_has_stress_by_its_table(lever: Path) -> None:
     assert "beam of length 200 mm" in (folder / "result" / "report.html").read_text(encoding="utf-8")
 
 
-def test_without_a_beam_the_report_says_how_to_have_one(tmp_path: Path) -> None:
-    """So do FMUs from before there was an analysis.json."""
+def test_of_a_lever_without_teeth_no_stress_is_missed_unless_it_is_asked_for(tmp_path: Path) -> None:
     path = write_new("plain", tmp_path)
     command("build", str(path), "-o", str(tmp_path))
-    said = command("run", str(tmp_path / "plain.fmu"), "--stop-time", "0.5", "-o", str(tmp_path / "result"))
-    assert "No stress: the FMU declares no beam that impacts strike." in " ".join(said.split())
+    words = ["run", str(tmp_path / "plain.fmu"), "--stop-time", "0.5", "-o", str(tmp_path / "result")]
+    said = command(*words)
+    assert "Impacts: " in said
+    assert "stress" not in said.lower()
+    assert "Nothing is to be analysed" not in (tmp_path / "result" / "report.html").read_text(encoding="utf-8")
+    assert "No stress: the FMU declares no beam that impacts strike." in flat(command(*words, "--material", "steel"))
+    assert "Nothing is to be analysed" in (tmp_path / "result" / "report.html").read_text(encoding="utf-8")
+
+
+def flat(text: str) -> str:
+    return " ".join(text.split())
+
+
+def test_of_teeth_without_a_beam_the_report_says_how_to_have_one(lever: Path, tmp_path: Path) -> None:
+    """So do FMUs from before there was an analysis.json."""
+    text = re.sub(r"    analysis=.*\n", "", lever.read_text(encoding="utf-8"))
+    path = tmp_path / "plain.py"
+    path.write_text(text, encoding="utf-8")
+    command("build", str(path), "-o", str(tmp_path))
+    said = command("run", str(tmp_path / "lever.fmu"), "--stop-time", "0.5", "-o", str(tmp_path / "result"))
+    assert "No stress: the FMU declares no beam that impacts strike." in flat(said)
     report = (tmp_path / "result" / "report.html").read_text(encoding="utf-8")
     assert "Nothing is to be analysed: the FMU declares no beam that impacts strike." in report
     assert "Model(analysis=(ImpactStress(...),))" in report

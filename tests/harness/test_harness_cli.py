@@ -132,6 +132,14 @@ def test_build_knows_its_models(tmp_path: Path) -> None:
     assert " ratchet Ratchet of Pennestrì" in text
 
 
+def test_help_of_run_says_what_its_tables_hold() -> None:
+    """Their headings are those of the files: guard, and the modes as closed contacts."""
+    _, text = invoke("run", "--help")
+    said = " ".join(text.split())
+    assert "impacts.csv has a row for each impact: time, contact, closing speed, impulse" in said
+    assert "events.csv has a row for each event: time, guard (what happened), closed contacts before and after" in said
+
+
 def test_help_does_not_wait_for_the_libraries() -> None:
     """Of all commands: it comes at once when nothing is imported for it but what parses and prints."""
     heavy = {

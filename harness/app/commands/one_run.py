@@ -102,7 +102,7 @@ def run_fmu(
     stop_time: str | None,
     step: str | None,
     input_file: Path | None,
-    material: str,
+    material: str | None,
     folder: Path,
     in_process: bool = False,
     units_row: bool = False,
@@ -112,14 +112,14 @@ def run_fmu(
     The files are written before the instance is freed, to a folder that stays the same whatever the FMU does to the
     working folder.
     """
-    card, folder = card_of(material), folder.absolute()
+    card, folder = card_of("steel" if material is None else material), folder.absolute()
     with open_fmu(path) as fmu:
         values = start_values(settings, fmu.description)
         until = parse_time(stop_time, "--stop-time", fmu.description)
         times = default_times(fmu.description, until, parse_time(step, "--step", fmu.description))
         if step is None and fmu.description.step is None:
             show_note(f"{path.name} says no step size; {times[1]:g} s is taken. --step sets another one.")
-        experiment = Experiment(*times, values, input_file, card)
+        experiment = Experiment(*times, values, input_file, card, material is not None)
 
         def work(instances: Instances) -> int:
             try:

@@ -11,7 +11,7 @@ from ...tables.parts import Bodies, Contacts, Functions, Options, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import TOUCHES_WITHIN
 from .. import status
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from ..contacts.guards import function_value, gap, guard_value, place_contact, place_pattern
@@ -36,7 +36,7 @@ def assemble(block: Array) -> int:
     Held coordinates do not move. The result, or the closest position found, stands in y_end; `rows.residual` holds
     what is left of Phi, for the joints and the contacts that are closed at the start.
     """
-    keep_small()
+    keep_apart()
     n = Sizes(block).coordinates
     now = Course(block)
     s = Stages(block)
@@ -112,16 +112,14 @@ _MOST_COPIES = 4000
 def start_guess(block: Array, offset: int) -> None:
     """The bodies' start guess, the contacts that are closed there, and patterns `offset` copies beside where it is."""
     keep_small()
-    n = Sizes(block).coordinates
     body = Bodies(block)
     now = Course(block)
     table = Contacts(block)
     weight = Loads(block).weight
+    start_rates(block)
     for i in range(body.start.shape[0]):
         for k in range(3):
             now.y_end[3 * i + k] = body.start[i, k]
-            now.y_end[n + 3 * i + k] = body.start_rate[i, k]
-            weight[3 * i + k] = 1.0
     part_all(block)
     held = Options(block).held
     for k in range(held.shape[0]):
@@ -149,9 +147,21 @@ def start_guess(block: Array, offset: int) -> None:
 
 
 @jit
+def start_rates(block: Array) -> None:
+    """The bodies' start rates, with no coordinate held."""
+    keep_apart()
+    n = Sizes(block).coordinates
+    rate = Bodies(block).start_rate
+    for i in range(rate.shape[0]):
+        for k in range(3):
+            Course(block).y_end[n + 3 * i + k] = rate[i, k]
+            Loads(block).weight[3 * i + k] = 1.0
+
+
+@jit
 def find_copies(block: Array) -> bool:
     """Go to the copy of each pattern where its point is at y_end; whether any was another than before."""
-    keep_small()
+    keep_apart()
     table = Patterns(block)
     first_next = 2 * Sizes(block).contacts
     count = table.copy.shape[0]

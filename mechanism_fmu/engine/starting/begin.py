@@ -7,11 +7,11 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows
-from ...tables.parts import Contacts, Options, Ports
+from ...tables.parts import Bodies, Contacts, Joints, Options, Ports
 from ...tables.sizes import Sizes
-from ...tolerances import STICK_SPEED, TOUCHES_WITHIN
+from ...tolerances import RATES_WITHIN, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
-from ..compiler.subset import entry, jit, keep_small
+from ..compiler.subset import entry, jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows
@@ -21,12 +21,10 @@ from ..dynamics.forces import set_time, take_inputs
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
 from ..vectors import clear
-from .assembly import assemble, find_copies, is_inside, newton_direction, start_guess, worst_of
+from .assembly import assemble, find_copies, is_inside, newton_direction, start_guess, start_rates, worst_of
 
 # The start of the motion: the assembled position is checked, and all that counts begins at zero.
 
-#: Start rates agree with the joints within this [m/s, rad/s].
-RATES_WITHIN = 1e-9
 #: Rates of coordinates that are not held give way down to this.
 _RATES_CLOSED = 1e-14
 
@@ -37,7 +35,7 @@ def start(block: Array, time: float) -> int:
 
     The first `stepper.advance`, to `time` itself, chooses the contacts that push.
     """
-    keep_small()
+    keep_apart()
     _begin_at_zero(block, time)
     at = place_bodies(block, Course(block).y_end)
     if _profiles_overlap(block, at):
@@ -122,24 +120,64 @@ def _blame(block: Array, contact: int, distance: float) -> None:
 
 @jit
 def _close_rates(block: Array, at: Pose) -> bool:
-    """Whether the start rates agree with the active rows, after those of coordinates that are not held have given way.
+    """Whether the start rates agree with the active rows, after those that may give way have done so.
 
-    Without held coordinates it is not known which rates are meant, and all stay as they are given.
+    Rates of held coordinates stay. Where none are held, nothing says which rates are meant, and all stay as they are
+    given, but where there is a driver: bodies that were given none follow. When they do not agree, y_end holds rates
+    near them that do: the others of bodies that were given none, if that is enough.
     """
     keep_small()
+    worst = worst_of(Rows(block).residual_rate, active_rows(block, at))
+    held = Options(block).held.shape[0] > 0
+    if worst <= _RATES_CLOSED or (worst <= RATES_WITHIN and not held):
+        return True
+    if not worst < math.inf:
+        return False
+    if not held:
+        _hold_given(block)
+    agree = _approach(block) <= RATES_WITHIN
+    if agree and (held or _is_driven(block)):
+        return True
+    if not agree:
+        start_rates(block)
+        _approach(block)
+    return False
+
+
+@jit
+def _approach(block: Array) -> float:
+    """Let the rates of coordinates that are not held give way to the active rows; what is left of Phi'."""
+    keep_apart()
     n = Sizes(block).coordinates
     y = Course(block).y_end
-    count = active_rows(block, at)
-    worst = worst_of(Rows(block).residual_rate, count)
-    if Options(block).held.shape[0] == 0 or worst <= _RATES_CLOSED:
-        return worst <= RATES_WITHIN
+    count = active_rows(block, place_bodies(block, y))
     for _ in range(2):  # once more, for what rounding has left
         newton_direction(block, count, Rows(block).residual_rate)
         for k in range(n):
             y[n + k] += Loads(block).weight[k] * LinearSystem(block).solution[k]
-        at = place_bodies(block, y)
-        active_rows(block, at)
-    return worst_of(Rows(block).residual_rate, count) <= RATES_WITHIN
+        active_rows(block, place_bodies(block, y))
+    return worst_of(Rows(block).residual_rate, count)
+
+
+@jit
+def _hold_given(block: Array) -> None:
+    """Hold the rates of the bodies that were given one that is not zero."""
+    keep_small()
+    rate = Bodies(block).start_rate
+    for i in range(rate.shape[0]):
+        if rate[i, 0] != 0.0 or rate[i, 1] != 0.0 or rate[i, 2] != 0.0:
+            for k in range(3):
+                Loads(block).weight[3 * i + k] = 0.0
+
+
+@jit
+def _is_driven(block: Array) -> bool:
+    """Whether there is a driver."""
+    keep_small()
+    driven = False
+    for number in Joints(block).curve:
+        driven = driven or number != codes.NONE
+    return driven
 
 
 #: Copies of a pattern that are tried: the one where the point is, and four on either side.
@@ -151,7 +189,9 @@ def begin(block: Array, time: float) -> int:
     """Assemble the mechanism from its start guess and make ready to begin at `time` [s]; return a status.
 
     When the mechanism cannot be assembled, y_end and `rows.residual` hold the closest position and what is left of
-    Phi. When it starts inside, PENDING_SUBJECT and the last entry of `rows.residual` hold the contact and its gap [m].
+    Phi. When its rates do not agree, y_end and `rows.residual_rate` hold rates near them, which do if there are any,
+    and what is left of Phi'. When it starts inside, PENDING_SUBJECT and the last entry of `rows.residual` hold the
+    contact and its gap [m].
     """
     keep_small()
     outcome = status.NOT_ASSEMBLED

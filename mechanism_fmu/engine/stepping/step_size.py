@@ -11,10 +11,11 @@ from ...tables.motion import Course, LinearSystem, Stages
 from ...tables.parts import Contacts, Curves, Joints
 from ...tables.sizes import Sizes
 from .. import status
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
+from .reach import is_out_of_reach
 from .runge_kutta import scaled_error, try_step
 
 # How far a step may go, however accurate it is: to where slopes of inputs end, and not over what a driver does.
@@ -121,6 +122,7 @@ def smallest_step(start: float) -> float:
 @jit
 def why_no_step(block: Array) -> int:
     """What has made the step shrink to nothing: the power lost is not a number where friction found no agreement."""
+    keep_apart()
     s = Stages(block)
     lost = Sizes(block).y_loss
     for k in range(1, s.derivatives.shape[0]):
@@ -132,6 +134,8 @@ def why_no_step(block: Array) -> int:
         at = place_bodies(block, s.y_start)
         if not least_fit(block, at) > _FITS_BARELY:
             return status.NO_CONTACT_POINT
+    if is_out_of_reach(block):
+        return status.OUT_OF_REACH
     return status.STEP_TOO_SMALL
 
 
@@ -178,7 +182,7 @@ def note_stiffest(block: Array) -> None:
 
     It is the one whose error is largest, measured by its tolerance.
     """
-    keep_small()
+    keep_apart()
     s = Stages(block)
     worst = -1.0
     for i in range(Sizes(block).unknowns):

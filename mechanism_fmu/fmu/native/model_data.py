@@ -60,6 +60,7 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes, clock
         "warning_count": len(formulas.warnings),
         "dependent": "DEPENDENT",
         "dependent_count": len(formulas.words),
+        "bodies": "BODIES",
         "joints": "JOINTS",
         "contacts": "CONTACTS",
         "patterns": "PATTERNS",
@@ -99,9 +100,10 @@ def _array(kind: str, name: str, entries: Iterable[str]) -> str:
 
 
 def _names(mechanism: Mechanism) -> list[str]:
-    joints = (f"{{{c_text(joint.name)}, {joint.rows}}}" for joint in mechanism.joints)
+    joints = (f"{{{c_text(joint.name)}, {joint.rows}, {c_text(joint.unit)}}}" for joint in mechanism.joints)
     contacts = (f"{{{', '.join(map(c_text, (c.name, *c.too_deep())))}}}" for c in mechanism.contacts)
     return [
+        _array("char *const", "BODIES", (c_text(body.name) for body in mechanism.bodies)),
         _array("Joint", "JOINTS", joints),
         _array("Contact", "CONTACTS", contacts),
         _array("char *const", "PATTERNS", (c_text(pattern.name) for pattern in mechanism.patterns)),

@@ -18,6 +18,7 @@ from ...engine.run import library_path, load
 from ...model import MechanismError
 from ...tables.layout import FIELDS, size_slot, slot
 from ...tables.sizes import SIZES
+from ...tolerances import RATES_WITHIN
 from ..disk.archive import content_hash
 from ..disk.folders import temporary_folder
 from ..disk.user_cache import alone, is_whole, keep
@@ -56,6 +57,7 @@ def engine_header() -> str:
     for prefix, entries in enums.items():
         lines += ["enum {", *(f"    {prefix}_{name} = {value}," for name, value in entries.items()), "};"]
     lines += [f"#define {name} {getattr(protocol, name)!r} /* as in protocol.py */" for name in limits]
+    lines += [f"#define RATES_WITHIN {RATES_WITHIN!r} /* as in tolerances.py */"]
     lines += [f"#define EVENT_FAILURES {{{', '.join(map(str, status.EVENT_FAILURES))}}}"]
     lines += [f"#define LOG_CATEGORIES {{{', '.join(map(c_text, LOG_CATEGORIES))}}}"]
     return "\n".join([*lines, _PROTOTYPES, "extern const char *const ADVICE[];", "#endif", ""])

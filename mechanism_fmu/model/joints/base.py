@@ -42,6 +42,7 @@ class JointFacts(Attached):
     Attributes:
         row: name of the kind in `tables.kinds.JOINTS`.
         rows: how many constraint rows it has.
+        unit: of the motion of a driver.
         friction: the joint's entry in the table `joint_friction`; `friction_name` is what that is called.
         efforts: by name.
         axes: names of directions, which must have a length.
@@ -51,6 +52,7 @@ class JointFacts(Attached):
     row: ClassVar[str]
     rows: ClassVar[int] = 1
     friction: Number = 0.0
+    unit: ClassVar[str] = "m"
     friction_name: ClassVar[str] = "friction"
     efforts: ClassVar[Mapping[str, Effort]] = {}
     axes: ClassVar[tuple[str, ...]] = ()

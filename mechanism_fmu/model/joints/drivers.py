@@ -116,6 +116,7 @@ class AngleDriver(JointFacts):
     """
 
     row: ClassVar = "angle_driver"
+    unit: ClassVar = "rad"
     efforts: ClassVar = {"torque": Effort(0, unit="N.m")}
     slots: ClassVar = (Slot("body_j"), Slot("body_i"))
 

@@ -1,6 +1,7 @@
 """No step passes over what a driver does, however long the mechanism has been at rest before."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -81,9 +82,10 @@ def test_a_narrow_bump_of_a_cam_after_a_long_dwell(width):
         outputs=(Output("height", "follower.y", "", "m"),),
         held=("cam.angle",),
     )
-    # start_rate is left out: the driver turns the cam, whose angle is not free, at -1 rad/s
-    with pytest.raises(MechanismError, match=r"motor by 1.*Give start_rate"):
+    # start_rate is left out: the driver turns the cam, whose angle is held, at -1 rad/s
+    with pytest.raises(MechanismError, match=r"body 'cam' \(0, 0, -1\), not \(0, 0, 0\).* follow without held\.$"):
         Simulation(cam)
+    assert Simulation(replace(cam, held=())).field("y_end")[8] == pytest.approx(-1.0, rel=1e-15)
     bodies = (Body("cam", 1.0, 1.0, (0.0, 0.0, math.pi / 2), (0.0, 0.0, -1.0)), cam.bodies[1])
     moving = Mechanism(bodies, cam.joints, contacts=cam.contacts, outputs=cam.outputs)
     assert highest(moving, (3.7 + width, 5.0), "height") == pytest.approx(0.05 + lift, abs=1e-9)

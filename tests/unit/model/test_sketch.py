@@ -16,7 +16,7 @@ from mechanism_fmu.model import (
     length_parameter,
 )
 from mechanism_fmu.model.four_bar import start
-from mechanism_fmu.model.symbol import Symbol
+from mechanism_fmu.model.symbol import Recorder, Symbol
 from mechanism_fmu.model.trace import trace
 
 
@@ -54,8 +54,21 @@ def test_links_that_do_not_reach_each_other_are_refused() -> None:
     assert dyad((0, 0), (0.3, 0), from_a=0.1, from_b=0.2) == pytest.approx((0.1, 0.0), abs=1e-6)  # in one line
 
 
-def test_of_parameters_links_that_do_not_reach_each_other_are_no_number() -> None:
-    """A formula cannot refuse; where they do reach, it is the pin of plain lengths to the bit."""
+def test_links_that_begin_in_one_point_are_refused() -> None:
+    with pytest.raises(MechanismError, match="links of 1 m and 2 m have their other ends in one point"):
+        dyad((4, 1), (4, 1), from_a=1.0, from_b=2.0)
+
+
+def test_of_parameters_it_is_the_trace_that_refuses_links() -> None:
+    recorder = Recorder()
+    x, _ = dyad((0, 0), (4, 0), from_a=recorder.parameter(0), from_b=2.0)
+    assert isinstance(x, Symbol)
+    (refused,) = recorder.refusals  # 4 m apart is known: no finding of that
+    assert refused.text.startswith("dyad: links of {:g} m and {:g} m do not reach each other over the {:g} m between")
+    assert refused.numbers[1:] == (2.0, 4.0)
+
+
+def test_of_parameters_it_is_the_pin_of_plain_lengths_to_the_bit() -> None:
     drawn = []
 
     def pinned(values: SimpleNamespace) -> Mechanism:
@@ -66,5 +79,6 @@ def test_of_parameters_links_that_do_not_reach_each_other_are_no_number() -> Non
     traced = trace(Model("Pin", "The pin of two links", (link,), pinned))
     pin = next(point for point in drawn if isinstance(point[0], Symbol))
     assert tuple(traced.numbers(pin, SimpleNamespace(link=3.5))) == dyad((0, 0), (4, 0), from_a=3.5, from_b=2.0)
-    with pytest.raises(ValueError, match=r"nonnegative|math domain error"):
-        traced.numbers(pin, SimpleNamespace(link=1.0))
+    (objection,) = traced.objections
+    (applies,) = traced.numbers([objection.applies], SimpleNamespace(link=1.0))
+    assert applies > 0.0

@@ -8,13 +8,24 @@ from hypothesis import HealthCheck, assume, given, settings, strategies as st
 from recorded import said
 
 import models
-from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model, Parameter
+from mechanism_fmu.model import (
+    Body,
+    CircularHole,
+    Finding,
+    Mechanism,
+    MechanismError,
+    Model,
+    Parameter,
+    dyad,
+    plate,
+)
 from mechanism_fmu.model.compile import compile_tables
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan, where_positive
 from mechanism_fmu.model.symbol import Operation, Recorder
 from mechanism_fmu.model.trace import _limits, trace
 from models.ratchet.model import MODEL as RATCHET
 from tests.parameter_sets import near_defaults, within_limits
+from tests.reaching import MODEL as REACHING, REFUSED
 
 TRACES = [pytest.param(trace(models.load(name).MODEL), id=name) for name in models.available()]
 
@@ -194,3 +205,45 @@ def test_limits_of_a_parameter_that_is_traced(least, largest):
     assert _limits(Parameter("b", 1, "", type="Boolean")) == _limits(
         Parameter("b", 0, "", minimum=5.0, maximum=7.0, type="Boolean")
     )
+
+
+@pytest.mark.parametrize("values", REFUSED.values(), ids=REFUSED)
+def test_what_helpers_refuse_is_said_in_the_words_and_the_turn_of_the_model(values):
+    """Links that do not reach each other were a wall of numbers that are not finite."""
+    given = REACHING.values(**values)
+    with pytest.raises(MechanismError) as refusal:
+        REACHING.build(given)
+    traced = trace(REACHING)
+    assert said(traced, traced.objections, given) == [str(refusal.value)]
+    assert said(traced, traced.objections, REACHING.values()) == []
+    assert_same_bits(traced.evaluate(REACHING.values(crank=0.07)), tables_of(REACHING.values(crank=0.07)))
+
+
+def tables_of(values):
+    return compile_tables(REACHING.mechanism(values))
+
+
+def test_what_is_refused_within_the_objections_comes_before_them():
+    def objections(values):
+        dyad((0.0, 0.0), (1.0, 0.0), from_a=values.rod, from_b=0.9)
+        return (Finding(0.1 - values.rod, "rod = {:g} m is too short.", (values.rod,)),)
+
+    model = replace(REACHING, objections=objections)
+    given = model.values(rod=0.05, coupler=0.02)
+    with pytest.raises(MechanismError, match=r"links of 0.05 m and 0.9 m do not reach") as refusal:
+        model.build(given)
+    traced = trace(model)
+    assert said(traced, traced.objections, given) == [str(refusal.value)]
+
+
+def test_a_plate_of_parameters_without_area_is_refused_by_its_name():
+    def mechanism(values):
+        return Mechanism(
+            (plate("{x}", [(0, 0), (1, 0), (0, values.high)], holes=[CircularHole((0.2, 0.2), 0.1)], mass=1),)
+        )
+
+    model = Model("Plate", "", (Parameter("high", 1.0, "Height", "m", 1e-3, 10.0),), mechanism)
+    with pytest.raises(MechanismError, match=r"plate '\{x\}' has an area of -0\.0264159 m2") as refusal:
+        model.build(model.values(high=0.01))
+    traced = trace(model)
+    assert said(traced, traced.objections, model.values(high=0.01)) == [str(refusal.value)]

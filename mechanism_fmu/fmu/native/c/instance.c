@@ -158,7 +158,7 @@ static void clear_state(Instance *x) {
 }
 
 static Status failed(Instance *x, int64_t outcome) {
-    char details[1200];
+    char details[2000];
     return refuse(x, "%s%s", ADVICE[outcome], advice_details(x, outcome, details, sizeof details));
 }
 
@@ -221,7 +221,7 @@ Status step_target(Instance *x, const char *call, double current_time, double si
 static Status judge(Instance *x, int64_t outcome) {
     x->outputs_read = 0;
     if (outcome == STATUS_OK) return OK;
-    char details[1200];
+    char details[2000];
     advice_details(x, outcome, details, sizeof details);
     if (outcome == STATUS_TOO_MANY_STEPS || outcome == STATUS_NO_PROGRESS)
         return give_up(x, "t = %.9g s: %s%s", time_of(x), ADVICE[outcome], details);

@@ -143,29 +143,71 @@ void log_news(Instance *x) {
     forget_news(x);
 }
 
-/* What is left of each joint and closed contact: of its position, or of its rate. */
-static void residuals(Instance *x, const double *residual, const char *before, const char *behind, char *text,
-                      size_t size) {
+/* Append, with a comma if it is not the first, by how much a joint or contact is off, if by more than `more_than`. */
+static void append_off(char *text, size_t size, int *first, const char *name, double off, double more_than) {
     char part[300];
-    size_t joints = SIZE(x, joints), row = 0;
-    append(text, size, before);
-    for (size_t k = 0; k < joints; k++) {
+    if (off <= more_than) return;
+    snprintf(part, sizeof part, "%s%s by %.6g", *first ? "" : ", ", name, off);
+    append(text, size, part);
+    *first = 0;
+}
+
+/* By how much joints and closed contacts are off, of those that are so by more than a limit; whether there are any. */
+static int residuals(Instance *x, const double *residual, double more_than, char *text, size_t size) {
+    size_t row = 0;
+    int first = 1;
+    for (size_t k = 0; k < SIZE(x, joints); k++) {
         double worst = 0;
         for (int r = 0; r < model.joints[k].rows; r++, row++) {
             double value = residual[row] < 0 ? -residual[row] : residual[row];
             if (!(value <= worst)) worst = value;
         }
-        snprintf(part, sizeof part, "%s%s by %.6g", k ? ", " : "", model.joints[k].name, worst);
-        append(text, size, part);
+        append_off(text, size, &first, model.joints[k].name, worst, more_than);
     }
     for (size_t c = 0; c < SIZE(x, contacts); c++) {
         if (((const int64_t *)FIELD(x, contact_mode))[c] != CODE_CLOSED) continue;
-        snprintf(part, sizeof part, "%s%s by %.6g", row ? ", " : "", model.contacts[c].name,
-                 residual[row] < 0 ? -residual[row] : residual[row]);
-        append(text, size, part);
+        append_off(text, size, &first, model.contacts[c].name, residual[row] < 0 ? -residual[row] : residual[row],
+                   more_than);
         row++;
     }
-    append(text, size, behind);
+    return !first;
+}
+
+/* A rate as it is shown: nothing where rounding is all there is. */
+static double shown(double rate) { return -RATES_WITHIN <= rate && rate <= RATES_WITHIN ? 0 : rate; }
+
+/* The bodies to which the joints give other rates than the start rates; where there are none, the joints. */
+static void contradictions(Instance *x, char *text, size_t size) {
+    char part[600];
+    *part = 0;
+    if (residuals(x, FIELD(x, residual_rate), RATES_WITHIN, part, sizeof part)) {
+        append(text, size, " No rates near them do; what is left: ");
+        append(text, size, part);
+        append(text, size, " (m/s, or rad/s). Drivers or closed contacts contradict each other.");
+        return;
+    }
+    size_t n = SIZE(x, coordinates);
+    const char *before = " They ask for other ones: ";
+    for (size_t k = 0; k < n; k += 3) {
+        const double *given = FIELD(x, body_start_rate) + k, *asked = FIELD(x, y_end) + n + k;
+        if (shown(asked[0] - given[0]) == 0 && shown(asked[1] - given[1]) == 0 && shown(asked[2] - given[2]) == 0)
+            continue;
+        snprintf(part, sizeof part, "%sbody '%s' (%.6g, %.6g, %.6g), not (%.6g, %.6g, %.6g)", before,
+                 model.bodies[k / 3], shown(asked[0]), shown(asked[1]), shown(asked[2]), shown(given[0]),
+                 shown(given[1]), shown(given[2]));
+        append(text, size, part);
+        before = ", ";
+    }
+    append(text, size,
+           " (of its centre of mass in m/s, and rad/s). Name in held the coordinate whose rate you mean, as "
+           "'crank.angle', and leave out the rates that should follow; those of driven bodies follow without held.");
+}
+
+/* Which driver is at the end of its range, and what it asks for there. */
+static void driven_too_far(Instance *x, char *text, size_t size) {
+    const Joint *driver = model.joints + *(const int64_t *)FIELD(x, stage_stiffest);
+    snprintf(text, size, " Driver '%s' asks for %.6g %s here, and goes on.", driver->name,
+             FIELD(x, residual)[SIZE(x, rows) - 1], driver->unit);
 }
 
 static void penetration(Instance *x, char *text, size_t size) {
@@ -218,13 +260,13 @@ const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size
     *text = 0;
     if (outcome == STATUS_TOO_MANY_STEPS || outcome == STATUS_NO_PROGRESS || outcome == STATUS_STEP_TOO_SMALL)
         stiffest(x, text, size);
-    if (outcome == STATUS_NOT_ASSEMBLED)
-        residuals(x, FIELD(x, residual), " Left open: ", " (m, or rad between directions).", text, size);
-    if (outcome == STATUS_START_RATES)
-        residuals(x, FIELD(x, residual_rate), " They are off: ",
-                  " (m/s, or rad/s). Give start_rate to every body that moves, or name a coordinate in held: the others "
-                  "then follow it.",
-                  text, size);
+    if (outcome == STATUS_NOT_ASSEMBLED) {
+        append(text, size, " Left open: ");
+        residuals(x, FIELD(x, residual), -1, text, size);
+        append(text, size, " (m, or rad between directions).");
+    }
+    if (outcome == STATUS_START_RATES) contradictions(x, text, size);
+    if (outcome == STATUS_OUT_OF_REACH) driven_too_far(x, text, size);
     if (outcome == STATUS_AT_CENTRE)
         snprintf(text, size, " Contact '%s'.", model.contacts[COUNTERS(x)[CODE_PENDING_SUBJECT]].name);
     if (outcome == STATUS_START_INSIDE || outcome == STATUS_OVERLAP) penetration(x, text, size);

@@ -40,6 +40,7 @@ typedef struct {
 typedef struct {
     const char *name;
     int rows;
+    const char *unit; /* of the motion, where it is a driver */
 } Joint;
 
 /* What words of the state may hold: `rows` times `columns` of them, `stride` words from row to row. */
@@ -70,6 +71,7 @@ typedef struct {
     size_t objection_count, problem_count, warning_count;
     const Word *dependent; /* on parameters */
     size_t dependent_count;
+    const char *const *bodies;
     const Joint *joints;
     const Contact *contacts;
     const char *const *patterns;
