@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -34,11 +35,16 @@ SHARES = {1e-9: 1e-8, 1e-12: 1e-10}
 AT_AN_INSTANT = 1e-12
 
 
-def cases_of(kind: int) -> list[Case]:
-    """The cases of a kind: those whose id begins with its number."""
+def kind_of(case: Case) -> int:
+    """The kind of a case: the number with which its id begins."""
+    return int(re.match(r"\d+", case["id"])[0])  # type: ignore[index]
+
+
+def all_cases() -> list[Case]:
+    """The cases of the oracle, or of the file that FRICTION_ORACLE names."""
     file = os.environ.get(OTHER_FILE) or Path(__file__).parents[1] / "data" / "friction.json"
-    cases = json.loads(Path(file).read_text(encoding="utf-8"))["cases"]
-    return [case for case in cases if case["id"].rstrip("abcdefghijklmnopqrstuvwxyz") == str(kind)]
+    cases: list[Case] = json.loads(Path(file).read_text(encoding="utf-8"))["cases"]
+    return cases
 
 
 def numbered(results: Mapping[str, Any], name: str) -> dict[int, Any]:
@@ -69,8 +75,6 @@ class Comparison:
         """Fail where any value is too far off."""
         found = list(self.deviations())
         assert found
-        if os.environ.get("FRICTION_SHOW"):
-            print(max(found, key=lambda f: f[2]))
         wrong = [f"{quantity} {name}: off by {off:.2g}" for quantity, name, off in found if not off <= self._share]
         assert not wrong, f"more than {self._share:g} of the largest: " + "; ".join(wrong)
 
@@ -98,6 +102,7 @@ def simulation_of(
     sources += [f"{contact.name}.{what}" for contact in contacts for what in ("force", "closed")]
     sources += ["energy.kinetic", "energy.lost", "impact.energy_lost"]
     sources += [f"impact.impulse:{contact.name}" for contact in contacts]
+    sources += [f"impact.speed_before:{body.name}" for body in bodies]
     mechanism = Mechanism(
         tuple(bodies),
         contacts=tuple(contacts),
@@ -116,7 +121,9 @@ def now(simulation: Simulation, name: str = "") -> Moment:
     slips = [modes[slip] for slip in simulation.field("rub_slip").tolist()]
     contacts = simulation.field("contact_mode").size
     others = "".join(slips[contacts:]).replace("o", "")
-    return Moment(simulation.time, name, state, "".join(slips[:contacts]) + others, simulation.field("rub_force").tolist())
+    return Moment(
+        simulation.time, name, state, "".join(slips[:contacts]) + others, simulation.field("rub_force").tolist()
+    )
 
 
 def run(simulation: Simulation, until: float) -> list[Moment]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from friction_cases import after, now, numbered, run, simulation_of
+
 from mechanism_fmu.model import GROUND, Body, Brake, CamFlatFollower, Revolute, TorsionSpring, circle
 
 _BEYOND = 1.0 + 1e-6

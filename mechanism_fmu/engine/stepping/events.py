@@ -44,6 +44,8 @@ _BISECTIONS = 60
 #: Those of a force: it changes sign once, and what follows does not depend on the last digits of when.
 _FORCE_BISECTIONS = 36
 _NEWTON_STEPS = 12
+#: By this share of a step the dense output may misplace an event, where it is found anew on true steps.
+_MISPLACED = 1e-3
 #: A closed contact opens when its force is less than this times the tolerance of the complementarity problem.
 _OPENS = -2.0
 
@@ -346,3 +348,47 @@ def refine_slip(block: Array, rub: int, step_size: float) -> float:
         step_size += move
     try_step(block, start, step_size)
     return step_size
+
+
+@jit
+def refine_hold(block: Array, rub: int, step_size: float) -> float:
+    """The step size at which the true step ends where friction of what sticks has none left; it is the last one tried.
+
+    By secants. The dense output of a long step places it worse: there, what mends the drift of rows makes noise.
+    """
+    keep_small()
+    s = Stages(block)
+    start = s.tried[0]
+    size = step_size
+    if not _hold_at(block, rub, 0.0) > 1.0:  # it lets go where the bound is passed, not where it is reached
+        try_step(block, start, size)
+        return size
+    before = (1.0 - _MISPLACED) * step_size
+    try_step(block, start, before)
+    held = _hold_behind(block, rub)
+    try_step(block, start, size)
+    for _ in range(_NEWTON_STEPS):
+        value = _hold_behind(block, rub)
+        if not value < held:
+            return size
+        move = value * (size - before) / (held - value)
+        if not abs(size + move - step_size) <= _MISPLACED * step_size:
+            break
+        if abs(move) <= ROOT_TOLERANCE:
+            return size
+        before = size
+        held = value
+        size += move
+        try_step(block, start, size)
+    try_step(block, start, step_size)
+    return step_size
+
+
+@jit
+def _hold_behind(block: Array, rub: int) -> float:
+    """What friction of what sticks could hold more, over its tolerance, at the end of the step last tried."""
+    keep_small()
+    s = Stages(block)
+    set_time(block, s.tried[0] + s.tried[1])
+    derivative(block, s.y_new, s.dy_at)
+    return hold_ratio(block, rub, row_count(block))

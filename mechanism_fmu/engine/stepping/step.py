@@ -19,7 +19,7 @@ from ..dynamics.forces import set_time
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import copy
-from .events import first_event, refine, refine_slip
+from .events import first_event, refine, refine_hold, refine_slip
 from .interpolation import interpolate
 from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
@@ -127,6 +127,8 @@ def _end_at_event(block: Array, guard: int, subject: int, start: float, step: fl
         return refine(block, subject, step)
     if guard == codes.GUARD_STICK:
         return refine_slip(block, subject, step)
+    if guard == codes.GUARD_SLIP:
+        return refine_hold(block, subject, step)
     try_step(block, start, step)
     return step
 
