@@ -25,7 +25,8 @@ FRICTION = 1
 GUIDED = 2
 ENABLED = 3
 STARTS_CLOSED = 4
-CONTACT_VALUES = 5
+FRICTION_STATIC = 5  # while it sticks
+CONTACT_VALUES = 6
 
 # contact_hollow (state): whether a profile of the pair has a hollow, and whether the other one may bridge it
 CONVEX = 0
@@ -41,6 +42,11 @@ APART = 0
 FORWARDS = 1
 BACKWARDS = -1
 STICKS = 2
+
+# rub_free: whether it may stick or slip either way at an instant; what has let go does not stick again at that instant
+BOUND = 0
+FREE = 1
+LET_GO = 2
 
 # function_kind: what a logical function looks at
 ALONG = 0
@@ -83,7 +89,8 @@ BAUMGARTE_BETA = 2
 MOST_STEPS = 3  # internal ones of one communication step
 IMPACT_LAW = 4
 ENERGY_GUARD = 5  # 1: an impact that would add energy is repeated by Poisson's law
-SETTINGS = 6
+TANGENTIAL_SHOCK = 6  # 1: where no finite forces agree with dry friction, an impact without approach
+SETTINGS = 7
 
 # impact_law
 NEWTON = 0
@@ -150,6 +157,7 @@ GUARD_BEGIN = 7  # the motion begins
 GUARD_FAILED = 8  # an event could not be resolved: nothing goes on from there (the status stands as subject)
 GUARD_STICK = 9  # the slip speed of a contact or joint with dry friction reaches 0
 GUARD_SLIP = 10  # the friction of one that sticks reaches its bound
+GUARD_SHOCK = 11  # no finite forces agree with dry friction: an impact without approach
 
 # stop rules: where `stepper.go_on` stops; those but the first may be added
 STOP_AT_TARGET = 0

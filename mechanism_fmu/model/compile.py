@@ -179,7 +179,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                     alpha=[first if c.alphas else codes.NONE for c, first in _pairs(contacts, first_alphas)],
                     curve_i=[_number_of(c.profiles[0], curves) for c in contacts],
                     curve_j=[_number_of(c.profiles[1], curves) for c in contacts],
-                    value=[(c.restitution, c.friction, c.guided, c.enabled, c.closed) for c in contacts],
+                    value=[(c.restitution, c.friction, c.guided, c.enabled, c.closed, c.holding) for c in contacts],
                 ),
                 columns(tables.Patterns, mechanism.patterns),
                 columns(
@@ -217,6 +217,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                         *(getattr(mechanism.settings, setting.name) for setting in fields(mechanism.settings)),
                         _IMPACT_LAWS[mechanism.impact_law],
                         mechanism.energy_guard,
+                        mechanism.tangential_shock,
                     ],
                     held=[coordinate_index(h, mechanism) for h in mechanism.held],
                 ),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from .. import codes
 from .attached import Attached
@@ -16,6 +16,7 @@ from .findings import (
     is_zero,
     length,
     literal,
+    not_negative,
     refuse_unless,
     size,
     true_or_false,
@@ -36,7 +37,7 @@ class ContactFacts(Attached):
         holds: name of the number that says whether it also pulls.
         readings: what an `Output` may read, with the source "<contact>.<name>", as codes.
         rows, alphas: how many constraint rows and contact coordinates it has.
-        friction: coefficient of Coulomb friction [1].
+        friction, friction_static: coefficient of Coulomb friction [1], and that while it sticks.
         pattern: name of what repeats it, or None.
     """
 
@@ -52,6 +53,7 @@ class ContactFacts(Attached):
     rows: ClassVar[int] = 1
     alphas: ClassVar[int] = 0
     friction: Number = 0.0
+    friction_static: Number | None = None
     pattern: str | None = None
 
     name: str
@@ -71,6 +73,7 @@ class ContactFacts(Attached):
         yield refuse_unless(within(contact["restitution"], 0.0, 1.0), text, contact["restitution"])
         text = f"{label}: friction = {{:g}} must be finite and not negative."
         yield refuse_unless(finite_not_negative(contact["friction"]), text, contact["friction"])
+        yield from static_findings(self, label)
         for what in ("enabled", self.holds, "closed"):
             switch = getattr(self, what)
             text = f"{label}: {what} = {{:g}} is neither true (1) nor false (0); give one of the two."
@@ -90,12 +93,25 @@ class ContactFacts(Attached):
         return f"{self.body_i!r} reaches", f"m into {self.body_j!r}"
 
     @property
+    def holding(self) -> Number:
+        """The coefficient of friction while it sticks [1]."""
+        return self.friction if self.friction_static is None else self.friction_static
+
+    @property
     def label(self) -> str:
         """Its name, for messages."""
         return f"Contact {literal(repr(self.name))}"
 
     def _numbers(self) -> dict[str, Number]:
         return {name: getattr(self, name) for name in ("restitution", "friction", "closed", "guided")}
+
+
+def static_findings(part: Any, label: str) -> Iterator[Finding]:
+    """That friction while it sticks is less than while it slips."""
+    if part.friction_static is not None:
+        text = f"{label}: friction_static = {{:g}} is less than the friction while it slips, {{:g}}."
+        least = part.friction_static - part.friction
+        yield refuse_unless(not_negative(least), text, part.friction_static, part.friction)
 
 
 def no_unit_length(what: str, normal: Point) -> Finding:

@@ -11,7 +11,7 @@ closed, and `gap`, which is 0 then; the notation is that of `joints`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from .. import codes
@@ -43,6 +43,7 @@ class PointLineContact(ContactFacts):
         closed: whether assembly puts the point on the line.
         restitution: e of eq (4) [1], 0..1. Below the engine's stick speed, and with 0, the contact stays closed.
         friction: coefficient of Coulomb friction along the line [1], >= 0.
+        friction_static: the same while it sticks [1], at least as large, of dry friction; None: as large.
         guided: whether the contact, once closed, also pulls and never opens, as in the paper.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
         pattern: name of the `CircularPattern` that repeats the line around `body_j`, or None.
@@ -62,6 +63,7 @@ class PointLineContact(ContactFacts):
     closed: Number = False
     restitution: Number = 0.0
     friction: Number = 0.0
+    friction_static: Number | None = field(default=None, kw_only=True)
     guided: Number = False
     enabled: Number = True
     pattern: str | None = None

@@ -69,6 +69,7 @@ class Mechanism:
         impact_law: of dry friction: "newton" (Moreau and Glocker), "poisson", or "stronge" (of one contact alone).
         energy_guard: whether an impact that would add energy, as it may by Newton's law with dry friction, is repeated
             by Poisson's.
+        tangential_shock: whether an impact without approach ends a slip with which no finite force agrees (Painlevé).
     """
 
     bodies: tuple[Body, ...]
@@ -89,6 +90,7 @@ class Mechanism:
     friction_law: Literal["smooth", "coulomb"] = "smooth"
     impact_law: Literal["newton", "poisson", "stronge"] = "newton"
     energy_guard: bool = True
+    tangential_shock: bool = False
 
     @cached_property
     def elements(self) -> tuple[ForceElement, ...]:

@@ -28,7 +28,7 @@ _COUNTERS = {
     "COUNT_IN_STEP": whole(0, 0, "buffer"),
     "COUNT_LOST": COUNT,
     "COUNT_STEPS": COUNT,
-    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_SLIP),
+    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_SHOCK),
     "PENDING_SUBJECT": _SUBJECT,
     "COUNT_PULLS": WHOLE,
     "COUNT_EVENTS": COUNT,
@@ -57,7 +57,7 @@ _RECORD = {
 }
 _EVENT = {
     "EVENT_TIME": FINITE,
-    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_SLIP),
+    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_SHOCK),
     "EVENT_SUBJECT": _SUBJECT,
     "EVENT_OLD_MODE": COUNT,
     "EVENT_NEW_MODE": COUNT,

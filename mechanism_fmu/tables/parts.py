@@ -18,7 +18,7 @@ class Bodies(Table, prefix="body_"):
 
 
 class Joints(Table, rows="joints", prefix="joint_"):
-    """The joints' specifications; `curve` is the motion of a driver."""
+    """The joints' specifications; `holding` is friction while it sticks, `curve` the motion of a driver."""
 
     kind = integer()
     body_i = integer()
@@ -26,6 +26,7 @@ class Joints(Table, rows="joints", prefix="joint_"):
     row = integer()
     data = real(JOINTS.width)
     friction = real()
+    holding = real()
     curve = integer()
 
 

@@ -72,7 +72,6 @@ def test_rod_at_an_instant(case, part):
     compare(case, part, None, AT_AN_INSTANT)
 
 
-@pytest.mark.xfail(reason="no jump yet where no finite force exists")
 @of_kind(4, rods.shocks)
 def test_rod_that_jumps(case, part):
     compare(case, part, None, AT_AN_INSTANT)

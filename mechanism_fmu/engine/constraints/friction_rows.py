@@ -42,6 +42,19 @@ def coefficient(block: Array, rub: int) -> float:
 
 
 @jit
+def holding(block: Array, rub: int) -> float:
+    """As `coefficient`, while it sticks."""
+    contacts = Sizes(block).contacts
+    if rub < contacts:
+        of_contact: float = Contacts(block).value[rub, codes.FRICTION_STATIC]
+        return of_contact
+    if rub < contacts + Sizes(block).joints:
+        of_joint: float = Joints(block).holding[rub - contacts]
+        return of_joint
+    return coefficient(block, rub)
+
+
+@jit
 def touches(block: Array, rub: int) -> bool:
     """Whether a contact or joint has friction now: a contact is closed, or has been given an impulse."""
     keep_small()

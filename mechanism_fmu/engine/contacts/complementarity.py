@@ -23,7 +23,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import friction_row, touches
+from ..constraints.friction_rows import coefficient, friction_row, holding, touches
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows, contact_row, row_count
 from ..dynamics.acceleration import derivative, scale_rows
@@ -115,7 +115,7 @@ def _combine(block: Array, at: Pose, count: int) -> int:
     for _ in range(count):
         combinations = min(2 * combinations, _TOO_MANY)
     for k in range(rub.slip.shape[0]):
-        if rub.free[k] == 1:
+        if rub.free[k] == codes.FREE:
             combinations = min(3 * combinations, _TOO_MANY)
     if combinations == _TOO_MANY:
         return status.NO_CHOICE
@@ -125,7 +125,7 @@ def _combine(block: Array, at: Pose, count: int) -> int:
             mode[candidates[k]] = rest & 1
             rest >>= 1
         for k in range(rub.slip.shape[0]):
-            if rub.free[k] == 1:
+            if rub.free[k] == codes.FREE:
                 rub.slip[k] = codes.STICKS
                 if rest % 3 > 0:
                     rub.slip[k] = codes.FORWARDS if rest % 3 == 1 else codes.BACKWARDS
@@ -137,15 +137,15 @@ def _combine(block: Array, at: Pose, count: int) -> int:
 
 @jit
 def _turn_over(block: Array, rub: int) -> None:
-    """What slips sticks instead, and what sticks slips to where it is pushed."""
+    """What slips sticks instead; what sticks slips to where it is pushed, for good where it held more while stuck."""
     keep_small()
     table = Rubs(block)
     if table.slip[rub] != codes.STICKS:
         table.slip[rub] = codes.STICKS
-    elif table.force[rub] > 0.0:
-        table.slip[rub] = codes.BACKWARDS
-    else:
-        table.slip[rub] = codes.FORWARDS
+        return
+    table.slip[rub] = codes.BACKWARDS if table.force[rub] > 0.0 else codes.FORWARDS
+    if holding(block, rub) > coefficient(block, rub):
+        table.free[rub] = codes.LET_GO
 
 
 @jit
@@ -194,7 +194,7 @@ def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
     if Strikes(block).problem[KIND] == IMPULSES:
         tolerance = _IMPULSE_SHARE * largest(multiplier, active)
     for k in range(table.slip.shape[0]):
-        if table.free[k] == 0 or not touches(block, k):
+        if table.free[k] != codes.FREE or not touches(block, k):
             continue
         if table.slip[k] == codes.STICKS:
             if not hold(block, k) >= -tolerance:

@@ -19,7 +19,7 @@ from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row, driver_power
 from ..dynamics.forces import kinetic_energy
-from .complementarity import push_impulses
+from .complementarity import COUNT, push_impulses
 from .routh import along_routh
 from .rubbing import free_all
 
@@ -66,6 +66,38 @@ def exchange(block: Array, at: Pose) -> int:
         Course(block).y_end[Sizes(block).y_work] = work
         return _by_poisson(block)
     return status.OK
+
+
+@jit
+def shock(block: Array, at: Pose) -> int:
+    """An impact of the candidates without approach, that ends slip with which no finite forces agree; return a status.
+
+    The same law with e = 0. Zero is a solution, too, from which no motion follows; it is not taken.
+    """
+    keep_small()
+    strike = Strikes(block)
+    table = Contacts(block)
+    rub = Rubs(block)
+    for c in range(table.mode.shape[0]):
+        strike.closing[c] = 0.0
+        strike.target[c] = 0.0
+    for k in range(strike.problem[COUNT]):
+        c = strike.candidates[k]
+        contact_row(block, at, c, spare_row(block))
+        strike.target[c] = -Rows(block).residual_rate[spare_row(block)]
+        table.mode[c] = codes.CLOSED
+    free_all(block)
+    for k in range(rub.slip.shape[0]):
+        if rub.free[k] == codes.FREE:
+            rub.slip[k] = codes.STICKS
+    outcome = push_impulses(block, at)
+    if outcome != status.OK:
+        return outcome
+    _apply(block)
+    total = 0.0
+    for c in range(strike.impulse.shape[0]):
+        total += abs(strike.impulse[c])
+    return status.OK if total > 0.0 else status.NO_CHOICE
 
 
 @jit

@@ -29,15 +29,15 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
     At rest is what slips no faster than `SLIPS_ABOVE`, and `stopped`, whose slip has just been found to end, whatever
-    speed the instant's rounding leaves. What begins to touch, or comes to rest, is taken to stick, or to go on as it
-    slipped; where it has not stuck before, it does so here. All that has friction is looked at where not
-    `only_touching`.
+    speed the instant's rounding leaves. It is taken to stick, unless it has just let go; where it has not stuck before,
+    it does so here. All that has friction is looked at where not `only_touching`.
     """
     keep_small()
     table = Rubs(block)
     spare = spare_row(block)
     for k in range(table.slip.shape[0]):
-        table.free[k] = 0
+        let_go = table.free[k] == codes.LET_GO
+        table.free[k] = codes.BOUND
         if not coefficient(block, k) > 0.0 or (only_touching and not touches(block, k)):
             continue
         begins = table.slip[k] != codes.STICKS
@@ -50,14 +50,14 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
         if abs(speed) > SLIPS_ABOVE and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
-        table.free[k] = 1
-        if table.slip[k] == codes.APART:
+        table.free[k] = codes.LET_GO if let_go else codes.FREE
+        if not let_go:
             table.slip[k] = codes.STICKS
 
 
 @jit
 def free_all(block: Array) -> None:
-    """In an impact all friction may end in stick or slip; what has begun to touch is taken to stick.
+    """In an impact all friction may end in stick or slip.
 
     A brake, whose torque is bounded, has no impulse.
     """
@@ -67,18 +67,19 @@ def free_all(block: Array) -> None:
     look_at_slip(block, at, False, codes.NONE)
     for k in range(table.slip.shape[0]):
         if k >= Sizes(block).contacts + Sizes(block).joints:
-            table.free[k] = 0
+            table.free[k] = codes.BOUND
             table.slip[k] = codes.APART
         elif coefficient(block, k) > 0.0:
-            table.free[k] = 1
+            table.free[k] = codes.FREE
 
 
 @jit
 def part(block: Array) -> None:
-    """What does not touch any more does not stick there."""
+    """The instant is over: what does not touch any more does not stick there, and what has let go may stick again."""
     keep_small()
     table = Rubs(block)
     for k in range(table.slip.shape[0]):
+        table.free[k] = codes.BOUND
         if not touches(block, k):
             table.slip[k] = codes.APART
 
@@ -89,3 +90,4 @@ def let_slip(block: Array, rub: int) -> None:
     keep_small()
     table = Rubs(block)
     table.slip[rub] = codes.BACKWARDS if table.force[rub] > 0.0 else codes.FORWARDS
+    table.free[rub] = codes.LET_GO

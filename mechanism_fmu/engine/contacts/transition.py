@@ -5,7 +5,7 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Strikes
-from ...tables.parts import Bodies, Contacts, Functions, Patterns
+from ...tables.parts import Bodies, Contacts, Functions, Options, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
@@ -15,7 +15,8 @@ from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import kinetic_energy, set_time
 from .complementarity import COUNT, push_forces
 from .guards import can_open, gap, place_contact, place_pattern
-from .impact import MOST_ROUNDS, complete_impacts, make_space, strike
+from .impact import MOST_ROUNDS, complete_impacts, keep_impact, make_space, strike
+from .impact_laws import shock
 from .rubbing import let_slip, look_at_slip, part
 
 # Contacts that no longer touch.
@@ -197,6 +198,8 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
     at = place_bodies(block, Course(block).y_end)
     look_at_slip(block, at, True, stopped)
     outcome = push_forces(block, at)
+    if outcome == status.NO_CHOICE and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
+        outcome = _shock(block, count)
     part(block)
     if Sizes(block).rubs > 0 and not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # what has come to rest
@@ -204,6 +207,37 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
         c = Strikes(block).candidates[k]
         table.touching[c] = 1 - table.mode[c]
     return outcome
+
+
+@jit
+def _shock(block: Array, count: int) -> int:
+    """An impact without approach of `count` candidates, and the choice behind it; return a status."""
+    keep_small()
+    now = Course(block)
+    n = Sizes(block).coordinates
+    if Strikes(block).problem[COUNT] == 0 or Sizes(block).rubs == 0:
+        return status.NO_CHOICE
+    for k in range(n):
+        Strikes(block).rates_before[k] = now.y_end[n + k]
+    old_mode = mode_number(block)
+    outcome = shock(block, place_bodies(block, now.y_end))
+    if outcome != status.OK:
+        return outcome
+    total = 0.0
+    first = codes.NONE
+    for c in range(Sizes(block).contacts):
+        if Strikes(block).impulse[c] > 0.0:
+            total += Strikes(block).impulse[c]
+            keep_impact(block, c)
+            if first == codes.NONE:
+                first = c
+    keep_event(block, codes.GUARD_SHOCK, first, old_mode, total)
+    for k in range(count):
+        Contacts(block).mode[Strikes(block).candidates[k]] = codes.CLOSED
+    Strikes(block).problem[COUNT] = count
+    at = place_bodies(block, now.y_end)
+    look_at_slip(block, at, True, codes.NONE)
+    return push_forces(block, at)
 
 
 @jit

@@ -16,7 +16,7 @@ from ...tables.motion import LinearSystem, Loads, Pose, Rows, Rubs
 from ...tables.parts import Bodies, Contacts, Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, friction_row, slips, sticks
+from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, friction_row, holding, slips, sticks
 from ..constraints.point_line import spare_row
 from .minimum_norm import solve_again
 
@@ -222,7 +222,7 @@ def hold(block: Array, rub: int) -> float:
     keep_small()
     system = LinearSystem(block)
     contacts = Sizes(block).contacts
-    bound = coefficient(block, rub)
+    bound = holding(block, rub)
     if rub < contacts:
         normal: float = Rubs(block).given[rub]
         if Contacts(block).mode[rub] == codes.CLOSED:

@@ -35,6 +35,7 @@ SUBJECTS = {
     codes.GUARD_FUNCTION: "functions",
     codes.GUARD_STICK: "rubs",
     codes.GUARD_SLIP: "rubs",
+    codes.GUARD_SHOCK: "rubs",
 }
 
 

@@ -112,6 +112,9 @@ def _dry(mechanism: Mechanism) -> Iterator[str]:
         for force in mechanism.forces:
             if force.dry:
                 yield f"{type(force).__name__} {force.name!r} is dry; give the mechanism friction_law='coulomb'."
+        for part in (*mechanism.contacts, *mechanism.joints):
+            if part.friction_static is not None:
+                yield f"{type(part).__name__} {part.name!r}: friction_static is dry; give friction_law='coulomb', too."
         if mechanism.impact_law != "newton":
             yield f"impact_law = {mechanism.impact_law!r} is of dry friction; give friction_law='coulomb', too."
 

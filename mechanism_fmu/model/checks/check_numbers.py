@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import fields
 
 from ..body import GROUND, Body
+from ..contact_facts import static_findings
 from ..contacts import Contact
 from ..curves import Curve
 from ..curves.check_curves import curve_findings
@@ -96,6 +97,7 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
     for joint in mechanism.joints:
         text = f"Joint {literal(repr(joint.name))}: {joint.friction_name} = {{:g}} must be finite and not negative."
         yield refuse_unless(finite_not_negative(joint.friction), text, joint.friction)
+        yield from static_findings(joint, f"Joint {literal(repr(joint.name))}")
     for part in (*mechanism.joints, *mechanism.elements, *mechanism.contacts, *mechanism.patterns):
         yield from _not_finite(part)
     for port in mechanism.inputs:

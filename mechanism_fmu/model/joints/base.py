@@ -43,6 +43,7 @@ class JointFacts(Attached):
         row: name of the kind in `tables.kinds.JOINTS`.
         rows: how many constraint rows it has.
         unit: of the motion of a driver.
+        friction_static: the same while it sticks; None: as large.
         friction: the joint's entry in the table `joint_friction`; `friction_name` is what that is called.
         efforts: by name.
         axes: names of directions, which must have a length.
@@ -52,6 +53,7 @@ class JointFacts(Attached):
     row: ClassVar[str]
     rows: ClassVar[int] = 1
     friction: Number = 0.0
+    friction_static: Number | None = None
     unit: ClassVar[str] = "m"
     friction_name: ClassVar[str] = "friction"
     efforts: ClassVar[Mapping[str, Effort]] = {}
@@ -85,6 +87,11 @@ class JointFacts(Attached):
             value = getattr(self, name)
             text = f"{self.label}: {name} = {{:g}} m, but it must be positive and finite."
             yield refuse_unless(finite_positive(value), text, value)
+
+    @property
+    def holding(self) -> Number:
+        """The joint's entry in the table `joint_holding`: its friction while it sticks."""
+        return self.friction if self.friction_static is None else self.friction_static
 
     @property
     def label(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from ... import codes
@@ -29,6 +29,7 @@ class ProfileContact(ContactFacts):
         closed: whether assembly puts the profiles in contact.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
         friction: Coulomb coefficient along the common tangent [1], >= 0; 0 unless the friction of the mechanism is dry.
+        friction_static: the same while it sticks [1], at least as large; None: as large.
     """
 
     holds: ClassVar = "unilateral"
@@ -38,7 +39,6 @@ class ProfileContact(ContactFacts):
     restitution: Number
     closed: Number
     enabled: Number
-    friction: Number
 
     @property
     def guided(self) -> Number:
@@ -70,7 +70,7 @@ class CamFollower(ProfileContact):
         body_i, body_j: names of cam and follower (or `GROUND`).
         profile_i, profile_j: rho [m] over alpha [rad], about each profile's centre.
         centre_i, centre_j: s, the centres in the frame of each body [m].
-        unilateral, restitution, closed, enabled, friction: as of `ProfileContact`.
+        unilateral, restitution, closed, enabled, friction, friction_static: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.CAM_FOLLOWER
@@ -90,6 +90,7 @@ class CamFollower(ProfileContact):
     closed: Number = True
     enabled: Number = True
     friction: Number = 0.0
+    friction_static: Number | None = field(default=None, kw_only=True)
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, centre_j."""
@@ -123,7 +124,7 @@ class CamFlatFollower(ProfileContact):
         direction_j: along the face in the frame of body j (any length > 0; u_j is its unit vector), so that R u_j,
             u_j turned by +90 deg, points from the face towards the cam.
         centre_i: s, the centre of the profile in the frame of body i [m].
-        unilateral, restitution, closed, enabled, friction: as of `ProfileContact`.
+        unilateral, restitution, closed, enabled, friction, friction_static: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.CAM_FLAT_FOLLOWER
@@ -143,6 +144,7 @@ class CamFlatFollower(ProfileContact):
     closed: Number = True
     enabled: Number = True
     friction: Number = 0.0
+    friction_static: Number | None = field(default=None, kw_only=True)
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: centre_i, point_j, u_j."""
@@ -172,7 +174,7 @@ class PointFollower(ProfileContact):
         point_i: P in the frame of body i [m].
         profile_j: rho [m] over alpha [rad], about the profile's centre.
         centre_j: s, the centre of the profile in the frame of body j [m].
-        unilateral, restitution, closed, enabled, friction: as of `ProfileContact`.
+        unilateral, restitution, closed, enabled, friction, friction_static: as of `ProfileContact`.
     """
 
     kind: ClassVar[int] = codes.POINT_FOLLOWER
@@ -191,6 +193,7 @@ class PointFollower(ProfileContact):
     closed: Number = True
     enabled: Number = True
     friction: Number = 0.0
+    friction_static: Number | None = field(default=None, kw_only=True)
 
     def data(self) -> tuple[Number, ...]:
         """The contact's row of the table `contact_data`: point_i, centre_j."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from ..attached import Slot
@@ -62,6 +62,7 @@ class Revolute(_OfPoints):
         body_i, body_j: names of the two bodies (or `GROUND`).
         point_i, point_j: P in the frame of each body [m].
         friction_radius: coefficient of friction times radius of the pin [m]; friction torque = it times the pin force.
+        friction_static: the same while it sticks [m], at least as large, of dry friction; None: as large.
     """
 
     row: ClassVar = "revolute"
@@ -71,6 +72,7 @@ class Revolute(_OfPoints):
     units: ClassVar = {"friction_radius": "m"}
 
     friction_radius: Number = 0.0
+    friction_static: Number | None = field(default=None, kw_only=True)
 
     @property
     def friction(self) -> Number:
@@ -106,6 +108,7 @@ class Translational(_OfGuide):
         point_i, point_j: a point of the axis in the frame of each body [m].
         axis_i, axis_j: direction of the axis in the frame of each body (any length > 0).
         friction: coefficient of friction [1], >= 0; friction force = it times the force across the axis.
+        friction_static: the same while it sticks [1], at least as large, of dry friction; None: as large.
     """
 
     row: ClassVar = "translational"
@@ -116,6 +119,7 @@ class Translational(_OfGuide):
 
     axis_j: Point
     friction: Number = 0.0
+    friction_static: Number | None = field(default=None, kw_only=True)
 
     def data(self) -> tuple[Number, ...]:
         """The joint's row of the table `joint_data`: point_i, point_j, axis_i, axis_j."""

@@ -169,7 +169,7 @@ def test_every_part_with_ends_is_there_and_made_in_the_one_way() -> None:
 
 
 def test_the_signature_has_the_ends_and_the_rest_by_keyword() -> None:
-    assert str(inspect.signature(Revolute)) == "(name, body_i, body_j, *, friction_radius=0.0)"
+    assert str(inspect.signature(Revolute)) == "(name, body_i, body_j, *, friction_radius=0.0, friction_static=None)"
     assert str(inspect.signature(Torque)) == "(name, body, reaction='ground', *, torque=0.0)"
     for kind in {type(new) for new, _ in PAIRS}:
         first, *others = inspect.signature(kind).parameters.values()

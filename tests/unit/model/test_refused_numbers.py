@@ -174,7 +174,8 @@ def said(part: Any, place: str) -> str:
         around["members"] = (Member("m", "a", HERE, EAST, **STEEL),)
     around[place] = part if place == "settings" else (A, B, part) if place == "bodies" else (part,)
     try:
-        compile_mechanism(Mechanism(**around))
+        law = "coulomb" if getattr(part, "dry", False) else "smooth"
+        compile_mechanism(Mechanism(**around, friction_law=law))
     except MechanismError as error:
         return str(error)
     return ""

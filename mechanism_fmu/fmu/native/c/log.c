@@ -96,6 +96,7 @@ static void name_event(int guard, int subject, char *text, size_t size) {
     else if (guard == CODE_GUARD_PREVIOUS) snprintf(text, size, "%s.previous", model.patterns[subject]);
     else if (guard == CODE_GUARD_STICK) snprintf(text, size, "%s.sticks", model.rubs[subject]);
     else if (guard == CODE_GUARD_SLIP) snprintf(text, size, "%s.slips", model.rubs[subject]);
+    else if (guard == CODE_GUARD_SHOCK) snprintf(text, size, "%s.shock", model.rubs[subject]);
     else snprintf(text, size, "%s.%s", model.contacts[subject].name, of_contact);
 }
 
