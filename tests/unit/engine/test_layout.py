@@ -59,7 +59,9 @@ def test_sizes_that_follow_from_others():
     assert sizes["unknowns"] == 2 * 6 + 2 + 3 + 2  # positions, rates, work and loss, contact coordinates, own states
     assert [sizes[name] for name in ("y_work", "y_loss", "y_alpha", "y_own")] == [12, 13, 14, 17]
     assert sizes["displacements"] == 3 * 4  # x, y and rotation of a node
-    assert sizes["guards"] == 2 * 5 + 2 * 2 + 3 + 6  # gap and click of a contact, both ends of a pattern, functions, slip
+    assert (
+        sizes["guards"] == 2 * 5 + 2 * 2 + 3 + 6
+    )  # gap and click of a contact, both ends of a pattern, functions, slip
     assert sizes["record"] == 8 + 5 + 12  # eight columns, an impulse a contact, all rates before and after
 
 
