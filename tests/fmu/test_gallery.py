@@ -32,6 +32,7 @@ FREEDOMS = {
     "rocking_block": (1, 3, 2),
     "scotch_yoke": (1, 6, 5),
     "stephenson": (0, 15, 15),
+    "stick_slip": (1, 6, 5),
     "toggle_press": (0, 15, 15),
     "watt": (0, 15, 15),
     "whitworth": (0, 12, 12),
