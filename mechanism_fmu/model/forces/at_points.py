@@ -50,7 +50,8 @@ class SpringDamper(PointElement):
     One-sided "stretched", it is there only where l > free_length, and only pulls: a rope. One-sided "compressed", it is
     there only where l < free_length, and only pushes: a bumper. The energy of the linear part counts as spring energy,
     the work of the preload as work done on the mechanism, and the rest as lost. Where the points meet, the force acts
-    along their relative velocity; where they rest there, it has no direction and vanishes.
+    along their relative velocity; where they rest there, it has no direction and vanishes. Where joints keep them
+    together but for rounding, its direction is made of rounding: between the points of a `Revolute` it is refused.
 
     Attributes:
         name: unique within the mechanism.
