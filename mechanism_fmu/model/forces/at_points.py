@@ -28,6 +28,7 @@ class Force(Element):
     writable: ClassVar = ("x", "y")
     acts: ClassVar = "at centre"
     reaction: ClassVar[str] = GROUND
+    units: ClassVar = {"force": "N"}
     slots: ClassVar = (Slot("body"),)
 
     name: str
@@ -103,6 +104,7 @@ class PointForce(Element):
     quantities: ClassVar = {"power": Quantity("W", "Power that the body gets", ("x", "y"))}
     acts: ClassVar = "at points"
     reaction: ClassVar[str] = GROUND
+    units: ClassVar = {"force": "N"}
     slots: ClassVar = (Slot("body", "point"),)
 
     name: str
