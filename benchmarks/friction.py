@@ -45,7 +45,7 @@ def step_time(mechanism: Mechanism) -> float:
     simulation = Simulation(mechanism)
     began = time.process_time()
     simulation.advance(_UNTIL)
-    return (time.process_time() - began) / simulation.counters.item(3) * 1e6
+    return (time.process_time() - began) / int(simulation.counters[3]) * 1e6
 
 
 def main() -> None:
