@@ -127,6 +127,8 @@ BEAM_STRESS = 35
 SLIP_SPEED = 36  # index: of dry friction, contacts, joints, and elements
 FRICTION_FORCE = 37
 STICKS_NOW = 38
+GAP_ACCELERATION = 39  # of a contact
+SLIP_ACCELERATION = 40
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before the instant, then after it
 RECORD_TIME = 0

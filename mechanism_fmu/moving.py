@@ -12,13 +12,15 @@ import numpy as np
 from . import codes
 from .engine import status
 from .engine.run import engine_for
-from .model import Mechanism, MechanismError, compile_mechanism
+from .model import Input, Mechanism, MechanismError, compile_mechanism
 from .model.compile import unknown_names
 from .model.event_names import event_name
+from .model.model import check_value
+from .model.quantities import quantity
 from .tables.layout import field_of, pack, state_of
 from .tolerances import RATES_WITHIN
 
-__all__ = ["Event", "Impact", "MovingMechanism", "SimulationError", "StepBudgetError"]
+__all__ = ["Event", "Impact", "MovingMechanism", "SimulationError", "StepBudgetError", "input_place", "input_value"]
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -90,23 +92,60 @@ class Event(NamedTuple):
     impulse: float
 
 
+def input_place(name: str, ports: Sequence[Input]) -> int:
+    """The place of an input among all.
+
+    Args:
+        name: of the input.
+        ports: all inputs.
+
+    Raises:
+        MechanismError: there is no such input.
+    """
+    names = [port.name for port in ports]
+    if name not in names:
+        raise MechanismError(f"there is no input {name!r}; there are: {', '.join(names) or 'none'}.")
+    return names.index(name)
+
+
+def input_value(port: Input, value: float | str) -> float:
+    """A value for an input in its SI unit, checked against its limits.
+
+    Args:
+        port: the input.
+        value: in its SI unit, or a text with another unit of the kind, "20 N.mm".
+
+    Raises:
+        MechanismError: it is no finite number, outside the limits, or of another unit.
+    """
+    number = quantity(value, port.unit, port.name)
+    try:
+        found = float(number)
+    except (TypeError, ValueError):
+        raise MechanismError(f"{port.name} wants a number in {port.unit}, got {value!r}.") from None
+    check_value(port, found)
+    return found
+
+
 class MovingMechanism:
     """One mechanism, from assembly through its motion.
 
     Args:
         mechanism: its numbers are checked and written as tables.
         start_time: [s].
-        inputs: values at the start, in the order of `mechanism.inputs`; their own start values by default.
+        inputs: values at the start, in the order of `mechanism.inputs`, one for each; their own start values by
+            default.
 
     Raises:
-        MechanismError: the mechanism cannot be right, or cannot be assembled (with what is left of each joint).
+        MechanismError: the mechanism cannot be right, or cannot be assembled (with what is left of each joint); or the
+            values of inputs are too few, too many, or such as an input does not take.
     """
 
-    def __init__(self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float] | None = None) -> None:
+    def __init__(
+        self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float | str] | None = None
+    ) -> None:
         self._take(mechanism, pack(compile_mechanism(mechanism)))
-        if inputs is not None:
-            self.inputs[:] = inputs
-        self.begin(start_time)
+        self._begin_with(start_time, inputs)
 
     @classmethod
     def over(cls, mechanism: Mechanism, block: Array, library: CDLL | None = None) -> MovingMechanism:
@@ -125,13 +164,25 @@ class MovingMechanism:
         self._mechanism = mechanism
         self._block = block
         self._engine = engine_for(self._block, library)
-        self._input_names = [port.name for port in mechanism.inputs]
         self._output_names = [o.name for o in mechanism.outputs] + [c.name for c in mechanism.calculated]
         self.inputs: Array = field_of(self._block, "inputs")
         self.outputs: Array = field_of(self._block, "outputs")
         self.state: Array = state_of(self._block)
         self.counters: Array = field_of(self._block, "counters")
         self._clock: Array = field_of(self._block, "clock")
+
+    def _begin_with(self, time: float, inputs: Sequence[float | str] | None) -> None:
+        """Begin with values of all inputs, or with their own start values."""
+        ports = self._mechanism.inputs
+        if inputs is not None:
+            if len(inputs) != len(ports):
+                names = ", ".join(port.name for port in ports) or "none"
+                raise MechanismError(
+                    f"inputs has {len(inputs)} values for {len(ports)} inputs ({names}); give one for each, in this "
+                    "order."
+                )
+            self.inputs[:] = [input_value(port, value) for port, value in zip(ports, inputs, strict=True)]
+        self.begin(time)
 
     @property
     def time(self) -> float:
@@ -145,8 +196,10 @@ class MovingMechanism:
             time: at which the motion begins [s].
 
         Raises:
-            MechanismError: it cannot be assembled.
+            MechanismError: it cannot be assembled, or the time is not finite.
         """
+        if not math.isfinite(time):
+            raise MechanismError(f"the start time is {time} s; give a finite one.")
         outcome = self._engine.begin(float(time)) or self._engine.advance(float(time))
         if outcome == status.OK:
             return
@@ -168,10 +221,7 @@ class MovingMechanism:
         Raises:
             SimulationError: the motion cannot be continued; the time reached is the last good one.
         """
-        if not self.time <= target < math.inf:
-            raise SimulationError(
-                f"t = {self.time:.9g} s: the motion cannot go on to {target:.9g} s; give a later time."
-            )
+        self._require_later(target)
         self._require(self._engine.advance(float(target)))
 
     def begin_step(self) -> None:
@@ -192,6 +242,7 @@ class MovingMechanism:
         Raises:
             SimulationError: as of `advance`.
         """
+        self._require_later(target)
         self._require(self._engine.go_on(float(target), rule))
 
     def read(self) -> dict[str, float]:
@@ -204,17 +255,19 @@ class MovingMechanism:
         self._engine.read_outputs()
         return self.outputs
 
-    def set_input(self, name: str, value: float) -> None:
+    def set_input(self, name: str, value: float | str) -> None:
         """Set an input from now on (SI units).
 
         Args:
             name: of the input.
-            value: in its SI unit.
+            value: in its SI unit, or a text with another unit of the kind.
 
         Raises:
-            ValueError: there is no such input.
+            MechanismError: there is no such input, or it does not take this value (`input_value`).
         """
-        self.inputs[self._input_names.index(name)] = value
+        ports = self._mechanism.inputs
+        place = input_place(name, ports)
+        self.inputs[place] = input_value(ports[place], value)
 
     def set_slope(self, name: str, slope: float) -> None:
         """Let an input change by `slope` (its SI unit per second) during the next communication step, and hold then.
@@ -224,9 +277,12 @@ class MovingMechanism:
             slope: change per second [SI unit/s].
 
         Raises:
-            ValueError: there is no such input.
+            MechanismError: there is no such input, or the slope is not finite.
         """
-        self.field("input_slopes")[self._input_names.index(name)] = slope
+        place = input_place(name, self._mechanism.inputs)
+        if not math.isfinite(slope):
+            raise MechanismError(f"{name}: slope = {slope} is not a finite number; give its change per second.")
+        self.field("input_slopes")[place] = slope
 
     def read_rates(self) -> dict[str, float]:
         """Derivatives of all outputs with respect to time, by name (SI units); NaN where there is none."""
@@ -285,6 +341,12 @@ class MovingMechanism:
 
     def _closed(self, mode: int) -> tuple[str, ...]:
         return tuple(contact.name for c, contact in enumerate(self._mechanism.contacts) if mode >> c & 1)
+
+    def _require_later(self, target: float) -> None:
+        if not self.time <= target < math.inf:
+            raise SimulationError(
+                f"t = {self.time:.9g} s: the motion cannot go on to {target:.9g} s; give a later time."
+            )
 
     def _require(self, outcome: int) -> None:
         if outcome != status.OK:

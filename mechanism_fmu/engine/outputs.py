@@ -16,6 +16,7 @@ from .compiler.subset import entry, jit, keep_small
 from .constraints.friction_rows import friction_row, sticks, touches
 from .constraints.kinematics import place_bodies, set_instant
 from .constraints.point_line import spare_row
+from .constraints.rows import contact_row
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
 from .dynamics.forces import (
@@ -218,6 +219,31 @@ def _sticks_now(block: Array, _at: Pose, index: int, _slot: int, _value: float) 
     return 1.0 if sticks(block, index) else 0.0
 
 
+@jit
+def _along_spare(block: Array) -> float:
+    """The second derivative of the spare row at the accelerations of the last solve."""
+    n = Sizes(block).coordinates
+    spare = spare_row(block)
+    total = -Rows(block).gamma[spare]
+    for k in range(n):
+        total += Rows(block).jacobian[spare, k] * Stages(block).dy_at[n + k]
+    return float(total)
+
+
+@jit
+def _gap_acceleration(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
+    keep_small()
+    contact_row(block, at, index, spare_row(block))
+    return _along_spare(block)
+
+
+@jit
+def _slip_acceleration(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
+    keep_small()
+    friction_row(block, at, index, spare_row(block))
+    return _along_spare(block)
+
+
 #: Every kind of output but those of elastic members.
 READINGS: dict[int, Reading] = {
     codes.CONSTANT: Reading(_constant, _rests),
@@ -242,6 +268,8 @@ READINGS: dict[int, Reading] = {
     codes.SLIP_SPEED: Reading(_slip_speed),
     codes.FRICTION_FORCE: Reading(_friction_force, solves=True),
     codes.STICKS_NOW: Reading(_sticks_now),
+    codes.GAP_ACCELERATION: Reading(_gap_acceleration, solves=True),
+    codes.SLIP_ACCELERATION: Reading(_slip_acceleration, solves=True),
 }
 
 

@@ -37,7 +37,8 @@ ADVICE = {
     "because something is very stiff or very fast. The time reached is good, and the next step goes on from there. "
     "Check the size of inputs and parameters, take shorter communication steps, or give a larger max_internal_steps.",
     NO_CHOICE: "No set of pushing contacts agrees with the motion: more contacts touch at once than can be "
-    "resolved. Change lengths or start positions a little.",
+    "resolved, or no finite forces agree with dry friction (Painleve). Change lengths or start positions a little; "
+    "of dry friction, give less of it, or the mechanism tangential_shock=True.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
     JAMMED: "No normal forces agree with their friction: the mechanism jams itself. Give less friction, or move the "

@@ -17,7 +17,7 @@ from .body import GROUND, Body, End, Point
 from .errors import MechanismError
 from .findings import length
 from .functions import Number, atan2, where_positive
-from .quantities import quantity
+from .quantities import with_texts
 
 
 class OldFormWarning(PendingDeprecationWarning):
@@ -81,8 +81,8 @@ class Attached:
         for slot in kind.slots:
             values.update(_filled(label, slot, values.pop(slot.argument, MISSING), values))
         for name, unit in kind.units.items():
-            if isinstance(values.get(name), str):
-                values[name] = quantity(values[name], unit, f"{label}: {name}")
+            if isinstance(values.get(name), str | tuple | list):
+                values[name] = with_texts(values[name], unit, f"{label}: {name}")
         for name, value in _complete(kind, values).items():
             object.__setattr__(self, name, value)
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 
 from .errors import MechanismError
 from .functions import Number, cos, sin
-from .quantities import quantity
+from .quantities import pair, quantity, with_texts
 
 #: A point or a vector (x, y) [m] in the frame of a body, from its centre of mass, or in the global frame.
 Point = tuple[Number, Number]
@@ -61,14 +62,17 @@ class Frame(ABC):
             angle: of the direction, in its place [rad], or a text.
 
         Raises:
-            MechanismError: a text is no length or angle, or not one of direction and angle is given.
+            MechanismError: a text is no length or angle, point or direction is no pair, or not one of direction and
+                angle is given.
         """
         if (direction is None) == (angle is None):
             raise MechanismError("line: it takes a direction (dx, dy) or an angle, one of the two.")
         if direction is None:
             angle = quantity(angle, "rad", "line: angle")
             direction = (cos(angle), sin(angle))
-        return self._end((quantity(point[0], "m", "line: x"), quantity(point[1], "m", "line: y")), direction)
+        else:
+            direction = pair(direction, "1", "line: direction (of an angle, write angle=...)")
+        return self._end(pair(point, "m", "line: point"), direction)
 
 
 class Ground(str, Frame):
@@ -84,6 +88,17 @@ class Ground(str, Frame):
 GROUND = Ground("ground")
 
 # Rigid bodies.
+
+#: Units of the numbers of a body, or of each of several.
+_UNITS: Mapping[str, str | Sequence[str]] = {
+    "mass": "kg",
+    "inertia": "kg.m2",
+    "start": ("m", "m", "rad"),
+    "start_rate": ("m/s", "m/s", "rad/s"),
+    "tooth_length": "m",
+    "centre": "m",
+    "radius": "m",
+}
 
 
 @dataclass(frozen=True)
@@ -106,6 +121,11 @@ class Body(Frame):
         centre: the centre of mass in the frame in which the body is drawn [m].
         outline: corners of its shape in that frame [m], for drawings; of a bar its two ends.
         radius: by which its shape reaches beyond the outline [m]; the outline of a disc is its centre.
+
+    Numbers may be texts with units, such as "20 g".
+
+    Raises:
+        MechanismError: a text is no such quantity.
     """
 
     name: str
@@ -117,6 +137,14 @@ class Body(Frame):
     centre: Point = field(default=(0.0, 0.0), compare=False, kw_only=True)
     outline: tuple[Point, ...] = field(default=(), compare=False, kw_only=True)
     radius: Number = field(default=0.0, compare=False, kw_only=True)
+
+    def __post_init__(self) -> None:
+        """Make numbers of texts with units."""
+        for name, unit in _UNITS.items():
+            value = getattr(self, name)
+            found = with_texts(value, unit, f"Body {self.name!r}: {name}")
+            if found is not value:
+                object.__setattr__(self, name, found)
 
     def _end(self, point: Point, direction: Point | None = None) -> End:
         x, y = self.centre

@@ -48,6 +48,7 @@ class ContactFacts(Attached):
         "force": codes.CONTACT_FORCE,
         "gap": codes.CONTACT_GAP,
         "closed": codes.CONTACT_CLOSED,
+        "gap_acceleration": codes.GAP_ACCELERATION,
     }
 
     rows: ClassVar[int] = 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, count
 from typing import Any
@@ -14,9 +14,10 @@ from .contacts import PointLineContact
 from .curves import Curve
 from .curves.check_curves import value_and_slope
 from .drawing import Disc, Hinge, Link, Outline, Quantity, Rod, Shape, Spring, Striker, Trace, Wheel
-from .functions import Number, is_plain
+from .findings import length
+from .functions import Number, is_plain, where_positive
 from .mechanism import Mechanism
-from .ports import Calculated, Output
+from .ports import Calculated, Input, Output
 from .symbol import Symbol
 
 #: Which fields of a part name a body and a point of it.
@@ -53,18 +54,21 @@ class Drawn:
         mechanism: it.
         size: of the mechanism [m].
         follows: of each number in order whether it is a calculated parameter; where the list ends, symbols are.
+        taken: names of the model's parameters, which none of its variables may have.
         points: of each body, as variables or numbers of the drawing; and as they were given.
     """
 
     mechanism: Mechanism
     size: float
     follows: list[bool] = field(default_factory=list)
+    taken: tuple[str, ...] = ()
     shapes: list[Shape] = field(default_factory=list)
     calculated: list[Calculated] = field(default_factory=list)
     outputs: list[Output] = field(default_factory=list)
     points: dict[str, list[tuple[Quantity, Quantity]]] = field(default_factory=dict)
     given: dict[str, list[tuple[Number, Number]]] = field(default_factory=dict)
     numbers: int = 0
+    named: set[str] = field(default_factory=set)
 
     def number(self, value: Number, name: str) -> Quantity:
         """A number of the drawing: itself, or the name of the calculated parameter that holds it."""
@@ -73,7 +77,9 @@ class Drawn:
         self.numbers += 1
         if not self.follows[self.numbers - 1]:
             return float(value) if is_plain(value) else 0.0
-        name = f"drawing_{name}"
+        taken = {*self.taken, *self.named, *(port.name for port in self._ports())}
+        name = _free(f"drawing_{name}", taken)
+        self.named.add(name)
         if any(known.name == name for known in self.mechanism.calculated):
             return name  # of a mechanism that another model has drawn
         self.calculated.append(Calculated(name, value, "Drawing: a number of its shape", "m"))
@@ -109,11 +115,19 @@ class Drawn:
         for output in (*self.mechanism.outputs, *self.outputs):
             if output.source == source:
                 return output.name
-        taken = {output.name for output in self.mechanism.outputs} | {port.name for port in self.mechanism.inputs}
-        names = chain([f"{body}_{what}"], (f"{body}_{what}_{k}" for k in count(2)))
-        name = next(n for n in names if n not in taken)
+        calculated = (*self.mechanism.calculated, *self.calculated)
+        taken = {*self.taken, *(port.name for port in self._ports()), *(known.name for known in calculated)}
+        name = _free(f"{body}_{what}", taken)
         self.outputs.append(Output(name, source, f"Drawing: {what} of {body}", unit))
         return name
+
+    def _ports(self) -> tuple[Input | Output, ...]:
+        return (*self.mechanism.inputs, *self.mechanism.outputs, *self.outputs)
+
+
+def _free(name: str, taken: Collection[str]) -> str:
+    """The name, or if that is taken, the first of <name>_2, <name>_3, ... that is not."""
+    return next(n for n in chain([name], (f"{name}_{k}" for k in count(2))) if n not in taken)
 
 
 def _is_same(one: Number, other: Number) -> bool:
@@ -136,15 +150,16 @@ def plan_of(reference: Mechanism, symbolic: Mechanism | None) -> Plan:
     return Plan(tuple(drawn.follows) if symbolic else (True,) * len(drawn.follows), size)
 
 
-def draw(mechanism: Mechanism, size: float, follows: Sequence[bool] = ()) -> Drawn:
+def draw(mechanism: Mechanism, size: float, follows: Sequence[bool] = (), taken: Sequence[str] = ()) -> Drawn:
     """Shapes for a mechanism, with the calculated parameters and outputs that they need besides those that are there.
 
     Args:
         mechanism: its numbers may be symbolic.
         size: of the mechanism [m].
         follows: see `Plan`; () asks the numbers themselves.
+        taken: names of the model's parameters.
     """
-    drawn = Drawn(mechanism, size, [*follows])
+    drawn = Drawn(mechanism, size, [*follows], tuple(taken))
     for body in mechanism.bodies:
         if len(body.outline) == 2:  # a bar reaches from end to end, whatever is joined to it
             for corner in body.corners:
@@ -235,7 +250,8 @@ def _outlines(drawn: Drawn) -> Iterator[Shape]:
 
 
 def _line(drawn: Drawn, name: str, body: str, point: tuple[Number, Number], along: tuple[Number, Number]) -> Outline:
-    reach = _REACH * drawn.size
+    long = length(along)  # a direction is given in any length; of one without, its joint says so
+    reach = _REACH * drawn.size / where_positive(long, long, 1.0)
     ends = [(point[0] + k * reach * along[0], point[1] + k * reach * along[1]) for k in (-1.0, 1.0)]
     at, angle = drawn.pose(body)
     return Outline(name, at, angle, tuple(_points(drawn, ends, name)))

@@ -63,7 +63,7 @@ def _outputs(mechanism: Mechanism) -> Iterator[Output]:
     if mechanism.contacts or mechanism.functions or mechanism.patterns:
         yield whole_output("event_count", "event.count", "Events since the start")
         if len(mechanism.contacts) <= MOST_CONTACTS_OF_A_MODE:
-            yield from event_buffer_outputs(_EVENT)
+            yield from event_buffer_outputs(_event(mechanism))
     if mechanism.contacts:
         yield from impact_outputs("Impacts", _impact(mechanism))
 
@@ -110,23 +110,41 @@ def _of_contacts(mechanism: Mechanism) -> Iterator[Output]:
             yield active_output(name, f"Whether {name} is closed")
 
 
-#: What is reported of an event, from which the harness makes its table.
-_EVENT = (
-    Output("time", "time", "Time, {event}", "s"),
-    whole_output("guard", "guard", "Guard, as a code, {event}"),
-    whole_output("subject", "subject", "Number of the contact, pattern or logical function, {event}"),
-    whole_output("old_mode", "old_mode", "Sum of 2^c over the contacts closed before, {event}"),
-    whole_output("new_mode", "new_mode", "Sum of 2^c over the contacts closed after, {event}"),
-    Output("impulse", "impulse", "Total impulse, {event}", "N.s"),
-)
+def impact_units(mechanism: Mechanism) -> tuple[str, str]:
+    """Units of closing speeds and impulses: of stops and locks where all contacts are such, else of forces.
+
+    Args:
+        mechanism: whose contacts they are of.
+    """
+    angular = bool(mechanism.contacts) and all(contact.angular for contact in mechanism.contacts)
+    return ("rad/s", "N.m.s") if angular else ("m/s", "N.s")
+
+
+def impact_remark(mechanism: Mechanism) -> str:
+    """What is said of closing speeds and impulses beside their units: "" unless stops and locks are among others.
+
+    Args:
+        mechanism: whose contacts they are of.
+    """
+    return "; of stops and locks per radian" if len({contact.angular for contact in mechanism.contacts}) > 1 else ""
+
+
+def _event(mechanism: Mechanism) -> tuple[Output, ...]:
+    """What is reported of an event, from which the harness makes its table."""
+    return (
+        Output("time", "time", "Time, {event}", "s"),
+        whole_output("guard", "guard", "Guard, as a code, {event}"),
+        whole_output("subject", "subject", "Number of the contact, pattern or logical function, {event}"),
+        whole_output("old_mode", "old_mode", "Sum of 2^c over the contacts closed before, {event}"),
+        whole_output("new_mode", "new_mode", "Sum of 2^c over the contacts closed after, {event}"),
+        Output("impulse", "impulse", f"Total impulse{impact_remark(mechanism)}, {{event}}", impact_units(mechanism)[1]),
+    )
 
 
 def _impact(mechanism: Mechanism) -> tuple[Output, ...]:
-    """What is reported of an impact; the unit of stops where all contacts are stops or locks."""
-    angular = all(contact.angular for contact in mechanism.contacts)
-    speed, impulse = ("rad/s", "N.m.s") if angular else ("m/s", "N.s")
-    several = any(contact.angular for contact in mechanism.contacts) and not angular
-    mixed = "; of stops and locks per radian" if several else ""
+    """What is reported of an impact."""
+    speed, impulse = impact_units(mechanism)
+    mixed = impact_remark(mechanism)
     fields = (
         whole_output("contact", "contact", "Number of the contact, from 0, {impact}"),
         Output("closing_speed", "closing_speed", f"Speed before{mixed}, {{impact}}", speed),

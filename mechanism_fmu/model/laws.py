@@ -8,8 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from inspect import signature
 from itertools import pairwise
 from typing import NamedTuple, NoReturn
+
+import numpy as np
 
 from ..tables.kinds import OPERATIONS
 from .curves import Curve, Piece, Term, plain_places
@@ -19,6 +22,8 @@ from .operators import Recorded
 
 #: Most operations of one law.
 MOST_OPERATIONS = 500
+#: Up to this exponent, a whole power is the number times itself, times itself, ...
+_ONE_BY_ONE = 12
 
 
 class LawOperation(NamedTuple):
@@ -57,7 +62,13 @@ class _Recording:
             return x.number
         if isinstance(x, Condition):
             x._refuse()
+        if not _is_number(x):
+            raise MechanismError(f"it calculates with {x!r}, but a law takes real numbers alone, one by one.")
         return self._append("constant", (0, 0, 0), float(x) if is_plain(x) else x)
+
+    def ends_with(self, result: LawNumber) -> bool:
+        """Whether a number is the result of the last operation so far."""
+        return result.number == len(self.operations) - 1
 
     def _append(self, name: str, operands: tuple[int, int, int], value: Number = 0.0) -> int:
         if len(self.operations) == MOST_OPERATIONS:
@@ -123,11 +134,21 @@ class LawNumber(Recorded):
     def _binary(self, name: str, left: Number, right: Number) -> LawNumber:
         return self.law.apply(name, left, right)
 
-    def __pow__(self, exponent: Number) -> LawNumber:
-        if not (isinstance(exponent, int) and 1 <= exponent <= 12):
+    def __pow__(self, exponent: Number) -> Number:
+        if not (isinstance(exponent, int | float | np.integer | np.floating) and float(exponent).is_integer()):
             return self.law.apply("power", self, exponent)
+        whole = int(exponent)  # also of negative bases, of which the operation "power" gives NaN
+        if whole == 0:
+            return 1.0
+        return self._times_itself(whole) if whole > 0 else 1.0 / self._times_itself(-whole)
+
+    def _times_itself(self, times: int) -> LawNumber:
+        """The product of so many of it, one by one up to the 12th power, by squares beyond."""
         result = self
-        for _ in range(exponent - 1):
+        if times > _ONE_BY_ONE:
+            half = self._times_itself(times // 2)
+            result = half * half
+        for _ in range(times % 2 if times > _ONE_BY_ONE else times - 1):
             result = result * self
         return result
 
@@ -176,19 +197,46 @@ def law_operations(law: Law, owner: str) -> tuple[LawOperation, ...]:
         owner: whose law it is, for messages.
 
     Raises:
-        MechanismError: it cannot be recorded, with the line.
+        MechanismError: it is no function of two arguments, or cannot be recorded, with the line.
     """
+    _require_two_arguments(law, owner)
     recording = _Recording()
     arguments = recording.apply("length"), recording.apply("rate")
     try:
         result = law(*arguments)
-        if result is None or isinstance(result, str | tuple | list | Condition):
+        if not _is_number(result):
             raise MechanismError(f"it returns {result!r}, but must return a number.")
-        if not isinstance(result, LawNumber) or result.number < len(recording.operations) - 1:
+        if not isinstance(result, LawNumber) or result.law is not recording or not recording.ends_with(result):
             recording.apply("add", result, 0.0)  # an argument, a constant or an earlier operation
     except (ArithmeticError, AttributeError, IndexError, KeyError, MechanismError, TypeError, ValueError) as error:
         raise MechanismError(f"The law of {owner} cannot be used, {place_of(error)}: {error}") from error
     return tuple(recording.operations)
+
+
+def _require_two_arguments(law: Law, owner: str) -> None:
+    """Refuse what is no function of two arguments before it is called: only mistakes within a law have a line."""
+    if not callable(law):
+        raise MechanismError(
+            f"The law of {owner} cannot be used, as {law!r} is neither a function law(x, v) nor a curve."
+        )
+    try:
+        taken = signature(law)
+    except ValueError:
+        return  # a function that does not say what it takes
+    try:
+        taken.bind(0.0, 0.0)
+    except TypeError as error:
+        raise MechanismError(
+            f"The law of {owner} cannot be used, as it is called with two arguments, the length or angle and its rate, "
+            f"also where it does not need the second: write law(x, v), not {getattr(law, '__name__', 'law')}{taken}."
+        ) from error
+
+
+def _is_number(x: object) -> bool:
+    """Whether it is a number of a law, a real plain one, or a symbol."""
+    if is_plain(x):
+        return not isinstance(x, np.complexfloating)
+    return isinstance(x, LawNumber) or hasattr(x, "sin")
 
 
 # Laws as tables: a monotone cubic through points, and the energy that belongs to it.
@@ -203,11 +251,17 @@ def characteristic(points: Sequence[tuple[float, Number]]) -> Curve:
         points: (x [m or rad], force [N] or torque [N m]) with increasing plain x, two or more.
 
     Raises:
-        MechanismError: fewer than 2 points, or places that do not increase or that depend on a parameter.
+        MechanismError: fewer than 2 points, or points that are no pairs, or places that do not increase or that depend
+            on a parameter.
 
     Source: F. N. Fritsch and J. Butland, A method for constructing local monotone piecewise cubic interpolants,
         SIAM J. Sci. Stat. Comput. 5 (1984), with the ends as in PCHIP.
     """
+    for number, point in enumerate(points, start=1):
+        if not isinstance(point, Sequence | np.ndarray) or isinstance(point, str) or len(point) != 2:
+            raise MechanismError(
+                f"Point {number} of a characteristic is {point!r}, but each must be a pair (x, force or torque)."
+            )
     places = plain_places([x for x, _ in points], "place")
     values = [value for _, value in points]
     widths = [after - before for before, after in pairwise(places)]

@@ -17,6 +17,7 @@ from .logic import LogicalFunction
 from .members import Disk, Member
 from .patterns import CircularPattern
 from .ports import Calculated, Input, Output
+from .quantities import pair
 
 
 @dataclass(frozen=True)
@@ -59,8 +60,8 @@ class Mechanism:
         inputs, outputs, calculated: what the outside sees.
         held: coordinates, as "<body>.x|y|angle", that assembly must not move, nor their rates.
         settings: how the engine integrates; where none are given, a `Model` takes those among its parameters.
-        gravity: acceleration (gx, gy) [m/s2], e.g. (0.0, -9.80665), that gives every body its weight, whose work counts
-            as work done. None, and no weights, by default, as in Pennestri et al.
+        gravity: acceleration (gx, gy) [m/s2], e.g. (0.0, -9.80665), or texts with units, that gives every body its
+            weight, whose work counts as work done. None, and no weights, by default, as in Pennestri et al.
         members, disks: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics` and outputs
             that read them; the motion does without. The mechanism becomes a structure when its held and driven
             coordinates stand still.
@@ -70,6 +71,9 @@ class Mechanism:
         energy_guard: whether an impact that would add energy, as it may by Newton's law with dry friction, is repeated
             by Poisson's.
         tangential_shock: whether an impact without approach ends a slip with which no finite force agrees (Painlevé).
+
+    Raises:
+        MechanismError: gravity is no pair of accelerations.
     """
 
     bodies: tuple[Body, ...]
@@ -91,6 +95,11 @@ class Mechanism:
     impact_law: Literal["newton", "poisson", "stronge"] = "newton"
     energy_guard: bool = True
     tangential_shock: bool = False
+
+    def __post_init__(self) -> None:
+        """Make numbers of the texts of gravity."""
+        if self.gravity is not None:
+            object.__setattr__(self, "gravity", pair(self.gravity, "m/s2", "gravity"))
 
     @cached_property
     def elements(self) -> tuple[ForceElement, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -44,7 +44,7 @@ class _Completed:
         found = self._completed(values)
         if not self.draws or not isinstance(found, Mechanism) or not _is_readable(found):
             return found
-        drawn = draw(found, self.plan.size, self.plan.follows)
+        drawn = draw(found, self.plan.size, self.plan.follows, self._names)
         return replace(
             found, outputs=(*found.outputs, *drawn.outputs), calculated=(*found.calculated, *drawn.calculated)
         )
@@ -62,8 +62,12 @@ class _Completed:
         )
         if whole.outputs or not _is_readable(whole):
             return whole
-        taken = [getattr(parameter, "name", "") for parameter in self.parameters]
-        return replace(whole, outputs=default_outputs(whole, taken))
+        return replace(whole, outputs=default_outputs(whole, self._names))
+
+    @property
+    def _names(self) -> list[str]:
+        """Of the parameters."""
+        return [getattr(parameter, "name", "") for parameter in self.parameters]
 
     @cached_property
     def plan(self) -> Plan:
@@ -79,7 +83,7 @@ class _Completed:
     def shapes(self) -> tuple[Shape, ...]:
         """Of the default drawing."""
         mechanism = self._completed(SimpleNamespace(**{p.name: p.start for p in self.parameters}))
-        return tuple(draw(mechanism, self.plan.size, self.plan.follows).shapes)
+        return tuple(draw(mechanism, self.plan.size, self.plan.follows, self._names).shapes)
 
 
 def _is_readable(mechanism: Mechanism) -> bool:
@@ -167,7 +171,9 @@ class Model:
             MechanismError: unknown name, a value outside its limits, or a text with another unit.
         """
         units = {p.name: p.unit for p in self.parameters}
-        numbers = {name: quantity(value, units.get(name, "1"), name) for name, value in changes.items()}
+        for name in changes:
+            self._require(name, units)
+        numbers = {name: quantity(value, units[name], name) for name, value in changes.items()}
         return self.checked({p.name: p.start for p in self.parameters} | numbers)
 
     def checked(self, values: Mapping[str, float]) -> SimpleNamespace:
@@ -181,14 +187,17 @@ class Model:
         """
         known = {p.name: p for p in self.parameters}
         for name, value in values.items():
-            if name not in known:
-                raise MechanismError(f"{self.name} has no parameter {name!r}; it has: {', '.join(sorted(known))}.")
+            self._require(name, known)
             check_value(known[name], value)
             if known[name].type == "Integer" and value != int(value):
                 raise MechanismError(f"{name} = {value:g} is not a whole number; give an integer.")
             if known[name].type == "Boolean" and value not in (0, 1):
                 raise MechanismError(f"{name} = {value:g} is neither true (1) nor false (0); give one of the two.")
         return SimpleNamespace(**values)
+
+    def _require(self, name: str, known: Collection[str]) -> None:
+        if name not in known:
+            raise MechanismError(f"{self.name} has no parameter {name!r}; it has: {', '.join(sorted(known))}.")
 
     def build(self, values: SimpleNamespace) -> Mechanism:
         """The mechanism for parameter values, after asking for objections.

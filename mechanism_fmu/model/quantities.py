@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from typing import Any
 
 from ..units import FMI, UnreadableUnitError
@@ -76,6 +77,47 @@ def quantity(value: Any, unit: str, what: str = "quantity") -> Number:
     if given.exponents != wanted.exponents:
         raise MechanismError(f"{what} wants {_said(unit)}, got {value!r}; give {example}.")
     return float(written[1]) * (given.factor / wanted.factor)
+
+
+def pair(value: Any, unit: str, what: str) -> tuple[Number, Number]:
+    """A point or vector (x, y), of each of whose numbers the same holds as of `quantity`.
+
+    Args:
+        value: two numbers or texts.
+        unit: SI unit, as FMI writes it; "m" of points.
+        what: the pair is, for the message.
+
+    Raises:
+        MechanismError: it is no pair, a text is no number with a unit, or the unit is of another kind.
+    """
+    try:
+        numbers: tuple[Number, ...] = () if isinstance(value, str) else tuple(value)  # "ab" is no pair either
+        x, y = numbers
+    except (TypeError, ValueError):
+        kind = "point" if unit == "m" else "vector"
+        raise MechanismError(f"{what} is {value!r}, but it must be a {kind} (x, y).") from None
+    return quantity(x, unit, what), quantity(y, unit, what)
+
+
+def with_texts(value: Any, unit: str | Sequence[str], what: str) -> Any:
+    """A number, or several of which each may be a text: without any, it stays as it is.
+
+    Args:
+        value: a number or text, or a tuple or list of such.
+        unit: SI unit of it, or of each, where they differ.
+        what: the quantity is of, for the message.
+
+    Raises:
+        MechanismError: as of `quantity`.
+    """
+    if not isinstance(value, tuple | list):
+        return value if not isinstance(unit, str) else quantity(value, unit, what)
+    if not any(isinstance(x, str) for x in value):
+        return value
+    units = [unit] * len(value) if isinstance(unit, str) else unit
+    if len(units) != len(value):
+        raise MechanismError(f"{what} is {value!r}, but it must be {len(units)} numbers, in {', '.join(units)}.")
+    return tuple(quantity(x, one, what) for x, one in zip(value, units, strict=True))
 
 
 def _said(unit: str) -> str:

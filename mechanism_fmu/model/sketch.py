@@ -8,7 +8,7 @@ from .body import Point
 from .errors import MechanismError
 from .findings import length, refuse, refuse_unless
 from .functions import Number, cos, sin, sqrt, where_positive
-from .quantities import quantity
+from .quantities import pair, quantity
 
 
 def toward(a: Point, b: Point, distance: Number) -> Point:
@@ -20,10 +20,17 @@ def toward(a: Point, b: Point, distance: Number) -> Point:
         distance: [m].
 
     Raises:
-        MechanismError: a text is no length.
+        MechanismError: both points are the same, one is no pair, or a text is no length.
     """
+    a, b = pair(a, "m", "toward: a"), pair(b, "m", "toward: b")
     way = (b[0] - a[0], b[1] - a[1])
-    part = quantity(distance, "m", "toward: distance") / length(way)
+    whole = length(way)
+    refuse(
+        refuse_unless(
+            whole, "toward: both points are ({:g}, {:g}) m, so that there is no way between them; move one of them.", *a
+        )
+    )
+    part = quantity(distance, "m", "toward: distance") / whole
     return a[0] + part * way[0], a[1] + part * way[1]
 
 
@@ -47,6 +54,7 @@ def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["l
     """
     if side not in ("left", "right"):
         raise MechanismError(f"dyad: side = {side!r} is neither left nor right.")
+    a, b = pair(a, "m", "dyad: a"), pair(b, "m", "dyad: b")
     first, second = quantity(from_a, "m", "dyad: from_a"), quantity(from_b, "m", "dyad: from_b")
     x, y = b[0] - a[0], b[1] - a[1]
     square = x * x + y * y
@@ -125,6 +133,8 @@ def four_bar_points(
     """
     if branch not in ("open", "crossed"):
         raise MechanismError(f"four_bar_points: branch = {branch!r} is neither open nor crossed.")
+    crank_hinge = pair(crank_hinge, "m", "four_bar_points: crank_hinge")
+    rocker_hinge = pair(rocker_hinge, "m", "four_bar_points: rocker_hinge")
     turned = quantity(angle, "rad", "four_bar_points: angle")
     long = quantity(crank, "m", "four_bar_points: crank")
     pin = (crank_hinge[0] + long * cos(turned), crank_hinge[1] + long * sin(turned))

@@ -16,9 +16,9 @@ from .areas import CircularHole, circle_area, polygon
 from .body import Body, Point
 from .errors import MechanismError
 from .findings import length as length_of, literal, refuse, refuse_unless
-from .functions import Number, atan2, cos, sin
+from .functions import Number, atan2, cos, is_plain, sin
 from .members import Section
-from .quantities import quantity
+from .quantities import pair, quantity
 
 # Materials.
 
@@ -92,7 +92,7 @@ def bar(
 
     Raises:
         MechanismError: neither a mass nor section and material are given, or both; likewise of b and an angle with a
-            length; or a text is no such quantity.
+            length; a plain length is negative; or a text is no such quantity.
     """
     label = f"bar {name!r}"
     begin = _point(a, label, "a")
@@ -105,6 +105,8 @@ def bar(
         turned, long = atan2(way[1], way[0]), length_of(way) if length is None else long
     else:
         raise MechanismError(f"{label}: say where it ends, by b, or else by length and angle.")
+    if is_plain(long) and not 0.0 <= long < math.inf:  # of parameters, their own limits are asked for
+        raise MechanismError(f"{label}: length = {long:g} m, but it must be finite and not negative.")
     if (mass is None) == (section is None) or (section is None) != (material is None):
         raise MechanismError(f"{label}: give its mass, or else section and material, from which the mass follows.")
     own: Number | None = None
@@ -214,10 +216,15 @@ def disc(
         tooth_length: as of `Body`.
 
     Raises:
-        MechanismError: as of `plate`.
+        MechanismError: as of `plate`; or, of plain numbers, the radius is not positive, or the bore is negative or not
+            less than the radius.
     """
     label = f"disc {name!r}"
     rim, inner = quantity(radius, "m", f"{label}: radius"), quantity(bore, "m", f"{label}: bore")
+    if is_plain(rim) and not 0.0 < rim < math.inf:
+        raise MechanismError(f"{label}: radius = {rim:g} m, but it must be finite and positive.")
+    if is_plain(inner) and not 0.0 <= inner < (rim if is_plain(rim) else math.inf):
+        raise MechanismError(f"{label}: bore = {inner:g} m, but it must not be negative, and less than the radius.")
     squares = rim * rim + inner * inner
     total = _mass(label, mass, thickness, material, math.pi * (rim * rim - inner * inner))
     start = _Start(at, angle, velocity, speed, label)
@@ -285,7 +292,7 @@ def _body(
     x, y = _point(start.at, start.label, "at")
     angle = quantity(start.angle, "rad", f"{start.label}: angle")
     speed = quantity(start.speed, "rad/s", f"{start.label}: speed")
-    u, v = (quantity(part, "m/s", f"{start.label}: velocity") for part in start.velocity)
+    u, v = pair(start.velocity, "m/s", f"{start.label}: velocity")
     c, s = cos(angle), sin(angle)
     dx, dy = c * centre[0] - s * centre[1], s * centre[0] + c * centre[1]
     return Body(
@@ -310,11 +317,7 @@ def _mass(label: str, mass: Number | None, thickness: Number | None, material: D
 
 
 def _point(point: Point, label: str, what: str) -> Point:
-    try:
-        x, y = point
-    except (TypeError, ValueError):
-        raise MechanismError(f"{label}: {what} is {point!r}, but it must be a point (x, y).") from None
-    return quantity(x, "m", f"{label}: {what}"), quantity(y, "m", f"{label}: {what}")
+    return pair(point, "m", f"{label}: {what}")
 
 
 def _corners(points: Sequence[Point], label: str, what: str) -> list[Point]:

@@ -57,6 +57,7 @@ _OF_FRICTION = {
     "slip_speed": codes.SLIP_SPEED,
     "friction_force": codes.FRICTION_FORCE,
     "sticks": codes.STICKS_NOW,
+    "slip_acceleration": codes.SLIP_ACCELERATION,
 }
 #: Of a member: kind and column.
 _OF_MEMBER = {

@@ -6,6 +6,7 @@ from ..moving import (
     SimulationError as SimulationError,
     StepBudgetError as StepBudgetError,
 )
+from .friction_solutions import FrictionSolution as FrictionSolution, friction_solutions as friction_solutions
 from .result import Result as Result, Statistics as Statistics
 from .simulate import simulate as simulate
 from .simulation import Simulation as Simulation

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..model.default_ports import impact_remark, impact_units
 from ..model.mechanism import Mechanism
 from ..model.ports import Input, Output
 from ..moving import Event, Impact
@@ -18,9 +19,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _DTYPES = {"Real": "float64", "Integer": "int64", "Boolean": "bool"}
-#: Units of the columns of impacts and events; those of stops and locks are rad/s, N.m.s.
-_OF_IMPACTS = {"time": "s", "closing_speed": "m/s", "impulse": "N.s", "velocity": "m/s", "energy_lost": "J"}
-_OF_EVENTS = {"time": "s", "impulse": "N.s"}
+#: Units of the columns of impacts and events, but for those that depend on the contacts (`impact_units`).
+_UNITS = {"time": "s", "velocity": "m/s", "energy_lost": "J"}
 
 
 @dataclass(frozen=True)
@@ -116,13 +116,17 @@ class Result:
 
     @cached_property
     def impact_table(self) -> pd.DataFrame:
-        """A row for each impact, with the fields of `Impact`; `attrs["units"]` by name."""
-        return _table(self.impacts, Impact, _OF_IMPACTS)
+        """A row for each impact, with the fields of `Impact`; `attrs["units"]` by name.
+
+        Where all contacts are stops and locks, closing speeds are in rad/s and impulses in N.m.s; where some are, those
+        of these are so, whatever the units of the column (`attrs["descriptions"]` says it).
+        """
+        return self._table(self.impacts, Impact)
 
     @cached_property
     def event_table(self) -> pd.DataFrame:
-        """A row for each event, with the fields of `Event`; modes are joined by "+"."""
-        return _table(self.events, Event, _OF_EVENTS)
+        """A row for each event, with the fields of `Event`; modes are joined by "+", units as of `impact_table`."""
+        return self._table(self.events, Event)
 
     def __getitem__(self, name: str) -> np.ndarray[Any, np.dtype[Any]]:
         """A column, shape (rows,).
@@ -180,11 +184,15 @@ class Result:
     def _type(self, name: str) -> str:
         return _DTYPES[self.types.get(name, "Real")]
 
+    def _table(self, records: Sequence[Any], kind: type[Any]) -> pd.DataFrame:
+        import pandas as pd
 
-def _table(records: Sequence[Any], kind: type[Any], units: Mapping[str, str]) -> pd.DataFrame:
-    import pandas as pd
-
-    rows = [["+".join(value) if isinstance(value, tuple) else value for value in record] for record in records]
-    table = pd.DataFrame(rows, columns=list(kind._fields))
-    table.attrs["units"] = {name: units.get(name, "1") for name in kind._fields}
-    return table
+        rows = [["+".join(value) if isinstance(value, tuple) else value for value in record] for record in records]
+        table = pd.DataFrame(rows, columns=list(kind._fields))
+        speed, impulse = impact_units(self.mechanism)
+        units = {**_UNITS, "closing_speed": speed, "impulse": impulse}
+        table.attrs["units"] = {name: units.get(name, "1") for name in kind._fields}
+        remark = impact_remark(self.mechanism)
+        said = {"closing_speed": f"Speed before{remark}", "impulse": f"Impulse{remark}"}
+        table.attrs["descriptions"] = {name: said[name] for name in kind._fields if name in said}
+        return table

@@ -14,7 +14,7 @@ from ..model.default_ports import default_outputs
 from ..model.mechanism import Mechanism
 from ..model.quantities import quantity
 from ..model.sources import resolve_output
-from ..moving import Event, Impact
+from ..moving import Event, Impact, input_place
 from ..tables.method import METHOD
 from .result import Result, Statistics
 from .simulation import Simulation
@@ -31,8 +31,8 @@ _ROOM = 32
 #: Units of what is read of bodies and elastic members, where no part says it.
 _UNITS = {"x_rate": "m/s", "y_rate": "m/s", "rotation": "rad", "stress": "Pa", "axial_force": "N", "deviation": "m"}
 
-#: An input is held at a number, or follows a function of time [s].
-Signal = float | Callable[[float], float]
+#: An input is held at a number or a text with a unit, or follows a function of time [s].
+Signal = float | str | Callable[[float], float]
 
 
 def simulate(
@@ -55,12 +55,13 @@ def simulate(
             "spring.force" (see `model.Output`), or `Output`s. None: all that the mechanism declares, or where it
             declares none, `model.default_outputs`.
         step: communication step [s]; None: a thousandth of the time.
-        inputs: numbers or functions of time by name (SI units), as in {"motor_torque": lambda t: 0.1 * t}; others stay
-            at their start values. A function's value is held from one row to the next.
+        inputs: numbers or functions of time by name (SI units), as in {"motor_torque": lambda t: 0.1 * t}, or texts
+            with units; others stay at their start values. A function's value is held from one row to the next.
         start: start time [s].
 
     Raises:
-        MechanismError: the mechanism cannot be right or cannot be assembled, or there is no such output or input.
+        MechanismError: the mechanism cannot be right or cannot be assembled, there is no such output or input, an
+            input does not take a value, or an output is one of the buffers of impacts and events.
         ValueError: times that cannot be.
         SimulationError: the motion cannot go on.
     """
@@ -71,16 +72,15 @@ def simulate(
     if not (np.isfinite([start, until, step]).all() and until > start and step > 0.0):
         raise ValueError(f"from {start:g} s to {until:g} s in steps of {step:g} s: give finite times, in this order.")
     given = dict(inputs or {})
-    known = [port.name for port in mechanism.inputs]
     for name in given:
-        if name not in known:
-            raise MechanismError(f"there is no input {name!r}; there are: {', '.join(known) or 'none'}.")
-    whole = replace(mechanism, outputs=(*_shown(mechanism, outputs), *_kept(mechanism)))
-    shown = [output for output in whole.outputs if "[" not in output.name]
+        input_place(name, mechanism.inputs)
+    asked = _shown(mechanism, outputs)
+    shown = asked if outputs is not None else [output for output in asked if "[" not in output.name]
+    whole = replace(mechanism, outputs=(*asked, *_kept(mechanism)))
 
-    def value(name: str, at: float) -> float:
+    def value(name: str, at: float) -> float | str:
         signal = given[name]
-        return float(signal(at)) if callable(signal) else float(signal)
+        return signal(at) if callable(signal) else signal
 
     began = time.perf_counter()
     starts = [value(port.name, start) if port.name in given else port.start for port in whole.inputs]
@@ -123,7 +123,7 @@ def _shown(mechanism: Mechanism, outputs: Sequence[str | Output] | None) -> list
     """The outputs that are asked for.
 
     Raises:
-        MechanismError: a name is neither that of an output nor a source.
+        MechanismError: a name is neither that of an output nor a source, or that of an impact or event of a step.
     """
     if outputs is None:
         every = mechanism.outputs or default_outputs(mechanism)
@@ -131,10 +131,18 @@ def _shown(mechanism: Mechanism, outputs: Sequence[str | Output] | None) -> list
     every = (*mechanism.outputs, *default_outputs(mechanism))
     named = {output.name: output for output in reversed(every)} | {output.name: output for output in mechanism.outputs}
     read = {output.source: output for output in reversed(every)}
-    return [
+    found = [
         output if isinstance(output, Output) else named.get(output) or read.get(output) or _of_source(output, mechanism)
         for output in outputs
     ]
+    for output in found:
+        for what in ("impacts", "events"):
+            if output.source.startswith(f"{what}["):
+                raise MechanismError(
+                    f"output {output.name!r} reads {output.source}, of the last communication step alone; a run keeps "
+                    f"all {what}: leave it out, and take result.{what} or result.{what[:-1]}_table."
+                )
+    return found
 
 
 def _of_source(source: str, mechanism: Mechanism) -> Output:
@@ -149,7 +157,7 @@ def _of_source(source: str, mechanism: Mechanism) -> Output:
 
 
 def _kept(mechanism: Mechanism) -> tuple[Output, ...]:
-    """Outputs that ask for buffers with room for all that can happen at one instant."""
+    """Outputs that ask for buffers with room for all that can happen at one instant; nobody sees them."""
     if not (mechanism.contacts or mechanism.functions or mechanism.patterns):
         return ()
     place = min(_ROOM * (1 + len(mechanism.contacts) + len(mechanism.functions)), codes.MOST_KEPT)

@@ -29,17 +29,19 @@ class Simulation(MovingMechanism):
     Args:
         mechanism: its numbers are checked and written as tables.
         start_time: [s].
-        inputs: values at the start in SI units, in the order of `mechanism.inputs`; their own start values by default.
+        inputs: values at the start in SI units, in the order of `mechanism.inputs`, one for each; their own start
+            values by default.
 
     Raises:
-        MechanismError: the mechanism cannot be right, or cannot be assembled (with what is left of each joint).
+        MechanismError: the mechanism cannot be right, or cannot be assembled (with what is left of each joint); or the
+            values of inputs are too few, too many, or such as an input does not take.
     """
 
-    def __init__(self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float] | None = None) -> None:
+    def __init__(
+        self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float | str] | None = None
+    ) -> None:
         self._take(mechanism, pack(compile_mechanism(mechanism)), _library())
-        if inputs is not None:
-            self.inputs[:] = inputs
-        self.begin(start_time)
+        self._begin_with(start_time, inputs)
 
 
 def _library() -> CDLL | None:

@@ -97,13 +97,18 @@ class Moment(NamedTuple):
 def simulation_of(
     bodies: Sequence[Body], tolerance: float, contacts: Sequence[Any] = (), start: float = 0.0, **parts: Any
 ) -> Simulation:
-    """A mechanism with dry friction in motion; its outputs are all coordinates and rates, contact forces, energies."""
+    """A mechanism with dry friction in motion."""
+    return Simulation(mechanism_of(bodies, tolerance, contacts, **parts), start)
+
+
+def mechanism_of(bodies: Sequence[Body], tolerance: float, contacts: Sequence[Any] = (), **parts: Any) -> Mechanism:
+    """A mechanism with dry friction; its outputs are all coordinates and rates, contact forces, energies."""
     sources = [f"{body.name}.{what}" for body in bodies for what in ("x", "y", "angle", "x_rate", "y_rate", "speed")]
     sources += [f"{contact.name}.{what}" for contact in contacts for what in ("force", "closed")]
     sources += ["energy.kinetic", "energy.lost", "impact.energy_lost"]
     sources += [f"impact.impulse:{contact.name}" for contact in contacts]
     sources += [f"impact.speed_before:{body.name}" for body in bodies]
-    mechanism = Mechanism(
+    return Mechanism(
         tuple(bodies),
         contacts=tuple(contacts),
         outputs=tuple(Output(source, source, "") for source in sources),
@@ -111,7 +116,6 @@ def simulation_of(
         friction_law="coulomb",
         **parts,
     )
-    return Simulation(mechanism, start)
 
 
 def now(simulation: Simulation, name: str = "") -> Moment:

@@ -6,11 +6,11 @@ import math
 from fractions import Fraction
 
 import pytest
-from friction_cases import after, now, numbered, run, simulation_of
+from friction_cases import after, mechanism_of, now, numbered, run, simulation_of
 
 from mechanism_fmu import codes
 from mechanism_fmu.model import GROUND, Body, MechanismError, PointLineContact
-from mechanism_fmu.simulation import SimulationError
+from mechanism_fmu.simulation import SimulationError, friction_solutions
 
 _BEYOND = 1.0 + 1e-6
 #: Long enough for an impact at the start, and too short for any motion [s].
@@ -19,13 +19,13 @@ _AT_ONCE = 1e-9
 # 4: a rod that slides on its lower end.
 
 
-def rod(data, angle, rates, tolerance, touch, **law):
+def rod(data, angle, rates, tolerance, touch, make=simulation_of, **law):
     """Rod with its lower end at the origin; angle as (cos, sin), rates of the centre of mass and of the angle."""
     mass, half = data["m"], data["l"]
     c, s = angle
     body = Body("rod", mass, mass * half**2 / 3.0, (half * c, half * s, math.atan2(s, c)), rates)
     floor = PointLineContact("floor", "rod", (-half, 0.0), GROUND, (0.0, 0.0), (0.0, 1.0), **touch)
-    return simulation_of([body], tolerance, [floor], **law)
+    return make([body], tolerance, [floor], **law)
 
 
 def sliding(data, angle, rate, slip, mu, tolerance, **law):
@@ -67,6 +67,16 @@ def table(case, _tolerance, seen):
     """At one instant, with the slip of the table and without slip; no forces, or one of several, where that is so."""
     for number, line in enumerate(case["results"]["table"]):
         state, sigma, mu = (line["theta"], line["thetadot"]), line["sigma"], line["mu"]
+        every = friction_solutions(sliding(case["data"], *state, sigma, mu, 1e-9, make=mechanism_of))
+        assert len(every) == len(line["N"]) == {"none": 0, "unique": 1, "two": 2}[line["kind"]]
+        for one, (normal, along, turn) in enumerate(zip(line["N"], line["xdd"], line["thetadd"], strict=True)):
+            solution = sorted(every, key=lambda s: s.normal_forces["floor"])[one]
+            seen.add("force", f"{number} of all", solution.normal_forces["floor"], normal)
+            x, _, angle = solution.accelerations["rod"]
+            seen.add("acceleration", f"{number} of all", x, along)
+            seen.add("angular", f"{number} of all", angle, turn)
+        still = friction_solutions(sliding(case["data"], *state, 0.0, mu, 1e-9, make=mechanism_of))
+        assert len(still) == len(line["at_zero_slip"])
         if line["kind"] == "none":
             with pytest.raises(MechanismError, match="No set of pushing contacts"):
                 sliding(case["data"], *state, sigma, mu, 1e-9)

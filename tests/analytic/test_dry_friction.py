@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings, strategies as st
+from hypothesis import HealthCheck, assume, given, settings, strategies as st
 
 from mechanism_fmu import codes
 from mechanism_fmu.model import (
@@ -107,6 +107,32 @@ def test_a_slider_rubs_by_its_force_across():
     ]
     assert simulation.read()["block.x"] == pytest.approx(0.5 * 3.0 * stop, rel=1e-12)
     assert simulation.read()["lost"] == pytest.approx(0.5 * mass * 9.0, rel=1e-12)
+
+
+@given(angle=st.floats(20.0, 80.0), mu=st.floats(0.1, 1.5))
+@settings(max_examples=60, deadline=None)
+def test_a_ladder_rests_where_it_can(angle, mu):
+    """On a rough floor, against a rough wall: four rows, rank three; forces of least norm would let it slip sooner."""
+    needed = (1.0 - mu * mu) / (2.0 * mu)
+    steep = math.tan(math.radians(angle))
+    assume(abs(steep - needed) > 1e-6)
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    ladder = Body("ladder", 10.0, 10.0 / 3.0, (c, s, math.pi - math.radians(angle)))
+    contacts = tuple(
+        PointLineContact(name, ladder.at(x, 0.0), GROUND.line(ORIGIN, along), closed=True, friction=mu)
+        for name, x, along in (("foot", -1.0, (1.0, 0.0)), ("top", 1.0, (0.0, -1.0)))
+    )
+    simulation = Simulation(
+        Mechanism(
+            (ladder,),
+            contacts=contacts,
+            gravity=(0.0, -9.81),
+            outputs=read("ladder", "speed"),
+            friction_law="coulomb",
+        )
+    )
+    turning = simulation.read_rates()["ladder.speed"]
+    assert abs(turning) < 1e-9 if steep > needed else turning > 1e-9
 
 
 @pytest.mark.parametrize("wrong", [{"friction_law": "dry"}, {"friction_law": "coulomb", "impact_law": "hertz"}])

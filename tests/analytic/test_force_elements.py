@@ -274,13 +274,66 @@ def branching(x, v):
         (lambda x, v: max(x, v), "A law must not branch"),
         (lambda x, v: (x > v) * 2.0, "A law must not branch"),
         (lambda x, v: None, "it returns None, but must return a number"),
-        (lambda x: x, "takes 1 positional argument"),
+        (lambda x: x, r"called with two arguments.* write law\(x, v\), not <lambda>\(x\)"),
+        (5.0, r"5\.0 is neither a function law\(x, v\) nor a curve"),
+        ([(0.0, 1.0), (1.0, 2.0)], "is neither a function"),
+        (
+            lambda x, v: x * np.array([1.0, 2.0]),
+            r"it calculates with array\(\[1\., 2\.\]\), but a law takes real numbers",
+        ),
+        (lambda x, v: 1j * x, "it calculates with 1j, but a law takes real numbers"),
+        (lambda x, v: 1j, "it returns 1j, but must return a number"),
+        (lambda x, v: np.ones(2), "must return a number"),
+        (lambda x, v: x + None, "it calculates with None"),
         (lambda x, v: sum(x**k for k in range(1, 12) for _ in range(60)) * v, "more than 500 operations"),
     ],
 )
 def test_a_law_that_cannot_be_recorded_is_refused_with_the_line(law, said):
     with pytest.raises(MechanismError, match=f"(?s)The law of NonlinearSpring 'spring' cannot be used, .*{said}"):
         on_a_line(NonlinearSpring("spring", "mass", ORIGIN, GROUND, ORIGIN, law=law))
+
+
+def test_a_number_of_another_law_is_refused_wherever_it_comes_back():
+    kept = []
+
+    def keeping(x, v):
+        kept.append(x * v)
+        return x
+
+    on_a_line(NonlinearSpring("spring", "mass", ORIGIN, GROUND, ORIGIN, law=keeping))
+    for other in (lambda x, v: kept[0], lambda x, v: kept[0] + x):
+        with pytest.raises(MechanismError, match="A number of one law was used in another"):
+            on_a_line(NonlinearSpring("spring", "mass", ORIGIN, GROUND, ORIGIN, law=other))
+
+
+@pytest.mark.parametrize(
+    ("exponent", "same"),
+    [
+        (2.0, lambda x: x * x),
+        (np.int64(3), lambda x: x * x * x),
+        (np.float64(3.0), lambda x: x * x * x),
+        (0, lambda x: 1.0),
+        (0.0, lambda x: 1.0),
+        (-1, lambda x: 1.0 / x),
+        (-3.0, lambda x: 1.0 / (x * x * x)),
+        (13, lambda x: (x * x * x * x * x * x) * (x * x * x * x * x * x) * x),
+        (50, None),
+    ],
+)
+@pytest.mark.parametrize("angle", [-0.5, 0.7])
+def test_whole_powers_are_there_for_negative_numbers_too(exponent, same, angle):
+    spring = NonlinearTorsionSpring("spring", "arm", law=lambda x, v: x**exponent)
+    arm = Body("arm", 1.0, 0.3, (0.0, 0.0, angle))
+    torque = Simulation(Mechanism((arm,), forces=(spring,), outputs=read("spring", "torque"))).read()["spring.torque"]
+    assert torque == pytest.approx(-(angle ** float(exponent)), rel=1e-14)
+    if same is not None:
+        assert torque == -same(angle)
+
+
+@pytest.mark.parametrize("points", [[(0, 1, 2), (1, 2, 3)], [0.0, 1.0], [(0.0, 1.0), (1.0,)], ["ab", "cd"]])
+def test_points_of_a_table_are_pairs(points):
+    with pytest.raises(MechanismError, match=r"Point \d of a characteristic is .* must be a pair"):
+        characteristic(points)
 
 
 # Random mechanisms of random elements.

@@ -1,14 +1,18 @@
 """What a first user types: a model instead of its mechanism, and texts with units."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 
+from mechanism_fmu.fmu.own.examine import _check_variables
+from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.model import (
     GROUND,
     Mechanism,
     MechanismError,
     Model,
+    Output,
     Revolute,
     Section,
     bar,
@@ -38,3 +42,20 @@ def test_values_and_sections_take_texts_with_units() -> None:
         MODEL.values(length="45 kg")
     with pytest.raises(MechanismError, match="until wants s, got '2 m'"):
         simulate(MODEL, until="2 m")
+    with pytest.raises(MechanismError, match="Pendulum has no parameter 'Q'; it has: length"):
+        MODEL.values(Q="45 mm")
+
+
+def test_a_parameter_may_have_the_name_of_what_the_drawing_reads() -> None:
+    model = replace(MODEL, parameters=(*MODEL.parameters, length_parameter("rod_x", 0.4, "Of nothing")))
+    named = replace(model, outputs=(Output("angle", "rod.angle", "", "rad"),))
+    for one in (model, named):
+        names = [variable.name for variable in variables_of(one)]
+        assert len(names) == len(set(names))
+    assert named.shapes[0].at == ("rod_x_2", "rod_y")
+
+
+def test_no_parameter_is_called_time() -> None:
+    model = replace(MODEL, parameters=(*MODEL.parameters, length_parameter("time", 0.4, "Of nothing")))
+    with pytest.raises(MechanismError, match="Parameter 'time': tables and FMUs have a column of time by that name"):
+        _check_variables(model)

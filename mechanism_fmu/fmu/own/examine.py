@@ -195,6 +195,8 @@ def _check_variables(model: Model) -> None:
         label = f"{variable.causality.capitalize()} {variable.name!r}"
         if not _VARIABLE.fullmatch(variable.name):
             raise MechanismError(f"{label}: a variable's name must be of letters, digits and '_'; rename it.")
+        if variable.name == "time":
+            raise MechanismError(f"{label}: tables and FMUs have a column of time by that name; rename it.")
         if variable.name in seen:
             raise MechanismError(f"{label} has the name of another {seen[variable.name]}; rename one of the two.")
         seen[variable.name] = variable.causality

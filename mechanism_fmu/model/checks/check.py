@@ -10,6 +10,8 @@ from ..contacts import Contact, PointLineContact
 from ..curves import Curve
 from ..errors import MechanismError
 from ..findings import messages
+from ..forces import NonlinearSpring, SpringDamper
+from ..joints import Revolute
 from ..logic import resolve_function, switch
 from ..mechanism import Mechanism, curve_owners
 from ..ports import Calculated, Input, Output
@@ -72,6 +74,7 @@ def check(mechanism: Mechanism) -> None:
         *_dry(mechanism),
         *_names(mechanism),
         *_references(mechanism),
+        *_without_length(mechanism),
         *check_contacts(mechanism),
         *check_members(mechanism),
         *_curves(mechanism),
@@ -134,6 +137,8 @@ def _names(mechanism: Mechanism) -> Iterator[str]:
     ports: tuple[Input | Output | Calculated, ...] = (*mechanism.inputs, *mechanism.outputs, *mechanism.calculated)
     taken: set[str] = set()
     for port in ports:
+        if port.name == "time":
+            yield f"{type(port).__name__} 'time': tables and FMUs have a column of time by that name; choose another."
         if port.name in taken:
             yield f"{type(port).__name__} {port.name!r} stands twice among the ports; rename one of the two."
         taken.add(port.name)
@@ -149,8 +154,28 @@ def _references(mechanism: Mechanism) -> Iterator[str]:
         for name in bodies:
             if name != GROUND and name not in known:
                 yield f"{label} is attached to unknown body {name!r}; there are {', '.join(known)} and {GROUND!r}."
-        if bodies[0] == bodies[1]:
+        if bodies[0] == bodies[1] and len(getattr(part, "slots", ())) == 1:
+            yield f"{label} stands on {bodies[0]!r}, which does not move; attach it to a body."
+        elif bodies[0] == bodies[1]:
             yield f"{label} joins {bodies[0]!r} to itself; attach it to two different bodies."
+
+
+def _without_length(mechanism: Mechanism) -> Iterator[str]:
+    """Springs between two points that a pin keeps together: rounding would decide where they pull."""
+    pins = {}
+    for joint in mechanism.joints:
+        if isinstance(joint, Revolute):
+            ends = (joint.body_i, tuple(joint.point_i)), (joint.body_j, tuple(joint.point_j))
+            pins[frozenset(ends)] = joint.name
+    for force in mechanism.forces:
+        if isinstance(force, SpringDamper | NonlinearSpring):
+            pair = frozenset(((force.body, tuple(force.point)), (force.reaction, tuple(force.reaction_point))))
+            if pair in pins:
+                yield (
+                    f"{type(force).__name__} {force.name!r} acts between two points that Revolute {pins[pair]!r} keeps "
+                    "together: it has no length, and so no direction. Attach it to other points, or take a torque or a "
+                    "TorsionSpringDamper."
+                )
 
 
 def _curves(mechanism: Mechanism) -> Iterator[str]:

@@ -73,7 +73,7 @@ def check_members(mechanism: Mechanism) -> Iterator[str]:
 
 
 #: Numbers of parts of which each kind is asked by itself whether it is finite, and more.
-_ASKED_FOR = ("restitution", "friction", "friction_radius", "enabled", "closed", "guided", "unilateral")
+_ASKED_FOR = ("restitution", "friction", "friction_radius", "enabled", "closed", "guided", "unilateral", "law")
 
 
 def number_findings(mechanism: Mechanism) -> Iterator[Finding]:

@@ -28,6 +28,7 @@ class Force(Element):
     writable: ClassVar = ("x", "y")
     acts: ClassVar = "at centre"
     reaction: ClassVar[str] = GROUND
+    units: ClassVar = {"force": "N"}
     slots: ClassVar = (Slot("body"),)
 
     name: str
@@ -50,7 +51,8 @@ class SpringDamper(PointElement):
     One-sided "stretched", it is there only where l > free_length, and only pulls: a rope. One-sided "compressed", it is
     there only where l < free_length, and only pushes: a bumper. The energy of the linear part counts as spring energy,
     the work of the preload as work done on the mechanism, and the rest as lost. Where the points meet, the force acts
-    along their relative velocity; where they rest there, it has no direction and vanishes.
+    along their relative velocity; where they rest there, it has no direction and vanishes. Where joints keep them
+    together but for rounding, its direction is made of rounding: between the points of a `Revolute` it is refused.
 
     Attributes:
         name: unique within the mechanism.
@@ -102,6 +104,7 @@ class PointForce(Element):
     quantities: ClassVar = {"power": Quantity("W", "Power that the body gets", ("x", "y"))}
     acts: ClassVar = "at points"
     reaction: ClassVar[str] = GROUND
+    units: ClassVar = {"force": "N"}
     slots: ClassVar = (Slot("body", "point"),)
 
     name: str

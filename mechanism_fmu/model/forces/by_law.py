@@ -16,8 +16,8 @@ class NonlinearSpring(PointElement):
 
     A table (`characteristic`, or any `Curve` of polynomials up to the fourth degree) gives the force over the length;
     its energy counts as spring energy, 0 at the table's first point. A function `def law(length, rate): ...` may depend
-    on both; what it takes and gives counts as work done on the mechanism. Where the points meet, the force acts along
-    their relative velocity; where they rest there, it has no direction and vanishes.
+    on both; what it takes and gives counts as work done on the mechanism. Where the points meet or rest together, it is
+    as of a `SpringDamper`.
 
     Attributes:
         name: unique within the mechanism.

@@ -22,7 +22,7 @@ SOURCES = {
     "work": "energy.work",
     "lost": "energy.lost",
 }
-JUMPING = {"force": "stop0.force", "count": "impact.count", "time": "impact.time", "closed": "stop0.closed"}
+JUMPING = {"force": "stop0.force", "count": "impact.count", "when": "impact.time", "closed": "stop0.closed"}
 
 
 def outputs(sources):

@@ -82,7 +82,7 @@ OUTPUTS = {
     "in_step": "impact.in_step",
     "lost_count": "impact.lost",
     "any": "impact.any",
-    "time": "impact.time",
+    "when": "impact.time",
     "contact": "impact.contact",
     "tooth": "impact.tooth",
     "closing": "impact.closing_speed",
@@ -118,23 +118,23 @@ def test_outputs_of_every_kind():
         "before": 0,
         "after": 0,
     }
-    expected |= {"time": -1, "contact": -1, "tooth": -1, "buffered": -1, "empty": -1}
+    expected |= {"when": -1, "contact": -1, "tooth": -1, "buffered": -1, "empty": -1}
     assert before == pytest.approx(expected, abs=1e-12)
 
     after = read_at(simulation, 1.5)
     expected |= {"angle": 0.375, "speed": 0.0, "gap": ARM * math.sin(0.125)}
     expected |= {"kinetic": 0.0, "work": INERTIA * 0.375, "lost": INERTIA * 0.375}
     expected |= {"count": 1, "in_step": 1, "any": 1, "closing": ARM, "impulse": 1.5 * INERTIA / ARM}
-    expected |= {"before": 1.0, "after": -0.5, "time": 1.0, "contact": 0, "tooth": 0, "buffered": 1.0}
+    expected |= {"before": 1.0, "after": -0.5, "when": 1.0, "contact": 0, "tooth": 0, "buffered": 1.0}
     assert after == pytest.approx(expected, abs=1e-12)
 
     later = read_at(simulation, 1.6)
-    assert (later["count"], later["in_step"], later["any"], later["buffered"], later["time"]) == (
+    assert (later["count"], later["in_step"], later["any"], later["buffered"], later["when"]) == (
         1,
         0,
         0,
         -1,
-        after["time"],
+        after["when"],
     )
 
     at_rest = read_at(simulation, 4.0)

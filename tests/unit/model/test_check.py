@@ -15,13 +15,17 @@ from mechanism_fmu.model import (
     DCMotor,
     Input,
     LogicalFunction,
+    Marker,
     Mechanism,
     MechanismError,
+    NonlinearSpring,
     Output,
+    PointForce,
     PointLineContact,
     Revolute,
     Settings,
     SlipClutch,
+    SpringDamper,
     Torque,
     TorsionSpring,
     Translational,
@@ -49,6 +53,7 @@ TEETH = CircularPattern("teeth", "arm", (0.5, 0.0), "slider", 0.3, (1.0, 0.0), (
 LATCH = AngleStop("latch", "arm", "slider", 0.1, 0.5)
 LOCK = AngleLock("lock", "arm", GROUND, 0.0, 0.5, "low")
 LOW = LogicalFunction("low", "arm.angle", 1.0)
+HINGE_ENDS = ARM.at(-0.5, 0.0), GROUND.at(0.0, 0.0)
 SHAFT = CompliantShaft("shaft", "arm", stiffness=1.0, damping=1.0)
 TORQUE, ANGLE = GOOD.inputs[0], GOOD.outputs[0]
 
@@ -194,6 +199,27 @@ REFUSALS = {
     ),
     "negative pin friction": ({"joints": (replace(HINGE, friction_radius=-0.01), GUIDE)}, ["'hinge'", "-0.01"]),
     "infinite slider friction": ({"joints": (HINGE, replace(GUIDE, friction=math.inf))}, ["'guide'", "inf", "finite"]),
+    "output named time": ({"outputs": (replace(ANGLE, name="time"),)}, ["Output 'time'", "column of time"]),
+    "input named time": (
+        {"inputs": tuple(replace(port, name="time") for port in GOOD.inputs)},
+        ["Input 'time'", "column of time", "choose another"],
+    ),
+    "marker on the ground": (
+        {"markers": (Marker("pen", GROUND.at(0.1, 0.0)),)},
+        ["Marker 'pen' stands on 'ground', which does not move; attach it to a body."],
+    ),
+    "force on the ground": (
+        {"forces": (DRIVE, SPRING, PointForce("push", GROUND.at(0.0, 0.0)))},
+        ["PointForce 'push' stands on 'ground'"],
+    ),
+    "spring within a pin": (
+        {"forces": (DRIVE, SPRING, SpringDamper("rope", HINGE_ENDS[1], HINGE_ENDS[0], preload=500.0))},
+        ["SpringDamper 'rope' acts between two points that Revolute 'hinge' keeps together", "no direction"],
+    ),
+    "law within a pin": (
+        {"forces": (DRIVE, SPRING, NonlinearSpring("rope", *HINGE_ENDS, law=lambda x, v: x))},
+        ["NonlinearSpring 'rope' acts between two points"],
+    ),
     "infinite gain": ({"settings": Settings(baumgarte_beta=math.inf)}, ["baumgarte_beta = inf", "finite"]),
 }
 

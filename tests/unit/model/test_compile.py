@@ -84,7 +84,7 @@ TABLES = compile_mechanism(
             Output("events", "event.count", "x", type="Integer"),
             Output("work", "energy.work", "x"),
             Output("count", "impact.count", "x", type="Integer"),
-            Output("time", "impact.time", "x"),
+            Output("when", "impact.time", "x"),
             Output("impulse", "impact.impulse:stop", "x"),
             Output("before", "impact.speed_before:slider", "x"),
             Output("after", "impacts[3].speed:arm", "x"),

@@ -195,3 +195,26 @@ def test_markers_are_traced_and_read_and_no_point_is_drawn_twice() -> None:
     outputs = {output.name: output for output in model.build(model.values()).outputs}
     assert [outputs[f"pen_{name}"].unit for name in ("x", "y", "x_rate", "y_rate")] == ["m", "m", "m/s", "m/s"]
     assert outputs["pen_x"].source == Marker("pen", "rod", (0.0, 0.1)).x
+
+
+def test_numbers_of_a_joint_with_the_name_of_a_corner_have_names_of_their_own() -> None:
+    def mechanism(values: SimpleNamespace) -> Mechanism:
+        rod = bar("rod", (0.0, 0.0), length=values.length, angle=0.0, mass=1.0)
+        return Mechanism((rod,), (Revolute("rod_1", GROUND.at(values.length, 0.0), rod.b),), held=("rod.angle",))
+
+    model = Model("Rod", "", LENGTH, mechanism)
+    names = [known.name for known in model.build(model.values()).calculated]
+    assert names == ["drawing_rod_0_x", "drawing_rod_1_x", "drawing_rod_1_x_2"]
+    assert model.shapes[-1] == Hinge(("drawing_rod_1_x_2", 0.0))
+    drawing(model)
+    again = Model("Again", "", LENGTH, model.mechanism)  # of a mechanism that is drawn already
+    assert again.shapes == model.shapes
+    assert [known.name for known in again.build(again.values()).calculated] == names
+
+
+@pytest.mark.parametrize("long", [1.0, 1e-3, 200.0])
+def test_a_guide_is_drawn_by_its_direction_however_long_that_is(long: float) -> None:
+    block = Body("block", 1.0, 0.1, (0.5, 0.5, 0.0))
+    guide = RevoluteTranslational("guide", GROUND.line((0.0, 0.5), (0.6 * long, 0.8 * long)), block)
+    line = Model("Guided", "", (), lambda _: Mechanism((block,), (guide,))).shapes[0]
+    assert [x for point in line.points for x in point] == pytest.approx([-0.15, 0.3, 0.15, 0.7], rel=1e-12)

@@ -205,6 +205,8 @@ def test_numbers_may_be_texts_with_units() -> None:
     assert AngleStop("x", ROD, CRANK, angle="30 deg", pitch="10 deg").angle == math.radians(30)
     spring = SpringDamper("x", ROD, CRANK, stiffness="2 N/mm", free_length="5 cm", damping="3 N.s/m", preload="1 kN")
     assert (spring.stiffness, spring.free_length, spring.damping, spring.preload) == (2000.0, 0.05, 3.0, 1000.0)
+    assert Force("x", CRANK, force=("5 N", "1 kN")).force == (5.0, 1000.0)
+    assert PointForce("x", CRANK, force=(0.5, "2 N")).force == (0.5, 2.0)
 
 
 REFUSED: dict[str, tuple[Any, type[Exception], str]] = {
@@ -250,6 +252,26 @@ REFUSED: dict[str, tuple[Any, type[Exception], str]] = {
         lambda: Torque("x", CRANK, torque="5 kg"),
         MechanismError,
         "Torque 'x': torque wants N.m, got '5 kg'; give e.g. 0.5, or with a unit, '0.5 N.m'",
+    ),
+    "an angle in place of a direction": (
+        lambda: CRANK.line((0, 0), "30 deg"),
+        MechanismError,
+        r"line: direction \(of an angle, write angle=...\) is '30 deg', but it must be a vector \(x, y\)",
+    ),
+    "a number in place of a direction": (
+        lambda: GROUND.line((0, -1), 30),
+        MechanismError,
+        r"write angle=...\) is 30, but it must be a vector",
+    ),
+    "a number in place of a point of a line": (
+        lambda: GROUND.line(0.1, (1, 0)),
+        MechanismError,
+        "line: point is 0.1, but it must be a point",
+    ),
+    "a force of another kind": (
+        lambda: Force("x", CRANK, force=("5 kg", 0)),
+        MechanismError,
+        "Force 'x': force wants N, got '5 kg'",
     ),
     "an end of what is no bar": (lambda: CRANK.b, MechanismError, "Body 'crank' has no end b"),
     "a point of another kind": (lambda: CRANK.at("5 kg", 0), MechanismError, "at: x wants m, got '5 kg'"),

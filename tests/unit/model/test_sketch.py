@@ -14,6 +14,7 @@ from mechanism_fmu.model import (
     dyad,
     four_bar_points,
     length_parameter,
+    toward,
 )
 from mechanism_fmu.model.four_bar import start
 from mechanism_fmu.model.symbol import Recorder, Symbol
@@ -57,6 +58,21 @@ def test_links_that_do_not_reach_each_other_are_refused() -> None:
 def test_links_that_begin_in_one_point_are_refused() -> None:
     with pytest.raises(MechanismError, match="links of 1 m and 2 m have their other ends in one point"):
         dyad((4, 1), (4, 1), from_a=1.0, from_b=2.0)
+
+
+def test_between_a_point_and_itself_there_is_no_way() -> None:
+    with pytest.raises(MechanismError, match=r"toward: both points are \(2, 1\) m"):
+        toward((2, 1), (2, 1), 1)
+
+
+def test_points_may_be_texts_with_units() -> None:
+    assert toward(("1 mm", 0), (0.003, "0 mm"), "1 mm") == pytest.approx((0.002, 0.0))
+    assert dyad(("4 mm", 0), (0, 0), from_a="5 mm", from_b="3 mm")[1] == pytest.approx(-0.003)
+    texts = four_bar_points(("0 mm", 0), ("20 cm", 0), crank=0.05, coupler=0.18, rocker=0.12, angle=1.0)
+    assert texts == four_bar_points((0.0, 0), (0.2, 0), crank=0.05, coupler=0.18, rocker=0.12, angle=1.0)
+    for wrong, said in (("ab", "toward: a is 'ab', but it must be a point"), (("1 kg", 0), "toward: a wants m, got")):
+        with pytest.raises(MechanismError, match=said):
+            toward(wrong, (1, 1), 1)
 
 
 def test_of_parameters_it_is_the_trace_that_refuses_links() -> None:

@@ -12,6 +12,7 @@ from mechanism_fmu.model import (
     ALUMINIUM,
     POM,
     STEEL,
+    Body,
     CircularHole,
     End,
     Mechanism,
@@ -186,6 +187,13 @@ def test_sizes_may_be_parameters() -> None:
         np.testing.assert_array_equal(table, expected[name], err_msg=name)
 
 
+def test_numbers_of_a_body_may_be_texts_with_units() -> None:
+    texts = Body("x", "20 g", "2 kg.m2", ("1 mm", 0.5, "180 deg"), ("1 mm/s", 0, 0), "5 mm")
+    assert texts == Body("x", 0.02, 2.0, (0.001, 0.5, math.pi), (0.001, 0, 0), 0.005)
+    assert bar("x", (0, 0), (1, 0), mass=1, tooth_length="5 mm").tooth_length == 0.005
+    assert Mechanism((texts,), gravity=(0.0, "-981 cm/s2")).gravity == (0.0, -9.81)
+
+
 @pytest.mark.parametrize(
     ("make", "said"),
     [
@@ -202,6 +210,21 @@ def test_sizes_may_be_parameters() -> None:
         (lambda: plate("x", RECTANGLE, holes=[CircularHole((0, 0), 1)], mass=1), "has an area of -3.08159 m2"),
         (lambda: disc("x", radius="5 kg", mass=1), "disc 'x': radius wants m, got '5 kg'"),
         (lambda: rigid_body("x", mass=1, inertia=1, angle="5 m"), "rigid_body 'x': angle wants rad, got '5 m'"),
+        (
+            lambda: disc("x", radius=0.1, bore=0.2, mass=1),
+            "disc 'x': bore = 0.2 m, but it must not be negative, and less",
+        ),
+        (lambda: disc("x", radius=0.1, bore=-0.05, mass=1), "disc 'x': bore = -0.05 m, but it must not be negative"),
+        (lambda: disc("x", radius=-0.1, mass=1), "disc 'x': radius = -0.1 m, but it must be finite and positive"),
+        (lambda: disc("x", radius=math.nan, mass=1), "disc 'x': radius = nan m"),
+        (lambda: bar("x", (0, 0), length=-1, angle=0, mass=1), "bar 'x': length = -1 m, but it must be finite and not"),
+        (lambda: bar("x", (0, 0), (1, 0), mass=1, velocity=3.0), r"bar 'x': velocity is 3.0, but it must be a vector"),
+        (lambda: bar("x", (0, 0), (1, 0), mass=1, tooth_length="5 kg"), "Body 'x': tooth_length wants m, got '5 kg'"),
+        (lambda: Body("x", "1 kg", "2 kg"), r"Body 'x': inertia wants kg.m2, got '2 kg'"),
+        (
+            lambda: Body("x", 1, 2, ("1 mm", 0)),
+            r"Body 'x': start is \('1 mm', 0\), but it must be 3 numbers, in m, m, rad",
+        ),
     ],
 )
 def test_what_is_refused(make, said: str) -> None:

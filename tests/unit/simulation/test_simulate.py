@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from mechanism_fmu import codes
 from mechanism_fmu.model import (
     GROUND,
     AngleStop,
@@ -21,6 +22,7 @@ from mechanism_fmu.model import (
     PointLineContact,
     Revolute,
     Torque,
+    default_outputs,
     torque_input,
 )
 from mechanism_fmu.moving import MovingMechanism
@@ -202,3 +204,82 @@ def test_a_simulation_takes_the_compiled_engine_and_its_numbers_are_the_same():
 def test_an_input_with_a_name_of_its_own_stays_at_its_start():
     mechanism = replace(rotor(), inputs=(Input("pull", "motor.torque", 4.0, "Of the motor", "N.m"),))
     assert simulate(mechanism, 1.0)["wheel_speed"][-1] == pytest.approx(2.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("inputs", "said"),
+    [
+        ([0.5], r"inputs has 1 values for 2 inputs \(motor_torque, brake\)"),
+        ([], "inputs has 0 values for 2 inputs"),
+        ([0.5, 1.0, 2.0], "inputs has 3 values for 2 inputs"),
+        ([0.5, 3.0], "brake = 3 N.m is above its limit; give at most 2 N.m"),
+        ([0.5, math.nan], "brake = nan is not a finite number"),
+        ([0.5, "3 m"], "brake wants N.m, got '3 m'"),
+        ([0.5, None], "brake wants a number in N.m, got None"),
+    ],
+)
+def test_values_of_inputs_are_checked_wherever_they_are_given(inputs, said):
+    brake = Input("brake", "brake.torque", 0.0, "Brake", "N.m", maximum=2.0)
+    one = rotor()
+    both = replace(one, forces=(*one.forces, Torque("brake", "wheel")), inputs=(*one.inputs, brake))
+    for kind in (Simulation, MovingMechanism):
+        with pytest.raises(MechanismError, match=said):
+            kind(both, 0.0, inputs)
+    if len(inputs) == 2:
+        with pytest.raises(MechanismError, match=said):
+            Simulation(both).set_input("brake", inputs[1])
+        with pytest.raises(MechanismError, match=said):
+            simulate(both, 0.1, inputs={"brake": inputs[1]})
+        with pytest.raises(MechanismError, match=said):
+            simulate(both, 0.1, inputs={"brake": lambda t: inputs[1] if t > 0.05 else 0.0})
+
+
+def test_inputs_take_texts_with_units_and_unknown_ones_are_named():
+    simulation = Simulation(rotor(), 0.0, ["500 N.mm"])
+    assert simulation.inputs[0] == 0.5
+    simulation.set_input("motor_torque", "200 N.mm")
+    assert simulation.inputs[0] == 0.2
+    assert simulate(rotor(), 0.1, inputs={"motor_torque": "500 N.mm"})["motor_torque"][-1] == 0.5
+    for change in (simulation.set_input, simulation.set_slope):
+        with pytest.raises(MechanismError, match="there is no input 'motor'; there are: motor_torque"):
+            change("motor", 0.1)
+    with pytest.raises(MechanismError, match="motor_torque: slope = nan is not a finite number"):
+        simulation.set_slope("motor_torque", math.nan)
+
+
+@pytest.mark.parametrize("time", [math.nan, math.inf, -math.inf])
+def test_a_start_time_that_is_not_finite_is_refused(time):
+    with pytest.raises(MechanismError, match=r"the start time is .* s; give a finite one"):
+        Simulation(rotor(), time)
+
+
+@pytest.mark.parametrize("target", [math.nan, math.inf, -1.0])
+def test_within_a_step_too_the_motion_only_goes_on_to_a_later_time(target):
+    simulation = Simulation(rotor())
+    simulation.begin_step()
+    with pytest.raises(SimulationError, match="give a later time"):
+        simulation.go_on(target, codes.STOP_AT_STEP)
+    assert simulation.time == 0.0
+
+
+@pytest.mark.parametrize("what", ["impacts", "events"])
+def test_a_buffer_of_a_step_is_no_column_of_a_run(what):
+    source = f"{what}[1].time"
+    for asked in (source, Output("first", source, "")):
+        with pytest.raises(MechanismError, match=rf"take result\.{what} or result\.{what[:-1]}_table"):
+            simulate(ball(), 1.0, outputs=["ball_y", asked])
+
+
+def test_impulses_of_stops_are_torques_times_time():
+    stop = AngleStop("stop", "wheel", GROUND, angle=-1.0)
+    stopped = simulate(replace(rotor(), contacts=(stop,)), 3.0, step=1.0, inputs={"motor_torque": -1.0})
+    units = stopped.impact_table.attrs["units"]
+    assert stopped.impacts[0].impulse == pytest.approx(2.0 * stopped.impacts[0].closing_speed)  # inertia times speed
+    assert (units["closing_speed"], units["impulse"], units["energy_lost"]) == ("rad/s", "N.m.s", "J")
+    assert stopped.event_table.attrs["units"]["impulse"] == "N.m.s"
+    assert {output.name: output.unit for output in default_outputs(stopped.mechanism)}["events[1].impulse"] == "N.m.s"
+    falls = simulate(ball(), 1.0, step=1.0)
+    assert (falls.impact_table.attrs["units"]["impulse"], falls.event_table.attrs["units"]["impulse"]) == ("N.s", "N.s")
+    mixed = simulate(replace(ball(), contacts=(*ball().contacts, AngleStop("stop", "ball", GROUND, angle=-1.0))), 1)
+    assert mixed.impact_table.attrs["units"]["impulse"] == "N.s"
+    assert mixed.impact_table.attrs["descriptions"]["impulse"] == "Impulse; of stops and locks per radian"

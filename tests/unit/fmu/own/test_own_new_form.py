@@ -31,7 +31,8 @@ def test_the_old_form_is_built_with_a_remark_on_its_first_line(folder: Path) -> 
         ('"hinge", lever.a,', '"hinge", "lever",', "Revolute 'hinge' takes a point of 'lever'; write body_i.at(x, y),"),
         ('"motor", lever)', '"motor", lever.a)', "Torque 'motor' is attached to 'lever' as a whole, not to a point of"),
         ("GROUND.at(0, 0))", "GROUND.at(0, 0), 0.1)", "Revolute takes name, body_i, body_j by position, but 4 were "
-         "given; give what is behind the ends by keyword. It takes name, body_i, body_j, friction_radius."),
+         "given; give what is behind the ends by keyword. It takes name, body_i, body_j, friction_radius, "
+         "friction_static."),
         ('AngleStop("stop", lever, GROUND, angle=0.0', 'AngleStop("stop", lever, GROUND, angel=0.0', "AngleStop got an "
          "unexpected keyword argument 'angel'; did you mean 'angle'? It takes name, body_i, body_j, angle,"),
         ("GROUND.at(0, 0))", "(0, 0))", "Revolute 'hinge' takes a point of a body there, but (0, 0) was given; "),

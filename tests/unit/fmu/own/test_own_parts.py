@@ -62,6 +62,7 @@ def test_a_body_without_mass_is_told_with_its_line(folder: Path) -> None:
             "the function of MODEL returns nothing; end it with: return Mechanism(",
         ),
         ('Output("speed"', 'Output("mass"', "Parameter 'mass' has the name of another output; rename one of the two."),
+        ('Output("speed"', 'Output("time"', "Output 'time': tables and FMUs have a column of time by that name"),
         ('name="lever"', 'name="my lever"', "'my lever' cannot name an FMU"),
         ('angle="angle"', 'angle="phi"', "Drawing, Bar 'lever': the model has no variable 'phi'"),
         (
