@@ -25,6 +25,7 @@ READINGS = {
     "force": ("N", "N.m", "what pushes the bodies apart; 0 when open"),
     "gap": ("m", "rad", "positive when open"),
     "closed": ("1", "1", "1 while closed, else 0"),
+    "gap_acceleration": ("m/s2", "rad/s2", "second derivative of the gap by the present forces; 0 while closed"),
     "clicks": ("1", "1", "how often the latched angle has grown"),
     "latched": ("rad", "rad", "the latched angle"),
 }
@@ -66,7 +67,7 @@ def outputs(part: Any) -> Iterator[tuple[str, str, str, str]]:
         yield "<name>.index", "1", "number of the present copy, not modulo a turn", ""
     for name in getattr(part, "readings", ()):
         length, angle, what = READINGS[name]
-        depends = "every input whose force reaches it" if name == "force" else ""
+        depends = "every input whose force reaches it" if name in ("force", "gap_acceleration") else ""
         yield f"<name>.{name}", angle if part.angular else length, what, depends
 
 
