@@ -1,4 +1,4 @@
-"""Drawings of what drives a body: shaft, clutch and motor."""
+"""Drawings of what drives or brakes a body: shaft, clutch, brake and motor."""
 
 from __future__ import annotations
 
@@ -59,6 +59,27 @@ def slip_clutch() -> str:
             s.note((2.7, y + 0.72), "stiffness"),
             s.note((2.7, y - 0.72), "damping"),
             s.length((2.0, y - 0.75), (3.4, y - 0.75), -25, "s"),
+        ],
+    )
+
+
+def brake() -> str:
+    """A disc on a shaft between two linings, which are pressed on it."""
+    s = element_sketch()
+    y, x = 1.4, 1.6
+    return element_sheet(
+        "Brake",
+        [
+            s.path([(x, y), (3.35, y)], LINE),
+            s.box((x, y), 0.2, 1.9, 0.0, BODY_I),
+            s.box((3.8, y), 0.9, 1.3, 0.0, BODY_I),
+            *(s.box((x + side * 0.19, y + 0.62), 0.16, 0.5, 0.0, "#52606d") for side in (-1.0, 1.0)),
+            *(s.box((x + side * 0.4, y + 0.62), 0.26, 0.7, 0.0, BODY_J) for side in (-1.0, 1.0)),
+            s.path([(x - 0.4, y + 0.97), (x - 0.4, y + 1.25), (x + 0.4, y + 1.25), (x + 0.4, y + 0.97)], LINE),
+            s.ground((x + 0.6, y + 1.25), (x - 0.6, y + 1.25)),
+            s.note((3.8, y), "body"),
+            s.note((0.25, y + 0.62), "reaction"),
+            s.note((x, y - 1.2), "holds up to ± limit"),
         ],
     )
 

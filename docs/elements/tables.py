@@ -25,6 +25,7 @@ READINGS = {
     "force": ("N", "N.m", "what pushes the bodies apart; 0 when open"),
     "gap": ("m", "rad", "positive when open"),
     "closed": ("1", "1", "1 while closed, else 0"),
+    "gap_acceleration": ("m/s2", "rad/s2", "second derivative of the gap; 0 while closed"),
     "clicks": ("1", "1", "how often the latched angle has grown"),
     "latched": ("rad", "rad", "the latched angle"),
 }

@@ -1,0 +1,67 @@
+"""docs/friction.md: its example prints what it says, its picture is the script's, its table holds."""
+
+import contextlib
+import io
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pages import JOINTS, examples
+
+from docs.drawings.friction_drawing import PICTURE, drawing
+from mechanism_fmu.model import CamFlatFollower, CamFollower, Mechanism, PointFollower, PointLineContact, Revolute
+
+PAGE = JOINTS.parent / "friction.md"
+TEXT = PAGE.read_text(encoding="utf-8")
+ANALYTIC = Path(__file__).parents[1] / "analytic"
+_NUMBER = re.compile(r"\d\.\de-\d\d")
+
+
+def test_examples_print_what_the_page_says():
+    found = examples_with_output()
+    assert found
+    for program, expected in found:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(compile(program, PAGE.name, "exec"), {"__name__": PAGE.stem})
+        assert printed.getvalue() == expected
+
+
+def examples_with_output():
+    return examples(PAGE)
+
+
+def test_its_table_holds():
+    """But for rounding, which is another on another processor."""
+    command = [sys.executable, str(ANALYTIC / "friction_table.py")]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    (kept,) = re.findall(r"<!-- table -->\n(.*?)<!-- end -->", TEXT, re.DOTALL)
+    assert _NUMBER.sub("#", kept) == _NUMBER.sub("#", printed), "python tests/analytic/friction_table.py"
+    stated, found = ([float(number) for number in _NUMBER.findall(text)] for text in (kept, printed))
+    assert len(stated) > 15
+    assert all(now <= 5.0 * said + 1e-13 for now, said in zip(found, stated, strict=True))
+
+
+def test_its_picture_is_that_of_its_script():
+    number = re.compile(r"-?\d+\.\d+")
+    kept, drawn = PICTURE.read_text(encoding="utf-8"), drawing()
+    assert number.sub("#", kept) == number.sub("#", drawn), "python -m docs.drawings.friction_drawing"
+    places = ([float(x) for x in number.findall(text)] for text in (kept, drawn))
+    np.testing.assert_allclose(*places, rtol=0, atol=0.021)
+
+
+@pytest.mark.parametrize("part", [CamFlatFollower, CamFollower, PointFollower, PointLineContact, Revolute, Mechanism])
+def test_arguments_that_it_names_are_there(part):
+    names = {"friction_law", "impact_law", "energy_guard", "tangential_shock"} if part is Mechanism else set()
+    names = names or {"friction_static", "friction_radius" if part is Revolute else "friction"}
+    assert all(f"`{name}`" in TEXT or f"{name}=" in TEXT for name in names)
+    assert names <= set(part.__dataclass_fields__)
+
+
+def test_what_it_links_to_is_there():
+    targets = re.findall(r"\]\(([^)#]+)", TEXT)
+    assert targets
+    assert not [target for target in targets if not (PAGE.parent / target).exists()]
