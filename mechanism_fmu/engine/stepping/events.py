@@ -177,6 +177,13 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     next_rate = look_at.next[number, 1]
     floor = look_at.floor[number]
     fraction = 2.0
+    if look_at.armed[number] == 0 and guard_of(block, number)[0] == codes.GUARD_STICK:
+        if next_value <= floor:
+            fraction = _bisect(block, number, before, after, floor)
+        if next_value > SLIPS_ABOVE:  # not before: of what rests although it is taken to slip, rounding has either sign
+            look_at.armed[number] = 1
+            look_at.floor[number] = 0.0
+        return fraction
     if look_at.armed[number] == 0:
         if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
             before = _after_opening(block, number, after)
