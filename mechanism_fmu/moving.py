@@ -10,35 +10,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import codes
+from .advice import failure_details, start_details
 from .engine import status
 from .engine.run import engine_for
 from .model import Input, Mechanism, MechanismError, compile_mechanism
-from .model.compile import unknown_names
 from .model.event_names import event_name
 from .model.model import check_value
 from .model.quantities import quantity
 from .tables.layout import field_of, pack, state_of
-from .tolerances import RATES_WITHIN
 
 __all__ = ["Event", "Impact", "MovingMechanism", "SimulationError", "StepBudgetError", "input_place", "input_value"]
 
 Array = np.ndarray[Any, np.dtype[Any]]
-
-
-#: Failures that are about contacts.
-_ABOUT_CONTACTS = (
-    status.CHATTERING,
-    status.NO_CHOICE,
-    status.JAMMED,
-    status.ROW_AWAY,
-    status.NO_CONTACT_POINT,
-    status.BRIDGED,
-)
-
-
-def _shown(rates: Array) -> str:
-    """Three rates, each as nothing where rounding is all there is."""
-    return ", ".join(f"{0.0 if abs(rate) <= RATES_WITHIN else rate:.6g}" for rate in rates.tolist())
 
 
 class SimulationError(RuntimeError):
@@ -203,14 +186,7 @@ class MovingMechanism:
         outcome = self._engine.begin(float(time)) or self._engine.advance(float(time))
         if outcome == status.OK:
             return
-        details = {
-            status.NOT_ASSEMBLED: self._residuals,
-            status.START_INSIDE: self._penetration,
-            status.OVERLAP: self._penetration,
-            status.START_RATES: self._contradictions,
-            status.AT_CENTRE: self._profile,
-        }
-        raise MechanismError(status.ADVICE[outcome] + (details[outcome]() if outcome in details else ""))
+        raise MechanismError(status.ADVICE[outcome] + start_details(self._mechanism, self._block, outcome, self.mode()))
 
     def advance(self, target: float) -> None:
         """Go on to time `target` [s] with the inputs held.
@@ -348,90 +324,11 @@ class MovingMechanism:
                 f"t = {self.time:.9g} s: the motion cannot go on to {target:.9g} s; give a later time."
             )
 
+    def _details(self, outcome: int) -> str:
+        names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
+        return failure_details(self._mechanism, self._block, outcome, names | set(self.mode()))
+
     def _require(self, outcome: int) -> None:
         if outcome != status.OK:
             kind = StepBudgetError if outcome in status.OUT_OF_STEPS else SimulationError
-            raise kind(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._involved(outcome)}")
-
-    def _involved(self, outcome: int) -> str:
-        """What a failure is about.
-
-        The contacts of an event, and the joints that rub where friction is what failed; or the part that limited the
-        steps, and their last size; or the driver that asks for too much.
-        """
-        if outcome in (*status.OUT_OF_STEPS, status.STEP_TOO_SMALL):
-            return self._stiffest()
-        if outcome == status.OUT_OF_REACH:
-            return self._driven_too_far()
-        if outcome not in _ABOUT_CONTACTS:
-            return ""
-        names = {name for event in self.events_in_step() for name in (*event.old_mode, *event.new_mode)}
-        names |= set(self.mode())
-        friction = field_of(self._block, "joint_friction").tolist()
-        rubbing = [joint.name for joint, value in zip(self._mechanism.joints, friction, strict=True) if value > 0.0]
-        contacts = f" Contacts: {', '.join(sorted(names))}." if names else ""
-        joints = f" Joints with friction: {', '.join(rubbing)}." if outcome == status.JAMMED and rubbing else ""
-        return contacts + joints
-
-    def _stiffest(self) -> str:
-        """How small the steps have become, and the part whose error limits them."""
-        name = unknown_names(self._mechanism)[field_of(self._block, "stage_stiffest").item(0)]
-        size = field_of(self._block, "tried").item(1)
-        steps = self.counters.item(codes.STEPS_IN_STEP)
-        events = self.counters.item(codes.EVENTS_IN_STEP)
-        more = " or more" if events == len(self.field("events")) else ""
-        return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
-
-    def _driven_too_far(self) -> str:
-        """Which driver is at the end of its range, and what it asks for there."""
-        driver = self._mechanism.joints[field_of(self._block, "stage_stiffest").item(0)]
-        asked = field_of(self._block, "residual").item(-1)
-        return f" Driver {driver.name!r} asks for {asked:.6g} {driver.unit} here, and goes on."
-
-    def _residuals(self) -> str:
-        """What is left of each joint and closed contact at the closest position found."""
-        return f" Left open: {self._off('residual')} (m, or rad between directions)."
-
-    def _contradictions(self) -> str:
-        """The bodies to which the joints give other rates than the start rates; where there are none, the joints."""
-        left = self._off("residual_rate", RATES_WITHIN)
-        if left:
-            return (
-                f" No rates near them do; what is left: {left} (m/s, or rad/s). Drivers or closed contacts contradict "
-                "each other."
-            )
-        given = self.field("body_start_rate")
-        asked = self.field("y_end")[given.size : 2 * given.size].reshape(given.shape)
-        bodies = [
-            f"body {body.name!r} ({_shown(asked[i])}), not ({_shown(given[i])})"
-            for i, body in enumerate(self._mechanism.bodies)
-            if np.abs(asked[i] - given[i]).max() > RATES_WITHIN
-        ]
-        return (
-            f" They ask for other ones: {', '.join(bodies)} (of its centre of mass in m/s, and rad/s). Name in held "
-            "the coordinate whose rate you mean, as 'crank.angle', and leave out the rates that should follow; those "
-            "of driven bodies follow without held."
-        )
-
-    def _off(self, field: str, more_than: float = -1.0) -> str:
-        """By how much joints and closed contacts are off, of those that are so by more than a limit."""
-        left = np.abs(field_of(self._block, field))
-        parts, row = [], 0
-        joints = ((joint.name, joint.rows) for joint in self._mechanism.joints)
-        for name, rows in (*joints, *((contact, 1) for contact in self.mode())):
-            worst = left[row : row + rows].max()
-            if not worst <= more_than:
-                parts.append(f"{name} by {worst:.6g}")
-            row += rows
-        return ", ".join(parts)
-
-    def _profile(self) -> str:
-        """Whose profile is wrong."""
-        return f" Contact {self._mechanism.contacts[self.counters.item(codes.PENDING_SUBJECT)].name!r}."
-
-    def _penetration(self) -> str:
-        """Which contact point starts inside, and by how much."""
-        contact = self._mechanism.contacts[self.counters.item(codes.PENDING_SUBJECT)]
-        depth = -field_of(self._block, "residual").item(-1)
-        before, behind = contact.too_deep()
-        return f" Contact {contact.name!r}: {before} {depth:.6g} {behind}; change the start angles or the lengths."
+            raise kind(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._details(outcome)}")

@@ -1,6 +1,7 @@
 """What no mechanism may change: energy, momentum, angular momentum."""
 
 import math
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -72,7 +73,7 @@ def four_bars(draw):
         Revolute("d", "rocker", (-rocker / 2, 0.0), GROUND, (1.0, 0.0)),
     ]
     for joint in draw(st.lists(st.sampled_from(joints), max_size=2)):
-        joints.append(Revolute(f"{joint.name}{len(joints)}", *list(vars(joint).values())[1:]))
+        joints.append(replace(joint, name=f"{joint.name}{len(joints)}"))
     spring = TorsionSpring(
         "spring", "rocker", stiffness=draw(st.floats(0.0, 2.0)), free_angle=draw(st.floats(-1.0, 1.0))
     )

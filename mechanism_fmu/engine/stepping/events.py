@@ -19,35 +19,22 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.method import METHOD
-from ...tables.motion import Pose, Rows, Rubs, Stages, Watch
+from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import friction_row, sticks
 from ..constraints.kinematics import place_bodies
-from ..constraints.point_line import spare_row
-from ..constraints.rows import row_count
-from ..contacts.complementarity import hold_ratio, push_ratio
-from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
-from ..dynamics.acceleration import derivative
-from ..dynamics.forces import set_time
+from ..contacts.guards import gap, guard_of, guard_value, is_watched
 from .interpolation import interpolate
+from .letting_go import first_to_let_go
 from .runge_kutta import try_step
 
-_LAST = METHOD.last
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
 #: Bisections of a bracket: 2^-60 of a step is below rounding.
 _BISECTIONS = 60
-#: Those of a force: it changes sign once, and what follows does not depend on the last digits of when.
-_FORCE_BISECTIONS = 36
 _NEWTON_STEPS = 12
-#: By this share of a step the dense output may misplace an event, where it is found anew on true steps.
-_MISPLACED = 1e-3
-#: A closed contact opens when its force is less than this times the tolerance of the complementarity problem.
-_OPENS = -2.0
 
 
 @jit
@@ -62,22 +49,9 @@ def first_event(block: Array) -> tuple[int, int, float]:
     subject = codes.NONE
     if fraction <= 1.0:
         guard, subject = guard_of(block, number)
-    table = Contacts(block)
-    for c in range(table.mode.shape[0]):
-        if table.mode[c] == codes.CLOSED and can_open(block, c) and table.least_push[c] < _OPENS:
-            lets_go = _first_pull(block, c, fraction)
-            if lets_go < fraction:
-                guard = codes.GUARD_PUSH
-                subject = c
-                fraction = lets_go
-    rub = Rubs(block)
-    for k in range(rub.slip.shape[0]):
-        if rub.least_hold[k] < _OPENS and sticks(block, k):
-            lets_go = _first_slip(block, k, fraction)
-            if lets_go < fraction:
-                guard = codes.GUARD_SLIP
-                subject = k
-                fraction = lets_go
+    lets_go, what, when = first_to_let_go(block, fraction)
+    if when < fraction:
+        return lets_go, what, when
     return guard, subject, fraction
 
 
@@ -260,142 +234,3 @@ def _bottom(block: Array, number: int, before: float, after: float) -> float:
         else:
             after = middle
     return after
-
-
-@jit
-def _first_pull(block: Array, contact: int, latest: float) -> float:
-    """Where before `latest` a contact's force falls to its limit; 2.0 when the dense output shows no pull there."""
-    keep_small()
-    before = 0.0
-    for look in range(1, _LOOKS + 1):
-        after = min(latest, look / _LOOKS)
-        if _push_at(block, contact, after) < _OPENS:
-            for _ in range(_FORCE_BISECTIONS):
-                middle = 0.5 * (before + after)
-                if _push_at(block, contact, middle) < _OPENS:
-                    after = middle
-                else:
-                    before = middle
-            return after
-        if after >= latest:
-            return 2.0
-        before = after
-    return 2.0
-
-
-@jit
-def _push_at(block: Array, contact: int, fraction: float) -> float:
-    """A closed contact's force over its tolerance at `fraction` of the step."""
-    keep_small()
-    s = Stages(block)
-    interpolate(s.new_dense, fraction, s.y_at)
-    set_time(block, s.tried[0] + fraction * s.tried[1])
-    derivative(block, s.y_at, s.dy_at)
-    return push_ratio(block, contact, row_count(block))
-
-
-@jit
-def _first_slip(block: Array, rub: int, latest: float) -> float:
-    """Where before `latest` friction of what sticks reaches its bound; 2.0 when the dense output does not show it.
-
-    Where it has more than none to spare at first, that is where it has none left.
-    """
-    keep_small()
-    before = 0.0
-    limit = 0.0 if _hold_at(block, rub, 0.0) > 1.0 else _OPENS
-    for look in range(1, _LOOKS + 1):
-        after = min(latest, look / _LOOKS)
-        if _hold_at(block, rub, after) < _OPENS:
-            for _ in range(_BISECTIONS):
-                middle = 0.5 * (before + after)
-                if _hold_at(block, rub, middle) < limit:
-                    after = middle
-                else:
-                    before = middle
-            return after
-        if after >= latest:
-            return 2.0
-        before = after
-    return 2.0
-
-
-@jit
-def _hold_at(block: Array, rub: int, fraction: float) -> float:
-    """What friction of what sticks could hold more, over its tolerance, at `fraction` of the step."""
-    keep_small()
-    s = Stages(block)
-    interpolate(s.new_dense, fraction, s.y_at)
-    set_time(block, s.tried[0] + fraction * s.tried[1])
-    derivative(block, s.y_at, s.dy_at)
-    return hold_ratio(block, rub, row_count(block))
-
-
-@jit
-def refine_slip(block: Array, rub: int, step_size: float) -> float:
-    """The step size at which the true step ends at zero slip speed; that step is the last one tried."""
-    keep_small()
-    n = Sizes(block).coordinates
-    s = Stages(block)
-    start = s.tried[0]
-    limit = 2.0 * step_size
-    row = Rows(block)
-    spare = spare_row(block)
-    for _ in range(_NEWTON_STEPS):
-        try_step(block, start, step_size)
-        at = place_bodies(block, s.y_new)
-        friction_row(block, at, rub, spare)
-        rate = -row.gamma[spare]
-        for k in range(n):
-            rate += row.jacobian[spare, k] * s.derivatives[_LAST, n + k]
-        if rate == 0.0:
-            return step_size
-        move = -row.residual_rate[spare] / rate
-        if not abs(move) > ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
-            return step_size
-        step_size += move
-    try_step(block, start, step_size)
-    return step_size
-
-
-@jit
-def refine_hold(block: Array, rub: int, step_size: float) -> float:
-    """The step size at which the true step ends where friction of what sticks has none left; it is the last one tried.
-
-    By secants. The dense output of a long step places it worse: there, what mends the drift of rows makes noise.
-    """
-    keep_small()
-    s = Stages(block)
-    start = s.tried[0]
-    size = step_size
-    if not _hold_at(block, rub, 0.0) > 1.0:  # it lets go where the bound is passed, not where it is reached
-        try_step(block, start, size)
-        return size
-    before = (1.0 - _MISPLACED) * step_size
-    try_step(block, start, before)
-    held = _hold_behind(block, rub)
-    try_step(block, start, size)
-    for _ in range(_NEWTON_STEPS):
-        value = _hold_behind(block, rub)
-        if not value < held:
-            return size
-        move = value * (size - before) / (held - value)
-        if not abs(size + move - step_size) <= _MISPLACED * step_size:
-            break
-        if abs(move) <= ROOT_TOLERANCE:
-            return size
-        before = size
-        held = value
-        size += move
-        try_step(block, start, size)
-    try_step(block, start, step_size)
-    return step_size
-
-
-@jit
-def _hold_behind(block: Array, rub: int) -> float:
-    """What friction of what sticks could hold more, over its tolerance, at the end of the step last tried."""
-    keep_small()
-    s = Stages(block)
-    set_time(block, s.tried[0] + s.tried[1])
-    derivative(block, s.y_new, s.dy_at)
-    return hold_ratio(block, rub, row_count(block))

@@ -19,8 +19,9 @@ from ..dynamics.forces import set_time
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import copy
-from .events import first_event, refine, refine_hold, refine_slip
+from .events import first_event, refine
 from .interpolation import interpolate
+from .letting_go import refine_hold, refine_slip
 from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
 from .step_size import accurate_step, smallest_step, why_no_step

@@ -1,0 +1,137 @@
+"""What a failure of the engine is about: the parts, sizes and rates that its message names."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+import numpy as np
+
+from . import codes
+from .engine import status
+from .model import Mechanism
+from .model.compile import unknown_names
+from .tables.layout import field_of
+from .tolerances import RATES_WITHIN
+
+Array = np.ndarray[Any, np.dtype[Any]]
+
+# Failures of a motion.
+
+#: Those that are about contacts.
+_ABOUT_CONTACTS = (
+    status.CHATTERING,
+    status.NO_CHOICE,
+    status.JAMMED,
+    status.ROW_AWAY,
+    status.NO_CONTACT_POINT,
+    status.BRIDGED,
+)
+
+
+def failure_details(mechanism: Mechanism, block: Array, outcome: int, contacts: Collection[str]) -> str:
+    """What a motion that has ended is about, as what follows its advice.
+
+    The contacts of an event, and the joints that rub where friction is what failed; or the part that limited the steps,
+    and their last size; or the driver that asks for too much.
+
+    Args:
+        mechanism: whose motion it is.
+        block: its numbers, shape (words,).
+        outcome: status of the engine.
+        contacts: names of those that are closed, or were in the last events.
+    """
+    if outcome in (*status.OUT_OF_STEPS, status.STEP_TOO_SMALL):
+        return _stiffest(mechanism, block)
+    if outcome == status.OUT_OF_REACH:
+        return _driven_too_far(mechanism, block)
+    if outcome not in _ABOUT_CONTACTS:
+        return ""
+    friction = field_of(block, "joint_friction").tolist()
+    rubbing = [joint.name for joint, value in zip(mechanism.joints, friction, strict=True) if value > 0.0]
+    about = f" Contacts: {', '.join(sorted(contacts))}." if contacts else ""
+    joints = f" Joints with friction: {', '.join(rubbing)}." if outcome == status.JAMMED and rubbing else ""
+    return about + joints
+
+
+def _stiffest(mechanism: Mechanism, block: Array) -> str:
+    """How small the steps have become, and the part whose error limits them."""
+    name = unknown_names(mechanism)[field_of(block, "stage_stiffest").item(0)]
+    counters = field_of(block, "counters")
+    steps, events = (counters.item(which) for which in (codes.STEPS_IN_STEP, codes.EVENTS_IN_STEP))
+    more = " or more" if events == len(field_of(block, "events")) else ""
+    size = field_of(block, "tried").item(1)
+    return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
+
+
+def _driven_too_far(mechanism: Mechanism, block: Array) -> str:
+    """Which driver is at the end of its range, and what it asks for there."""
+    driver = mechanism.joints[field_of(block, "stage_stiffest").item(0)]
+    asked = field_of(block, "residual").item(-1)
+    return f" Driver {driver.name!r} asks for {asked:.6g} {driver.unit} here, and goes on."
+
+
+# Failures of a start.
+
+
+def start_details(mechanism: Mechanism, block: Array, outcome: int, closed: Collection[str]) -> str:
+    """What a start that fails is about, as what follows its advice.
+
+    Args:
+        mechanism: that cannot begin.
+        block: its numbers, shape (words,).
+        outcome: status of the engine.
+        closed: names of the closed contacts, in their order.
+    """
+    if outcome == status.NOT_ASSEMBLED:
+        left = _off(mechanism, field_of(block, "residual"), closed)
+        return f" Left open: {left} (m, or rad between directions)."
+    if outcome == status.START_RATES:
+        return _contradictions(mechanism, block, closed)
+    if outcome not in (status.START_INSIDE, status.OVERLAP, status.AT_CENTRE):
+        return ""
+    contact = mechanism.contacts[field_of(block, "counters").item(codes.PENDING_SUBJECT)]
+    if outcome == status.AT_CENTRE:
+        return f" Contact {contact.name!r}."
+    depth = -field_of(block, "residual").item(-1)
+    before, behind = contact.too_deep()
+    return f" Contact {contact.name!r}: {before} {depth:.6g} {behind}; change the start angles or the lengths."
+
+
+def _contradictions(mechanism: Mechanism, block: Array, closed: Collection[str]) -> str:
+    """The bodies to which the joints give other rates than the start rates; where there are none, the joints."""
+    left = _off(mechanism, field_of(block, "residual_rate"), closed, RATES_WITHIN)
+    if left:
+        return (
+            f" No rates near them do; what is left: {left} (m/s, or rad/s). Drivers or closed contacts contradict "
+            "each other."
+        )
+    given = field_of(block, "body_start_rate")
+    asked = field_of(block, "y_end")[given.size : 2 * given.size].reshape(given.shape)
+    bodies = [
+        f"body {body.name!r} ({_shown(asked[i])}), not ({_shown(given[i])})"
+        for i, body in enumerate(mechanism.bodies)
+        if np.abs(asked[i] - given[i]).max() > RATES_WITHIN
+    ]
+    return (
+        f" They ask for other ones: {', '.join(bodies)} (of its centre of mass in m/s, and rad/s). Name in held "
+        "the coordinate whose rate you mean, as 'crank.angle', and leave out the rates that should follow; those "
+        "of driven bodies follow without held."
+    )
+
+
+def _shown(rates: Array) -> str:
+    """Three rates, each as nothing where rounding is all there is."""
+    return ", ".join(f"{0.0 if abs(rate) <= RATES_WITHIN else rate:.6g}" for rate in rates.tolist())
+
+
+def _off(mechanism: Mechanism, left: Array, closed: Collection[str], more_than: float = -1.0) -> str:
+    """By how much joints and closed contacts are off, of those that are so by more than a limit."""
+    parts, row = [], 0
+    joints = ((joint.name, joint.rows) for joint in mechanism.joints)
+    for name, rows in (*joints, *((contact, 1) for contact in closed)):
+        worst = np.abs(left[row : row + rows]).max()
+        if not worst <= more_than:
+            parts.append(f"{name} by {worst:.6g}")
+        row += rows
+    return ", ".join(parts)

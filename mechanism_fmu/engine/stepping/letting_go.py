@@ -1,0 +1,174 @@
+"""Where forces let go within a step: contacts that would pull, friction beyond its bound; and where slip ends.
+
+Forces are looked at on the dense output. What friction lets go of, and where slip ends, is then found anew with true
+Runge-Kutta steps, as gaps are (`events`).
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.method import METHOD
+from ...tables.motion import Rows, Rubs, Stages
+from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
+from ...tolerances import ROOT_TOLERANCE
+from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import friction_row, sticks
+from ..constraints.kinematics import place_bodies
+from ..constraints.point_line import spare_row
+from ..constraints.rows import row_count
+from ..contacts.complementarity import hold_ratio, push_ratio
+from ..contacts.guards import can_open
+from ..dynamics.acceleration import derivative
+from ..dynamics.forces import set_time
+from .interpolation import interpolate
+from .runge_kutta import try_step
+
+_LAST = METHOD.last
+#: Points of a step at which each force is looked at.
+_LOOKS = 8
+#: Bisections of a bracket: of a contact's force, what follows does not depend on the last digits of when.
+_BISECTIONS = 60
+_PUSH_BISECTIONS = 36
+_NEWTON_STEPS = 12
+#: By this share of a step the dense output may misplace an event, where it is found anew on true steps.
+_MISPLACED = 1e-3
+#: A closed contact opens, and what sticks slips, when its force is less than this times the tolerance.
+_LETS_GO = -2.0
+
+
+@jit
+def first_to_let_go(block: Array, latest: float) -> tuple[int, int, float]:
+    """The first contact that opens, or friction that lets go, before the fraction `latest` of the step: guard, subject.
+
+    And the fraction; 2.0 when there is none.
+    """
+    keep_small()
+    guard = codes.GUARD_NONE
+    subject = codes.NONE
+    fraction = 2.0
+    table = Contacts(block)
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED and can_open(block, c) and table.least_push[c] < _LETS_GO:
+            lets_go = _first_below(block, codes.GUARD_PUSH, c, min(latest, fraction), _LETS_GO, _PUSH_BISECTIONS)
+            if lets_go < min(latest, fraction):
+                guard = codes.GUARD_PUSH
+                subject = c
+                fraction = lets_go
+    rub = Rubs(block)
+    for k in range(rub.slip.shape[0]):
+        if rub.least_hold[k] < _LETS_GO and sticks(block, k):
+            # where it has more than none to spare at first, that is where it has none left
+            limit = 0.0 if _spare_at(block, codes.GUARD_SLIP, k, 0.0) > 1.0 else _LETS_GO
+            lets_go = _first_below(block, codes.GUARD_SLIP, k, min(latest, fraction), limit, _BISECTIONS)
+            if lets_go < min(latest, fraction):
+                guard = codes.GUARD_SLIP
+                subject = k
+                fraction = lets_go
+    return guard, subject, fraction
+
+
+@jit
+def _first_below(block: Array, guard: int, subject: int, latest: float, limit: float, bisections: int) -> float:
+    """Where before `latest` a force falls to its limit; 2.0 when the dense output does not show it."""
+    keep_small()
+    before = 0.0
+    for look in range(1, _LOOKS + 1):
+        after = min(latest, look / _LOOKS)
+        if _spare_at(block, guard, subject, after) < _LETS_GO:
+            for _ in range(bisections):
+                middle = 0.5 * (before + after)
+                if _spare_at(block, guard, subject, middle) < limit:
+                    after = middle
+                else:
+                    before = middle
+            return after
+        if after >= latest:
+            return 2.0
+        before = after
+    return 2.0
+
+
+@jit
+def _spare_at(block: Array, guard: int, subject: int, fraction: float) -> float:
+    """A contact's force, or what friction could hold more, over its tolerance at `fraction` of the step."""
+    keep_small()
+    s = Stages(block)
+    interpolate(s.new_dense, fraction, s.y_at)
+    set_time(block, s.tried[0] + fraction * s.tried[1])
+    derivative(block, s.y_at, s.dy_at)
+    if guard == codes.GUARD_PUSH:
+        return push_ratio(block, subject, row_count(block))
+    return hold_ratio(block, subject, row_count(block))
+
+
+@jit
+def refine_slip(block: Array, rub: int, step_size: float) -> float:
+    """The step size at which the true step ends at zero slip speed; that step is the last one tried."""
+    keep_small()
+    n = Sizes(block).coordinates
+    s = Stages(block)
+    start = s.tried[0]
+    limit = 2.0 * step_size
+    row = Rows(block)
+    spare = spare_row(block)
+    for _ in range(_NEWTON_STEPS):
+        try_step(block, start, step_size)
+        at = place_bodies(block, s.y_new)
+        friction_row(block, at, rub, spare)
+        rate = -row.gamma[spare]
+        for k in range(n):
+            rate += row.jacobian[spare, k] * s.derivatives[_LAST, n + k]
+        if rate == 0.0:
+            return step_size
+        move = -row.residual_rate[spare] / rate
+        if not abs(move) > ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
+            return step_size
+        step_size += move
+    try_step(block, start, step_size)
+    return step_size
+
+
+@jit
+def refine_hold(block: Array, rub: int, step_size: float) -> float:
+    """The step size at which the true step ends where friction of what sticks has none left; it is the last one tried.
+
+    By secants. The dense output of a long step places it worse: there, what mends the drift of rows makes noise.
+    """
+    keep_small()
+    s = Stages(block)
+    start = s.tried[0]
+    size = step_size
+    if not _spare_at(block, codes.GUARD_SLIP, rub, 0.0) > 1.0:  # it lets go where the bound is passed
+        try_step(block, start, size)
+        return size
+    before = (1.0 - _MISPLACED) * step_size
+    try_step(block, start, before)
+    held = _hold_behind(block, rub)
+    try_step(block, start, size)
+    for _ in range(_NEWTON_STEPS):
+        value = _hold_behind(block, rub)
+        if not value < held:
+            return size
+        move = value * (size - before) / (held - value)
+        if not abs(size + move - step_size) <= _MISPLACED * step_size:
+            break
+        if abs(move) <= ROOT_TOLERANCE:
+            return size
+        before = size
+        held = value
+        size += move
+        try_step(block, start, size)
+    try_step(block, start, step_size)
+    return step_size
+
+
+@jit
+def _hold_behind(block: Array, rub: int) -> float:
+    """What friction of what sticks could hold more, over its tolerance, at the end of the step last tried."""
+    keep_small()
+    s = Stages(block)
+    set_time(block, s.tried[0] + s.tried[1])
+    derivative(block, s.y_new, s.dy_at)
+    return hold_ratio(block, rub, row_count(block))
