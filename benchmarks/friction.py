@@ -35,7 +35,7 @@ def block(stuck: bool) -> Mechanism:
     parts: dict[str, Any] = {"gravity": (-1.0, -9.8), "forces": (TorsionSpring("spring", disc, stiffness=3.0),)}
     if stuck:
         floor = PointLineContact("floor", body.at(0, 0), along, closed=True, friction=0.5)
-        return Mechanism((body, disc), (shaft,), contacts=(floor,), friction_law="coulomb", **parts)
+        return Mechanism((body, disc), (shaft,), contacts=(floor,), **parts)
     guides = (RevoluteTranslational(name, line, body.at(0, 0)) for name, line in (("along", along), ("across", across)))
     return Mechanism((body, disc), (shaft, *guides), **parts)
 

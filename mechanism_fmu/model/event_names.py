@@ -9,11 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .. import codes
-from .contacts import Contact
-from .forces import ForceElement
-from .functions import is_plain
-from .joints import Joint
-from .mechanism import Mechanism
+from .mechanism import Mechanism, may_rub
 
 #: The event of inputs that have changed.
 INPUT = "input"
@@ -52,9 +48,3 @@ def event_names(mechanism: Mechanism) -> Iterator[tuple[int, int, str]]:
             if may_rub(part):
                 yield guard, subject, event_name(mechanism, guard, subject)
     yield codes.GUARD_INPUT, codes.NONE, INPUT
-
-
-def may_rub(part: Contact | Joint | ForceElement) -> bool:
-    """Whether a part has dry friction for some values of the parameters."""
-    friction = getattr(part, "friction", 0.0)
-    return getattr(part, "dry", False) or not is_plain(friction) or friction > 0.0

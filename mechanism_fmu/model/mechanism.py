@@ -11,7 +11,7 @@ from .body import Body
 from .contacts import Contact
 from .curves import Curve
 from .forces import Force, ForceElement, Marker
-from .functions import Number
+from .functions import Number, is_plain
 from .joints import Joint
 from .logic import LogicalFunction
 from .members import Disk, Member
@@ -66,9 +66,9 @@ class Mechanism:
             that read them; the motion does without. The mechanism becomes a structure when its held and driven
             coordinates stand still.
         markers: points whose place and velocity outputs read.
-        friction_law: "smooth", by tanh over a small slip speed, or "coulomb", which sticks and slips.
-        impact_law: of dry friction: "newton" (Moreau and Glocker), "poisson", or "stronge" (of one contact alone).
-        energy_guard: whether an impact that would add energy, as it may by Newton's law with dry friction, is repeated
+        impact_law: of impacts where there is friction: "newton" (Moreau and Glocker), "poisson", or "stronge" (of one
+            contact alone).
+        energy_guard: whether an impact that would add energy, as it may by Newton's law with friction, is repeated
             by Poisson's.
         tangential_shock: whether an impact without approach ends a slip with which no finite force agrees (Painlevé).
 
@@ -91,7 +91,6 @@ class Mechanism:
     members: tuple[Member, ...] = ()
     disks: tuple[Disk, ...] = ()
     markers: tuple[Marker, ...] = ()
-    friction_law: Literal["smooth", "coulomb"] = "smooth"
     impact_law: Literal["newton", "poisson", "stronge"] = "newton"
     energy_guard: bool = True
     tangential_shock: bool = False
@@ -112,8 +111,15 @@ class Mechanism:
 
     @property
     def rubbing(self) -> tuple[Contact | Joint | ForceElement, ...]:
-        """What may have dry friction, as the engine numbers it: contacts, joints, force elements; none where smooth."""
-        return (*self.contacts, *self.joints, *self.elements) if self.friction_law == "coulomb" else ()
+        """Contacts, joints and force elements, as the engine numbers their friction; none where nothing can rub."""
+        parts = (*self.contacts, *self.joints, *self.elements)
+        return parts if self.impact_law != "newton" or any(map(may_rub, parts)) else ()
+
+
+def may_rub(part: Contact | Joint | ForceElement) -> bool:
+    """Whether a part has friction for some values of the parameters."""
+    friction = getattr(part, "friction", 0.0)
+    return getattr(part, "rubs", False) or not is_plain(friction) or friction > 0.0
 
 
 def curve_owners(mechanism: Mechanism) -> list[tuple[str, Curve]]:

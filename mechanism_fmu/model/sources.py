@@ -218,10 +218,10 @@ def _of_friction(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, i
     names = [part.name for part in (*mechanism.contacts, *mechanism.joints, *mechanism.elements)]
     if part not in names or quantity not in _OF_FRICTION:
         return None
-    if mechanism.friction_law != "coulomb":
+    if not mechanism.rubbing:
         raise MechanismError(
-            f"output source {part}.{quantity} is of dry friction, but the friction here is smooth; "
-            'give the mechanism friction_law="coulomb".'
+            f"output source {part}.{quantity} is of friction, but nothing in this mechanism rubs; "
+            "give a contact or joint friction, or leave out the output."
         )
     return _OF_FRICTION[quantity], names.index(part), 0
 

@@ -12,7 +12,7 @@ import numpy as np
 from .. import codes
 from ..engine.run import engine_for
 from ..model import Mechanism, MechanismError, Output, compile_mechanism
-from ..model.event_names import may_rub
+from ..model.mechanism import may_rub
 from ..tables.layout import field_of, pack
 from ..tolerances import SLIPS_ABOVE
 
@@ -49,21 +49,19 @@ def friction_solutions(mechanism: Mechanism, start_time: float = 0.0) -> tuple[F
     to slip on; what is at rest may stick, or slip either way.
 
     Args:
-        mechanism: with friction_law "coulomb", in its start position.
+        mechanism: in its start position.
         start_time: [s].
 
     Returns:
         The solutions; those whose forces agree to 1e-9 of the largest are one.
 
     Raises:
-        MechanismError: the mechanism cannot be right or cannot be assembled, its friction is smooth, or more contacts
+        MechanismError: the mechanism cannot be right or cannot be assembled, or more contacts
             touch than can be tried (4096 combinations).
 
     Source: Genot, Brogliato, European Journal of Mechanics A 18 (1999) 653; Glocker, Pfeiffer, Nonlinear Dynamics 7
         (1995) 471: the complementarity problem whose solutions are sought.
     """
-    if mechanism.friction_law != "coulomb":
-        raise MechanismError("friction_solutions: the friction is smooth; give the mechanism friction_law='coulomb'.")
     still = replace(mechanism.settings, baumgarte_alpha=0.0, baumgarte_beta=0.0)
     looked = replace(mechanism, outputs=tuple(_outputs(mechanism)), calculated=(), settings=still)
     search = _Search(looked, start_time)

@@ -52,7 +52,6 @@ FORCES = Kinds(
     damper="damping",
     shaft="stiffness damping angle speed",
     force="x y",
-    slip_clutch="stiffness damping limit speed",
     dc_motor="constant resistance inductance voltage gain integral_gain anti_windup speed",
     spring_damper="point.x point.y reaction_point.x reaction_point.y stiffness damping free_length preload side",
     torsion_spring_damper="stiffness damping free_angle preload side",

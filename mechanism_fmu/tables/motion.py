@@ -42,6 +42,7 @@ _COUNTERS = {
     "COUNT_REJECTED": COUNT,
     "COUNT_TRIES": COUNT,
     "COUNT_BY_POISSON": COUNT,
+    "RUBBING": whole(0, 1, "rubs"),
 }
 #: Columns of an impact record, the last one for all behind it, and of an event record.
 _RECORD = {

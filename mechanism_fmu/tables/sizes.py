@@ -50,7 +50,7 @@ class Sizes:
     couples = _given()
     locked = _given()
     beams = _given()
-    rubs = _given()  # contacts, joints and force elements, where friction is dry; else 0
+    rubs = _given()  # contacts, joints and force elements, where any may rub; else 0
     joint_rows = _given()
     contact_rows = _given()  # of all contacts, when contact coordinates count as coordinates
     coordinates = _follows(lambda n: 3 * n["bodies"])

@@ -9,18 +9,17 @@ from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
+    Brake,
     Calculated,
     CompliantShaft,
     Damper,
     Disc,
-    Finding,
     Hinge,
     Input,
     Mechanism,
     Model,
     Parameter,
     Revolute,
-    SlipClutch,
     Torque,
     Wheel,
     port_builders as ports,
@@ -41,26 +40,6 @@ SHAPES = (
 )
 
 
-# What is wrong with parameter values that are each within their limits.
-
-#: A brake that gives way so fast [s] costs millions of steps a second and shows nothing.
-FASTEST = 1e-6
-
-
-def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
-    """Why the table cannot be run: value, limit and way out."""
-    time = values.brake_damping / values.brake_stiffness
-    return (
-        Finding(
-            FASTEST - time,
-            "brake_damping / brake_stiffness = {:.3g} s is shorter than "
-            f"{FASTEST:g} s, and steps would be as small. Give less brake_stiffness = {{:.3g}} N.m/rad, or more "
-            "brake_damping = {:.3g} N.m.s/rad.",
-            (time, values.brake_stiffness, values.brake_damping),
-        ),
-    )
-
-
 # Inputs, outputs and parameters of the rotary table.
 
 INPUTS = (
@@ -75,13 +54,13 @@ OUTPUTS = (
     ports.shaft_torque_output("table"),
     ports.torque_output(
         "friction_torque",
-        "brake.torque",
+        "brake.friction_force",
         "Torque of the brake on the table; at most brake_torque either way, and less while it holds",
-        [INPUTS[3]],
+        INPUTS,
     ),
     *ports.energy_outputs(
         kinetic="Kinetic energy of the table",
-        spring="Energy in the compliance of the brake",
+        spring="Energy of springs: there are none",
         work="Work done by drive shaft and load_torque since the start",
         lost="Energy lost in brake and damper since the start",
         nominal=1e-2,
@@ -91,8 +70,6 @@ OUTPUTS = (
 PARAMETERS = (
     *ports.rotor_parameters("table", 2.0, 0.02),
     ports.damping_parameter("table"),
-    Parameter("brake_stiffness", 200.0, "Stiffness of the brake while it holds", "N.m/rad", 1e-6, 1e9),
-    Parameter("brake_damping", 1.0, "Damping of the brake while it holds", "N.m.s/rad", 1e-6, 1e9),
     Parameter("drive_stiffness", 2.0, "Stiffness of the drive shaft", "N.m/rad", 0.0, 1e9),
     Parameter("drive_damping", 0.02, "Damping of the drive shaft: torque per lag of speed", "N.m.s/rad", 0.0, 1e9),
     ports.angle_parameter("table_angle_start", 0.0, "Table angle at the start (theta)"),
@@ -102,12 +79,8 @@ PARAMETERS = (
 
 
 def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
-    """What drawings need, and how far the brake gives before it slips."""
-    time = values.brake_damping / values.brake_stiffness
-    return (
-        Calculated("brake_time", time, "Within this the brake gives way or holds again", "s", "ms"),
-        Calculated("outline_brake_radius", BRAKE, "Drawing: radius of the brake's disc", "m"),
-    )
+    """What drawings need."""
+    return (Calculated("outline_brake_radius", BRAKE, "Drawing: radius of the brake's disc", "m"),)
 
 
 def mechanism(values: SimpleNamespace) -> Mechanism:
@@ -117,7 +90,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
         joints=(Revolute("hinge", "table", (0.0, 0.0), GROUND, (0.0, 0.0)),),
         forces=(
             CompliantShaft("shaft", "table", stiffness=values.drive_stiffness, damping=values.drive_damping),
-            SlipClutch("brake", "table", stiffness=values.brake_stiffness, damping=values.brake_damping),
+            Brake("brake", "table"),
             Torque("load", "table"),
             Damper("table_damper", "table", damping=values.table_damping),
         ),
@@ -135,7 +108,6 @@ MODEL = Model(
     parameters=PARAMETERS,
     calculated=calculated,
     mechanism=mechanism,
-    objections=objections,
     stop_time=4.0,
     step_size=5e-3,
     drawing=SHAPES,

@@ -113,7 +113,6 @@ def mechanism_of(bodies: Sequence[Body], tolerance: float, contacts: Sequence[An
         contacts=tuple(contacts),
         outputs=tuple(Output(source, source, "") for source in sources),
         settings=Settings(relative_tolerance=tolerance),
-        friction_law="coulomb",
         **parts,
     )
 

@@ -10,8 +10,6 @@ from mechanism_fmu import codes
 from mechanism_fmu.model import (
     GROUND,
     Body,
-    Brake,
-    CamFlatFollower,
     Input,
     Mechanism,
     MechanismError,
@@ -21,7 +19,6 @@ from mechanism_fmu.model import (
     Revolute,
     Settings,
     Translational,
-    circle,
 )
 from mechanism_fmu.simulation import Simulation, SimulationError
 
@@ -49,7 +46,6 @@ def pulled(**friction):
                 *read("floor", "sticks", "friction_force", "slip_speed"),
                 *ENERGIES,
             ),
-            friction_law="coulomb",
         )
     )
 
@@ -86,7 +82,7 @@ def test_what_sticks_does_not_creep():
     slope = math.radians(10.0)
     gravity = (-9.81 * math.sin(slope), -9.81 * math.cos(slope))
     outputs = read("block", "x", "x_rate")
-    mechanism = Mechanism((block,), contacts=(floor,), gravity=gravity, outputs=outputs, friction_law="coulomb")
+    mechanism = Mechanism((block,), contacts=(floor,), gravity=gravity, outputs=outputs)
     simulation = Simulation(mechanism)
     simulation.advance(3600.0)
     assert abs(simulation.read()["block.x_rate"]) < 1e-15
@@ -99,7 +95,7 @@ def test_a_slider_rubs_by_its_force_across():
     guide = Translational("guide", GROUND.line(ORIGIN, (2.0, 0.0)), block.line(ORIGIN, (1.0, 0.0)), friction=mu)
     push = PointForce("side", block.at(0, 0), force=(0.0, side))
     outputs = (*read("block", "x", "x_rate"), *ENERGIES)
-    simulation = Simulation(Mechanism((block,), (guide,), forces=(push,), outputs=outputs, friction_law="coulomb"))
+    simulation = Simulation(Mechanism((block,), (guide,), forces=(push,), outputs=outputs))
     stop = 3.0 * mass / (mu * side)
     simulation.advance(stop + 1.0)
     assert [(e.guard, e.time) for e in simulation.events_in_step()] == [
@@ -128,7 +124,6 @@ def test_a_ladder_rests_where_it_can(angle, mu):
             contacts=contacts,
             gravity=(0.0, -9.81),
             outputs=read("ladder", "speed"),
-            friction_law="coulomb",
         )
     )
     turning = simulation.read_rates()["ladder.speed"]
@@ -141,28 +136,16 @@ def test_a_ladder_rests_where_it_can(angle, mu):
     assert abs(simulation.read()["ladder.speed"]) < 1e-9
 
 
-@pytest.mark.parametrize("wrong", [{"friction_law": "dry"}, {"friction_law": "coulomb", "impact_law": "hertz"}])
-def test_words_that_are_no_law_are_refused(wrong):
+def test_words_that_are_no_law_are_refused():
     with pytest.raises(MechanismError, match="is none of"):
-        Simulation(Mechanism((Body("a", 1.0, 1.0),), **wrong))
+        Simulation(Mechanism((Body("a", 1.0, 1.0),), impact_law="hertz"))
 
 
-def test_what_is_dry_is_refused_where_friction_is_smooth():
+def test_less_static_friction_than_in_slip_is_refused():
     body = Body("a", 1.0, 1.0)
-    face = CamFlatFollower("cam", body, GROUND.line((0, -1), (1, 0)), profile_i=circle(1.0), friction=0.1)
-    held = PointLineContact("c", body.at(0, 0), GROUND.line(ORIGIN, (1, 0)), friction=0.1, friction_static=0.2)
-    parts = (
-        {"forces": (Brake("brake", body),)},
-        {"contacts": (face,)},
-        {"contacts": (held,)},
-        {"impact_law": "poisson"},
-    )
-    for part in parts:
-        with pytest.raises(MechanismError, match="friction_law='coulomb'"):
-            Simulation(Mechanism((body,), **part))
     less = PointLineContact("c", body.at(0, 0), GROUND.line(ORIGIN, (1, 0)), friction=0.3, friction_static=0.2)
     with pytest.raises(MechanismError, match=r"friction_static = 0\.2 is less than the friction while it slips, 0\.3"):
-        Simulation(Mechanism((body,), contacts=(less,), friction_law="coulomb"))
+        Simulation(Mechanism((body,), contacts=(less,)))
 
 
 # Laws that hold for all: random things that are thrown on a floor.
@@ -230,7 +213,6 @@ def simulation_of(case, mirrored=False, tolerance=1e-9):
             contacts=tuple(contacts),
             gravity=(0.0, -9.81),
             outputs=(*outputs, *ENERGIES),
-            friction_law="coulomb",
             impact_law=law,
             settings=Settings(relative_tolerance=tolerance),
         )

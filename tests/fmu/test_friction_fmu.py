@@ -54,7 +54,6 @@ def mechanism(values):
         inputs=(Input("limit", "brake.limit", 0.3, "", "N.m"),),
         gravity=(0.0, -9.81),
         outputs=OUTPUTS,
-        friction_law="coulomb",
         impact_law="LAW",
     )
 

@@ -40,7 +40,7 @@ def mechanism(values):
         Output("sticks", "touch.sticks", "Whether the belt carries it", "1"),
     )
     parts = {"outputs": outputs, "markers": (Marker("middle", block),), "gravity": (0.0, -9.81)}
-    return Mechanism((belt, block), joints, (spring,), friction_law="coulomb", **parts)
+    return Mechanism((belt, block), joints, (spring,), **parts)
 
 
 BELT = Parameter("belt_speed", 0.1, "Speed of the belt", "m/s", 0.0, 10.0)

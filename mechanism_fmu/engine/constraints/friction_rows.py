@@ -12,8 +12,8 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.kinds import FORCES, JOINTS
-from ...tables.motion import Pose, Rows, Rubs, Strikes
-from ...tables.parts import Contacts, Forces, Joints
+from ...tables.motion import Course, Pose, Rows, Rubs, Strikes
+from ...tables.parts import Contacts, Forces, Joints, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..vectors import clear
@@ -52,6 +52,33 @@ def holding(block: Array, rub: int) -> float:
         of_joint: float = Joints(block).holding[rub - contacts]
         return of_joint
     return coefficient(block, rub)
+
+
+@jit
+def rubs(block: Array) -> bool:
+    """Whether anything has friction, or impacts another law than Newton's."""
+    some: bool = Course(block).counters[codes.RUBBING] > 0
+    return some
+
+
+@jit
+def rubbing_count(block: Array) -> int:
+    """The number of contacts, joints and brakes with friction; one more where impacts have another law than Newton's.
+
+    Coefficients are parameters: it holds as long as the motion.
+    """
+    keep_small()
+    count = 0
+    if Options(block).settings[codes.IMPACT_LAW] != codes.NEWTON:
+        count = 1
+    for k in range(Sizes(block).rubs):
+        first = Sizes(block).contacts + Sizes(block).joints
+        if k < first:
+            if coefficient(block, k) > 0.0:
+                count += 1
+        elif Forces(block).kind[k - first] == BRAKE:
+            count += 1
+    return count
 
 
 @jit

@@ -13,7 +13,7 @@ from ..compiler.subset import jit, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
 from ..vectors import clear
-from .friction_rows import stick_rows, stuck_count
+from .friction_rows import rubs, stick_rows, stuck_count
 from .joints.drivers import angle_driver, distance_driver, translational_driver, x_driver, y_driver
 from .joints.gears import gears, internal_gears, rack_and_pinion
 from .joints.pins_and_slides import distance, revolute, revolute_translational, translational
@@ -107,7 +107,7 @@ def active_rows(block: Array, at: Pose) -> int:
             count += 1
         else:
             table.row[c] = -1
-    if Sizes(block).rubs > 0:
+    if rubs(block):
         count = stick_rows(block, at, count)
     return count
 
@@ -152,7 +152,7 @@ def row_count(block: Array) -> int:
     count: int = Sizes(block).joint_rows
     for c in range(mode.shape[0]):
         count += mode[c]
-    if Sizes(block).rubs > 0:
+    if rubs(block):
         count += stuck_count(block)
     return count
 

@@ -23,7 +23,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import coefficient, friction_row, holding, touches
+from ..constraints.friction_rows import coefficient, friction_row, holding, rubs, touches
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows, contact_row, row_count
 from ..dynamics.acceleration import derivative, scale_rows
@@ -175,7 +175,7 @@ def _first_wrong(block: Array, at: Pose) -> int:
                 return k
         elif _goes_in(block, at, c):
             return k
-    if Sizes(block).rubs > 0:
+    if rubs(block):
         wrong = _first_wrong_rub(block, at, active)
         if wrong != codes.NONE:
             count: int = Strikes(block).problem[COUNT]
@@ -244,7 +244,7 @@ def _try_impulses(block: Array, at: Pose) -> int:
     for k in range(rub.slip.shape[0]):
         if rub.row[k] >= 0:
             system.right_side[rub.row[k]] = -Rows(block).residual_rate[rub.row[k]]
-    if rub.slip.shape[0] == 0:
+    if not rubs(block):
         minimum_norm(block, count, Sizes(block).coordinates)
         return count
     gives = _given_impulses(block, at, count)

@@ -15,6 +15,7 @@ from ...tables.parts import Bodies, Contacts, Options
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row, driver_power
@@ -33,7 +34,7 @@ def exchange(block: Array, at: Pose) -> int:
     keep_small()
     strike = Strikes(block)
     mode = Contacts(block).mode
-    if Sizes(block).rubs == 0:
+    if not rubs(block):
         outcome = push_impulses(block, at)
         if outcome == status.OK:
             _apply(block)

@@ -10,6 +10,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import kinetic_energy, set_time
@@ -192,7 +193,7 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
         count += 1
     if not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # also of what is about to open: a gap must not be left below zero
-    if count == 0 and Sizes(block).rubs == 0:
+    if count == 0 and not rubs(block):
         return status.OK
     Strikes(block).problem[COUNT] = count
     at = place_bodies(block, Course(block).y_end)
@@ -201,7 +202,7 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
     if outcome == status.NO_CHOICE and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
         outcome = _shock(block, count)
     part(block)
-    if Sizes(block).rubs > 0 and not only_choose:
+    if rubs(block) and not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # what has come to rest
     for k in range(count):
         c = Strikes(block).candidates[k]
@@ -215,7 +216,7 @@ def _shock(block: Array, count: int) -> int:
     keep_small()
     now = Course(block)
     n = Sizes(block).coordinates
-    if Strikes(block).problem[COUNT] == 0 or Sizes(block).rubs == 0:
+    if Strikes(block).problem[COUNT] == 0 or not rubs(block):
         return status.NO_CHOICE
     for k in range(n):
         Strikes(block).rates_before[k] = now.y_end[n + k]

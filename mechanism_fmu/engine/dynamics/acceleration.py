@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-import math
-
 from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows
 from ...tables.parts import Bodies
 from ...tables.sizes import Sizes
-from ...tolerances import PUSHES_WITHIN
 from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, driver_power, follow_open_contacts, stabilise
 from ..profiles.nearest import settle_contact_points
 from ..vectors import largest
 from .forces import apply_forces
-from .friction import has_friction, resist
 from .minimum_norm import minimum_norm
 from .sliding import slide
-
-#: Friction and normal forces agree when no multiplier changes by more than this part of the largest one, or, where all
-#: vanish as a contact opens, by what is no push and is left by rounding: it does not shrink from round to round.
-_AGREE = 1e-13
-_ROUNDS = 200
 
 
 @jit
@@ -38,10 +30,8 @@ def derivative(block: Array, y: Array, dy: Array) -> Pose:
     stabilise(block, count)
     given, lost = apply_forces(block, at, y, dy)
     accelerate(block, count)
-    if Sizes(block).rubs > 0:
+    if rubs(block):
         lost += slide(block, at, count)
-    elif has_friction(block):
-        lost += _with_friction(block, at, count)
     free = Loads(block).free_acceleration
     root = Bodies(block).inverse_root_mass
     correction = LinearSystem(block).solution
@@ -88,30 +78,6 @@ def scale_rows(block: Array, count: int) -> None:
     for r in range(count):
         for k in range(n):
             system.scaled[r, k] = row.jacobian[r, k] * root[k]
-
-
-@jit
-def _with_friction(block: Array, at: Pose, count: int) -> float:
-    """Normal forces and friction that agree, by iteration; the power lost, or not a number when they never do."""
-    keep_small()
-    load = Loads(block)
-    multiplier = LinearSystem(block).multiplier
-    for k in range(load.force.shape[0]):
-        load.applied[k] = load.force[k]
-    before = math.inf
-    for _ in range(_ROUNDS):
-        for r in range(count):
-            load.last_multiplier[r] = multiplier[r]
-        lost = resist(block, at)
-        accelerate(block, count)
-        change = largest = 0.0
-        for r in range(count):
-            change = max(change, abs(multiplier[r] - load.last_multiplier[r]))
-            largest = max(largest, abs(multiplier[r]))
-        if change <= _AGREE * largest or before <= change <= PUSHES_WITHIN:
-            return lost
-        before = change
-    return math.nan
 
 
 # Back to the constraints, when integration has drifted off them.

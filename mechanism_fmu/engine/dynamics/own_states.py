@@ -1,8 +1,7 @@
 """Force elements with first-order states of their own, which are integrated with the motion.
 
-A clutch that slips has its twist, a motor its current and the integral of its controller. Their equations are
-continuous: where torque or voltage reach a limit, only the slope changes, so that no event is needed and the step size
-follows by itself.
+A motor has its current and the integral of its controller. Their equations are continuous: where the voltage reaches
+its limit, only the slope changes, so that no event is needed and the step size follows by itself.
 """
 
 from __future__ import annotations
@@ -17,7 +16,6 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from .element import Element, relative_speed, turn
 
-CLUTCH_STIFFNESS, CLUTCH_DAMPING, CLUTCH_LIMIT, CLUTCH_SPEED = FORCES.places("slip_clutch")
 CONSTANT, RESISTANCE, INDUCTANCE, VOLTAGE_LIMIT, GAIN, INTEGRAL_GAIN, ANTI_WINDUP, SPEED = FORCES.places("dc_motor")
 #: States of a motor's own: current [A], and the integral of the error of speed [rad].
 CURRENT, INTEGRAL = range(2)
@@ -28,45 +26,6 @@ def _place(block: Array, k: int) -> int:
     """Where the own states of element `k` begin among the unknowns."""
     place: int = Sizes(block).y_own + Forces(block).own[k]
     return place
-
-
-@jit
-def _clutch(block: Array, at: Pose, k: int, y: Array, dy: Array, given: float, lost: float) -> tuple[float, float]:
-    """Spring and damper in series with a slider: T = k s + c (speed - rate), but never beyond the limit.
-
-    The twist's rate s' is what the damper then does, s' = (T - k s) / c. What is left of the difference of speeds is
-    slip. Powers are given by the driven end and lost in slip and damper.
-    """
-    keep_small()
-    data = Forces(block).data[k]
-    torque = _clutch_torque(block, at, k, y, 0)
-    elastic = data[CLUTCH_STIFFNESS] * y[_place(block, k)]
-    twist_rate = (torque - elastic) / data[CLUTCH_DAMPING]
-    dy[_place(block, k)] = twist_rate
-    speed = data[CLUTCH_SPEED]
-    rate = relative_speed(block, at, k)
-    turn(block, k, torque)
-    return given + torque * speed, lost + (torque * (speed - rate) - elastic * twist_rate)
-
-
-@jit
-def _clutch_torque(block: Array, at: Pose, k: int, y: Array, _which: int) -> float:
-    """Torque of a clutch on its body [N m]."""
-    data = Forces(block).data[k]
-    torque = data[CLUTCH_STIFFNESS] * y[_place(block, k)]
-    torque += data[CLUTCH_DAMPING] * (data[CLUTCH_SPEED] - relative_speed(block, at, k))
-    return _limited(torque, data[CLUTCH_LIMIT])
-
-
-@jit
-def _clutch_energy(block: Array, _at: Pose, k: int, y: Array) -> float:
-    return _stored(y[_place(block, k)], Forces(block).data[k, CLUTCH_STIFFNESS])
-
-
-@jit
-def _clutch_power(block: Array, _at: Pose, k: int, y: Array, dy: Array) -> float:
-    power: float = Forces(block).data[k, CLUTCH_STIFFNESS] * y[_place(block, k)] * dy[_place(block, k)]
-    return power
 
 
 @jit
@@ -149,7 +108,6 @@ def _limited(value: float, limit: float) -> float:
 
 
 ELEMENTS = {
-    "brake": Element(),  # dry: see `sliding`
-    "slip_clutch": Element(_clutch, _clutch_energy, _clutch_power, _clutch_torque),
+    "brake": Element(),  # it rubs: see `sliding`
     "dc_motor": Element(_motor, _motor_energy, _motor_power, _read_motor, _read_motor_rate),
 }

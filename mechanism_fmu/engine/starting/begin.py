@@ -12,6 +12,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import RATES_WITHIN, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import entry, jit, keep_apart, keep_small
+from ..constraints.friction_rows import rubbing_count
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows
@@ -66,6 +67,7 @@ def _begin_at_zero(block: Array, time: float) -> None:
     now.counters[codes.EVENTS_IN_STEP] = now.events.shape[0]
     clear_records(block)
     clear_impact(now.last_impact)
+    now.counters[codes.RUBBING] = rubbing_count(block)
     now.counters[codes.PENDING_GUARD] = codes.GUARD_BEGIN
     now.counters[codes.PENDING_SUBJECT] = codes.NONE
     now.ledger[codes.LEDGER_LOST] = 0.0

@@ -24,6 +24,7 @@ from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE
 from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..contacts.guards import gap, guard_of, guard_value, is_watched
 from .interpolation import interpolate
@@ -83,7 +84,10 @@ def _first_zero(block: Array) -> tuple[int, float]:
     look_at = Watch(block)
     at = _place(block, 0.0)
     count = 0
-    for g in range(Sizes(block).guards):
+    guards = Sizes(block).guards
+    if not rubs(block):
+        guards -= Sizes(block).rubs
+    for g in range(guards):
         if is_watched(block, g):
             if _begin(block, at, g):
                 return g, 0.0

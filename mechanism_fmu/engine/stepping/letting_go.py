@@ -14,7 +14,7 @@ from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import ROOT_TOLERANCE
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import friction_row, sticks
+from ..constraints.friction_rows import friction_row, rubs, sticks
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import row_count
@@ -56,6 +56,8 @@ def first_to_let_go(block: Array, latest: float) -> tuple[int, int, float]:
                 guard = codes.GUARD_PUSH
                 subject = c
                 fraction = lets_go
+    if not rubs(block):
+        return guard, subject, fraction
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
         if rub.least_hold[k] < _LETS_GO and sticks(block, k):

@@ -11,7 +11,7 @@ from ...tables.motion import Course, Rubs, Stages
 from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import sticks
+from ..constraints.friction_rows import rubs, sticks
 from ..constraints.rows import row_count
 from ..contacts.complementarity import hold_ratio, push_ratio
 from ..dynamics.acceleration import derivative
@@ -50,7 +50,7 @@ def try_step(block: Array, start: float, size_: float) -> float:
     least = Contacts(block).least_push
     for c in range(least.shape[0]):
         least[c] = 0.0
-    if Sizes(block).rubs > 0:
+    if rubs(block):
         clear(Rubs(block).least_hold)
     _euler(y, k[0], h * _A[1, 0], s.y_stage)
     _stage(block, start + h * _C[1], s.y_stage, k[1])
@@ -104,6 +104,8 @@ def _note_pushes(block: Array) -> None:
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
             table.least_push[c] = min(table.least_push[c], push_ratio(block, c, count))
+    if not rubs(block):
+        return
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
         if sticks(block, k):

@@ -71,7 +71,7 @@ def check(mechanism: Mechanism) -> None:
         raise MechanismError(" ".join(misplaced))  # what else is asked of parts, these do not know
     problems = [
         *messages(number_findings(mechanism)),
-        *_dry(mechanism),
+        *_laws(mechanism),
         *_names(mechanism),
         *_references(mechanism),
         *_without_length(mechanism),
@@ -105,21 +105,11 @@ def _misplaced(mechanism: Mechanism) -> Iterator[str]:
                 yield f"{label}: its {needed.rstrip('s')} is {curve!r}, but must be a curve, e.g. {example}."
 
 
-def _dry(mechanism: Mechanism) -> Iterator[str]:
-    """Elements that need dry friction, where it is smooth; words that are no law."""
-    laws = {"friction_law": ("smooth", "coulomb"), "impact_law": ("newton", "poisson", "stronge")}
-    for name, known in laws.items():
-        if getattr(mechanism, name) not in known:
-            yield f"{name} = {getattr(mechanism, name)!r} is none of {', '.join(known)}."
-    if mechanism.friction_law != "coulomb":
-        for force in mechanism.forces:
-            if force.dry:
-                yield f"{type(force).__name__} {force.name!r} is dry; give the mechanism friction_law='coulomb'."
-        for part in (*mechanism.contacts, *mechanism.joints):
-            if part.friction_static is not None:
-                yield f"{type(part).__name__} {part.name!r}: friction_static is dry; give friction_law='coulomb', too."
-        if mechanism.impact_law != "newton":
-            yield f"impact_law = {mechanism.impact_law!r} is of dry friction; give friction_law='coulomb', too."
+def _laws(mechanism: Mechanism) -> Iterator[str]:
+    """Words that are no law."""
+    known = ("newton", "poisson", "stronge")
+    if mechanism.impact_law not in known:
+        yield f"impact_law = {mechanism.impact_law!r} is none of {', '.join(known)}."
 
 
 def _names(mechanism: Mechanism) -> Iterator[str]:

@@ -16,7 +16,6 @@ from ..findings import (
     finite_not_negative,
     finite_positive,
     first,
-    is_zero,
     length,
     literal,
     refuse_unless,
@@ -82,10 +81,6 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         yield from _body(body)
     for contact in mechanism.contacts:
         yield from contact.findings()
-        if mechanism.friction_law == "smooth" and contact.alphas:
-            text = f"Contact {literal(repr(contact.name))}: friction = {{:g}} of profiles is dry; "
-            text += "give the mechanism friction_law='coulomb', or no friction."
-            yield refuse_unless(is_zero(contact.friction), text, contact.friction)
     for pattern in mechanism.patterns:
         yield from pattern.findings()
     for function in mechanism.functions:

@@ -3,7 +3,7 @@
 from .at_points import Bushing, Force, PointForce, SpringDamper
 from .base import Element as Element, Quantity as Quantity
 from .by_law import NonlinearSpring, NonlinearTorsionSpring
-from .driven import Brake, DCMotor, SlipClutch
+from .driven import Brake, DCMotor
 from .markers import Marker
 from .torsional import CompliantShaft, Damper, Torque, TorsionSpring, TorsionSpringDamper
 
@@ -18,7 +18,6 @@ __all__ = [
     "NonlinearSpring",
     "NonlinearTorsionSpring",
     "PointForce",
-    "SlipClutch",
     "SpringDamper",
     "Torque",
     "TorsionSpring",
@@ -32,7 +31,6 @@ ForceElement = (
     | Damper
     | CompliantShaft
     | Force
-    | SlipClutch
     | Brake
     | DCMotor
     | SpringDamper

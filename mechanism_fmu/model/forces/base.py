@@ -49,7 +49,7 @@ class Element(Attached):
         own: how many first-order states of its own it has.
         acts: as a torque, at the centre of mass, at points of the bodies, which loads no elastic member, or nowhere.
         positive, not_negative: units of the numbers that must be so.
-        dry: whether it needs the dry law of friction.
+        rubs: whether it has friction.
         law: how its force follows from its length and rate: a function of both, a curve over the length, or None.
         one_sided: of a spring that can be so.
     """
@@ -61,7 +61,7 @@ class Element(Attached):
     acts: ClassVar[Literal["torque", "at centre", "at points", "nowhere"]]
     positive: ClassVar[Mapping[str, str]] = {}
     not_negative: ClassVar[Mapping[str, str]] = {}
-    dry: ClassVar = False
+    rubs: ClassVar = False
     law: Callable[[Number, Number], Number] | Curve | None = None
     one_sided: OneSided = "no"
 

@@ -1,4 +1,4 @@
-"""Drives with states of their own: a clutch or brake, and a motor with its controller."""
+"""Drives: a brake or clutch, and a motor with its controller."""
 
 from __future__ import annotations
 
@@ -10,47 +10,12 @@ from .base import Quantity, TorqueElement
 
 
 @dataclass(frozen=True, init=False)
-class SlipClutch(TorqueElement):
-    """A clutch or brake with Coulomb friction: it holds up to a torque, and slips beyond.
-
-    A spring and a damper in series with a slider: torque on `body` = stiffness * twist + damping * (speed - (phi' -
-    phi_reaction')), but at most `limit` either way; twist' = (torque - stiffness * twist) / damping. Below the limit
-    nothing slips: a brake holds without creeping. With `speed` 0 it is a brake between two bodies, or on the ground;
-    with a speed, a friction drive by what turns so fast. The work of the driven end counts as work done, the energy of
-    the twist as spring energy, what slip and damper take as lost.
-
-    Attributes:
-        name: unique within the mechanism.
-        body, reaction: names of the two bodies.
-        stiffness: of clutch and lining while they hold [N m/rad], > 0.
-        damping: of the same [N m s/rad], > 0; the twist follows the limit within damping / stiffness [s].
-        limit: largest torque [N m], >= 0; usually written by an `Input` with target "<name>.limit".
-        speed: of the driven end from the reaction [rad/s]; an `Input` may write "<name>.speed".
-
-    Source: Coulomb friction behind a spring and damper: docs/decisions/021-motor.md; docs/elements/slip_clutch.md.
-    """
-
-    row: ClassVar = "slip_clutch"
-    writable: ClassVar = ("limit", "speed")
-    quantities: ClassVar = {"torque": Quantity("N.m", "Torque of the clutch on its body", ("limit", "speed"))}
-    positive: ClassVar = {"stiffness": "N.m/rad", "damping": "N.m.s/rad"}
-    not_negative: ClassVar = {"limit": "N.m"}
-    own: ClassVar = 1
-    units: ClassVar = {**positive, **not_negative, "speed": "rad/s"}
-
-    stiffness: Number = 1.0
-    damping: Number = 1.0
-    limit: Number = 0.0
-    speed: Number = 0.0
-
-
-@dataclass(frozen=True, init=False)
 class Brake(TorqueElement):
-    """A brake or clutch with dry friction: it holds two bodies together up to a torque, and slips beyond.
+    """A brake or clutch with Coulomb friction: it holds two bodies together up to a torque, and slips beyond.
 
-    While it holds nothing turns, as if the bodies were one; while it slips its torque is `limit` against the slip. It
-    needs `Mechanism(friction_law="coulomb")`. Outputs: "<name>.friction_force" [N m], its torque on `body`,
-    "<name>.slip_speed" [rad/s] and "<name>.sticks". In impacts it has no part: a torque is no impulse.
+    While it holds nothing turns, as if the bodies were one; while it slips its torque is `limit` against the slip.
+    Outputs: "<name>.friction_force" [N m], its torque on `body`, "<name>.slip_speed" [rad/s] and "<name>.sticks". In
+    impacts it has no part: a torque is no impulse.
 
     Attributes:
         name: unique within the mechanism.
@@ -61,7 +26,7 @@ class Brake(TorqueElement):
     """
 
     row: ClassVar = "brake"
-    dry: ClassVar = True
+    rubs: ClassVar = True
     writable: ClassVar = ("limit",)
     not_negative: ClassVar = {"limit": "N.m"}
     units: ClassVar = {**not_negative}

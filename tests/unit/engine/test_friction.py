@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings, strategies as st
+from mechanism_fmu.engine.dynamics.friction import SLIP_SPEED
 from touching import touching
 
 from mechanism_fmu import codes
-from mechanism_fmu.engine.dynamics.friction import SLIP_SPEED
 from mechanism_fmu.model import (
     GROUND,
     Body,

@@ -8,6 +8,7 @@ from mechanism_fmu.model import (
     AngleLock,
     AngleStop,
     Body,
+    Brake,
     Calculated,
     CircularPattern,
     CompliantShaft,
@@ -24,7 +25,6 @@ from mechanism_fmu.model import (
     PointLineContact,
     Revolute,
     Settings,
-    SlipClutch,
     SpringDamper,
     Torque,
     TorsionSpring,
@@ -173,17 +173,9 @@ REFUSALS = {
         {"forces": (DRIVE, SPRING, replace(SHAFT, damping=-4.0))},
         ["CompliantShaft 'shaft'", "damping = -4 N.m.s/rad"],
     ),
-    "brake without stiffness": (
-        {"forces": (DRIVE, SPRING, SlipClutch("brake", "arm", stiffness=0.0))},
-        ["SlipClutch 'brake'", "stiffness = 0 N.m/rad", "must be positive"],
-    ),
-    "brake without damping": (
-        {"forces": (DRIVE, SPRING, SlipClutch("brake", "arm", damping=-1.0))},
-        ["SlipClutch 'brake'", "damping = -1 N.m.s/rad", "must be positive"],
-    ),
     "brake that holds less than nothing": (
-        {"forces": (DRIVE, SPRING, SlipClutch("brake", "arm", limit=-1.0))},
-        ["SlipClutch 'brake'", "limit = -1 N.m", "not be negative"],
+        {"forces": (DRIVE, SPRING, Brake("brake", "arm", limit=-1.0))},
+        ["Brake 'brake'", "limit = -1 N.m", "not be negative"],
     ),
     "motor without inductance": (
         {"forces": (DRIVE, SPRING, DCMotor("motor", "arm", inductance=0.0))},

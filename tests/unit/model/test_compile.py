@@ -10,6 +10,7 @@ from mechanism_fmu.model import (
     AngleLock,
     AngleStop,
     Body,
+    Brake,
     Calculated,
     CircularPattern,
     CompliantShaft,
@@ -24,7 +25,6 @@ from mechanism_fmu.model import (
     PointLineContact,
     Revolute,
     Settings,
-    SlipClutch,
     Torque,
     TorsionSpring,
     Translational,
@@ -217,27 +217,27 @@ def test_states_of_forces_own():
     mechanism = Mechanism(
         bodies=(Body("rotor", 1.0, 1.0),),
         forces=(
-            SlipClutch("brake", "rotor", stiffness=1.0, damping=2.0, limit=3.0, speed=4.0),
+            Brake("brake", "rotor", limit=3.0),
             Torque("load", "rotor"),
             DCMotor("motor", "rotor", GROUND, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0),
-            SlipClutch("clutch", "rotor"),
+            DCMotor("second", "rotor"),
         ),
         inputs=(Input("wanted", "motor.speed", 0.0, ""), Input("hold", "brake.limit", 0.0, "")),
         outputs=(
             Output("torque", "motor.torque", ""),
             Output("current", "motor.current", ""),
             Output("voltage", "motor.voltage", ""),
-            Output("held", "clutch.torque", ""),
+            Output("held", "brake.friction_force", ""),
         ),
     )
     tables = compile_mechanism(mechanism)
-    assert list(tables.force_own) == [0, codes.NONE, 1, 3]
+    assert list(tables.force_own) == [codes.NONE, codes.NONE, 0, 2]
     assert tables.own == 4
-    np.testing.assert_array_equal(tables.force_data[0], [1, 2, 3, 4] + [0] * (FORCES.width - 4))
+    np.testing.assert_array_equal(tables.force_data[0], [3] + [0] * (FORCES.width - 1))
     np.testing.assert_array_equal(tables.force_data[2, :8], [1, 2, 3, 4, 5, 6, 7, 8])
-    assert list(tables.input_column) == [7, 2]
-    assert list(tables.output_kind) == [codes.FORCE_READING] * 4
-    assert list(tables.output_index) == [2, 2, 2, 3]
+    assert list(tables.input_column) == [7, 0]
+    assert list(tables.output_kind) == [codes.FORCE_READING] * 3 + [codes.FRICTION_FORCE]
+    assert list(tables.output_index) == [2, 2, 2, 0]
     assert list(tables.output_slot) == [0, 1, 2, 0]
     with pytest.raises(MechanismError, match=r"did you mean 'motor\.current'"):
         compile_mechanism(replace(mechanism, outputs=(Output("current", "motor.curent", ""),)))

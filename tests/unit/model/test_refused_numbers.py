@@ -46,7 +46,6 @@ from mechanism_fmu.model import (
     RevoluteTranslational,
     Section,
     Settings,
-    SlipClutch,
     SpringDamper,
     Term,
     Torque,
@@ -100,7 +99,6 @@ PARTS: list[tuple[Any, str]] = [
     (Damper("x", "a"), "forces"),
     (CompliantShaft("x", "a"), "forces"),
     (Force("x", "a"), "forces"),
-    (SlipClutch("x", "a"), "forces"),
     (Brake("x", "a"), "forces"),
     (DCMotor("x", "a"), "forces"),
     (SpringDamper("x", "a", HERE, "b", HERE), "forces"),
@@ -174,8 +172,7 @@ def said(part: Any, place: str) -> str:
         around["members"] = (Member("m", "a", HERE, EAST, **STEEL),)
     around[place] = part if place == "settings" else (A, B, part) if place == "bodies" else (part,)
     try:
-        law = "coulomb" if getattr(part, "dry", False) else "smooth"
-        compile_mechanism(Mechanism(**around, friction_law=law))
+        compile_mechanism(Mechanism(**around))
     except MechanismError as error:
         return str(error)
     return ""
