@@ -13,7 +13,7 @@ from ..tables.parts import Bodies, Contacts, Patterns, Ports
 from ..tables.sizes import Sizes
 from .compiler.by_kind import by_kind
 from .compiler.subset import entry, jit, keep_small
-from .constraints.friction_rows import friction_row, sticks, touches
+from .constraints.friction_rows import friction_row, meets, sticks, touches
 from .constraints.kinematics import place_bodies, set_instant
 from .constraints.point_line import spare_row
 from .constraints.rows import contact_row
@@ -200,7 +200,7 @@ def _member_force(block: Array, _at: Pose, index: int, _slot: int, value: float)
 @jit
 def _slip_speed(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
     value = 0.0
-    if touches(block, index) and not sticks(block, index):
+    if meets(block, index) and not sticks(block, index):
         friction_row(block, at, index, spare_row(block))
         value = Rows(block).residual_rate[spare_row(block)]
     return value

@@ -7,6 +7,7 @@ from functools import cached_property
 from types import SimpleNamespace
 from typing import Literal
 
+from .. import codes
 from .body import Body
 from .contacts import Contact
 from .curves import Curve
@@ -49,6 +50,14 @@ class Settings:
 
 #: Those of a mechanism that gives none: a `Model` puts those among its parameters in their place.
 DEFAULT_SETTINGS = Settings()
+
+#: What can be read of anything that can rub, and the kind of output that it is.
+OF_FRICTION = {
+    "slip_speed": codes.SLIP_SPEED,
+    "friction_force": codes.FRICTION_FORCE,
+    "sticks": codes.STICKS_NOW,
+    "slip_acceleration": codes.SLIP_ACCELERATION,
+}
 
 
 @dataclass(frozen=True)
@@ -111,9 +120,16 @@ class Mechanism:
 
     @property
     def rubbing(self) -> tuple[Contact | Joint | ForceElement, ...]:
-        """Contacts, joints and force elements, as the engine numbers their friction; none where nothing can rub."""
+        """Contacts, joints and force elements, as the engine numbers their friction; none where nothing asks for it."""
         parts = (*self.contacts, *self.joints, *self.elements)
-        return parts if self.impact_law != "newton" or any(map(may_rub, parts)) else ()
+        read = any(output.source.rpartition(".")[2] in OF_FRICTION for output in self.outputs)
+        return parts if read or self.impact_law != "newton" or any(map(may_rub, parts)) else ()
+
+
+def can_rub(part: Contact | Joint | ForceElement) -> bool:
+    """Whether a part is of a kind that can have friction."""
+    own = {field.name for field in fields(part)}
+    return getattr(part, "rubs", False) or bool(own & {"friction", "friction_radius"})
 
 
 def may_rub(part: Contact | Joint | ForceElement) -> bool:

@@ -15,7 +15,7 @@ from .errors import MechanismError
 from .forces import ForceElement
 from .functions import Number
 from .joints import Joint
-from .mechanism import Mechanism
+from .mechanism import OF_FRICTION, Mechanism, can_rub
 from .structure import nodes_of
 
 _COORDINATES = {"x": 0, "y": 1, "angle": 2}
@@ -51,13 +51,6 @@ _EVENT_FIELDS = {
     "old_mode": codes.EVENT_OLD_MODE,
     "new_mode": codes.EVENT_NEW_MODE,
     "impulse": codes.EVENT_IMPULSE,
-}
-#: Of a contact or joint with dry friction.
-_OF_FRICTION = {
-    "slip_speed": codes.SLIP_SPEED,
-    "friction_force": codes.FRICTION_FORCE,
-    "sticks": codes.STICKS_NOW,
-    "slip_acceleration": codes.SLIP_ACCELERATION,
 }
 #: Of a member: kind and column.
 _OF_MEMBER = {
@@ -215,15 +208,10 @@ def _of_pattern(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, in
 
 
 def _of_friction(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:
-    names = [part.name for part in (*mechanism.contacts, *mechanism.joints, *mechanism.elements)]
-    if part not in names or quantity not in _OF_FRICTION:
-        return None
-    if not mechanism.rubbing:
-        raise MechanismError(
-            f"output source {part}.{quantity} is of friction, but nothing in this mechanism rubs; "
-            "give a contact or joint friction, or leave out the output."
-        )
-    return _OF_FRICTION[quantity], names.index(part), 0
+    for place, one in enumerate((*mechanism.contacts, *mechanism.joints, *mechanism.elements)):
+        if one.name == part and quantity in OF_FRICTION and can_rub(one):
+            return OF_FRICTION[quantity], place, 0
+    return None
 
 
 def _of_force(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int, int] | None:

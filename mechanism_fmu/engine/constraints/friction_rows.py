@@ -82,6 +82,12 @@ def rubbing_count(block: Array) -> int:
 
 
 @jit
+def meets(block: Array, rub: int) -> bool:
+    """Whether a contact is closed; joints and brakes always are."""
+    return rub >= Sizes(block).contacts or Contacts(block).mode[rub] == codes.CLOSED
+
+
+@jit
 def touches(block: Array, rub: int) -> bool:
     """Whether a contact or joint has friction now: a contact is closed, or has been given an impulse."""
     keep_small()
