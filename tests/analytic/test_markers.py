@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from single_element import POINT, read
 
-from mechanism_fmu.model import Body, Marker, Mechanism, PointForce
+from mechanism_fmu.model import Body, Marker, Mechanism, Output, PointForce
 from mechanism_fmu.simulation import Simulation
 
 
@@ -37,3 +37,12 @@ def test_a_marker_reads_place_velocity_and_acceleration_of_its_point(pose, rate,
     for one in both:
         one.advance(0.3)
     assert both[0].read() == both[1].read()
+
+
+def test_a_marker_in_the_centre_of_mass_reads_what_the_body_does_under_the_same_names():
+    body = Body("body", 2.0, 0.3, (0.3, -0.2, 0.5), (1.5, -0.4, 2.0))
+    pen = Marker("pen", "body", (0.0, 0.0))
+    names = [name for part in (body, pen) for name in (part.x, part.y, part.x_rate, part.y_rate)]
+    outputs = tuple(Output(name, name, "") for name in names)
+    found = list(Simulation(Mechanism((body,), markers=(pen,), outputs=outputs)).read().values())
+    assert found == [0.3, -0.2, 1.5, -0.4] * 2
