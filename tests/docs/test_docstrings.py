@@ -1,6 +1,7 @@
 """Each public callable names its parameters, with units or kinds, the errors that it raises itself, and its source."""
 
 import ast
+import functools
 import importlib
 import inspect
 import re
@@ -26,6 +27,8 @@ ROOT = Path(__file__).parents[2]
 _NUMERIC = re.compile(r"\b(float|Number|Point|Array|ndarray)\b")
 #: A unit in brackets; or a word for what has none, or whose unit is another's.
 _KIND = re.compile(r"\[[^\]]+\]|\b(units?|as of|shape|whether|number of|points?|count|share|ratio)\b")
+#: What has the same arguments as something else in its module need not repeat them.
+_AS_OF = re.compile(r"[Aa]rguments(?: and errors)? as of `([\w.]+)`")
 _OURS = ("build_fmu", "harness", "mechanism_fmu", "models")
 _INTERNAL = (NotImplementedError, StopIteration)
 
@@ -63,6 +66,8 @@ def unnamed(thing: Any) -> list[str]:
     except (TypeError, ValueError):
         return []
     said = arguments(thing)
+    if other := _AS_OF.search(" ".join((thing.__doc__ or "").split())):
+        said = arguments(functools.reduce(getattr, other[1].split("."), inspect.getmodule(thing))) | said
     lacks = []
     for name, parameter in parameters.items():
         if name in ("self", "cls") or name.startswith("_"):
