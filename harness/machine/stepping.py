@@ -23,7 +23,7 @@ class Algorithm(Protocol):
     """
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take one step from `begin`, not beyond `end` [ns]; the time reached, later than `begin`.
+        """Take one step from `begin`, not beyond `end`; the time reached [ns], later than `begin`.
 
         Args:
             machine: that takes the step, its outputs exchanged at `begin`.
@@ -42,16 +42,7 @@ class Jacobi:
     """Fixed steps, all parts at once (an `Algorithm`)."""
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take the whole step; the time reached [ns], which is `end`.
-
-        Args:
-            machine: that takes the step, its outputs exchanged at `begin`.
-            begin: of the step [ns].
-            end: of the step [ns], later than `begin`.
-
-        Raises:
-            FmuError: a component refuses or fails.
-        """
+        """Take the whole step, to `end`; arguments and errors as of `Algorithm.advance`."""
         machine.give_all(begin, end)
         for part in machine.parts.values():
             reached = part.advance(begin, end)
@@ -72,16 +63,7 @@ class GaussSeidel:
     """
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take the whole step; the time reached [ns], which is `end`.
-
-        Args:
-            machine: that takes the step, its outputs exchanged at `begin`.
-            begin: of the step [ns].
-            end: of the step [ns], later than `begin`.
-
-        Raises:
-            FmuError: a component refuses or fails.
-        """
+        """Take the whole step, to `end`; arguments and errors as of `Algorithm.advance`."""
         size = (end - begin) / SECOND
         slopes: dict[str, list[float]] = {}
         for name, part in machine.parts.items():
@@ -125,15 +107,9 @@ class EventAware:
         self.felt_late = [name for name in self._last if self._impacts[name].reports]
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take a step to `end`, or to the first impact before it, shorter after an impact; the time reached [ns].
+        """Take a step to `end`, or to the first impact before it, shorter after an impact.
 
-        Args:
-            machine: that takes the step, its outputs exchanged at `begin`.
-            begin: of the step [ns].
-            end: of the step [ns], later than `begin`.
-
-        Raises:
-            FmuError: a component refuses or fails.
+        Arguments and errors as of `Algorithm.advance`.
         """
         if self._struck and machine.extrapolation is not Extrapolation.CONSTANT:
             end = begin + max((end - begin) // _SHORTER, 1)
@@ -220,16 +196,7 @@ class Adaptive:
         self._watched = [_Watched(part.component) for part in machine.parts.values()]
 
     def advance(self, machine: Machine, begin: int, end: int) -> int:
-        """Take one step within the tolerance; the time reached [ns].
-
-        Args:
-            machine: that takes the step, its outputs exchanged at `begin`.
-            begin: of the step [ns].
-            end: of the step [ns], later than `begin`.
-
-        Raises:
-            FmuError: a component refuses or fails.
-        """
+        """Take one step within the tolerance; arguments and errors as of `Algorithm.advance`."""
         size = min(self._size or end - begin, end - begin)
         memory = {name: part.outputs.memory() for name, part in machine.parts.items()}
         for part in machine.parts.values():

@@ -62,6 +62,8 @@ class Batch:
         model: it.
         library: path of the engine's shared library, or None.
         report: see `mechanism_fmu.fmu.native.objects.compiled_engine`.
+
+    Source: that of `Simulation`, for many designs at once: docs/decisions/018-batch.md.
     """
 
     model: Model

@@ -109,6 +109,8 @@ class BatchResult:
         warnings: what the FMU's log warns of, at the start and where contacts pull; "" of those that did well.
         compiled: how the engine was compiled: "ahead of time" or "just in time".
         threads: how many ran them.
+
+    Source: `Batch`.
     """
 
     designs: Mapping[str, Array]

@@ -59,6 +59,8 @@ class Cycle:
         stress: the largest in each element, |N|/A + |M| (h/2)/I, shape (times, elements) [Pa].
         reactions: of joints and drivers.
         power: its balance.
+
+    Source: `quasi_static`; a deflection as of `deflection_of`.
     """
 
     configurations: Configurations
@@ -79,9 +81,7 @@ class Cycle:
         Raises:
             LinkageError: there is no such place.
         """
-        rows = self.configurations.displacement(place)
-        deflection: FloatArray = (rows @ self.displacement[:, :, None])[:, :, 0]
-        return deflection
+        return np.asarray((self.configurations.displacement(place) @ self.displacement[:, :, None])[:, :, 0])
 
     def deviation(self, place: str) -> FloatArray:
         """How far a place is off its rigid path, shape (times,) [m].
@@ -93,8 +93,7 @@ class Cycle:
             LinkageError: there is no such place.
         """
         deflection = self.deflection(place)
-        deviation: FloatArray = np.hypot(deflection[:, 0], deflection[:, 1])
-        return deviation
+        return np.asarray(np.hypot(deflection[:, 0], deflection[:, 1]))
 
 
 def quasi_static(configurations: Configurations, loads: Mapping[str, ArrayLike] | None = None) -> Cycle:
@@ -247,6 +246,8 @@ class Shaking:
         about: the point of the ground to which the moment belongs [m].
         force: (F_x, F_y) on the frame, shape (times, 2) [N].
         moment: on the frame, the drive's reaction torque included, shape (times,) [N m].
+
+    Source: `shaking`.
     """
 
     about: Point
@@ -273,6 +274,8 @@ def crank_hinge(mechanism: Mechanism) -> Point:
 
     Raises:
         LinkageError: as of `crank_of`.
+
+    Source: definition: the pin between crank and ground.
     """
     pair = {crank_of(mechanism), GROUND}
     pins = [j for j in mechanism.joints if isinstance(j, Revolute) and {j.body_i, j.body_j} == pair]

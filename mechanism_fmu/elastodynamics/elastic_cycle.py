@@ -33,6 +33,8 @@ class ElasticCycle:
 
     Raises:
         ValueError: shapes do not fit, a value is not finite, or there are fewer than 8 samples.
+
+    Source: docs/elastodynamics-dynamics.md, eqs (K1), (K2).
     """
 
     period: float
@@ -126,6 +128,8 @@ class InstantaneousModes:
     Attributes:
         omega: shape (T, n), ascending [rad/s]; infinite where a mode has no mass.
         shapes: shape (T, n, n), mode k in `shapes[:, :, k]`, with shape^T K shape = 1 and shape^T M shape = 1/omega^2.
+
+    Source: docs/elastodynamics-dynamics.md, eqs (K3), (K4).
     """
 
     omega: FloatArray

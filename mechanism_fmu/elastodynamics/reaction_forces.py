@@ -123,6 +123,8 @@ class Reactions:
         friction: forces and moments by friction at the places, shape (times, places, 3) [N, N m].
         drive_power: of drivers and held coordinates, shape (times,) [W].
         lost_power: what friction takes, shape (times,) [W].
+
+    Source: `reactions`.
     """
 
     owners: tuple[str, ...]

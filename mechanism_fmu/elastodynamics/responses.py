@@ -33,6 +33,8 @@ class PeriodicResponse:
         series: Fourier coefficients, shape (harmonics + 1, n).
         residual: what is left of M u'' + C u' + K u = p at the given times, in parts of the motion [-], both
             measured by the root of the elastic energy that they have, or would make.
+
+    Source: `periodic_response`: docs/elastodynamics-dynamics.md, eqs (K1), (K5).
     """
 
     period: float

@@ -161,6 +161,8 @@ class KinematicMotion:
         coordinates: names of the columns, "<body>.x|y|angle" and "<contact>.alpha_i|alpha_j".
         time: shape (times,) [s].
         position, velocity, acceleration: q, qd, qdd, shape (times, coordinates) [m, rad and by s, by s2].
+
+    Source: `analyse`.
     """
 
     coordinates: tuple[str, ...]

@@ -87,6 +87,41 @@ class Ground(str, Frame):
 #: The fixed frame: use it wherever a body is asked for. It is a text, "ground".
 GROUND = Ground("ground")
 
+# Names of what is read.
+
+
+class NamedPoint:
+    """The names of place and velocity of a point: of a body its centre of mass, of a marker its own.
+
+    Attributes:
+        name: of the body or marker.
+    """
+
+    __slots__ = ()
+
+    name: str
+
+    @property
+    def x(self) -> str:
+        """The name of the coordinate x of the point [m], for outputs; of a body also for `held`."""
+        return f"{self.name}.x"
+
+    @property
+    def y(self) -> str:
+        """The name of the coordinate y of the point [m], for outputs; of a body also for `held`."""
+        return f"{self.name}.y"
+
+    @property
+    def x_rate(self) -> str:
+        """The name of the velocity of the point along x [m/s], for outputs."""
+        return f"{self.name}.x_rate"
+
+    @property
+    def y_rate(self) -> str:
+        """The name of the velocity of the point along y [m/s], for outputs."""
+        return f"{self.name}.y_rate"
+
+
 # Rigid bodies.
 
 #: Units of the numbers of a body, or of each of several.
@@ -102,7 +137,7 @@ _UNITS: Mapping[str, str | Sequence[str]] = {
 
 
 @dataclass(frozen=True)
-class Body(Frame):
+class Body(Frame, NamedPoint):
     """A rigid body of the plane; its coordinates are (x, y) of the centre of mass and the angle phi.
 
     The frame in which it is drawn, that of `at`, turns with it; `centre` says where its centre of mass is there. By
@@ -169,16 +204,6 @@ class Body(Frame):
         if len(self.outline) <= number:
             raise MechanismError(f"Body {self.name!r} has no end {what}: it was not made by bar; write at(x, y).")
         return self._end(self.outline[number])
-
-    @property
-    def x(self) -> str:
-        """The name of the coordinate x of its centre of mass [m], for `held` and outputs."""
-        return f"{self.name}.x"
-
-    @property
-    def y(self) -> str:
-        """The name of the coordinate y of its centre of mass [m], for `held` and outputs."""
-        return f"{self.name}.y"
 
     @property
     def angle(self) -> str:

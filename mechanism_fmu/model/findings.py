@@ -244,6 +244,8 @@ def at_most(a: Number, b: Number) -> Number:
     Args:
         a: numbers of one unit.
         b: numbers of one unit.
+
+    Source: definition.
     """
     return where_positive(a - b, 0.0, 1.0)
 
@@ -254,5 +256,7 @@ def either(a: Number, b: Number) -> Number:
     Args:
         a: conditions, numbers of unit 1.
         b: conditions, numbers of unit 1.
+
+    Source: definition.
     """
     return where_positive(a, a, b)

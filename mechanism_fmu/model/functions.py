@@ -56,6 +56,8 @@ def sin(x: Number) -> Number:
 
     Args:
         x: angle [rad].
+
+    Source: `math.sin`.
     """
     return _apply("sin", x)
 
@@ -65,6 +67,8 @@ def cos(x: Number) -> Number:
 
     Args:
         x: angle [rad].
+
+    Source: `math.cos`.
     """
     return _apply("cos", x)
 
@@ -74,6 +78,8 @@ def tan(x: Number) -> Number:
 
     Args:
         x: angle [rad].
+
+    Source: `math.tan`.
     """
     return _apply("tan", x)
 
@@ -83,6 +89,8 @@ def sqrt(x: Number) -> Number:
 
     Args:
         x: number of any unit, >= 0.
+
+    Source: `math.sqrt`.
     """
     return _apply("sqrt", x)
 
@@ -92,6 +100,8 @@ def exp(x: Number) -> Number:
 
     Args:
         x: number of unit 1, at most 709.
+
+    Source: `math.exp`.
     """
     return _apply("exp", x)
 
@@ -101,6 +111,8 @@ def log(x: Number) -> Number:
 
     Args:
         x: number of unit 1, > 0.
+
+    Source: `math.log`.
     """
     return _apply("log", x)
 
@@ -110,6 +122,8 @@ def tanh(x: Number) -> Number:
 
     Args:
         x: number of unit 1.
+
+    Source: `math.tanh`.
     """
     return _apply("tanh", x)
 
@@ -120,6 +134,8 @@ def power(base: Number, exponent: Number) -> Number:
     Args:
         base: number of unit 1, >= 0.
         exponent: number of unit 1.
+
+    Source: `math.pow`.
     """
     law = _law(base, exponent)
     return math.pow(base, exponent) if law is None else law.apply("power", base, exponent)
@@ -131,6 +147,8 @@ def atan2(y: Number, x: Number) -> Number:
     Args:
         y: coordinates of the point, of one unit.
         x: coordinates of the point, of one unit.
+
+    Source: `math.atan2`.
     """
     law = _law(y, x)
     if law is not None:
@@ -148,6 +166,8 @@ def where_positive(condition: Number, positive: Number, otherwise: Number) -> Nu
         condition: number of any unit, which is compared with 0.
         positive: values of one unit.
         otherwise: values of one unit.
+
+    Source: definition.
     """
     law = _law(condition, positive, otherwise)
     if law is not None:
@@ -165,6 +185,8 @@ def where(condition: Any, positive: Number, otherwise: Number) -> Number:
         condition: a comparison, or a number of any unit that is compared with 0.
         positive: values of one unit.
         otherwise: values of one unit.
+
+    Source: definition.
     """
     if hasattr(condition, "choose"):
         return condition.choose(positive, otherwise)
@@ -179,6 +201,8 @@ def minimum(a: Number, b: Number) -> Number:
     Args:
         a: numbers of one unit.
         b: numbers of one unit.
+
+    Source: definition.
     """
     law = _law(a, b)
     return where_positive(b - a, a, b) if law is None else law.apply("minimum", a, b)
@@ -190,6 +214,8 @@ def maximum(a: Number, b: Number) -> Number:
     Args:
         a: numbers of one unit.
         b: numbers of one unit.
+
+    Source: definition.
     """
     law = _law(a, b)
     return where_positive(a - b, a, b) if law is None else law.apply("maximum", a, b)
@@ -202,6 +228,9 @@ def smoothstep(x: Number, low: Number, high: Number) -> Number:
         x: number of any unit.
         low: where the step begins and ends, of the same unit; low < high.
         high: where the step begins and ends, of the same unit; low < high.
+
+    Source: textbook: the cubic with values 0 and 1 and slopes 0 at the ends, by Hermite interpolation; the name is that
+        of the OpenGL Shading Language.
     """
     u = minimum(maximum((x - low) / (high - low), 0.0), 1.0)
     return u * u * (3.0 - 2.0 * u)

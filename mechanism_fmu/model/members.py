@@ -23,6 +23,8 @@ class Section:
         area: A [m2], > 0.
         second_moment: I about the axis normal to the plane [m4], > 0.
         depth: h, in the plane and across the beam [m], > 0; the outer fibres lie at h/2 from the neutral axis.
+
+    Source: definition: A = int dA, I = int y^2 dA; textbook: of a rectangle b h and b h^3/12.
     """
 
     area: Number
@@ -118,6 +120,9 @@ def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> Lu
     Args:
         members: those of the body.
         disks: lumps of mass on it.
+
+    Source: half of each member at either end: docs/elastodynamics.md, section Inertia, torque and power; textbook:
+        centre of mass, and Steiner's theorem.
     """
     lumps: list[tuple[Number, Point]] = [(disk.mass, disk.point) for disk in disks]
     for member in members:

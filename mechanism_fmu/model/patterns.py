@@ -31,6 +31,8 @@ class CircularPattern(Attached):
         boundary_point: a point of the boundary between copies 0 and 1, in the frame of `body_j` [m].
         boundary_normal: unit normal of the boundary [1], towards copy 1.
         enabled: whether the contacts repeat; a number, so that a parameter can switch it off.
+
+    Source: this project's: docs/decisions/005-one-sided-contacts.md; docs/elements/circular_pattern.md.
     """
 
     slots: ClassVar = (Slot("body_i", "point_i"), Slot("body_j", "boundary_point", "boundary_normal", "normal"))

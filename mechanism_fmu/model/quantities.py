@@ -19,6 +19,8 @@ def mm(value: Number) -> Number:
 
     Args:
         value: in units of a millimetre.
+
+    Source: definition: SI prefix, 1 mm = 1e-3 m.
     """
     return value * 1e-3
 
@@ -28,6 +30,8 @@ def cm(value: Number) -> Number:
 
     Args:
         value: in units of a centimetre.
+
+    Source: definition: SI prefix, 1 cm = 1e-2 m.
     """
     return value * 1e-2
 
@@ -37,6 +41,8 @@ def deg(value: Number) -> Number:
 
     Args:
         value: in units of a degree.
+
+    Source: definition: 1 deg = pi/180 rad.
     """
     return value * (math.pi / 180)
 
@@ -46,6 +52,8 @@ def rpm(value: Number) -> Number:
 
     Args:
         value: in units of a revolution per minute.
+
+    Source: definition: 1 rpm = 2 pi rad in 60 s.
     """
     return value * (math.pi / 30)
 
@@ -60,6 +68,9 @@ def quantity(value: Any, unit: str, what: str = "quantity") -> Number:
 
     Raises:
         MechanismError: the text is no number with a unit, or the unit is of another kind.
+
+    Source: definition: a unit as a factor times powers of base units, as in FMI 2.0, section 2.2.2;
+        `mechanism_fmu.units`.
     """
     if not isinstance(value, str):
         return value

@@ -21,6 +21,8 @@ def toward(a: Point, b: Point, distance: Number) -> Point:
 
     Raises:
         MechanismError: both points are the same, one is no pair, or a text is no length.
+
+    Source: definition: a + distance (b - a)/|b - a|.
     """
     a, b = pair(a, "m", "toward: a"), pair(b, "m", "toward: b")
     way = (b[0] - a[0], b[1] - a[1])
@@ -51,6 +53,9 @@ def dyad(a: Point, b: Point, *, from_a: Number, from_b: Number, side: Literal["l
     Raises:
         MechanismError: the links do not reach each other or begin at one point, `side` is another word, or a text is no
             length.
+
+    Source: textbook: where two circles intersect, by the law of cosines; R. L. Norton, Design of Machinery, chapter on
+        position analysis.
     """
     if side not in ("left", "right"):
         raise MechanismError(f"dyad: side = {side!r} is neither left nor right.")
@@ -130,6 +135,9 @@ def four_bar_points(
 
     Raises:
         MechanismError: they cannot be assembled so, `branch` is another word, or a text is no such quantity.
+
+    Source: textbook: the crank pin on its circle, then `dyad`; R. L. Norton, Design of Machinery, chapter on position
+        analysis.
     """
     if branch not in ("open", "crossed"):
         raise MechanismError(f"four_bar_points: branch = {branch!r} is neither open nor crossed.")

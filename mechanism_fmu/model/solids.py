@@ -93,6 +93,9 @@ def bar(
     Raises:
         MechanismError: neither a mass nor section and material are given, or both; likewise of b and an angle with a
             length; a plain length is negative; or a text is no such quantity.
+
+    Source: textbook: mass moments of inertia, thin rod m L^2/12, and of a section rho I L more; J. L. Meriam, L. G.
+        Kraige, Engineering Mechanics: Dynamics.
     """
     label = f"bar {name!r}"
     begin = _point(a, label, "a")
@@ -159,6 +162,9 @@ def plate(
     Raises:
         MechanismError: there is no area; neither or both of mass and thickness with material are given; or a text is no
             such quantity.
+
+    Source: textbook: moments of a polygon's area by Green's theorem, sums over its edges; the centre of mass by
+        Steiner's theorem, J = m (polar/A - x^2 - y^2).
     """
     label = f"plate {name!r}"
     corners = _corners(outline, label, "outline")
@@ -218,6 +224,8 @@ def disc(
     Raises:
         MechanismError: as of `plate`; or, of plain numbers, the radius is not positive, or the bore is negative or not
             less than the radius.
+
+    Source: textbook: mass moment of inertia of a hollow cylinder about its axis, m (R^2 + r^2)/2.
     """
     label = f"disc {name!r}"
     rim, inner = quantity(radius, "m", f"{label}: radius"), quantity(bore, "m", f"{label}: bore")
@@ -260,6 +268,9 @@ def rigid_body(
 
     Raises:
         MechanismError: a text is no such quantity.
+
+    Source: textbook: kinematics of a point of a rigid body, r = at + A(angle) centre, v = velocity + speed R A(angle)
+        centre.
     """
     label = f"rigid_body {name!r}"
     corners = tuple(_point(corner, label, "outline") for corner in outline)

@@ -59,6 +59,8 @@ class Result:
         types: FMI types of outputs, by name.
         impacts, events: all, in the order of time.
         statistics: of the solver.
+
+    Source: that of its numbers is `simulate`; between rows, linear interpolation.
     """
 
     mechanism: Mechanism = field(repr=False)

@@ -64,6 +64,8 @@ def simulate(
             input does not take a value, or an output is one of the buffers of impacts and events.
         ValueError: times that cannot be.
         SimulationError: the motion cannot go on.
+
+    Source: `Simulation`, row by row.
     """
     start, until = float(quantity(start, "s", "start")), float(quantity(until, "s", "until"))
     step = (until - start) / _USUAL_STEPS if step is None else float(quantity(step, "s", "step"))

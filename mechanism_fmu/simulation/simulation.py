@@ -35,6 +35,9 @@ class Simulation(MovingMechanism):
     Raises:
         MechanismError: the mechanism cannot be right, or cannot be assembled (with what is left of each joint); or the
             values of inputs are too few, too many, or such as an input does not take.
+
+    Source: Pennestrì, Valentini, Vita, eqs (1) to (4), (6) and (7); steps by Dormand and Prince, in E. Hairer, S. P.
+        Nørsett, G. Wanner, Solving Ordinary Differential Equations I; equation by equation: docs/theory.md.
     """
 
     def __init__(

@@ -177,6 +177,9 @@ def taken(logic: Logic, event: str, old_mode: Collection[str], new_mode: Collect
         old_mode: names of the closed contacts before.
         new_mode: names of the closed contacts after.
         impulse: total impulse of the event [N s]; 0 when there was no impact.
+
+    Source: definition: an arrow is taken at its event where its states are those before and after; docs/theory.md,
+        section Logical functions, modes and transitions.
     """
     found = []
     for region in logic.regions:

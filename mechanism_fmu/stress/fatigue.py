@@ -38,6 +38,8 @@ class Strength:
 
     Raises:
         ValueError: when a value is outside its limits or not a number.
+
+    Source: textbook: Basquin's line, sigma_a = sigma_f' (2 N)^b; docs/decisions/014-damage-of-impact-sequences.md.
     """
 
     yield_strength: float

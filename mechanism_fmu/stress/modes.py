@@ -58,6 +58,8 @@ class BeamMode:
         coefficients: a_1, a_2, ... [-]; their scale fixes what eta of eq (8) means.
         mass: modal mass m of eq (9) [kg], for these coefficients.
         stiffness: modal stiffness k of eq (9) [N/m], for these coefficients.
+
+    Source: `ritz_modes`: Pennestrì, Valentini, Vita, eqs (8), (9).
     """
 
     coefficients: tuple[float, ...]

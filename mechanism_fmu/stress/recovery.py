@@ -119,17 +119,7 @@ def bending_moment(
 ) -> FloatArray:
     """Bending moment M_b = -E I_n w'' [N m], of shape (len(x), len(t)).
 
-    Args:
-        tooth: the beam.
-        material: what it is made of.
-        impact_velocity: |v_I| [m/s], >= 0, as of `bending_stress`.
-        x: distances from the root [m], from 0 to the length of the tooth; a number or shape (n,).
-        t: times since the impact [s], 0 to 1e9; a number or shape (m,).
-        modes: the modes that take part; without them the two of `ritz_modes`, as in the paper.
-
-    Raises:
-        ValueError: when velocity, a place or a time is outside its limits or not a number, or `modes` is empty or has a
-            rigid one.
+    Arguments and errors as of `bending_stress`.
 
     Source: Pennestrì, Valentini, Vita, eqs (13), (16).
     """
@@ -205,13 +195,7 @@ def shear_force(
     from x to the tip. For exact modes that is the derivative of `bending_moment`; for modes of few Ritz terms it is
     much closer to it than their own derivative, and it vanishes at the free tip, as it must.
 
-    Args:
-        tooth: the beam.
-        material: what it is made of.
-        impact_velocity: |v_I| [m/s], >= 0, as of `bending_stress`.
-        x: distances from the root [m], from 0 to the length of the tooth; a number or shape (n,).
-        t: times since the impact [s], 0 to 1e9; a number or shape (m,).
-        modes: the modes that take part, none of them rigid; without them the two of `ritz_modes`, as in the paper.
+    Arguments as of `bending_stress`, where none of the modes is rigid.
 
     Raises:
         ValueError: when velocity, a place or a time is outside its limits or not a number.
@@ -242,16 +226,7 @@ def shear_stress(
     estimate, since the parabola over the height is that of the uniform beam. That shear also softens the beam
     (Timoshenko) is not in it: the modes are those of Euler and Bernoulli.
 
-    Args:
-        tooth: the beam.
-        material: what it is made of.
-        impact_velocity: |v_I| [m/s], >= 0, as of `bending_stress`.
-        x: distances from the root [m], from 0 to the length of the tooth; a number or shape (n,).
-        t: times since the impact [s], 0 to 1e9; a number or shape (m,).
-        modes: the modes that take part, none of them rigid; without them the two of `ritz_modes`, as in the paper.
-
-    Raises:
-        ValueError: when velocity, a place or a time is outside its limits or not a number.
+    Arguments as of `bending_stress`, where none of the modes is rigid; errors as of `shear_force`.
 
     Source: S. P. Timoshenko, J. M. Gere, Mechanics of Materials, section on shear stresses in rectangular beams.
     """

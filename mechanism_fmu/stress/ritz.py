@@ -138,6 +138,8 @@ class NaturalMode:
         mass: modal mass m of eq (9) [kg], for these coefficients.
         stiffness: modal stiffness k of eq (9) [N/m], for these coefficients; 0 of a rigid mode.
         name: "bending 1", "bending 2", ..., "rigid translation" or "rigid rotation".
+
+    Source: `natural_modes`: Pennestrì, Valentini, Vita, eqs (8), (9).
     """
 
     series: tuple[float, ...]

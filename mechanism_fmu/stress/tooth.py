@@ -153,6 +153,8 @@ class TrapezoidTooth(RectangularSection):
 
     Raises:
         ValueError: when a value is outside its limits or not a number.
+
+    Source: textbook: a rectangular section, A = b h, I = b h^3/12, W = b h^2/6, with h linear in x.
     """
 
     length: float
@@ -183,6 +185,8 @@ class RectangularTooth(RectangularSection):
 
     Raises:
         ValueError: when a value is outside its limits or not a number.
+
+    Source: textbook: a rectangular section, A = b h, I = b h^3/12, W = b h^2/6.
     """
 
     length: float
@@ -278,6 +282,8 @@ class TableBeam:
     Raises:
         ValueError: when the columns differ in length, the places do not ascend from 0, or a value is negative, not a
             number, or zero other than at one end.
+
+    Source: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), by `scipy.interpolate.PchipInterpolator`.
     """
 
     places: tuple[float, ...]

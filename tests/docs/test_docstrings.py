@@ -1,6 +1,7 @@
 """Each public callable names its parameters, with units or kinds, the errors that it raises itself, and its source."""
 
 import ast
+import functools
 import importlib
 import inspect
 import re
@@ -18,6 +19,7 @@ from mechanism_fmu import elastodynamics, model, stress
 from mechanism_fmu.model.contact_facts import ContactFacts
 from mechanism_fmu.model.forces import Element
 from mechanism_fmu.model.joints.base import JointFacts
+from mechanism_fmu.simulation import Simulation, simulate
 
 ROOT = Path(__file__).parents[2]
 
@@ -25,6 +27,8 @@ ROOT = Path(__file__).parents[2]
 _NUMERIC = re.compile(r"\b(float|Number|Point|Array|ndarray)\b")
 #: A unit in brackets; or a word for what has none, or whose unit is another's.
 _KIND = re.compile(r"\[[^\]]+\]|\b(units?|as of|shape|whether|number of|points?|count|share|ratio)\b")
+#: What has the same arguments as something else in its module need not repeat them.
+_AS_OF = re.compile(r"[Aa]rguments(?: and errors)? as of `([\w.]+)`")
 _OURS = ("build_fmu", "harness", "mechanism_fmu", "models")
 _INTERNAL = (NotImplementedError, StopIteration)
 
@@ -39,11 +43,18 @@ def callables(module: str) -> Iterator[tuple[str, Any]]:
         if inspect.isclass(found) and issubclass(found, BaseException):
             continue
         yield name, found
-        for base in reversed(found.__mro__) if inspect.isclass(found) else ():
-            for method, function in vars(base).items() if base.__module__.split(".")[0] in _OURS else ():
-                plain = getattr(function, "__func__", function)
-                if not method.startswith("_") and inspect.isfunction(plain):
-                    yield f"{name}.{method}", plain
+        for method, function in methods(found) if inspect.isclass(found) else ():
+            yield f"{name}.{method}", function
+
+
+def methods(thing: type) -> Iterator[tuple[str, Any]]:
+    """The public methods of a class and of its bases in this project."""
+    for base in reversed(thing.__mro__):
+        for name, function in vars(base).items() if base.__module__.split(".")[0] in _OURS else ():
+            plain = getattr(function, "__func__", function)
+            is_default = name in inspect.get_annotations(base)  # of a field whose value is a function
+            if not name.startswith("_") and not is_default and inspect.isfunction(plain):
+                yield name, plain
 
 
 def unnamed(thing: Any) -> list[str]:
@@ -55,6 +66,8 @@ def unnamed(thing: Any) -> list[str]:
     except (TypeError, ValueError):
         return []
     said = arguments(thing)
+    if other := _AS_OF.search(" ".join((thing.__doc__ or "").split())):
+        said = arguments(functools.reduce(getattr, other[1].split("."), inspect.getmodule(thing))) | said
     lacks = []
     for name, parameter in parameters.items():
         if name in ("self", "cls") or name.startswith("_"):
@@ -113,10 +126,13 @@ def test_docstrings_name_parameters_units_and_errors(module: str) -> None:
 
 # Where a law comes from: a paper's equation, a textbook, or a page of this project where it is derived.
 
-#: Functions of these calculate by a law; but not those that only find something in a mechanism, and return this.
-ANALYSES = tuple(f"mechanism_fmu.{name}" for name in ("elastodynamics", "stress", "kinematics", "slides"))
-_FINDS = {"str", "tuple[str, ...]", "Point", "ElasticPorts", "Resized | None"}
-#: Classes of these have a law, too.
+#: What returns nothing but these does not calculate: it declares ports and objections, finds or builds what a
+#: description already says, or writes that down.
+_DECLARED = {"Parameter", "Input", "Output", "Finding"}
+_FOUND = {"End", "ElasticPorts", "Resized", "Mechanism", "Settings", "SimpleNamespace", "str", "bool"}
+_WRITTEN = {"MechanismTables", "Logic", "Path"}
+_NOT_CALCULATED = {*_DECLARED, *_FOUND, *_WRITTEN, "tuple", "list", "Iterator", "None"}
+#: Classes of these have a law, whatever their methods return.
 _LAWS = (JointFacts, Element, ContactFacts)
 #: Instead of a section, the first line may cite, as in "(ME451, revolute)".
 _CITES = re.compile(r"\((ME451|Pennestrì et al\.)[^()]+\)")
@@ -128,11 +144,12 @@ _EQUATIONS = {"P": 16, "E": 14}
 
 
 def needs_a_source(thing: Any) -> bool:
-    """Whether something calculates by a law that somebody has written down."""
-    if inspect.isclass(thing):
-        return issubclass(thing, _LAWS)
-    home, returned = inspect.getmodule(thing), inspect.get_annotations(thing).get("return")
-    return f"{home and home.__name__}.".startswith(tuple(f"{name}." for name in ANALYSES)) and returned not in _FINDS
+    """Whether something calculates, by what it returns; a class, when it is a law or one of its methods does."""
+    if not inspect.isclass(thing):
+        return bool(set(re.findall(r"\w+", str(inspect.get_annotations(thing).get("return")))) - _NOT_CALCULATED)
+    if _is_made_otherwise(thing):
+        return False
+    return issubclass(thing, _LAWS) or any(needs_a_source(function) for _, function in methods(thing))
 
 
 def source(thing: Any) -> str:
@@ -144,15 +161,15 @@ def source(thing: Any) -> str:
 
 def sourced() -> Iterator[tuple[str, str]]:
     """Name and source of all that need one."""
-    for module in (*ANALYSES, "mechanism_fmu.model"):
-        for name, thing in callables(module):
+    for module in LISTED:
+        for name, thing in callables(module) if module.startswith("mechanism_fmu") else ():
             if "." not in name and needs_a_source(thing):
                 yield f"{module}.{name}", source(thing)
 
 
 def test_laws_name_their_source() -> None:
     found = dict(sourced())
-    assert len(found) > 100
+    assert len(found) > 180
     assert not [name for name, said in found.items() if not said]
 
 
@@ -162,6 +179,13 @@ def test_sources_in_this_project_are_there() -> None:
             text = (ROOT / page).read_text(encoding="utf-8")
             assert not section or f"\n## {section}" in text, f"{name}: {page} has no section {section!r}"
             assert all(number in text for number in re.findall(r"\(K\d+\)", equations)), f"{name}: {page} {equations}"
+
+
+def test_a_source_that_is_another_name_leads_to_one_with_a_source() -> None:
+    found = {name.rpartition(".")[2] for name, _ in sourced()}
+    other = {name: seen[1] for name, said in sourced() if (seen := re.match(r"`(\w+)`", said))}
+    assert len(other) > 5
+    assert not {name: one for name, one in other.items() if one not in found}
 
 
 def test_equations_of_the_papers_are_among_those_that_there_are() -> None:
@@ -175,8 +199,14 @@ def test_equations_of_the_papers_are_among_those_that_there_are() -> None:
     assert not [one for one in quoted if not 1 <= one[2] <= _EQUATIONS[one[1]]]
 
 
-def test_laws_are_told_from_the_rest() -> None:
-    assert all(map(needs_a_source, (model.Revolute, model.Bushing, model.AngleStop, stress.bending_stress)))
-    assert not any(map(needs_a_source, (model.Body, model.Output, model.bar, elastodynamics.crank_of, stress.Material)))
+def test_what_calculates_is_told_from_the_rest() -> None:
+    laws = (model.Revolute, model.Bushing, model.AngleStop, model.Marker)
+    functions = (stress.bending_stress, model.bar, model.cycloidal, model.circle, model.dyad, model.rpm, simulate)
+    by_their_methods = (model.Section, model.Term, Simulation)
+    assert all(map(needs_a_source, (*laws, *functions, *by_their_methods)))
+    held = (model.Body, model.Piece, model.Move, model.Output, model.Member, stress.Material, stress.ModeScaling)
+    found = (elastodynamics.crank_of, model.torque_input, model.default_outputs, model.compile_mechanism)
+    assert not any(map(needs_a_source, (*held, *found)))
     assert source(model.Revolute) == "(ME451, revolute)"
+    assert source(model.rpm) == "definition: 1 rpm = 2 pi rad in 60 s."
     assert not source(model.Body)

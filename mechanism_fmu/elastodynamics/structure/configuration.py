@@ -102,6 +102,8 @@ class Configurations:
         pose: of its bodies.
         coordinates: names of the m free displacements u, "<place>.x|y|angle", or "<place>.along" a guide.
         basis: Z of w = Z u, shape (times, unknowns, m), or (1, unknowns, m) where it is always the same.
+
+    Source: `configurations`: compatibility, docs/decisions/022-elastodynamics.md.
     """
 
     linkage: Linkage

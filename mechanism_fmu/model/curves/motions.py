@@ -25,6 +25,8 @@ def dwell(start: Number, value: Number, _rise: Number, _width: Number) -> tuple[
     Args:
         start: angle at which it begins [rad].
         value: lift there [m or rad].
+
+    Source: definition: a constant.
     """
     return (Piece(start, (Term((value,)),)),)
 
@@ -37,6 +39,9 @@ def cycloidal(start: Number, value: Number, rise: Number, width: Number) -> tupl
         value: lift there [m or rad].
         rise: change of the lift [m or rad].
         width: angle over which it changes [rad], >= 0.
+
+    Source: textbook: R. L. Norton, Cam Design and Manufacturing Handbook, cycloidal displacement; inclined sine line of
+        VDI 2143, Blatt 1.
     """
     divisor = _divisor(width)
     return (Piece(start, (Term((value, rise / divisor), -rise / (2 * math.pi), 2 * math.pi / divisor),)),)
@@ -50,6 +55,9 @@ def polynomial_345(start: Number, value: Number, rise: Number, width: Number) ->
         value: lift there [m or rad].
         rise: change of the lift [m or rad].
         width: angle over which it changes [rad], >= 0.
+
+    Source: textbook: R. L. Norton, Cam Design and Manufacturing Handbook, 3-4-5 polynomial; polynomial of fifth degree
+        of VDI 2143, Blatt 1.
     """
     divisor = _divisor(width)
     third = rise / (divisor * divisor * divisor)
@@ -68,6 +76,10 @@ def modified_sine(start: Number, value: Number, rise: Number, width: Number) -> 
         value: lift there [m or rad].
         rise: change of the lift [m or rad].
         width: angle over which it changes [rad], >= 0.
+
+    Source: textbook: R. L. Norton, Cam Design and Manufacturing Handbook, modified sine acceleration; modified sine
+        line of VDI 2143, Blatt 1. The three pieces are its acceleration, sines of a fast and a slow frequency,
+        integrated twice.
     """
     k = rise / (4 + math.pi)
     divisor = _divisor(width)
@@ -129,6 +141,8 @@ def polynomial_motion(*coefficients: Number) -> Curve:
 
     Args:
         coefficients: constant first [m or rad, per s^k], at most six.
+
+    Source: definition: a polynomial of time.
     """
     return Curve((Piece(0.0, (Term(tuple(coefficients)),)),))
 
@@ -141,6 +155,8 @@ def harmonic_motion(mean: Number, amplitude: Number, frequency: Number, phase: N
         amplitude: in the unit of the driven coordinate [m or rad].
         frequency: angular [rad/s].
         phase: at t = 0 [rad].
+
+    Source: definition: harmonic motion about a mean.
     """
     return Curve((Piece(0.0, (constant(mean), sine(amplitude, frequency, phase))),))
 
@@ -155,6 +171,8 @@ def table_motion(points: Sequence[tuple[float, Number]]) -> Curve:
 
     Raises:
         MechanismError: fewer than 3 points, or times that do not increase or that depend on a parameter.
+
+    Source: C. de Boor, A Practical Guide to Splines: the cubic spline with clamped ends, here of slope zero.
     """
     times, values = plain_places([time for time, _ in points], "time"), [value for _, value in points]
     pieces = spline_pieces(times, values, 3, periodic=False)

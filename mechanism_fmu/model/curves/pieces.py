@@ -33,6 +33,8 @@ class Term:
 
     Raises:
         MechanismError: one of them is of the wrong kind, or there are more than six coefficients.
+
+    Source: definition: the sum above.
     """
 
     polynomial: tuple[Number, ...] = ()
@@ -136,6 +138,8 @@ def constant(value: Number) -> Term:
 
     Args:
         value: in the unit of the curve.
+
+    Source: definition: `Term` with one coefficient.
     """
     return Term((value,))
 
@@ -146,6 +150,8 @@ def cosine(amplitude: Number, frequency: Number) -> Term:
     Args:
         amplitude: in the unit of the curve.
         frequency: angular [1/unit of the variable], e.g. [rad/s].
+
+    Source: definition: cos x = sin(x + pi/2), of `Term`.
     """
     return Term((), amplitude, frequency, math.pi / 2)
 
@@ -157,6 +163,8 @@ def sine(amplitude: Number, frequency: Number, phase: Number = 0.0) -> Term:
         amplitude: in the unit of the curve.
         frequency: angular [1/unit of the variable], e.g. [rad/s].
         phase: where the piece begins [rad].
+
+    Source: definition: the harmonic of `Term`.
     """
     return Term((), amplitude, frequency, phase)
 

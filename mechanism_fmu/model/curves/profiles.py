@@ -20,6 +20,8 @@ def circle(radius: Number) -> Curve:
 
     Args:
         radius: [m], > 0.
+
+    Source: definition: rho = radius, of boundaries in polar coordinates as in the ME451 slides on cams.
     """
     return _closed((Piece(0.0, (constant(radius),)),))
 
@@ -31,6 +33,8 @@ def harmonic_profile(mean: Number, cosines: Sequence[Number] = (), sines: Sequen
         mean: of the radius [m].
         cosines: amplitudes [m] of the harmonics 1, 2, ...
         sines: amplitudes [m] of the harmonics 1, 2, ...
+
+    Source: definition: a Fourier series that ends, of boundaries in polar coordinates as in the ME451 slides on cams.
     """
     terms = [constant(mean)]
     terms += [cosine(a, float(k)) for k, a in enumerate(cosines, start=1)]
@@ -43,6 +47,8 @@ def piecewise_profile(*pieces: tuple[Number, Sequence[Term]]) -> Curve:
 
     Args:
         pieces: pairs of the angle where each starts [rad] and its terms [m].
+
+    Source: definition: one piece behind the other, of boundaries in polar coordinates as in the ME451 slides on cams.
     """
     return _closed(tuple(Piece(start, tuple(terms)) for start, terms in pieces))
 
@@ -58,6 +64,9 @@ def spline_profile(radii: Sequence[Number], angles: Sequence[float] | None = Non
     Raises:
         MechanismError: fewer than 3 points, another count of angles or degree, or angles that do not increase or that
             depend on a parameter.
+
+    Source: C. de Boor, A Practical Guide to Splines: the interpolating spline, periodic; each piece by the Hermite
+        polynomial of its ends, and what is unknown there from continuous higher derivatives.
     """
     count = len(radii)
     places = [_TURN * k / count for k in range(count)] if angles is None else plain_places(angles, "angle")
@@ -76,6 +85,9 @@ def motion_profile(base_radius: Number, moves: Sequence[Move], back: Law = cyclo
 
     Raises:
         MechanismError: a move's width is negative, or the moves need more than a turn.
+
+    Source: textbook: R. L. Norton, Cam Design and Manufacturing Handbook, radial cams: base radius plus lift, each rise
+        by its law of motion.
     """
     return _closed(moves_to_pieces(base_radius, moves, _TURN, back))
 
@@ -90,6 +102,9 @@ def slot(points: Sequence[tuple[float, Number]], degree: int = 3) -> Curve:
     Raises:
         MechanismError: fewer than 3 points, another degree, or angles that do not increase or that depend on a
             parameter.
+
+    Source: C. de Boor, A Practical Guide to Splines: the interpolating spline with clamped ends; pieces as of
+        `spline_profile`.
     """
     angles, radii = plain_places([angle for angle, _ in points], "angle"), [radius for _, radius in points]
     pieces = spline_pieces(angles, radii, degree, periodic=False)

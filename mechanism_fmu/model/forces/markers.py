@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..attached import Slot
-from ..body import GROUND, Point
+from ..body import GROUND, NamedPoint, Point
 from .base import Element, Quantity
 
 
 @dataclass(frozen=True, init=False)
-class Marker(Element):
+class Marker(Element, NamedPoint):
     """A point of a body whose place and velocity are read: the pen of a pantograph, the end of a coupler.
 
     Default outputs have them, and default drawings show the point and its path.
@@ -38,23 +38,3 @@ class Marker(Element):
     name: str
     body: str
     point: Point
-
-    @property
-    def x(self) -> str:
-        """The name of its x [m], for outputs."""
-        return f"{self.name}.x"
-
-    @property
-    def y(self) -> str:
-        """The name of its y [m], for outputs."""
-        return f"{self.name}.y"
-
-    @property
-    def x_rate(self) -> str:
-        """The name of its velocity along x [m/s], for outputs."""
-        return f"{self.name}.x_rate"
-
-    @property
-    def y_rate(self) -> str:
-        """The name of its velocity along y [m/s], for outputs."""
-        return f"{self.name}.y_rate"
