@@ -15,7 +15,13 @@ from .mechanism import Mechanism, may_rub
 INPUT = "input"
 
 _OF_CONTACT = {codes.GUARD_GAP: "gap", codes.GUARD_PUSH: "force", codes.GUARD_CLICK: "click"}
-_OF_FRICTION = {codes.GUARD_STICK: "sticks", codes.GUARD_SLIP: "slips", codes.GUARD_SHOCK: "shock"}
+_OF_FRICTION = {
+    codes.GUARD_STICK: "sticks",
+    codes.GUARD_SLIP: "slips",
+    codes.GUARD_SHOCK: "shock",
+    codes.GUARD_SEVERAL: "several",
+    codes.GUARD_UNDETERMINED: "undetermined",
+}
 _OF_PATTERN = {codes.GUARD_NEXT: "next", codes.GUARD_PREVIOUS: "previous"}
 
 
