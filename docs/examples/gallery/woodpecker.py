@@ -58,7 +58,7 @@ PARAMETERS = (
     angle_parameter("start", "-0.45555 rad", "Bird at the start, times size: its limit cycle"),
     Parameter("restitution", 0.5, "Of the beak", "1", 0.0, 1.0),
     Parameter("friction", 0.3, "Of beak and sleeve on the pole", "1", 0.0, 10.0),
-    Parameter("size", 1.0, "Lengths over those of the toy, with its clearances", "1", 1.0, 1e6),
+    Parameter("size", 1.0, "Lengths over those of the toy, with its clearances", "1", 1.0, 1e5),
 )
 PARAMETERS += settings_parameters()
 MODEL = Model("Woodpecker", "Woodpecker toy that pecks its way down a pole", PARAMETERS, mechanism, stop_time=0.8)
