@@ -144,14 +144,14 @@ def test_the_disc_rolls_from_the_closed_form_s_time_on(velocity, backspin, frict
     slip = velocity + radius * backspin
     rolls = slip / (3 * friction * GRAVITY)
     wanted = (2 * velocity - radius * backspin) / 3
-    running = simulation("backspin", velocity=velocity, backspin=backspin, friction=friction, radius=radius)
+    running = simulation("backspin", thrown=velocity, backspin=backspin, friction=friction, radius=radius)
     assert running.read()["slip"] == pytest.approx(slip, rel=1e-12)
-    assert running.read()["friction"] == pytest.approx(-friction * 1.5 * GRAVITY, rel=1e-12)
+    assert running.read()["drag"] == pytest.approx(-friction * 1.5 * GRAVITY, rel=1e-12)
     assert events(running, 2 * rolls) == [("floor.sticks", pytest.approx(rolls, rel=1e-10))]
     now = running.read()
     x = velocity * rolls - 0.5 * friction * GRAVITY * rolls**2 + wanted * rolls
     np.testing.assert_allclose([now["velocity"], now["x"]], [wanted, x], rtol=1e-9, atol=1e-12)
     assert now["speed"] == pytest.approx(-wanted / radius, rel=1e-9, abs=1e-12)
     assert (now["slip"], now["rolls"]) == (0.0, 1.0)
-    assert now["friction"] == pytest.approx(0.0, abs=1e-9)
+    assert now["drag"] == pytest.approx(0.0, abs=1e-9)
     assert now["energy_lost"] == pytest.approx(1.5 * slip**2 / 6, rel=1e-9)

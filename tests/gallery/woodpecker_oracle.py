@@ -77,7 +77,7 @@ class Toy:
         mass = np.diag([SLEEVE, SLEEVE_INERTIA, BIRD_INERTIA]) + BIRD * centre.T @ centre
         twist = STIFFNESS * (q[2] - q[1])
         force = np.array([-SLEEVE * GRAVITY, twist, -twist])
-        return mass, force - BIRD * centre.T @ (beside + [0.0, GRAVITY])
+        return mass, force - BIRD * centre.T @ (beside + np.array([0.0, GRAVITY]))
 
     def solve(self, mode: tuple[str, str] | None, q: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Accelerations, and the forces normal and tangential, in a mode: contact and "stick", "+" or "-"."""

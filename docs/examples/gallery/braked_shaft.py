@@ -1,4 +1,4 @@
-"""Braked shaft: a turning shaft is clutched to one at rest; the clutch slips until both turn alike, the brake stops both.
+"""Braked shaft: a turning shaft is clutched to one at rest; the clutch slips until both turn alike, a brake stops them.
 
 Brake and clutch hold up to their torques, and slip beyond. Source: closed form, constant torques between the changes.
 """
