@@ -59,7 +59,7 @@ def _motion(program: dict[str, Any], law: str) -> tuple[list[list[Point]], dict[
     pieces, pecks = [], {}
     for start, end in pairwise([0.0, *strikes, found.period]):
         piece = []
-        for time in np.linspace(start, end, 24)[1:-1]:
+        for time in np.linspace(start + 1e-7, end - 1e-7, 24):
             simulation.advance(float(time))
             now = simulation.read()
             piece.append((size * now["bird"], size * now["bird_rate"]))
@@ -73,9 +73,9 @@ def drawing() -> str:
     """The picture as SVG text."""
     program = runpy.run_path(str(PROGRAM))
     motions = {law: _motion(program, law) for law, *_ in SHOWN}
-    toy = View((90.0, 190.0), 5.2)
+    toy = View((90.0, 175.0), 4.9)
     pole = f'fill="#e2e8f0" stroke="{DIMENSION}"'
-    parts = [toy.path([(-2.5, -26.0), (2.5, -26.0), (2.5, 32.0), (-2.5, 32.0)], pole, closed=True)]
+    parts = [toy.path([(-2.5, -29.0), (2.5, -29.0), (2.5, 31.0), (-2.5, 31.0)], pole, closed=True)]
     pecks = motions["newton"][1]
     parts += _toy(toy, pecks["sleeve"], pecks["bird"], faint=True)
     parts += _toy(
@@ -96,7 +96,7 @@ def drawing() -> str:
     for rate in (-15, -10, -5, 5, 10, 15):
         parts.append(plane.path([(-3, rate * up), (3, rate * up)], thin))
         parts.append(plane.label((0, rate * up), f"{rate:g}", small, dx=20, dy=4))
-    parts.append(plane.label((-0.42 * across, 0), "angle of the bird [rad]", small, dy=-8))
+    parts.append(plane.label((-0.25 * across, 0), "angle of the bird [rad]", small, dy=-8))
     parts.append(plane.label((0, 20 * up), "its rate [rad/s]", small, dy=-8))
     for k, (law, name, colour) in enumerate(reversed(SHOWN)):
         for piece in motions[law][0]:
