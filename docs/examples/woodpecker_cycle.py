@@ -14,20 +14,23 @@ import runpy
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Literal, get_args
 
 from mechanism_fmu.model import Mechanism
 from mechanism_fmu.simulation import Simulation
 
 MODEL = runpy.run_path(str(Path(__file__).parent / "gallery" / "woodpecker.py"))["MODEL"]
 
-LAWS = ("newton", "poisson", "stronge")
+Law = Literal["newton", "poisson", "stronge"]
+LAWS: tuple[Law, ...] = get_args(Law)
 TOLERANCES = (1e-9, 1e-11)
 #: The paper's model has small angles only: so has a toy that is so many times as large.
 SMALL_ANGLES = 1e5
 
 #: A first guess of the fixed point [rad], and how far from it the second one is.
-GUESS, APART = {"newton": -0.478, "poisson": -0.4555, "stronge": -0.454}, 1e-4
-GUESS_OF_SMALL_ANGLES = {"newton": -0.5295, "poisson": -0.5295, "stronge": -0.5487}
+GUESS: dict[Law, float] = {"newton": -0.478, "poisson": -0.4555, "stronge": -0.454}
+GUESS_OF_SMALL_ANGLES: dict[Law, float] = {"newton": -0.5295, "poisson": -0.5295, "stronge": -0.5487}
+APART = 1e-4
 
 #: The step in which the end of a cycle is looked for [s], and the longest cycle.
 STEP, LONGEST = 1e-3, 1.0
@@ -60,14 +63,14 @@ class Cycle:
     events: tuple[tuple[float, str, float], ...]
 
 
-def toy(start: float, law: str, tolerance: float, size: float = 1.0) -> Mechanism:
+def toy(start: float, law: Law, tolerance: float, size: float = 1.0) -> Mechanism:
     """The toy of the gallery with another law of impacts."""
     built = MODEL.build(MODEL.values(start=start, relative_tolerance=tolerance, size=size))
     assert isinstance(built, Mechanism)
     return replace(built, impact_law=law)
 
 
-def cycle(start: float, law: str, tolerance: float, size: float = 1.0) -> Cycle:
+def cycle(start: float, law: Law, tolerance: float, size: float = 1.0) -> Cycle:
     """One cycle from an angle of the bird [rad, times the size].
 
     Raises:
@@ -109,7 +112,7 @@ def _zero(mechanism: Mechanism, before: float, after: float) -> float:
     return after
 
 
-def limit_cycle(law: str, tolerance: float, size: float = 1.0) -> tuple[Cycle, float, float]:
+def limit_cycle(law: Law, tolerance: float, size: float = 1.0) -> tuple[Cycle, float, float]:
     """The cycle that repeats itself, by the secant method.
 
     Returns:
@@ -138,7 +141,7 @@ def _rows() -> Iterator[str]:
             )
 
 
-def _events(law: str, size: float) -> Iterator[str]:
+def _events(law: Law, size: float) -> Iterator[str]:
     found, *_ = limit_cycle(law, TOLERANCES[1], size)
     yield f"\n{law}, angles {'as they are' if size == 1.0 else 'small'}:\n"
     for time, name, speed in found.events:
@@ -150,9 +153,9 @@ def main() -> None:
     """Print the limit cycles."""
     for line in _rows():
         print(line)
-    for law, size in (*((law, 1.0) for law in LAWS), ("newton", SMALL_ANGLES)):
-        for line in _events(law, size):
-            print(line)
+    for law in LAWS:
+        print(*_events(law, 1.0), sep="\n")
+    print(*_events("newton", SMALL_ANGLES), sep="\n")
 
 
 if __name__ == "__main__":

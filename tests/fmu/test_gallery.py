@@ -22,7 +22,7 @@ QUICK = ("whitworth", "rocking_block")
 #: What the first line of a build says: degrees of freedom, coordinates, rows.
 FREEDOMS = {
     "andrews": (1, 21, 20),
-    "backspin": (2, 4, 2),
+    "backspin": (2, 3, 1),
     "braked_shaft": (2, 6, 4),
     "chebyshev": (0, 9, 9),
     "door_closer": (1, 3, 2),
