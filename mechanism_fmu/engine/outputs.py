@@ -220,7 +220,7 @@ def _friction_force(block: Array, _at: Pose, index: int, _slot: int, _value: flo
 
 @jit
 def _sticks_now(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
-    """Whether it does not slide; also where its friction is at the bound, and others that stick hold it all the same."""
+    """Whether it does not slide; also where friction is at its bound, and others that stick hold it all the same."""
     if sticks(block, index):
         return 1.0
     if not touches(block, index):

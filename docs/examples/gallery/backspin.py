@@ -34,7 +34,7 @@ def mechanism(values):
     outputs += (Output("drag", "floor.friction_force", "On the wheel", "N"),)
     outputs += energy_outputs("Kinetic", "Of springs", "Of drives", "By friction")
     parts = {"outputs": outputs, "markers": (Marker("rim", wheel.at(0.8 * r, 0)),), "gravity": (0.0, -9.81)}
-    return Mechanism((wheel,), contacts=(floor,), friction_law="coulomb", **parts)
+    return Mechanism((wheel,), contacts=(floor,), **parts)
 
 
 PARAMETERS = (

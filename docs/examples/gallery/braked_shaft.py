@@ -41,7 +41,7 @@ def mechanism(values):
         *(Output("clutched", "clutch.sticks", "Both alike", "1"), Output("braked", "brake.sticks", "It stands", "1")),
     )
     ports = {"inputs": inputs, "outputs": outputs}
-    return Mechanism((first, second), joints, forces, friction_law="coulomb", **ports)
+    return Mechanism((first, second), joints, forces, **ports)
 
 
 TORQUES = (torque_parameter("clutch", 9.0, "It holds"), torque_parameter("brake", 5.0, "It holds"))

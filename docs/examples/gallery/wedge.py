@@ -41,7 +41,7 @@ def mechanism(values):
     outputs += (Output("height", load.y, "Of the load", "m"), Output("normal", "slope.force", "On the load", "N"))
     ports = {"inputs": (Input("push", "push.x", 0.0, "To the right, which is out", "N"),), "outputs": outputs}
     parts = {"contacts": (slope,), "gravity": (0.0, -9.81), "held": (wedge.x,), **ports}
-    return Mechanism((wedge, load), joints, (push,), friction_law="coulomb", **parts)
+    return Mechanism((wedge, load), joints, (push,), **parts)
 
 
 PARAMETERS = (

@@ -53,7 +53,7 @@ def mechanism(values):
     outputs += impact_outputs("Impacts on the pole", (Output("closing_speed", "closing_speed", "{impact}", "m/s"),))
     parts = {"outputs": outputs, "gravity": (0.0, -9.81), "held": (sleeve.y, bird.angle)}
     parts["markers"] = (Marker("middle", bird),)
-    return Mechanism((sleeve, bird), joints, (spring,), contacts, friction_law="coulomb", **parts)
+    return Mechanism((sleeve, bird), joints, (spring,), contacts, **parts)
 
 
 PARAMETERS = (

@@ -122,4 +122,5 @@ def _normal_change(block: Array, rub: int, change: Array) -> float:
         if not force > 0.0:
             return 0.0
         return (multiplier[row] * value + multiplier[row + 1] * float(change[row + 1])) / force
-    return axis_length(block, rub - contacts) * (-value if multiplier[row] < 0.0 else value)
+    along: float = axis_length(block, rub - contacts) * value
+    return -along if multiplier[row] < 0.0 else along
