@@ -75,7 +75,7 @@ def test_a_shock_leads_on_and_takes_energy() -> None:
         simulation.advance(0.002 * k)
         shocks += guards(simulation).count("floor.shock")
         found = simulation.read()
-        assert found["kinetic"] - found["work"] + found["lost"] == pytest.approx(before["kinetic"], abs=1e-8)
+        assert found["kinetic"] - found["work"] + found["lost"] == pytest.approx(before["kinetic"], rel=1e-8)
     assert shocks == 1
 
 
@@ -91,8 +91,8 @@ def test_pins_without_forces_are_named_and_stopped_by_a_shock(friction: float) -
     ):
         Simulation(mechanism).advance(0.1)
     simulation = Simulation(replace(mechanism, tangential_shock=True))
-    assert guards(simulation) == ["crank_hinge.shock"]
     simulation.advance(0.1)
+    assert guards(simulation) == ["crank_hinge.shock"]
     assert simulation.read()["kinetic_energy"] < 1e-15
     assert simulation.read()["energy_lost"] == pytest.approx(moving, rel=1e-9)
 
