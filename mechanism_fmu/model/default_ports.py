@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from .mechanism import Mechanism
+from .contacts import Contact
+from .forces import ForceElement
+from .joints import Joint
+from .mechanism import Mechanism, may_rub, turns
 from .port_builders.outputs import (
     active_output,
     body_angle_output,
     body_speed_output,
     energy_outputs,
+    friction_outputs,
     whole_output,
 )
 from .port_builders.records import event_buffer_outputs, impact_outputs
@@ -21,21 +25,25 @@ from .sources import MOST_CONTACTS_OF_A_MODE
 _DISPLAYED = {"rad": "deg", "rad/s": "rpm"}
 
 
-def default_outputs(mechanism: Mechanism, taken: Collection[str] = ()) -> tuple[Output, ...]:
+def default_outputs(
+    mechanism: Mechanism, taken: Collection[str] = (), rubbing: Collection[str] | None = None
+) -> tuple[Output, ...]:
     """Outputs of all bodies, force elements, markers, joints and contacts, of energies, impacts and events.
 
     Of bodies: <body>_x, _y [m] of the centre of mass, _angle [rad] and _speed [rad/s]; of force elements, markers
     and joints: <part>_<quantity>, with the unit of the quantity; of contacts: <contact>_force [N, or N.m of stops and
-    locks], _gap [m, rad] and _active; the energies [J]; where there are contacts, impacts and events as
+    locks], _gap [m, rad] and _active; of what may rub: <part>_slip_speed [m/s, rad/s], _friction_force [N, N.m] and
+    _sticks; the energies [J]; where there are contacts, impacts and events as
     `impact_outputs` and `event_buffer_outputs` have them.
 
     Args:
         mechanism: that declares none; its numbers may be symbolic.
         taken: names that are not to be used: "_out" is appended then.
+        rubbing: names of the parts of which there is friction to be read; None: of those that have some.
     """
     names = {*taken, *(port.name for port in mechanism.inputs), *(known.name for known in mechanism.calculated)}
     found = []
-    for output in _outputs(mechanism):
+    for output in _outputs(mechanism, rubbing_names(mechanism) if rubbing is None else rubbing):
         while output.name in names:
             output = replace(output, name=f"{output.name}_out")
         names.add(output.name)
@@ -43,7 +51,20 @@ def default_outputs(mechanism: Mechanism, taken: Collection[str] = ()) -> tuple[
     return tuple(found)
 
 
-def _outputs(mechanism: Mechanism) -> Iterator[Output]:
+def rubbing_names(mechanism: Mechanism) -> tuple[str, ...]:
+    """Names of the contacts, joints and brakes that have friction; of symbolic numbers: that may have.
+
+    Args:
+        mechanism: its numbers may be symbolic.
+    """
+    return tuple(part.name for part in _parts(mechanism) if may_rub(part))
+
+
+def _parts(mechanism: Mechanism) -> tuple[Contact | Joint | ForceElement, ...]:
+    return (*mechanism.contacts, *mechanism.joints, *mechanism.elements)
+
+
+def _outputs(mechanism: Mechanism, rubbing: Collection[str]) -> Iterator[Output]:
     for body in mechanism.bodies:
         yield from (
             Output(f"{body.name}_{axis}", f"{body.name}.{axis}", f"{axis} of the centre of mass of {body.name}", "m")
@@ -54,13 +75,14 @@ def _outputs(mechanism: Mechanism) -> Iterator[Output]:
     yield from _of_forces(mechanism)
     yield from _of_joints(mechanism)
     yield from _of_contacts(mechanism)
+    yield from _of_friction(mechanism, rubbing)
     yield from energy_outputs(
         kinetic="Kinetic energy of all bodies",
         spring="Energy of springs",
         work="Work done by forces, drivers and inputs since the start",
         lost="Energy lost in impacts, friction and dampers since the start",
     )
-    if mechanism.contacts or mechanism.functions or mechanism.patterns:
+    if mechanism.contacts or mechanism.functions or mechanism.patterns or rubbing:
         yield whole_output("event_count", "event.count", "Events since the start")
         if len(mechanism.contacts) <= MOST_CONTACTS_OF_A_MODE:
             yield from event_buffer_outputs(_event(mechanism))
@@ -108,6 +130,13 @@ def _of_contacts(mechanism: Mechanism) -> Iterator[Output]:
             yield Output(f"{name}_gap", f"{name}.gap", f"Gap of {name}, 0 when closed", gap, _DISPLAYED.get(gap))
         if "closed" in contact.readings:
             yield active_output(name, f"Whether {name} is closed")
+
+
+def _of_friction(mechanism: Mechanism, rubbing: Collection[str]) -> Iterator[Output]:
+    for part in _parts(mechanism):
+        if part.name in rubbing:
+            for output in friction_outputs(part.name, part.name, mechanism.inputs, angular=turns(part)):
+                yield replace(output, nominal=None)
 
 
 def impact_units(mechanism: Mechanism) -> tuple[str, str]:

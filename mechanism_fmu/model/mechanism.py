@@ -132,6 +132,11 @@ def can_rub(part: Contact | Joint | ForceElement) -> bool:
     return getattr(part, "rubs", False) or bool(own & {"friction", "friction_radius"})
 
 
+def turns(part: Contact | Joint | ForceElement) -> bool:
+    """Whether what can rub is a pin or a brake: its slip is the rate of an angle, its friction a torque."""
+    return getattr(part, "rubs", False) or hasattr(part, "friction_radius")
+
+
 def may_rub(part: Contact | Joint | ForceElement) -> bool:
     """Whether a part has friction for some values of the parameters."""
     friction = getattr(part, "friction", 0.0)

@@ -273,6 +273,8 @@ OUTPUTS = (
     ports.shaft_torque_output("crank", nominal=0.01, shaft=SHAFT),
     Output("face_gap", "face.gap", "Distance of the pawl's tip from the tooth face", "m", nominal=0.01),
     Output("slope_gap", "slope.gap", "Distance of the pawl's tip from the tooth slope", "m", nominal=0.01),
+    *ports.friction_outputs("slope", "the pawl's tip on the tooth slope", INPUTS, "away from the root"),
+    *ports.friction_outputs("face", "the pawl's tip on the tooth face", INPUTS, "towards the root"),
     ports.whole_output("tooth_index", "teeth.index", "Index of the tooth at which the pawl stands, counted forwards"),
     ports.angle_output("latched_angle", "holding_pawl.latched", "Wheel angle below which the holding pawl holds"),
     ports.angle_output(

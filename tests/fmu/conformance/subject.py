@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tests.fmu.conformance.host import Fmu, Instance, Value
 
@@ -17,7 +17,8 @@ class Subject:
         rough: parameters of a run that is not the default one, with several impacts if the mechanism has any.
         inputs: range of each input in which the motion stays smooth enough for short tests.
         until: a time [s] by which the rough run has had its impacts.
-        impossible: parameter values that are each within their limits, and that no mechanism can have together.
+        impossible: parameter values that are each within their limits, and that no mechanism can have together; empty
+            where all can.
         impacts: whether the mechanism has contacts that can strike; one without has no events either.
         native: whether no Python runs in it.
     """
@@ -26,7 +27,7 @@ class Subject:
     rough: Mapping[str, Value]
     inputs: Mapping[str, tuple[float, float]]
     until: float
-    impossible: Mapping[str, Value]
+    impossible: Mapping[str, Value] = field(default_factory=dict)
     impacts: bool = True
     native: bool = False
 
