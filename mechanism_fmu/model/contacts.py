@@ -43,7 +43,7 @@ class PointLineContact(ContactFacts):
         closed: whether assembly puts the point on the line.
         restitution: e of eq (4) [1], 0..1. Below the engine's stick speed, and with 0, the contact stays closed.
         friction: coefficient of Coulomb friction along the line [1], >= 0.
-        friction_static: the same while it sticks [1], at least as large, of dry friction; None: as large.
+        friction_static: the same while it sticks [1], at least as large; None: as large.
         guided: whether the contact, once closed, also pulls and never opens, as in the paper.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
         pattern: name of the `CircularPattern` that repeats the line around `body_j`, or None.

@@ -1,4 +1,4 @@
-"""All forces with which dry friction agrees at the start of a motion: none, one, or several (Painlevé's paradox)."""
+"""All forces with which friction agrees at the start of a motion: none, one, or several (Painlevé's paradox)."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ def test_its_picture_is_that_of_its_script():
 
 @pytest.mark.parametrize("part", [CamFlatFollower, CamFollower, PointFollower, PointLineContact, Revolute, Mechanism])
 def test_arguments_that_it_names_are_there(part):
-    names = {"friction_law", "impact_law", "energy_guard", "tangential_shock"} if part is Mechanism else set()
+    names = {"impact_law", "energy_guard", "tangential_shock"} if part is Mechanism else set()
     names = names or {"friction_static", "friction_radius" if part is Revolute else "friction"}
     assert all(f"`{name}`" in TEXT or f"{name}=" in TEXT for name in names)
     assert names <= set(part.__dataclass_fields__)

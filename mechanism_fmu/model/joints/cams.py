@@ -28,7 +28,7 @@ class ProfileContact(ContactFacts):
         restitution: e of eq (4), 0..1, of a unilateral contact.
         closed: whether assembly puts the profiles in contact.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
-        friction: Coulomb coefficient along the common tangent [1], >= 0; 0 unless the friction of the mechanism is dry.
+        friction: Coulomb coefficient along the common tangent [1], >= 0.
         friction_static: the same while it sticks [1], at least as large; None: as large.
     """
 

@@ -62,7 +62,7 @@ class Revolute(_OfPoints):
         body_i, body_j: names of the two bodies (or `GROUND`).
         point_i, point_j: P in the frame of each body [m].
         friction_radius: coefficient of friction times radius of the pin [m]; friction torque = it times the pin force.
-        friction_static: the same while it sticks [m], at least as large, of dry friction; None: as large.
+        friction_static: the same while it sticks [m], at least as large; None: as large.
     """
 
     row: ClassVar = "revolute"
@@ -108,7 +108,7 @@ class Translational(_OfGuide):
         point_i, point_j: a point of the axis in the frame of each body [m].
         axis_i, axis_j: direction of the axis in the frame of each body (any length > 0).
         friction: coefficient of friction [1], >= 0; friction force = it times the force across the axis.
-        friction_static: the same while it sticks [1], at least as large, of dry friction; None: as large.
+        friction_static: the same while it sticks [1], at least as large; None: as large.
     """
 
     row: ClassVar = "translational"
