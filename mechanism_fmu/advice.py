@@ -32,7 +32,7 @@ _ABOUT_CONTACTS = (
 def failure_details(mechanism: Mechanism, block: Array, outcome: int, contacts: Collection[str]) -> str:
     """What a motion that has ended is about, as what follows its advice.
 
-    The contacts of an event, and the joints that rub where friction is what failed; or the part that limited the steps,
+    The contacts of an event, and what rubs where friction may be what failed; or the part that limited the steps,
     and their last size; or the driver that asks for too much.
 
     Args:
@@ -47,11 +47,29 @@ def failure_details(mechanism: Mechanism, block: Array, outcome: int, contacts: 
         return _driven_too_far(mechanism, block)
     if outcome not in _ABOUT_CONTACTS:
         return ""
-    friction = field_of(block, "joint_friction").tolist()
-    rubbing = [joint.name for joint, value in zip(mechanism.joints, friction, strict=True) if value > 0.0]
     about = f" Contacts: {', '.join(sorted(contacts))}." if contacts else ""
-    joints = f" Joints with friction: {', '.join(rubbing)}." if outcome == status.JAMMED and rubbing else ""
-    return about + joints
+    return about + (_friction(mechanism, block) if outcome in (status.JAMMED, status.NO_CHOICE) else "")
+
+
+def _friction(mechanism: Mechanism, block: Array) -> str:
+    """What rubs: coefficient, the angle of its bodies to each other, and Painlevé's criterion where it slips."""
+    slip, criterion = field_of(block, "rub_slip").tolist(), field_of(block, "rub_criterion").tolist()
+    values = [
+        *field_of(block, "contact_value")[:, codes.FRICTION].tolist(),
+        *field_of(block, "joint_friction").tolist(),
+    ]
+    ends = [
+        [*field_of(block, f"contact_{end}").tolist(), *field_of(block, f"joint_{end}").tolist()]
+        for end in ("body_i", "body_j")
+    ]
+    angles = [*field_of(block, "y_end")[2 : 3 * len(mechanism.bodies) : 3].tolist(), 0.0]  # codes.GROUND is the last
+    found = []
+    for k, (part, value) in enumerate(zip(mechanism.rubbing, values, strict=False)):
+        if value > 0.0 and slip[k] != codes.APART:
+            how = "sticks" if slip[k] == codes.STICKS else f"slips, A/G = {criterion[k]:.3g}"
+            angle = angles[ends[0][k]] - angles[ends[1][k]]
+            found.append(f"{part.name} ({value:.6g}, at {angle:.6g} rad, {how})")
+    return f" Friction: {', '.join(found)}." if found else ""
 
 
 def _stiffest(mechanism: Mechanism, block: Array) -> str:

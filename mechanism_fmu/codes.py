@@ -37,7 +37,7 @@ BRIDGES = 2
 OPEN = 0
 CLOSED = 1
 
-# rub_slip (state): how a contact or joint with dry friction moves along; 0 where it does not touch or is smooth
+# rub_slip (state): how a contact or joint with friction moves along; 0 where it does not touch
 APART = 0
 FORWARDS = 1
 BACKWARDS = -1
@@ -89,7 +89,7 @@ BAUMGARTE_BETA = 2
 MOST_STEPS = 3  # internal ones of one communication step
 IMPACT_LAW = 4
 ENERGY_GUARD = 5  # 1: an impact that would add energy is repeated by Poisson's law
-TANGENTIAL_SHOCK = 6  # 1: where no finite forces agree with dry friction, an impact without approach
+TANGENTIAL_SHOCK = 6  # 1: where no finite forces agree with friction, an impact without approach
 SETTINGS = 7
 
 # impact_law
@@ -124,7 +124,7 @@ MEMBER_FORCE = 32  # index 3 * member + (along it, moments on its start and end)
 MEMBER_STRESS = 33
 BEAM_DEFLECTION = 34
 BEAM_STRESS = 35
-SLIP_SPEED = 36  # index: of dry friction, contacts, joints, and elements
+SLIP_SPEED = 36  # index: of friction, contacts, joints, and elements
 FRICTION_FORCE = 37
 STICKS_NOW = 38
 GAP_ACCELERATION = 39  # of a contact
@@ -157,9 +157,11 @@ GUARD_FUNCTION = 5  # a logical function changes
 GUARD_INPUT = 6  # an input has changed
 GUARD_BEGIN = 7  # the motion begins
 GUARD_FAILED = 8  # an event could not be resolved: nothing goes on from there (the status stands as subject)
-GUARD_STICK = 9  # the slip speed of a contact or joint with dry friction reaches 0
+GUARD_STICK = 9  # the slip speed of a contact or joint with friction reaches 0
 GUARD_SLIP = 10  # the friction of one that sticks reaches its bound
-GUARD_SHOCK = 11  # no finite forces agree with dry friction: an impact without approach
+GUARD_SHOCK = 11  # no finite forces agree with friction: an impact without approach
+GUARD_SEVERAL = 12  # forces of several modes agree with the motion, one of which is taken (Painlevé)
+GUARD_UNDETERMINED = 13  # friction depends on forces that the rows share out at will
 
 # stop rules: where `stepper.go_on` stops; those but the first may be added
 STOP_AT_TARGET = 0

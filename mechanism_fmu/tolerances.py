@@ -13,6 +13,8 @@ RESTS_BELOW = 1e-9
 STICK_SPEED = 1e-6
 #: What slips more slowly than this, at an event, may stick or slip either way [m/s, rad/s].
 SLIPS_ABOVE = 1e-11
+#: What sticks goes on to do so while its slip speed is below this [m/s, rad/s]: rows may drift so far.
+STUCK_BELOW = 1e-9
 #: A gap that is zero and does not change may go below zero by this before it counts [m, rad].
 GAP_NOISE = 1e-12
 #: How far a boundary, a pitch or a limit is passed before it counts [m, rad].

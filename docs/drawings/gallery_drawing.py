@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from itertools import cycle
 from pathlib import Path
 
-from mechanism_fmu.model import Disc, Hinge, Link, Model, Outline, Rod, Spring, Striker, Trace
+from mechanism_fmu.model import Disc, Hinge, Link, Model, Outline, Rod, Spring, Striker, Trace, Wheel
 from mechanism_fmu.model.drawing import Place, Quantity, Shape
 from mechanism_fmu.simulation import Simulation
 
@@ -66,6 +66,15 @@ class Moment:
         """The points of a body, x + i y [m]."""
         turn = cmath.exp(1j * self.number(shape.angle))
         return [self.place(shape.at) + turn * complex(*map(self.number, point)) for point in shape.points]
+
+    def rim(self, shape: Wheel) -> list[complex]:
+        """The points of a wheel's rim, x + i y [m]."""
+        count, way = round(self.number(shape.count)), -1 if shape.clockwise else 1
+        starts = [self.number(shape.angle) + way * k * 2 * cmath.pi / count for k in range(count)]
+        outline = [(self.number(radius), self.number(angle)) for radius, angle in shape.outline]
+        return [
+            self.place(shape.at) + cmath.rect(radius, start + angle) for start in starts for radius, angle in outline
+        ]
 
 
 def hull(points: list[complex]) -> list[complex]:
@@ -127,6 +136,8 @@ def _view(shapes: tuple[Shape, ...], now: Moment, paths: Mapping[str, list[compl
             points.append(now.place(shape.to))
         if isinstance(shape, Disc):
             points += [now.place(shape.at) + now.number(shape.radius) * 1j**k for k in range(4)]
+        if isinstance(shape, Wheel):
+            points += now.rim(shape)
     left, right = min(p.real for p in points), max(p.real for p in points)
     low, high = min(p.imag for p in points), max(p.imag for p in points)
     wide, tall = max(right - left, 1e-9), max(high - low, 1e-9)
@@ -151,6 +162,9 @@ def _drawn(shape: Shape, now: Moment, view: View, colours: cycle[str]) -> str:
         case Disc():
             size = now.number(shape.radius) * view.scale
             return view.circle(_pair(now.place(shape.at)), size, 'fill="#e2e8f0" stroke="#718096" stroke-width="1.5"')
+        case Wheel():
+            style = f'fill="none" stroke="{INK}" stroke-width="1.5"'
+            return view.path([*map(_pair, now.rim(shape))], style, closed=True)
         case Spring():
             start, end = (complex(*view.place(_pair(now.place(p)))) for p in (shape.at, shape.to))
             sheet_view = View((0.0, 0.0), 1.0)

@@ -11,6 +11,7 @@ from ..tables.members import Structure
 from ..tables.motion import Course, LinearSystem, Pose, Rows, Rubs, Stages
 from ..tables.parts import Bodies, Contacts, Patterns, Ports
 from ..tables.sizes import Sizes
+from ..tolerances import SLIPS_ABOVE
 from .compiler.by_kind import by_kind
 from .compiler.subset import entry, jit, keep_small
 from .constraints.friction_rows import friction_row, meets, sticks, touches
@@ -31,6 +32,9 @@ from .dynamics.forces import (
 from .elastic.readings import beam_reading, elastic_reading
 from .elastic.structure import bend
 from .stepping.stepper import state_at_time
+
+#: An acceleration below this is none [m/s2, rad/s2].
+_AT_REST = 1e-8
 
 
 class Reading(NamedTuple):
@@ -215,8 +219,16 @@ def _friction_force(block: Array, _at: Pose, index: int, _slot: int, _value: flo
 
 
 @jit
-def _sticks_now(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
-    return 1.0 if sticks(block, index) else 0.0
+def _sticks_now(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
+    """Whether it does not slide; also where friction is at its bound, and others that stick hold it all the same."""
+    if sticks(block, index):
+        return 1.0
+    if not touches(block, index):
+        return 0.0
+    friction_row(block, at, index, spare_row(block))
+    speed = Rows(block).residual_rate[spare_row(block)]
+    rests = abs(speed) <= SLIPS_ABOVE and abs(_along_spare(block)) <= _AT_REST
+    return 1.0 if rests else 0.0
 
 
 @jit
@@ -267,7 +279,7 @@ READINGS: dict[int, Reading] = {
     codes.MEMBER_FORCE: Reading(_member_force),
     codes.SLIP_SPEED: Reading(_slip_speed),
     codes.FRICTION_FORCE: Reading(_friction_force, solves=True),
-    codes.STICKS_NOW: Reading(_sticks_now),
+    codes.STICKS_NOW: Reading(_sticks_now, solves=True),
     codes.GAP_ACCELERATION: Reading(_gap_acceleration, solves=True),
     codes.SLIP_ACCELERATION: Reading(_slip_acceleration, solves=True),
 }

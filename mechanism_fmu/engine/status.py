@@ -18,9 +18,10 @@ BRIDGED = 14
 AT_CENTRE = 15
 NO_PROGRESS = 16
 OUT_OF_REACH = 17
+MANY_TOUCH = 18
 
 #: How an event can fail, after which nothing goes on (see `codes.GUARD_FAILED`).
-EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY)
+EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY, MANY_TOUCH)
 #: A communication step that ended early; the next one goes on from the time reached.
 OUT_OF_STEPS = (TOO_MANY_STEPS, NO_PROGRESS)
 
@@ -36,13 +37,15 @@ ADVICE = {
     NO_PROGRESS: "No progress: a tenth of max_internal_steps has not covered a hundredth of the communication step, "
     "because something is very stiff or very fast. The time reached is good, and the next step goes on from there. "
     "Check the size of inputs and parameters, take shorter communication steps, or give a larger max_internal_steps.",
-    NO_CHOICE: "No set of pushing contacts agrees with the motion: more contacts touch at once than can be "
-    "resolved, or no finite forces agree with dry friction (Painleve). Change lengths or start positions a little; "
-    "of dry friction, give less of it, or the mechanism tangential_shock=True.",
+    NO_CHOICE: "No set of pushing contacts agrees with the motion; with friction, no finite forces may (Painleve's "
+    "paradox). Change lengths or start positions a little; give less friction, or the mechanism tangential_shock=True.",
+    MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Let less of them meet at one instant: "
+    "change lengths or start positions a little.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
-    JAMMED: "No normal forces agree with their friction: the mechanism jams itself. Give less friction, or move the "
-    "line of action away from the friction cone.",
+    JAMMED: "No finite forces agree with friction from here on (Painleve's paradox; A/G, what a normal force does to "
+    "its gap beside what it would without friction, has come to zero). Give less friction, change the line of "
+    "action, or give the mechanism tangential_shock=True.",
     ROW_AWAY: "A logical function closes a row where the bodies are not on it. Give the function a limit at which they "
     "are.",
     OVERLAP: "The mechanism starts with two profiles that overlap: they touch at one point and run into each other at "

@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from .contacts import Contact
-from .forces import ForceElement
-from .joints import Joint
-from .mechanism import Mechanism, may_rub, turns
+from .mechanism import Mechanism, turns
 from .port_builders.outputs import (
     active_output,
     body_angle_output,
@@ -25,9 +22,7 @@ from .sources import MOST_CONTACTS_OF_A_MODE
 _DISPLAYED = {"rad": "deg", "rad/s": "rpm"}
 
 
-def default_outputs(
-    mechanism: Mechanism, taken: Collection[str] = (), rubbing: Collection[str] | None = None
-) -> tuple[Output, ...]:
+def default_outputs(mechanism: Mechanism, taken: Collection[str] = ()) -> tuple[Output, ...]:
     """Outputs of all bodies, force elements, markers, joints and contacts, of energies, impacts and events.
 
     Of bodies: <body>_x, _y [m] of the centre of mass, _angle [rad] and _speed [rad/s]; of force elements, markers
@@ -39,11 +34,10 @@ def default_outputs(
     Args:
         mechanism: that declares none; its numbers may be symbolic.
         taken: names that are not to be used: "_out" is appended then.
-        rubbing: names of the parts of which there is friction to be read; None: of those that have some.
     """
     names = {*taken, *(port.name for port in mechanism.inputs), *(known.name for known in mechanism.calculated)}
     found = []
-    for output in _outputs(mechanism, rubbing_names(mechanism) if rubbing is None else rubbing):
+    for output in _outputs(mechanism):
         while output.name in names:
             output = replace(output, name=f"{output.name}_out")
         names.add(output.name)
@@ -51,20 +45,7 @@ def default_outputs(
     return tuple(found)
 
 
-def rubbing_names(mechanism: Mechanism) -> tuple[str, ...]:
-    """Names of the contacts, joints and brakes that have friction; of symbolic numbers: that may have.
-
-    Args:
-        mechanism: its numbers may be symbolic.
-    """
-    return tuple(part.name for part in _parts(mechanism) if may_rub(part))
-
-
-def _parts(mechanism: Mechanism) -> tuple[Contact | Joint | ForceElement, ...]:
-    return (*mechanism.contacts, *mechanism.joints, *mechanism.elements)
-
-
-def _outputs(mechanism: Mechanism, rubbing: Collection[str]) -> Iterator[Output]:
+def _outputs(mechanism: Mechanism) -> Iterator[Output]:
     for body in mechanism.bodies:
         yield from (
             Output(f"{body.name}_{axis}", f"{body.name}.{axis}", f"{axis} of the centre of mass of {body.name}", "m")
@@ -75,14 +56,14 @@ def _outputs(mechanism: Mechanism, rubbing: Collection[str]) -> Iterator[Output]
     yield from _of_forces(mechanism)
     yield from _of_joints(mechanism)
     yield from _of_contacts(mechanism)
-    yield from _of_friction(mechanism, rubbing)
+    yield from _of_friction(mechanism)
     yield from energy_outputs(
         kinetic="Kinetic energy of all bodies",
         spring="Energy of springs",
         work="Work done by forces, drivers and inputs since the start",
         lost="Energy lost in impacts, friction and dampers since the start",
     )
-    if mechanism.contacts or mechanism.functions or mechanism.patterns or rubbing:
+    if mechanism.contacts or mechanism.functions or mechanism.patterns or mechanism.rubs_or_may:
         yield whole_output("event_count", "event.count", "Events since the start")
         if len(mechanism.contacts) <= MOST_CONTACTS_OF_A_MODE:
             yield from event_buffer_outputs(_event(mechanism))
@@ -132,9 +113,10 @@ def _of_contacts(mechanism: Mechanism) -> Iterator[Output]:
             yield active_output(name, f"Whether {name} is closed")
 
 
-def _of_friction(mechanism: Mechanism, rubbing: Collection[str]) -> Iterator[Output]:
-    for part in _parts(mechanism):
-        if part.name in rubbing:
+def _of_friction(mechanism: Mechanism) -> Iterator[Output]:
+    names = mechanism.rubs_or_may
+    for part in mechanism.rubbing:
+        if part.name in names:
             for output in friction_outputs(part.name, part.name, mechanism.inputs, angular=turns(part)):
                 yield replace(output, nominal=None)
 

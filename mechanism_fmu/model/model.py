@@ -12,7 +12,7 @@ from typing import Any, Protocol
 
 from .analysis import Analysis
 from .default_drawing import Plan, draw, plan_of
-from .default_ports import default_outputs, rubbing_names
+from .default_ports import default_outputs
 from .drawing import Shape
 from .errors import MechanismError
 from .findings import Finding, messages
@@ -60,9 +60,10 @@ class _Completed:
             calculated=found.calculated or self.calculated(values),
             settings=Settings.of(values) if found.settings is DEFAULT_SETTINGS else found.settings,
         )
-        if whole.outputs or not _is_readable(whole):
+        if not _is_readable(whole):
             return whole
-        return replace(whole, outputs=default_outputs(whole, self._names, self._rubbing))
+        whole = replace(whole, rubs=self._rubs)
+        return whole if whole.outputs else replace(whole, outputs=default_outputs(whole, self._names))
 
     @property
     def _names(self) -> list[str]:
@@ -82,9 +83,10 @@ class _Completed:
         return None
 
     @cached_property
-    def _rubbing(self) -> tuple[str, ...]:
-        """Names of what may have friction for some values, which is decided once, so that all have the same outputs."""
-        return rubbing_names(self._symbolic(self.function) or self.function(self._starts))
+    def _rubs(self) -> tuple[str, ...]:
+        """Names of what may have friction for some values: found once, by symbols for all of them."""
+        symbolic = self._symbolic(self.function)
+        return symbolic.rubs_or_may if isinstance(symbolic, Mechanism) and _is_readable(symbolic) else ()
 
     @cached_property
     def plan(self) -> Plan:

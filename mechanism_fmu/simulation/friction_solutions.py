@@ -125,7 +125,8 @@ class _Search:
             self._mode[list(self._choices)] = modes[: len(self._choices)]
             self._slip[list(self._slips)] = modes[len(self._choices) :]
             values = self._values()
-            if not any(map(math.isnan, values.values())) and self._agrees(values):
+            lost = field_of(self._block, "dy_at")[2 * self._bodies + 1]  # not a number: no forces agree
+            if not math.isnan(lost) and self._agrees(values):
                 yield self._solution(values)
 
     def _values(self) -> dict[str, float]:

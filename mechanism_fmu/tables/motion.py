@@ -28,7 +28,7 @@ _COUNTERS = {
     "COUNT_IN_STEP": whole(0, 0, "buffer"),
     "COUNT_LOST": COUNT,
     "COUNT_STEPS": COUNT,
-    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_SHOCK),
+    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_UNDETERMINED),
     "PENDING_SUBJECT": _SUBJECT,
     "COUNT_PULLS": WHOLE,
     "COUNT_EVENTS": COUNT,
@@ -58,7 +58,7 @@ _RECORD = {
 }
 _EVENT = {
     "EVENT_TIME": FINITE,
-    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_SHOCK),
+    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_UNDETERMINED),
     "EVENT_SUBJECT": _SUBJECT,
     "EVENT_OLD_MODE": COUNT,
     "EVENT_NEW_MODE": COUNT,
@@ -225,8 +225,9 @@ class Rubs(Table, rows="rubs", prefix="rub_"):
     Scratch: the row of one that sticks; of one that slips, its direction in the coordinates, and what a unit of
     friction does to rates (as `linear_system.solution`) and to multipliers; friction [N, N m], or its impulse; the slip
     speed; a part of the normal impulse that is given; what holds it least (`complementarity.hold_ratio`); whether it is
-    free to stick or to slip either way. Those that slip, by number; the linear system for their friction; solution and
-    multipliers without it.
+    free to stick or to slip either way. Those that slip, by number; friction that smaller coefficients would have; of
+    one that slips, what a unit of normal force does to its gap beside what it would without friction; the linear system
+    for their friction; solution and multipliers without it.
     """
 
     slip = integer(holds=whole(codes.BACKWARDS, codes.STICKS))
@@ -241,6 +242,8 @@ class Rubs(Table, rows="rubs", prefix="rub_"):
     least_hold = real(work=True)
     free = integer(work=True)
     sliding = integer(work=True)
+    kept = real(work=True)
+    criterion = real(work=True)
     matrix = real("rub_columns", work=True)
     bare_solution = real("columns", alone=True, work=True)
     bare_multiplier = real("rows", alone=True, work=True)

@@ -64,7 +64,7 @@ class Sizes:
     y_alpha = _follows(lambda n: n["y_loss"] + 1)
     y_own = _follows(lambda n: n["y_alpha"] + n["alphas"])
     unknowns = _follows(lambda n: n["y_own"] + n["own"])
-    # two a contact, two a pattern, one a logical function, one for each dry friction
+    # two a contact, two a pattern, one a logical function, one for each friction
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])
     rub_columns = _follows(lambda n: n["rubs"] + 1)
     # columns of an impact record

@@ -22,6 +22,8 @@ QUICK = ("whitworth", "rocking_block")
 #: What the first line of a build says: degrees of freedom, coordinates, rows.
 FREEDOMS = {
     "andrews": (1, 21, 20),
+    "backspin": (2, 3, 1),
+    "braked_shaft": (2, 6, 4),
     "chebyshev": (0, 9, 9),
     "door_closer": (1, 3, 2),
     "engine": (1, 9, 8),
@@ -35,7 +37,9 @@ FREEDOMS = {
     "stick_slip": (1, 6, 5),
     "toggle_press": (0, 15, 15),
     "watt": (0, 15, 15),
+    "wedge": (1, 6, 5),
     "whitworth": (0, 12, 12),
+    "woodpecker": (2, 6, 4),
 }
 
 

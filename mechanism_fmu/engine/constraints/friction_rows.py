@@ -1,4 +1,4 @@
-"""Rows along which contacts and joints with dry friction slide: they are constraints where these stick.
+"""Rows along which contacts and joints with friction slide: they are constraints where these stick.
 
 Contacts come first, in their order, then joints, then force elements, of which only brakes have friction. Slip is that
 of the point of body i along its line on body j, of the material of body i along the common tangent of two profiles, of

@@ -118,7 +118,7 @@ def _combine(block: Array, at: Pose, count: int) -> int:
         if rub.free[k] == codes.FREE:
             combinations = min(3 * combinations, _TOO_MANY)
     if combinations == _TOO_MANY:
-        return status.NO_CHOICE
+        return status.MANY_TOUCH
     for combination in range(combinations):
         rest = combination
         for k in range(count):
@@ -133,6 +133,13 @@ def _combine(block: Array, at: Pose, count: int) -> int:
         if _first_wrong(block, at) == codes.NONE:
             return status.OK
     return status.NO_CHOICE
+
+
+@jit
+def agrees(block: Array, at: Pose) -> bool:
+    """Whether the present modes of all candidates agree with the forces, or impulses, that they give."""
+    none: bool = _first_wrong(block, at) == codes.NONE
+    return none
 
 
 @jit
@@ -199,31 +206,16 @@ def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
         if table.slip[k] == codes.STICKS:
             if not hold(block, k) >= -tolerance:
                 return k
+            left, rounding = _slip_change(block, table.row[k])
+            if abs(left) > rounding:  # rows that depend on each other contradict each other: a compromise
+                table.force[k] = -left  # it slips to where it goes, see `_turn_over`
+                return k
         else:
             friction_row(block, at, k, spare)
             left, rounding = _slip_change(block, spare)
             if not float(table.slip[k]) * left >= -rounding:
                 return k
     return codes.NONE
-
-
-@jit
-def _slip_change(block: Array, r: int) -> tuple[float, float]:
-    """The slip speed behind an impact, or the slip acceleration, by row `r`; and its rounding."""
-    keep_small()
-    n = Sizes(block).coordinates
-    impulses = Strikes(block).problem[KIND] == IMPULSES
-    row = Rows(block)
-    left = row.residual_rate[r] if impulses else -row.gamma[r]
-    tolerance = _SPEED if impulses else _ACCELERATION
-    size = abs(left)
-    for k in range(n):
-        change = Course(block).dy_end[n + k]
-        if impulses:
-            change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
-        left += row.jacobian[r, k] * change
-        size += abs(row.jacobian[r, k] * change)
-    return left, tolerance + _SHARE * size
 
 
 @jit
@@ -285,8 +277,8 @@ def _given_impulses(block: Array, at: Pose, count: int) -> bool:
 @jit
 def _comes_off(block: Array, contact: int) -> bool:
     """Whether a closed candidate exceeds its change of gap rate, or accelerates away from the other body."""
-    left, tolerance = _excess(block, contact, Contacts(block).row[contact])
-    comes_off: bool = left > tolerance
+    left, rounding = _excess(block, contact)
+    comes_off: bool = left > rounding
     return comes_off
 
 
@@ -294,28 +286,42 @@ def _comes_off(block: Array, contact: int) -> bool:
 def _goes_in(block: Array, at: Pose, contact: int) -> bool:
     """Whether an open candidate misses its change of gap rate, or accelerates into the other body."""
     contact_row(block, at, contact, spare_row(block))
-    left, tolerance = _excess(block, contact, spare_row(block))
-    goes_in: bool = left < -tolerance
+    left, rounding = _excess(block, contact)
+    goes_in: bool = left < -rounding
     return goes_in
 
 
 @jit
-def _excess(block: Array, contact: int, r: int) -> tuple[float, float]:
-    """A candidate's change of gap rate or acceleration, by row `r`, beyond the least that it must be; its rounding."""
+def _excess(block: Array, contact: int) -> tuple[float, float]:
+    """A candidate's change of gap rate or acceleration beyond the least that it must be; its rounding."""
+    r = spare_row(block)
+    if Contacts(block).mode[contact] == codes.CLOSED:
+        r = Contacts(block).row[contact]
+    if Strikes(block).problem[KIND] == IMPULSES:
+        return _change(block, r, -Strikes(block).target[contact])
+    return _change(block, r, -Rows(block).gamma[r])
+
+
+@jit
+def _slip_change(block: Array, r: int) -> tuple[float, float]:
+    """The slip speed behind an impact, or the slip acceleration, by row `r`; and its rounding."""
+    if Strikes(block).problem[KIND] == IMPULSES:
+        return _change(block, r, Rows(block).residual_rate[r])
+    return _change(block, r, -Rows(block).gamma[r])
+
+
+@jit
+def _change(block: Array, r: int, left: float) -> tuple[float, float]:
+    """`left` and what the trial changes along row `r`: of rates in an impact, else accelerations; and its rounding."""
     keep_small()
     n = Sizes(block).coordinates
     impulses = Strikes(block).problem[KIND] == IMPULSES
-    row = Rows(block)
-    left = -row.gamma[r]
-    tolerance = _ACCELERATION
-    if impulses:
-        left = -Strikes(block).target[contact]
-        tolerance = _SPEED
+    tolerance = _SPEED if impulses else _ACCELERATION
     size = abs(left)
     for k in range(n):
         change = Course(block).dy_end[n + k]
         if impulses:
             change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
-        left += row.jacobian[r, k] * change
-        size += abs(row.jacobian[r, k] * change)
+        left += Rows(block).jacobian[r, k] * change
+        size += abs(Rows(block).jacobian[r, k] * change)
     return left, tolerance + _SHARE * size

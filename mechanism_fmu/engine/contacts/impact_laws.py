@@ -20,6 +20,7 @@ from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row, driver_power
 from ..dynamics.forces import kinetic_energy
+from ..vectors import largest
 from .complementarity import COUNT, push_impulses
 from .routh import along_routh
 from .rubbing import free_all
@@ -95,10 +96,8 @@ def shock(block: Array, at: Pose) -> int:
     if outcome != status.OK:
         return outcome
     _apply(block)
-    total = 0.0
-    for c in range(strike.impulse.shape[0]):
-        total += abs(strike.impulse[c])
-    return status.OK if total > 0.0 else status.NO_CHOICE
+    change = largest(LinearSystem(block).solution, Sizes(block).coordinates)
+    return status.OK if change > 0.0 else status.NO_CHOICE
 
 
 @jit

@@ -6,7 +6,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rows, Rubs
 from ...tables.sizes import Sizes
-from ...tolerances import SLIPS_ABOVE
+from ...tolerances import SLIPS_ABOVE, STUCK_BELOW
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, touches
 from ..constraints.kinematics import place_bodies
@@ -28,7 +28,7 @@ def part_all(block: Array) -> None:
 def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> None:
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
-    At rest is what slips no faster than `SLIPS_ABOVE`, and `stopped`, whose slip has just been found to end, whatever
+    At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift, and `stopped`, whose slip has just been found to end, whatever
     speed the instant's rounding leaves. It is taken to stick, unless it has just let go; where it has not stuck before,
     it does so here. All that has friction is looked at where not `only_touching`.
     """
@@ -47,7 +47,7 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
         if begins:  # also where it slips: an impact may end that
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
-        if abs(speed) > SLIPS_ABOVE and k != stopped:
+        if abs(speed) > (SLIPS_ABOVE if begins else STUCK_BELOW) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE

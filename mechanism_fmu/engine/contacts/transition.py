@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Pose, Strikes
+from ...tables.motion import Course, Pose, Rubs, Strikes
 from ...tables.parts import Bodies, Contacts, Functions, Options, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import rubs
+from ..constraints.friction_rows import rubs, touches
 from ..constraints.kinematics import place_bodies
+from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import kinetic_energy, set_time
 from .complementarity import COUNT, push_forces
+from .doubts import other_choice, undetermined
 from .guards import can_open, gap, place_contact, place_pattern
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, make_space, strike
 from .impact_laws import shock
@@ -58,6 +60,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     """
     keep_small()
     only_choose = guard == codes.GUARD_INPUT or guard == codes.GUARD_BEGIN
+    shocks = guard == codes.GUARD_SHOCK
     n = Sizes(block).coordinates
     now = Course(block)
     rate = now.y_end[n:]
@@ -76,7 +79,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     impulse = 0.0
     hits = 0
     earlier = now.counters[codes.COUNT_IMPACTS]
-    settled = only_choose
+    settled = only_choose or shocks
     for round_ in range(MOST_ROUNDS):
         if settled:
             break
@@ -90,13 +93,13 @@ def transit(block: Array, guard: int, subject: int) -> int:
         struck = codes.NONE
     outcome = status.CHATTERING
     if settled:
-        outcome = _settle(block, fired, stopped, only_choose, hits > 0)
+        outcome = _settle(block, fired, stopped, only_choose, hits > 0, shocks)
     lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
         return outcome
     now.ledger[codes.LEDGER_LOST] += lost
-    if not only_choose or (guard == codes.GUARD_INPUT and mode_number(block) != old_mode):
+    if not (only_choose or shocks) or (guard == codes.GUARD_INPUT and mode_number(block) != old_mode):
         keep_event(block, guard, subject, old_mode, impulse)
     if only_choose:
         return status.OK
@@ -167,10 +170,11 @@ def switch_contacts(block: Array, at: Pose) -> None:
 
 
 @jit
-def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool) -> int:
+def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool, shocks: bool) -> int:
     """Choose, among the contacts that touch and rest, those that push, and how friction slips.
 
-    `fired` is the contact whose gap has become zero, `stopped` the friction whose slip has.
+    `fired` is the contact whose gap has become zero, `stopped` the friction whose slip has. An impact without approach
+    comes first where the motion `shocks`, because no finite forces agree with it any more.
     """
     keep_small()
     table = Contacts(block)
@@ -198,9 +202,15 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
     Strikes(block).problem[COUNT] = count
     at = place_bodies(block, Course(block).y_end)
     look_at_slip(block, at, True, stopped)
-    outcome = push_forces(block, at)
+    outcome = status.NO_CHOICE
+    if not shocks:
+        outcome = push_forces(block, at)
     if outcome == status.NO_CHOICE and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
         outcome = _shock(block, count)
+    if outcome == status.NO_CHOICE and shocks:
+        outcome = status.JAMMED
+    if outcome == status.OK and rubs(block):
+        _record_doubts(block, at)
     part(block)
     if rubs(block) and not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # what has come to rest
@@ -216,7 +226,7 @@ def _shock(block: Array, count: int) -> int:
     keep_small()
     now = Course(block)
     n = Sizes(block).coordinates
-    if Strikes(block).problem[COUNT] == 0 or not rubs(block):
+    if not rubs(block):
         return status.NO_CHOICE
     for k in range(n):
         Strikes(block).rates_before[k] = now.y_end[n + k]
@@ -226,12 +236,12 @@ def _shock(block: Array, count: int) -> int:
         return outcome
     total = 0.0
     first = codes.NONE
-    for c in range(Sizes(block).contacts):
-        if Strikes(block).impulse[c] > 0.0:
-            total += Strikes(block).impulse[c]
-            keep_impact(block, c)
-            if first == codes.NONE:
-                first = c
+    for k in range(Sizes(block).rubs):
+        if k < Sizes(block).contacts and Strikes(block).impulse[k] > 0.0:
+            total += Strikes(block).impulse[k]
+            keep_impact(block, k)
+        if first == codes.NONE and touches(block, k) and abs(Rubs(block).force[k]) > 0.0:
+            first = k
     keep_event(block, codes.GUARD_SHOCK, first, old_mode, total)
     for k in range(count):
         Contacts(block).mode[Strikes(block).candidates[k]] = codes.CLOSED
@@ -239,6 +249,19 @@ def _shock(block: Array, count: int) -> int:
     at = place_bodies(block, now.y_end)
     look_at_slip(block, at, True, codes.NONE)
     return push_forces(block, at)
+
+
+@jit
+def _record_doubts(block: Array, at: Pose) -> None:
+    """Record that the choice just made is one of several, or does not determine the motion."""
+    keep_small()
+    mode = mode_number(block)
+    what = undetermined(block, row_count(block))
+    if what != codes.NONE:
+        keep_event(block, codes.GUARD_UNDETERMINED, what, mode, 0.0)
+    what = other_choice(block, at)
+    if what != codes.NONE:
+        keep_event(block, codes.GUARD_SEVERAL, what, mode, 0.0)
 
 
 @jit

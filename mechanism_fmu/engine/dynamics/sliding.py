@@ -25,11 +25,13 @@ _AGREE = 1e-14
 #: Close to where no forces agree, rounding leaves more than that: it ends, too, when less than this shrinks no more.
 _NEARLY = 1e-8
 _ROUNDS = 40
+#: Coefficients do not grow by less than this part: there the answer ends.
+_LEAST_GROWTH = 1e-4
 
 
 @jit
 def slide(block: Array, at: Pose, count: int) -> float:
-    """Add what dry friction does to the last solve, of `count` rows: solution and multipliers; the power lost [W].
+    """Add what friction does to the last solve, of `count` rows: solution and multipliers; the power lost [W].
 
     Friction is left in `rubs.force`, of what sticks too, and in `loads.rubbing` of joints. Not a number: no normal
     forces agree with their friction.
@@ -110,18 +112,50 @@ def _respond(block: Array, at: Pose, count: int) -> int:
 
 @jit
 def _agree(block: Array, number: int) -> bool:
-    """Newton's method for `rubs.force` of what slips; whether it has found an answer."""
+    """Find `rubs.force` of what slips; whether there is an answer.
+
+    By Newton's method at once; where that fails, the coefficients grow from zero in steps, and the answer follows them.
+    """
+    keep_small()
+    if _newton(block, number, 1.0):
+        return True
+    table = Rubs(block)
+    for a in range(number):
+        table.force[table.sliding[a]] = 0.0
+    reached = 0.0
+    growth = 0.5
+    while reached < 1.0:
+        for a in range(number):
+            k = table.sliding[a]
+            table.kept[k] = table.force[k]
+        if _newton(block, number, min(1.0, reached + growth)):
+            reached = min(1.0, reached + growth)
+            growth *= 2.0
+            continue
+        for a in range(number):
+            k = table.sliding[a]
+            table.force[k] = table.kept[k]
+        growth *= 0.5
+        if growth < _LEAST_GROWTH:
+            return False
+    return True
+
+
+@jit
+def _newton(block: Array, number: int, part: float) -> bool:
+    """Newton's method for `rubs.force`, from what it holds, with this part of the coefficients; whether it ends."""
     keep_small()
     table = Rubs(block)
     before = math.inf
     for _ in range(_ROUNDS):
         for a in range(number):
             k = table.sliding[a]
-            share = float(table.slip[k]) * coefficient(block, k)
+            share = part * float(table.slip[k]) * coefficient(block, k)
             table.matrix[a, number] = -table.force[k] - share * _normal(block, k, number, a)
             for b in range(number):
                 table.matrix[a, b] *= share
             table.matrix[a, a] += 1.0
+            table.criterion[k] = table.matrix[a, a]
         if not _eliminate(table.matrix, number):
             return False
         change = 0.0

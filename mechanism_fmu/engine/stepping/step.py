@@ -8,7 +8,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
 from ...tables.motion import Course, LinearSystem, Stages
-from ...tables.parts import Contacts
+from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
@@ -96,7 +96,7 @@ def take_step(block: Array) -> int:
     wanted = now.clock[codes.NEXT_STEP]
     step = accurate_step(block, start)
     if step == 0.0:
-        return why_no_step(block)
+        return _shock_or_fail(block)
     if is_singular(block):
         now.clock[codes.NEXT_STEP] = wanted  # a step that is refused changes nothing
         return status.SINGULAR
@@ -107,7 +107,7 @@ def take_step(block: Array) -> int:
         if step > smallest_step(start):
             step = _end_at_event(block, guard, subject, start, step)
             if math.isnan(s.y_new[Sizes(block).y_loss]):
-                return why_no_step(block)
+                return _shock_or_fail(block)
         else:
             step = 0.0  # it happens here and now
     now.counters[codes.PENDING_GUARD] = guard
@@ -118,6 +118,18 @@ def take_step(block: Array) -> int:
     watch_step(block)
     release(block, subject if guard == codes.GUARD_GAP else codes.NONE)
     return _mend_and_check(block)
+
+
+@jit
+def _shock_or_fail(block: Array) -> int:
+    """Why there is no step; where no finite forces agree with friction, an impact without approach may lead on."""
+    keep_small()
+    outcome = why_no_step(block)
+    if outcome == status.JAMMED and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
+        Course(block).counters[codes.PENDING_GUARD] = codes.GUARD_SHOCK
+        Course(block).counters[codes.PENDING_SUBJECT] = codes.NONE
+        return status.OK
+    return outcome
 
 
 @jit

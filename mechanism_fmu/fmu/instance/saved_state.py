@@ -36,6 +36,8 @@ SUBJECTS = {
     codes.GUARD_STICK: "rubs",
     codes.GUARD_SLIP: "rubs",
     codes.GUARD_SHOCK: "rubs",
+    codes.GUARD_SEVERAL: "rubs",
+    codes.GUARD_UNDETERMINED: "rubs",
 }
 
 

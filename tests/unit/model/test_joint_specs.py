@@ -324,8 +324,8 @@ def test_every_force_element_is_among_the_examples_and_says_how_it_acts():
     assert {type(force) for force in FORCE_ELEMENTS} == set(get_args(ForceElement))
     for force in FORCE_ELEMENTS:
         act = ELEMENTS[force.row].act
-        assert (act is None) == (force.acts == "nowhere" or force.dry)  # a brake is a constraint where it sticks
-        if force.dry:
+        assert (act is None) == (force.acts == "nowhere" or force.rubs)  # a brake is a constraint where it sticks
+        if force.rubs:
             continue
         source = "" if act is None else inspect.getsource(getattr(act, "py_func", act))
         assert ("turn(block, k" in source) == (force.acts == "torque" or isinstance(force, Bushing))

@@ -89,14 +89,14 @@ static const char *mode_name(const Instance *x, double mode, char *text, size_t 
 }
 
 static void name_event(int guard, int subject, char *text, size_t size) {
+    static const char *const of_friction[] = {"sticks", "slips", "shock", "several", "undetermined"};
     const char *of_contact = guard == CODE_GUARD_GAP ? "gap" : guard == CODE_GUARD_PUSH ? "force" : "click";
     if (guard == CODE_GUARD_INPUT) snprintf(text, size, "input");
     else if (guard == CODE_GUARD_FUNCTION) snprintf(text, size, "%s", model.functions[subject]);
     else if (guard == CODE_GUARD_NEXT) snprintf(text, size, "%s.next", model.patterns[subject]);
     else if (guard == CODE_GUARD_PREVIOUS) snprintf(text, size, "%s.previous", model.patterns[subject]);
-    else if (guard == CODE_GUARD_STICK) snprintf(text, size, "%s.sticks", model.rubs[subject]);
-    else if (guard == CODE_GUARD_SLIP) snprintf(text, size, "%s.slips", model.rubs[subject]);
-    else if (guard == CODE_GUARD_SHOCK) snprintf(text, size, "%s.shock", model.rubs[subject]);
+    else if (guard >= CODE_GUARD_STICK && guard <= CODE_GUARD_UNDETERMINED)
+        snprintf(text, size, "%s.%s", model.rubs[subject], of_friction[guard - CODE_GUARD_STICK]);
     else snprintf(text, size, "%s.%s", model.contacts[subject].name, of_contact);
 }
 
@@ -238,13 +238,25 @@ static void involved_contacts(Instance *x, char *text, size_t size) {
     if (!first) append(text, size, ".");
 }
 
-/* The joints that rub. */
-static void rubbing_joints(Instance *x, char *text, size_t size) {
+/* What rubs: coefficient, the angle of its bodies to each other, and Painleve's criterion where it slips. */
+static void friction(Instance *x, char *text, size_t size) {
     int first = 1;
-    for (size_t k = 0; k < SIZE(x, joints); k++) {
-        if (!(FIELD(x, joint_friction)[k] > 0)) continue;
-        append(text, size, first ? " Joints with friction: " : ", ");
-        append(text, size, model.joints[k].name);
+    size_t contacts = SIZE(x, contacts);
+    for (size_t k = 0; k < SIZE(x, rubs) && k < contacts + SIZE(x, joints); k++) {
+        int contact = k < contacts;
+        size_t place = contact ? k : k - contacts;
+        double value = contact ? FIELD(x, contact_value)[place * CODE_VALUES + CODE_FRICTION] : FIELD(x, joint_friction)[place];
+        int64_t slip = ((const int64_t *)FIELD(x, rub_slip))[k];
+        if (!(value > 0) || slip == CODE_APART) continue;
+        int64_t i = ((const int64_t *)(contact ? FIELD(x, contact_body_i) : FIELD(x, joint_body_i)))[place];
+        int64_t j = ((const int64_t *)(contact ? FIELD(x, contact_body_j) : FIELD(x, joint_body_j)))[place];
+        double angle = (i < 0 ? 0 : FIELD(x, y_end)[3 * i + 2]) - (j < 0 ? 0 : FIELD(x, y_end)[3 * j + 2]);
+        char one[CODE_TEXT];
+        snprintf(one, sizeof one, "%s%s (%.6g, at %.6g rad", first ? " Friction: " : ", ", model.rubs[k], value, angle);
+        append(text, size, one);
+        if (slip == CODE_STICKS) snprintf(one, sizeof one, ", sticks)");
+        else snprintf(one, sizeof one, ", slips, A/G = %.3g)", FIELD(x, rub_criterion)[k]);
+        append(text, size, one);
         first = 0;
     }
     if (!first) append(text, size, ".");
@@ -276,6 +288,6 @@ const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size
     if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
         outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED)
         involved_contacts(x, text, size);
-    if (outcome == STATUS_JAMMED) rubbing_joints(x, text, size);
+    if (outcome == STATUS_JAMMED || outcome == STATUS_NO_CHOICE) friction(x, text, size);
     return text;
 }
