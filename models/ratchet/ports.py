@@ -9,7 +9,7 @@ from typing import Any
 from mechanism_fmu.model import Calculated, Input, Output, Parameter, port_builders as ports
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt
 
-from .start import tooth
+from .start import locking_friction, tooth
 
 # Inputs of the ratchet.
 
@@ -120,6 +120,11 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         *(Calculated(name, length, description, "m") for name, length, description in lengths),
         *_solid_wheel(values),
         *_stiffnesses(values),
+        Calculated(
+            "self_locking_friction",
+            locking_friction(values),
+            "Coefficient of friction from which on the pawl does not slide down the slope, as it stands at the start",
+        ),
         Calculated(
             "tooth_slenderness",
             cos(geometry.apex_angle) / sin(geometry.apex_angle),

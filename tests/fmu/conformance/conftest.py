@@ -50,6 +50,7 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "until": 2.0,
         "impossible": {"offset": 0.3},
         "impacts": False,
+        "sticks": True,
     },
     "four_bar": {
         "rough": {
@@ -122,6 +123,7 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "inputs": {"drive_angle": (-1.0, 1.0), "load_torque": (-0.3, 0.3), "brake_torque": (0.0, 0.4)},
         "until": 2.0,
         "impacts": False,
+        "sticks": True,
     },
 }
 
