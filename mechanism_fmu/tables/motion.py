@@ -247,3 +247,19 @@ class Rubs(Table, rows="rubs", prefix="rub_"):
     matrix = real("rub_columns", work=True)
     bare_solution = real("columns", alone=True, work=True)
     bare_multiplier = real("rows", alone=True, work=True)
+
+
+class Problem(Table, rows="problem", prefix="problem_"):
+    """Scratch of the complementarity problem of contacts with friction: see `contacts.proposal` and `contacts.lemke`.
+
+    Directions of the normal and of the slip of each candidate in the coordinates, what a unit of force along them does
+    to rates (as `linear_system.solution`), and accelerations along them without the candidates' forces; the first
+    unknown of each candidate; tableau and basis.
+    """
+
+    direction = real("columns", work=True)
+    response = real("columns", work=True)
+    offset = real(work=True)
+    first = integer(work=True)
+    tableau = real("problem_columns", work=True)
+    basis = integer(work=True)

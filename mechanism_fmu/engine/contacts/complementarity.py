@@ -10,43 +10,35 @@ procedure serves impulses and accelerations; only the two kinds of trial differ.
 
 Dry friction is part of the same problem: whatever touches and may slip either way (at zero slip; in an impact always)
 sticks, a row like a joint's within the cone |lambda_T| <= mu lambda_N, or slips, with a friction against the slip that
-comes of it (docs/friction.md). What violates its condition sticks instead, or slips to where it is pushed.
+comes of it (docs/friction.md). What violates its condition sticks instead, or slips to where it is pushed. Where that
+does not end soon, Lemke's algorithm proposes modes of all at once (`proposal`).
 """
 
 from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows, Rubs, Strikes
-from ...tables.parts import Bodies, Contacts
-from ...tables.sizes import Sizes
+from ...tables.motion import Course, LinearSystem, Pose, Rubs, Strikes
+from ...tables.parts import Contacts
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, holding, rubs, touches
 from ..constraints.point_line import spare_row
-from ..constraints.rows import active_rows, contact_row, row_count
-from ..dynamics.acceleration import derivative, scale_rows
-from ..dynamics.minimum_norm import minimum_norm
-from ..dynamics.sliding import hold, slide
-from ..vectors import clear, largest
+from ..constraints.rows import contact_row
+from ..dynamics.sliding import hold
+from ..vectors import largest
+from .proposal import propose
+from .trial import COUNT, FORCES, IMPULSES, KIND, excess, slip_change, try_modes
 
-#: An acceleration [m/s2], or a share of its terms, that may be missing.
-_ACCELERATION = 1e-8
-#: An impulse may be missing this share of the largest one, a change of gap rate this much [m/s] or share of its terms.
+#: An impulse may be missing this share of the largest one.
 _IMPULSE_SHARE = 1e-11
-_SPEED = 1e-11
-_SHARE = 1e-12
 _MOST_PIVOTS = 64
+#: With friction, before modes of all are proposed at once, and behind it.
+_FEW_PIVOTS = 3
 #: All combinations of more contacts than these, or more combinations than theirs, are not tried.
 MOST_COMBINED = 12
 _TOO_MANY = (1 << MOST_COMBINED) + 1
-
-# strikes.problem: how many candidates there are, and what is decided. (Not arguments: each literal is compiled anew.)
-COUNT = 0
-KIND = 1
-FORCES = 0
-IMPULSES = 1
 
 
 @jit
@@ -91,17 +83,29 @@ def hold_ratio(block: Array, rub: int, count: int) -> float:
 @jit
 def _choose(block: Array, at: Pose) -> int:
     count = Strikes(block).problem[COUNT]
+    if not rubs(block):
+        return status.OK if _pivot(block, at, _MOST_PIVOTS * (1 + count)) else _combine(block, at, count)
+    pivots = _FEW_PIVOTS * (1 + count + Course(block).counters[codes.RUBBING])
+    if _pivot(block, at, pivots) or (propose(block, at) and _pivot(block, at, pivots)):
+        return status.OK
+    return _combine(block, at, count)
+
+
+@jit
+def _pivot(block: Array, at: Pose, most: int) -> bool:
+    """As long as a candidate is wrong, the first one changes sides, up to `most` times; whether none is at last."""
+    count = Strikes(block).problem[COUNT]
     mode = Contacts(block).mode
     candidates = Strikes(block).candidates
-    for _ in range(_MOST_PIVOTS * (1 + count + Sizes(block).rubs)):
+    for _ in range(most):
         wrong = _first_wrong(block, at)
         if wrong == codes.NONE:
-            return status.OK
+            return True
         if wrong < count:
             mode[candidates[wrong]] = codes.CLOSED - mode[candidates[wrong]]
         else:
             _turn_over(block, wrong - count)
-    return _combine(block, at, count)
+    return False
 
 
 @jit
@@ -115,7 +119,7 @@ def _combine(block: Array, at: Pose, count: int) -> int:
     for _ in range(count):
         combinations = min(2 * combinations, _TOO_MANY)
     for k in range(rub.slip.shape[0]):
-        if rub.free[k] == codes.FREE:
+        if _is_open_to_all(block, k):
             combinations = min(3 * combinations, _TOO_MANY)
     if combinations == _TOO_MANY:
         return status.MANY_TOUCH
@@ -125,7 +129,7 @@ def _combine(block: Array, at: Pose, count: int) -> int:
             mode[candidates[k]] = rest & 1
             rest >>= 1
         for k in range(rub.slip.shape[0]):
-            if rub.free[k] == codes.FREE:
+            if _is_open_to_all(block, k):
                 rub.slip[k] = codes.STICKS
                 if rest % 3 > 0:
                     rub.slip[k] = codes.FORWARDS if rest % 3 == 1 else codes.BACKWARDS
@@ -133,6 +137,19 @@ def _combine(block: Array, at: Pose, count: int) -> int:
         if _first_wrong(block, at) == codes.NONE:
             return status.OK
     return status.NO_CHOICE
+
+
+@jit
+def _is_open_to_all(block: Array, rub: int) -> bool:
+    """Whether it may stick or slip either way: at rest, and not of a contact that is no candidate and is open."""
+    table = Contacts(block)
+    if Rubs(block).free[rub] != codes.FREE or rub >= table.mode.shape[0]:
+        free: bool = Rubs(block).free[rub] == codes.FREE
+        return free
+    takes_part: bool = table.mode[rub] == codes.CLOSED or Rubs(block).given[rub] > 0.0
+    for k in range(Strikes(block).problem[COUNT]):
+        takes_part = takes_part or Strikes(block).candidates[k] == rub
+    return takes_part
 
 
 @jit
@@ -165,11 +182,7 @@ def _first_wrong(block: Array, at: Pose) -> int:
     mode = Contacts(block).mode
     candidates = Strikes(block).candidates
     impulses = Strikes(block).problem[KIND] == IMPULSES
-    if impulses:
-        active = _try_impulses(block, at)
-    else:
-        derivative(block, Course(block).y_end, Course(block).dy_end)
-        active = row_count(block)
+    active = try_modes(block, at)
     for k in range(Strikes(block).problem[COUNT]):
         c = candidates[k]
         if mode[c] == codes.CLOSED:
@@ -206,78 +219,22 @@ def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
         if table.slip[k] == codes.STICKS:
             if not hold(block, k) >= -tolerance:
                 return k
-            left, rounding = _slip_change(block, table.row[k])
+            left, rounding = slip_change(block, table.row[k])
             if abs(left) > rounding:  # rows that depend on each other contradict each other: a compromise
                 table.force[k] = -left  # it slips to where it goes, see `_turn_over`
                 return k
         else:
             friction_row(block, at, k, spare)
-            left, rounding = _slip_change(block, spare)
+            left, rounding = slip_change(block, spare)
             if not float(table.slip[k]) * left >= -rounding:
                 return k
     return codes.NONE
 
 
 @jit
-def _try_impulses(block: Array, at: Pose) -> int:
-    """Impulses and change of rates for the present modes, eq (7) with the targets of all closed contacts."""
-    keep_small()
-    table = Contacts(block)
-    strike = Strikes(block)
-    system = LinearSystem(block)
-    count = active_rows(block, at)
-    scale_rows(block, count)
-    for r in range(count):
-        system.right_side[r] = 0.0
-    for c in range(table.mode.shape[0]):
-        if table.mode[c] == codes.CLOSED:
-            system.right_side[table.row[c]] = strike.target[c]
-    rub = Rubs(block)
-    for k in range(rub.slip.shape[0]):
-        if rub.row[k] >= 0:
-            system.right_side[rub.row[k]] = -Rows(block).residual_rate[rub.row[k]]
-    if not rubs(block):
-        minimum_norm(block, count, Sizes(block).coordinates)
-        return count
-    gives = _given_impulses(block, at, count)
-    minimum_norm(block, count, Sizes(block).coordinates)
-    if gives:
-        for k in range(Sizes(block).coordinates):
-            system.solution[k] += Bodies(block).inverse_root_mass[k] * Loads(block).applied[k]
-    slide(block, at, count)
-    return count
-
-
-@jit
-def _given_impulses(block: Array, at: Pose, count: int) -> bool:
-    """Let normal impulses that are given act on the rows, from the right side; whether there are any."""
-    keep_small()
-    n = Sizes(block).coordinates
-    given = Rubs(block).given
-    impulse = Loads(block).applied
-    row = Rows(block)
-    spare = spare_row(block)
-    gives = False
-    for c in range(Sizes(block).contacts):
-        if given[c] > 0.0:
-            if not gives:
-                clear(impulse)
-            gives = True
-            contact_row(block, at, c, spare)
-            for k in range(n):
-                impulse[k] += given[c] * row.jacobian[spare, k]
-    if gives:
-        for r in range(count):
-            for k in range(n):
-                change = Bodies(block).inverse_mass[k] * impulse[k]
-                LinearSystem(block).right_side[r] -= row.jacobian[r, k] * change
-    return gives
-
-
-@jit
 def _comes_off(block: Array, contact: int) -> bool:
     """Whether a closed candidate exceeds its change of gap rate, or accelerates away from the other body."""
-    left, rounding = _excess(block, contact)
+    left, rounding = excess(block, contact)
     comes_off: bool = left > rounding
     return comes_off
 
@@ -286,42 +243,6 @@ def _comes_off(block: Array, contact: int) -> bool:
 def _goes_in(block: Array, at: Pose, contact: int) -> bool:
     """Whether an open candidate misses its change of gap rate, or accelerates into the other body."""
     contact_row(block, at, contact, spare_row(block))
-    left, rounding = _excess(block, contact)
+    left, rounding = excess(block, contact)
     goes_in: bool = left < -rounding
     return goes_in
-
-
-@jit
-def _excess(block: Array, contact: int) -> tuple[float, float]:
-    """A candidate's change of gap rate or acceleration beyond the least that it must be; its rounding."""
-    r = spare_row(block)
-    if Contacts(block).mode[contact] == codes.CLOSED:
-        r = Contacts(block).row[contact]
-    if Strikes(block).problem[KIND] == IMPULSES:
-        return _change(block, r, -Strikes(block).target[contact])
-    return _change(block, r, -Rows(block).gamma[r])
-
-
-@jit
-def _slip_change(block: Array, r: int) -> tuple[float, float]:
-    """The slip speed behind an impact, or the slip acceleration, by row `r`; and its rounding."""
-    if Strikes(block).problem[KIND] == IMPULSES:
-        return _change(block, r, Rows(block).residual_rate[r])
-    return _change(block, r, -Rows(block).gamma[r])
-
-
-@jit
-def _change(block: Array, r: int, left: float) -> tuple[float, float]:
-    """`left` and what the trial changes along row `r`: of rates in an impact, else accelerations; and its rounding."""
-    keep_small()
-    n = Sizes(block).coordinates
-    impulses = Strikes(block).problem[KIND] == IMPULSES
-    tolerance = _SPEED if impulses else _ACCELERATION
-    size = abs(left)
-    for k in range(n):
-        change = Course(block).dy_end[n + k]
-        if impulses:
-            change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
-        left += Rows(block).jacobian[r, k] * change
-        size += abs(Rows(block).jacobian[r, k] * change)
-    return left, tolerance + _SHARE * size

@@ -14,7 +14,8 @@ from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, slips
-from .complementarity import COUNT, agrees
+from .complementarity import agrees
+from .trial import COUNT
 
 #: A row that lies this near to what the others determine is determined by them.
 _DETERMINED = 1e-9
@@ -119,8 +120,7 @@ def _normal_change(block: Array, rub: int, change: Array) -> float:
         return -value if multiplier[row] < 0.0 else value
     if _is_pin(block, rub):
         force = math.sqrt(multiplier[row] * multiplier[row] + multiplier[row + 1] * multiplier[row + 1])
-        if not force > 0.0:
-            return 0.0
-        return (multiplier[row] * value + multiplier[row + 1] * float(change[row + 1])) / force
+        both: float = multiplier[row] * value + multiplier[row + 1] * change[row + 1]
+        return both / force if force > 0.0 else 0.0
     along: float = axis_length(block, rub - contacts) * value
     return -along if multiplier[row] < 0.0 else along

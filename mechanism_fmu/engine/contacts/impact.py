@@ -13,9 +13,9 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
-from .complementarity import COUNT
 from .guards import gap
 from .impact_laws import exchange
+from .trial import COUNT
 
 # The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7)), for all touching contacts together.
 #

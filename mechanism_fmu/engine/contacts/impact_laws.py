@@ -1,7 +1,7 @@
 """Impulses of one round of impacts, by Newton's, Poisson's or Stronge's law of restitution (docs/friction.md).
 
 Newton: every contact that approaches separates with e times its closing speed; with friction in one complementarity
-problem (Moreau, Glocker). Poisson: compression is the same with e = 0, and in the expansion each contact gives back at
+problem (Moreau, Glocker), which may have no answer, or add energy: then Poisson's law holds. Poisson: compression is the same with e = 0, and in the expansion each contact gives back at
 least e times the impulse of its compression, with a friction of its own. Stronge: the work of a contact in expansion is
 e^2 times that of its compression, along Routh's path of the impulses.
 """
@@ -21,9 +21,10 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row, driver_power
 from ..dynamics.forces import kinetic_energy
 from ..vectors import largest
-from .complementarity import COUNT, push_impulses
+from .complementarity import push_impulses
 from .routh import along_routh
 from .rubbing import free_all
+from .trial import COUNT
 
 #: An impact may seem to add this share of the kinetic energy, by rounding.
 _ROUNDING = 1e-13
@@ -58,9 +59,8 @@ def exchange(block: Array, at: Pose) -> int:
     energy = kinetic_energy(Bodies(block).inverse_mass, rate, n)
     work = Course(block).y_end[Sizes(block).y_work]
     free_all(block)
-    outcome = push_impulses(block, at)
-    if outcome != status.OK:
-        return outcome
+    if push_impulses(block, at) != status.OK:  # with e > 0 it may have no answer; Poisson's always has one
+        return _by_poisson(block)
     _apply(block)
     gain = kinetic_energy(Bodies(block).inverse_mass, rate, n) - energy
     gain -= Course(block).y_end[Sizes(block).y_work] - work

@@ -11,7 +11,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows, Rubs, Strikes
+from ...tables.motion import Course, Pose, Rows, Rubs, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from .. import status
@@ -20,8 +20,8 @@ from ..constraints.friction_rows import coefficient, friction_row
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows, contact_row, driver_power
 from ..dynamics.acceleration import scale_rows
-from ..dynamics.minimum_norm import minimum_norm
-from ..vectors import clear
+from ..dynamics.minimum_norm import orthogonalise
+from ..dynamics.sliding import respond
 
 #: The path of one impact has at most two changes of slip, and the end of compression.
 _PARTS = 6
@@ -95,23 +95,15 @@ def _respond(block: Array, count: int, place: int) -> float:
     """Change of rates by a unit impulse along the spare row, to `rubs.solution[place]`; the work of drivers by it."""
     keep_small()
     n = Sizes(block).coordinates
-    row = Rows(block)
-    system = LinearSystem(block)
     spare = spare_row(block)
-    impulse = Loads(block).applied
-    clear(impulse)
+    impulse = Rubs(block).direction[place]
     for k in range(n):
-        impulse[k] = row.jacobian[spare, k]
+        impulse[k] = Rows(block).jacobian[spare, k]
     scale_rows(block, count)
-    for r in range(count):
-        right = 0.0
-        for k in range(n):
-            right -= row.jacobian[r, k] * Bodies(block).inverse_mass[k] * impulse[k]
-        system.right_side[r] = right
-    minimum_norm(block, count, n)
+    orthogonalise(block, count, n)
+    respond(block, count, impulse, Rubs(block).solution[place])
     for k in range(n):
-        root = Bodies(block).inverse_root_mass[k]
-        Rubs(block).solution[place, k] = root * (system.solution[k] + root * impulse[k])
+        Rubs(block).solution[place, k] *= Bodies(block).inverse_root_mass[k]
     return driver_power(block)
 
 

@@ -28,9 +28,10 @@ def part_all(block: Array) -> None:
 def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> None:
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
-    At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift, and `stopped`, whose slip has just been found to end, whatever
-    speed the instant's rounding leaves. It is taken to stick, unless it has just let go; where it has not stuck before,
-    it does so here. All that has friction is looked at where not `only_touching`.
+    At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift; and `stopped`,
+    whose slip has just been found to end, whatever speed the instant's rounding leaves. It is taken to stick, unless it
+    has just let go; where it has not stuck before, it does so here. All that has friction is looked at where not
+    `only_touching`.
     """
     keep_small()
     table = Rubs(block)

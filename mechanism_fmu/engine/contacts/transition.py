@@ -15,12 +15,13 @@ from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import kinetic_energy, set_time
-from .complementarity import COUNT, push_forces
+from .complementarity import push_forces
 from .doubts import other_choice, undetermined
 from .guards import can_open, gap, place_contact, place_pattern
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, make_space, strike
 from .impact_laws import shock
 from .rubbing import let_slip, look_at_slip, part
+from .trial import COUNT
 
 # Contacts that no longer touch.
 

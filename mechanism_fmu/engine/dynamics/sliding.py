@@ -74,8 +74,6 @@ def _respond(block: Array, at: Pose, count: int) -> int:
     system = LinearSystem(block)
     row = Rows(block)
     spare = spare_row(block)
-    inverse_mass = Bodies(block).inverse_mass
-    root = Bodies(block).inverse_root_mass
     number = 0
     for k in range(table.slip.shape[0]):
         table.force[k] = 0.0
@@ -90,14 +88,7 @@ def _respond(block: Array, at: Pose, count: int) -> int:
         table.speed[k] = row.residual_rate[spare]
         for i in range(n):
             table.direction[k, i] = row.jacobian[spare, i]
-        for r in range(count):
-            right = 0.0
-            for i in range(n):
-                right -= row.jacobian[r, i] * inverse_mass[i] * table.direction[k, i]
-            system.right_side[r] = right
-        solve_again(block, count, n)
-        for i in range(n):
-            table.solution[k, i] = system.solution[i] + root[i] * table.direction[k, i]
+        respond(block, count, table.direction[k], table.solution[k])
         for r in range(count):
             table.multiplier[k, r] = system.multiplier[r]
         table.sliding[number] = k
@@ -108,6 +99,25 @@ def _respond(block: Array, at: Pose, count: int) -> int:
         for r in range(count):
             system.multiplier[r] = table.bare_multiplier[r]
     return number
+
+
+@jit
+def respond(block: Array, count: int, direction: Array, solution: Array) -> None:
+    """What a unit force along `direction` does to rates, into `solution` (as that of the linear system).
+
+    With the factors of the last solve, of `count` rows; the system's own solution and multipliers are lost.
+    """
+    keep_small()
+    n = Sizes(block).coordinates
+    system = LinearSystem(block)
+    for r in range(count):
+        right = 0.0
+        for i in range(n):
+            right -= Rows(block).jacobian[r, i] * Bodies(block).inverse_mass[i] * direction[i]
+        system.right_side[r] = right
+    solve_again(block, count, n)
+    for i in range(n):
+        solution[i] = system.solution[i] + Bodies(block).inverse_root_mass[i] * direction[i]
 
 
 @jit

@@ -245,13 +245,13 @@ static void friction(Instance *x, char *text, size_t size) {
     for (size_t k = 0; k < SIZE(x, rubs) && k < contacts + SIZE(x, joints); k++) {
         int contact = k < contacts;
         size_t place = contact ? k : k - contacts;
-        double value = contact ? FIELD(x, contact_value)[place * CODE_VALUES + CODE_FRICTION] : FIELD(x, joint_friction)[place];
+        double value = contact ? FIELD(x, contact_value)[place * CODE_CONTACT_VALUES + CODE_FRICTION] : FIELD(x, joint_friction)[place];
         int64_t slip = ((const int64_t *)FIELD(x, rub_slip))[k];
         if (!(value > 0) || slip == CODE_APART) continue;
         int64_t i = ((const int64_t *)(contact ? FIELD(x, contact_body_i) : FIELD(x, joint_body_i)))[place];
         int64_t j = ((const int64_t *)(contact ? FIELD(x, contact_body_j) : FIELD(x, joint_body_j)))[place];
         double angle = (i < 0 ? 0 : FIELD(x, y_end)[3 * i + 2]) - (j < 0 ? 0 : FIELD(x, y_end)[3 * j + 2]);
-        char one[CODE_TEXT];
+        char one[400];
         snprintf(one, sizeof one, "%s%s (%.6g, at %.6g rad", first ? " Friction: " : ", ", model.rubs[k], value, angle);
         append(text, size, one);
         if (slip == CODE_STICKS) snprintf(one, sizeof one, ", sticks)");

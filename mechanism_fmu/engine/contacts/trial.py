@@ -1,0 +1,130 @@
+"""Forces and accelerations, or impulses and changes of rates, that modes of contacts and friction give when tried."""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows, Rubs, Strikes
+from ...tables.parts import Bodies, Contacts
+from ...tables.sizes import Sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs
+from ..constraints.point_line import spare_row
+from ..constraints.rows import active_rows, contact_row, row_count
+from ..dynamics.acceleration import derivative, scale_rows
+from ..dynamics.minimum_norm import minimum_norm
+from ..dynamics.sliding import slide
+from ..vectors import clear
+
+#: An acceleration [m/s2], or a share of its terms, that may be missing.
+_ACCELERATION = 1e-8
+#: A change of gap rate may be missing this much [m/s], or share of its terms.
+_SPEED = 1e-11
+_SHARE = 1e-12
+
+# strikes.problem: how many candidates there are, and what is decided. (Not arguments: each literal is compiled anew.)
+COUNT = 0
+KIND = 1
+FORCES = 0
+IMPULSES = 1
+
+
+@jit
+def try_modes(block: Array, at: Pose) -> int:
+    """The trial of the present modes; the number of rows."""
+    if Strikes(block).problem[KIND] == IMPULSES:
+        return _try_impulses(block, at)
+    derivative(block, Course(block).y_end, Course(block).dy_end)
+    return row_count(block)
+
+
+@jit
+def _try_impulses(block: Array, at: Pose) -> int:
+    """Impulses and change of rates for the present modes, eq (7) with the targets of all closed contacts."""
+    keep_small()
+    table = Contacts(block)
+    strike = Strikes(block)
+    system = LinearSystem(block)
+    count = active_rows(block, at)
+    scale_rows(block, count)
+    for r in range(count):
+        system.right_side[r] = 0.0
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED:
+            system.right_side[table.row[c]] = strike.target[c]
+    rub = Rubs(block)
+    for k in range(rub.slip.shape[0]):
+        if rub.row[k] >= 0:
+            system.right_side[rub.row[k]] = -Rows(block).residual_rate[rub.row[k]]
+    if not rubs(block):
+        minimum_norm(block, count, Sizes(block).coordinates)
+        return count
+    gives = _given_impulses(block, at, count)
+    minimum_norm(block, count, Sizes(block).coordinates)
+    if gives:
+        for k in range(Sizes(block).coordinates):
+            system.solution[k] += Bodies(block).inverse_root_mass[k] * Loads(block).applied[k]
+    slide(block, at, count)
+    return count
+
+
+@jit
+def _given_impulses(block: Array, at: Pose, count: int) -> bool:
+    """Let normal impulses that are given act on the rows, from the right side; whether there are any."""
+    keep_small()
+    n = Sizes(block).coordinates
+    given = Rubs(block).given
+    impulse = Loads(block).applied
+    row = Rows(block)
+    spare = spare_row(block)
+    gives = False
+    for c in range(Sizes(block).contacts):
+        if given[c] > 0.0:
+            if not gives:
+                clear(impulse)
+            gives = True
+            contact_row(block, at, c, spare)
+            for k in range(n):
+                impulse[k] += given[c] * row.jacobian[spare, k]
+    if gives:
+        for r in range(count):
+            for k in range(n):
+                change = Bodies(block).inverse_mass[k] * impulse[k]
+                LinearSystem(block).right_side[r] -= row.jacobian[r, k] * change
+    return gives
+
+
+@jit
+def excess(block: Array, contact: int) -> tuple[float, float]:
+    """A candidate's change of gap rate or acceleration beyond the least that it must be; its rounding."""
+    r = spare_row(block)
+    if Contacts(block).mode[contact] == codes.CLOSED:
+        r = Contacts(block).row[contact]
+    if Strikes(block).problem[KIND] == IMPULSES:
+        return _change(block, r, -Strikes(block).target[contact])
+    return _change(block, r, -Rows(block).gamma[r])
+
+
+@jit
+def slip_change(block: Array, r: int) -> tuple[float, float]:
+    """The slip speed behind an impact, or the slip acceleration, by row `r`; and its rounding."""
+    if Strikes(block).problem[KIND] == IMPULSES:
+        return _change(block, r, Rows(block).residual_rate[r])
+    return _change(block, r, -Rows(block).gamma[r])
+
+
+@jit
+def _change(block: Array, r: int, left: float) -> tuple[float, float]:
+    """`left` and what the trial changes along row `r`: of rates in an impact, else accelerations; and its rounding."""
+    keep_small()
+    n = Sizes(block).coordinates
+    impulses = Strikes(block).problem[KIND] == IMPULSES
+    tolerance = _SPEED if impulses else _ACCELERATION
+    size = abs(left)
+    for k in range(n):
+        change = Course(block).dy_end[n + k]
+        if impulses:
+            change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
+        left += Rows(block).jacobian[r, k] * change
+        size += abs(Rows(block).jacobian[r, k] * change)
+    return left, tolerance + _SHARE * size
