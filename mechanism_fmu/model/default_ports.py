@@ -29,7 +29,7 @@ def default_outputs(mechanism: Mechanism, taken: Collection[str] = ()) -> tuple[
     and joints: <part>_<quantity>, with the unit of the quantity; of contacts: <contact>_force [N, or N.m of stops and
     locks], _gap [m, rad] and _active; of what may rub: <part>_slip_speed [m/s, rad/s], _friction_force [N, N.m] and
     _sticks; the energies [J]; where there are contacts, impacts and events as
-    `impact_outputs` and `event_buffer_outputs` have them.
+    `impact_outputs` and `event_buffer_outputs` have them; with friction, too, impacts_by_poisson.
 
     Args:
         mechanism: that declares none; its numbers may be symbolic.
@@ -69,6 +69,10 @@ def _outputs(mechanism: Mechanism) -> Iterator[Output]:
             yield from event_buffer_outputs(_event(mechanism))
     if mechanism.contacts:
         yield from impact_outputs("Impacts", _impact(mechanism))
+        if mechanism.rubs_or_may:
+            yield whole_output(
+                "impacts_by_poisson", "impact.by_poisson", "Rounds of impacts by Poisson's law instead of the given one"
+            )
 
 
 def _of_forces(mechanism: Mechanism) -> Iterator[Output]:
