@@ -2,7 +2,7 @@
 
 python -m benchmarks.friction      prints microseconds for each internal step, and the ratio, of runs in turns
 
-The block rests on a slope by dry friction, or is held by two guides with the same two rows; a disc on a torsion spring
+The block rests on a slope by friction, or is held by two guides with the same two rows; a disc on a torsion spring
 swings beside it, so that there is something to integrate. The steps are the same.
 """
 

@@ -1,4 +1,4 @@
-"""The picture of dry friction: the cone of the contact force, and friction over the slip speed.
+"""The picture of friction: the cone of the contact force, and friction over the slip speed.
 
 python -m docs.drawings.friction_drawing      rewrites docs/friction.svg, in the root of a clone
 """
@@ -64,7 +64,7 @@ def _law(s: Sketch) -> list[str]:
 def drawing() -> str:
     """The picture as SVG text."""
     s = Sketch((20, 300), 100)
-    return sheet(760, 320, "Dry friction: the cone of the contact force, and friction over slip", [*_cone(s), *_law(s)])
+    return sheet(760, 320, "Friction: the cone of the contact force, and friction over slip", [*_cone(s), *_law(s)])
 
 
 def main() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from .contact_drawings import angle_lock, angle_stop, circular_pattern, logical_function, point_line_contact
 from .force_drawings import bushing, force, marker, nonlinear_spring, spring_damper, torque, torsion_spring
-from .shaft_drawings import brake, compliant_shaft, dc_motor, slip_clutch
+from .shaft_drawings import brake, compliant_shaft, dc_motor
 
 DRAWINGS = {
     "torque": torque,
@@ -20,7 +20,6 @@ DRAWINGS = {
     "bushing": bushing,
     "nonlinear_spring": nonlinear_spring,
     "compliant_shaft": compliant_shaft,
-    "slip_clutch": slip_clutch,
     "brake": brake,
     "dc_motor": dc_motor,
     "point_line_contact": point_line_contact,

@@ -1,4 +1,4 @@
-"""Drawings of what drives or brakes a body: shaft, clutch, brake and motor."""
+"""Drawings of what drives or brakes a body: shaft, brake and motor."""
 
 from __future__ import annotations
 
@@ -34,31 +34,6 @@ def compliant_shaft() -> str:
             s.note((3.8, y), "body"),
             s.note((2.05, y + 0.72), "stiffness"),
             s.note((2.05, y - 0.72), "damping"),
-        ],
-    )
-
-
-def slip_clutch() -> str:
-    """A slider in series with a spring and a damper."""
-    s = element_sketch()
-    y = 1.4
-    return element_sheet(
-        "SlipClutch",
-        [
-            s.box((0.2, y), 0.25, 1.3, 0.0, BODY_J),
-            s.path([(0.32, y), (0.7, y)], LINE),
-            s.box((1.0, y + 0.13), 0.7, 0.26, 0.0, BODY_J),
-            s.box((1.25, y - 0.13), 0.7, 0.26, 0.0, BODY_I),
-            s.path([(1.6, y - 0.13), (1.8, y - 0.13), (1.8, y), (2.0, y)], LINE),
-            *_side_by_side(s, 2.0, 3.4, y),
-            s.path([(3.4, y), (3.6, y)], LINE),
-            s.box((4.0, y), 0.8, 1.3, 0.0, BODY_I),
-            s.note((0.35, y + 1.05), "speed"),
-            s.note((1.1, y + 0.55), "± limit"),
-            s.note((4.0, y), "body"),
-            s.note((2.7, y + 0.72), "stiffness"),
-            s.note((2.7, y - 0.72), "damping"),
-            s.length((2.0, y - 0.75), (3.4, y - 0.75), -25, "s"),
         ],
     )
 

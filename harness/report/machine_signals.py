@@ -98,7 +98,7 @@ def _picture(run: MachineRun, name: str, table: pd.DataFrame) -> dict[str, Any] 
 def _contacts(run: MachineRun, name: str, table: pd.DataFrame) -> list[Contact]:
     """Those of a component, by the names that their variables have in the machine."""
     outputs = [v for v in run.machine.description.of("output") if v.name in table and part_of(v.name) == name]
-    return contacts_among(outputs)
+    return contacts_among(outputs, lambda whole: bool(table[whole].any()))
 
 
 def _own(contact: Contact) -> Contact:
@@ -247,7 +247,7 @@ def _bands(
     run: MachineRun, variables: Sequence[Variable], curves: dict[str, tuple[FloatArray, FloatArray]]
 ) -> Iterator[str]:
     """A chart with a lane for each contact, which is filled while it is active."""
-    lanes = contacts_among(variables)
+    lanes = contacts_among(variables, lambda whole: bool(curves[whole][1].any()))
     if not lanes:
         return
     end = max(run.outcome.final_time, 1e-300)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,10 +20,11 @@ from ..run.logic import UNITS, counts_of
 from .page import COLOURS, IMPACT_COLOUR, layout, section, table
 from .plot import FloatArray, frame_rows, strongest, thin
 
-# Which contacts are active when: Boolean outputs named `<contact>_active`, as bands over time.
+# Which contacts are active, and what sticks: Boolean outputs named `<contact>_active` or `<part>_sticks`, as bands over
+# time.
 
 #: What Boolean outputs end with that report contacts.
-SUFFIX = "_active"
+SUFFIX, STICKS = "_active", "_sticks"
 
 #: Gaps shorter than this part of the run are narrower than a pixel, and are not drawn.
 _INVISIBLE = 1 / 2000
@@ -48,13 +49,15 @@ class Contact:
 
 
 def contacts(run: Run) -> list[Contact]:
-    """The contacts whose activity was recorded, in the FMU's order."""
-    return contacts_among([v for v in run.description.of("output") if v.name in run.results])
+    """The contacts whose activity was recorded, and what stuck, in the FMU's order."""
+    recorded = [v for v in run.description.of("output") if v.name in run.results]
+    return contacts_among(recorded, lambda name: bool(run.results[name].any()))
 
 
-def contacts_among(outputs: Iterable[Variable]) -> list[Contact]:
-    """The contacts whose activity some outputs report."""
-    variables = [v.name for v in outputs if v.type == "Boolean" and v.name.endswith(SUFFIX)]
+def contacts_among(outputs: Iterable[Variable], ever: Callable[[str], bool]) -> list[Contact]:
+    """The contacts whose activity some outputs report; and what sticks by them, if it ever was true."""
+    booleans = [v.name for v in outputs if v.type == "Boolean"]
+    variables = [name for name in booleans if name.endswith(SUFFIX) or (name.endswith(STICKS) and ever(name))]
     return [
         Contact(name.removesuffix(SUFFIX).replace("_", " "), name, COLOURS[i % len(COLOURS)])
         for i, name in enumerate(variables)
@@ -298,6 +301,9 @@ def modes_section(run: Run) -> str:
         "The state charts run beside each other. An arrow has its event, [its guard, a product of logical functions] "
         "and / what it resets"
     )
+    if run.logic.contacts and run.logic.impact_law and any(region.part.endswith(".slip") for region in logic.regions):
+        again = "; one that would add energy is repeated by Poisson's" if run.logic.energy_guard else ""
+        note += f". Impacts with friction are {run.logic.impact_law.capitalize()}'s{again}"
     if not run.reports_events:
         note += ". How often each happened in this run is not known: the FMU reports no single events."
         return section(_HEADING, f'<div class="scroll">{diagram(logic)}</div>', note=note)

@@ -25,12 +25,14 @@ class LogicFile:
     """What an FMU declares about its logic.
 
     Attributes:
-        contacts: names, in the order of the bits of a mode; () when the FMU declares nothing.
+        contacts: names, in the order of the bits of a mode; () when the FMU declares nothing, or has only friction.
         events: names of events by (guard, subject).
         switches: parameters that choose the variant by being zero (false) or not.
         choices: place of the variant by a text of 0 and 1, one for each switch.
         variants: the logic of each.
         objection: why it cannot be used, for the user; "" when nothing is wrong.
+        impact_law: of impacts with friction, "newton", "poisson" or "stronge"; "" when the FMU does not say.
+        energy_guard: whether an impact that would add energy is repeated by Poisson's law.
     """
 
     contacts: tuple[str, ...] = ()
@@ -39,6 +41,8 @@ class LogicFile:
     choices: Mapping[str, int] = field(default_factory=dict)
     variants: tuple[Logic, ...] = ()
     objection: str = ""
+    impact_law: str = ""
+    energy_guard: bool = False
 
     def chosen(self, parameters: Mapping[str, Value]) -> Logic | None:
         """The logic for parameter values; None when the FMU declares nothing about these."""
@@ -50,8 +54,8 @@ class LogicFile:
         return self.events.get((guard, subject), f"guard {guard} of {subject}")
 
     def mode(self, number: int) -> str:
-        """Names of the closed contacts, joined by "+"; the number itself when the FMU gives no names."""
-        if not self.contacts:
+        """Names of the closed contacts, joined by "+"; the number itself when the FMU declares nothing."""
+        if not self.variants:
             return str(number)
         return "+".join(name for bit, name in enumerate(self.contacts) if number >> bit & 1)
 
@@ -87,7 +91,18 @@ def _checked(data: dict[str, Any]) -> LogicFile:
     choices = data.get("choices")
     if not isinstance(choices, dict) or not all(_is_place(place, len(variants)) for place in choices.values()):
         raise FlawError("its choices name variants that are not there")
-    return LogicFile(_names(data, "contacts"), _events(data), _names(data, "switches"), choices, variants)
+    law = data.get("impact_law", "")
+    if not isinstance(law, str):
+        raise FlawError("its law of impacts is no text")
+    return LogicFile(
+        _names(data, "contacts"),
+        _events(data),
+        _names(data, "switches"),
+        choices,
+        variants,
+        impact_law=law,
+        energy_guard=data.get("energy_guard") is True,
+    )
 
 
 def _is_place(place: Any, count: int) -> bool:

@@ -166,6 +166,13 @@ def _table(run: Run, name: str, table: pd.DataFrame, folder: Path, units_row: bo
     return write_text(folder / f"{name}.csv", write)
 
 
+def _law(run: Run) -> dict[str, Any]:
+    """The law of impacts with friction, where the FMU has contacts and says it."""
+    if not run.logic.contacts or not run.logic.impact_law:
+        return {}
+    return {"law": run.logic.impact_law, "energy_guard": run.logic.energy_guard}
+
+
 def summary(run: Run) -> dict[str, Any]:
     """What the tables do not say, ready for JSON."""
     experiment, outcome = run.experiment, run.outcome
@@ -192,7 +199,7 @@ def summary(run: Run) -> dict[str, Any]:
         "wall_time": run.wall_time,
         "final_values": final_values(run),
         "parameters": shown_parameters(run),
-        "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost},
+        "impacts": {"collected": len(run.impacts), "lost": run.impacts_lost, **_law(run)},
         "events": {"collected": len(run.events), "lost": run.events_lost},
         "tooth": beam_summary(run.description.analysis.struck, run.beam),
         "fatigue": None if run.damage is None else damage_summary(run.damage, experiment.material),

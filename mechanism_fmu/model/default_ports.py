@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from .mechanism import Mechanism
+from .mechanism import Mechanism, turns
 from .port_builders.outputs import (
     active_output,
     body_angle_output,
     body_speed_output,
     energy_outputs,
+    friction_outputs,
     whole_output,
 )
 from .port_builders.records import event_buffer_outputs, impact_outputs
@@ -26,8 +27,9 @@ def default_outputs(mechanism: Mechanism, taken: Collection[str] = ()) -> tuple[
 
     Of bodies: <body>_x, _y [m] of the centre of mass, _angle [rad] and _speed [rad/s]; of force elements, markers
     and joints: <part>_<quantity>, with the unit of the quantity; of contacts: <contact>_force [N, or N.m of stops and
-    locks], _gap [m, rad] and _active; the energies [J]; where there are contacts, impacts and events as
-    `impact_outputs` and `event_buffer_outputs` have them.
+    locks], _gap [m, rad] and _active; of what may rub: <part>_slip_speed [m/s, rad/s], _friction_force [N, N.m] and
+    _sticks; the energies [J]; where there are contacts, impacts and events as
+    `impact_outputs` and `event_buffer_outputs` have them; with friction, too, impacts_by_poisson.
 
     Args:
         mechanism: that declares none; its numbers may be symbolic.
@@ -54,18 +56,23 @@ def _outputs(mechanism: Mechanism) -> Iterator[Output]:
     yield from _of_forces(mechanism)
     yield from _of_joints(mechanism)
     yield from _of_contacts(mechanism)
+    yield from _of_friction(mechanism)
     yield from energy_outputs(
         kinetic="Kinetic energy of all bodies",
         spring="Energy of springs",
         work="Work done by forces, drivers and inputs since the start",
         lost="Energy lost in impacts, friction and dampers since the start",
     )
-    if mechanism.contacts or mechanism.functions or mechanism.patterns:
+    if mechanism.contacts or mechanism.functions or mechanism.patterns or mechanism.rubs_or_may:
         yield whole_output("event_count", "event.count", "Events since the start")
         if len(mechanism.contacts) <= MOST_CONTACTS_OF_A_MODE:
             yield from event_buffer_outputs(_event(mechanism))
     if mechanism.contacts:
         yield from impact_outputs("Impacts", _impact(mechanism))
+        if mechanism.rubs_or_may:
+            yield whole_output(
+                "impacts_by_poisson", "impact.by_poisson", "Rounds of impacts by Poisson's law instead of the given one"
+            )
 
 
 def _of_forces(mechanism: Mechanism) -> Iterator[Output]:
@@ -108,6 +115,14 @@ def _of_contacts(mechanism: Mechanism) -> Iterator[Output]:
             yield Output(f"{name}_gap", f"{name}.gap", f"Gap of {name}, 0 when closed", gap, _DISPLAYED.get(gap))
         if "closed" in contact.readings:
             yield active_output(name, f"Whether {name} is closed")
+
+
+def _of_friction(mechanism: Mechanism) -> Iterator[Output]:
+    names = mechanism.rubs_or_may
+    for part in mechanism.rubbing:
+        if part.name in names:
+            for output in friction_outputs(part.name, part.name, mechanism.inputs, angular=turns(part)):
+                yield replace(output, nominal=None)
 
 
 def impact_units(mechanism: Mechanism) -> tuple[str, str]:

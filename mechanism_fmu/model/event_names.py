@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .. import codes
-from .mechanism import Mechanism, may_rub
+from .mechanism import Mechanism
 
 #: The event of inputs that have changed.
 INPUT = "input"
@@ -49,8 +49,9 @@ def event_names(mechanism: Mechanism) -> Iterator[tuple[int, int, str]]:
         for subject in range(subjects[guard]):
             if guard != codes.GUARD_CLICK or mechanism.contacts[subject].has_memory:
                 yield guard, subject, event_name(mechanism, guard, subject)
+    may_rub = mechanism.rubs_or_may
     for guard in _OF_FRICTION:
         for subject, part in enumerate(mechanism.rubbing):
-            if may_rub(part):
+            if part.name in may_rub:
                 yield guard, subject, event_name(mechanism, guard, subject)
     yield codes.GUARD_INPUT, codes.NONE, INPUT

@@ -11,11 +11,14 @@ from ..tolerances import (
     PUSHES_WITHIN,
     RESTS_BELOW,
     ROOT_TOLERANCE,
+    SLIPS_ABOVE,
     STICK_SPEED,
     TOUCHES_WITHIN,
 )
 from .contacts import AngleStop, Contact
-from .mechanism import Mechanism
+from .forces import ForceElement
+from .joints import Joint
+from .mechanism import Mechanism, may_rub, turns
 from .patterns import CircularPattern
 
 
@@ -28,6 +31,11 @@ def is_kept(contact: Contact, mechanism: Mechanism) -> bool:
     """Whether a contact is closed from the start to the end: guided, closed, and on no pattern that could move it."""
     moved = any(p.name == contact.pattern and exists(p) for p in mechanism.patterns)
     return bool(contact.guided > 0.5 and contact.closed > 0.5 and contact.closed_while is None and not moved)
+
+
+def rubbing(mechanism: Mechanism) -> Iterator[Contact | Joint | ForceElement]:
+    """The contacts, joints and brakes that have friction, for plain numbers."""
+    return (part for part in mechanism.rubbing if may_rub(part) and getattr(part, "enabled", 1.0) > 0.5)
 
 
 def definitions(mechanism: Mechanism) -> Iterator[Definition]:
@@ -43,6 +51,8 @@ def definitions(mechanism: Mechanism) -> Iterator[Definition]:
                 f"{MARGIN:g} rad",
                 f"{contact.name}.click",
             )
+    for part in rubbing(mechanism):
+        yield from _of_friction(part)
     for pattern in filter(exists, mechanism.patterns):
         for verb, copy in (("next", "k + 1"), ("previous", "k - 1")):
             yield Definition(
@@ -56,6 +66,18 @@ def definitions(mechanism: Mechanism) -> Iterator[Definition]:
         unit = "rad" if function.of.endswith(".angle") else "m"
         meaning = f"{function.of} < {function.below:.9g}"
         yield Definition(function.name, meaning, unit, f"{MARGIN:g} {unit}", function.name)
+
+
+def _of_friction(part: Contact | Joint | ForceElement) -> Iterator[Definition]:
+    speed, force = ("rad/s", "N.m") if turns(part) else ("m/s", "N")
+    yield Definition(f"{part.name}.rests", "slip speed = 0", speed, f"{SLIPS_ABOVE:g} {speed}", f"{part.name}.sticks")
+    yield Definition(
+        f"{part.name}.gives",
+        "|friction| >= what holds while it sticks",
+        force,
+        f"{PUSHES_WITHIN:g} {force} + {PUSHES_SHARE:g} of the largest",
+        f"{part.name}.slips",
+    )
 
 
 def _of_contact(contact: Contact) -> Iterator[Definition]:

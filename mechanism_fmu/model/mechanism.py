@@ -80,6 +80,8 @@ class Mechanism:
         energy_guard: whether an impact that would add energy, as it may by Newton's law with friction, is repeated
             by Poisson's.
         tangential_shock: whether an impact without approach ends a slip with which no finite force agrees (Painlevé).
+        rubs: names of parts that have friction for some values of parameters, besides those that have some now; a
+            `Model` gives them, so that for all values its FMU has the same tables, events and default outputs.
 
     Raises:
         MechanismError: gravity is no pair of accelerations.
@@ -103,6 +105,7 @@ class Mechanism:
     impact_law: Literal["newton", "poisson", "stronge"] = "newton"
     energy_guard: bool = True
     tangential_shock: bool = False
+    rubs: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Make numbers of the texts of gravity."""
@@ -123,13 +126,24 @@ class Mechanism:
         """Contacts, joints and force elements, as the engine numbers their friction; none where nothing asks for it."""
         parts = (*self.contacts, *self.joints, *self.elements)
         read = any(output.source.rpartition(".")[2] in OF_FRICTION for output in self.outputs)
-        return parts if read or self.impact_law != "newton" or any(map(may_rub, parts)) else ()
+        return parts if read or self.impact_law != "newton" or self.rubs or any(map(may_rub, parts)) else ()
+
+    @property
+    def rubs_or_may(self) -> tuple[str, ...]:
+        """Names of the contacts, joints and force elements that have friction, for these values or for others."""
+        parts = (*self.contacts, *self.joints, *self.elements)
+        return tuple(part.name for part in parts if may_rub(part) or part.name in self.rubs)
 
 
 def can_rub(part: Contact | Joint | ForceElement) -> bool:
     """Whether a part is of a kind that can have friction."""
     own = {field.name for field in fields(part)}
     return getattr(part, "rubs", False) or bool(own & {"friction", "friction_radius"})
+
+
+def turns(part: Contact | Joint | ForceElement) -> bool:
+    """Whether what can rub is a pin or a brake: its slip is the rate of an angle, its friction a torque."""
+    return getattr(part, "rubs", False) or hasattr(part, "friction_radius")
 
 
 def may_rub(part: Contact | Joint | ForceElement) -> bool:

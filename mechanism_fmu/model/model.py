@@ -60,29 +60,43 @@ class _Completed:
             calculated=found.calculated or self.calculated(values),
             settings=Settings.of(values) if found.settings is DEFAULT_SETTINGS else found.settings,
         )
-        if whole.outputs or not _is_readable(whole):
+        if not _is_readable(whole):
             return whole
-        return replace(whole, outputs=default_outputs(whole, self._names))
+        whole = replace(whole, rubs=self._rubs)
+        return whole if whole.outputs else replace(whole, outputs=default_outputs(whole, self._names))
 
     @property
     def _names(self) -> list[str]:
         """Of the parameters."""
         return [getattr(parameter, "name", "") for parameter in self.parameters]
 
+    @property
+    def _starts(self) -> SimpleNamespace:
+        return SimpleNamespace(**{p.name: p.start for p in self.parameters})
+
+    def _symbolic(self, function: Callable[[SimpleNamespace], Mechanism]) -> Mechanism | None:
+        """What a function of the parameters returns for symbols; None where it cannot take them."""
+        recorder = Recorder()
+        symbols = SimpleNamespace(**{p.name: recorder.parameter(k) for k, p in enumerate(self.parameters)})
+        with suppress(ArithmeticError, AttributeError, MechanismError, TypeError, ValueError):
+            return function(symbols)
+        return None
+
+    @cached_property
+    def _rubs(self) -> tuple[str, ...]:
+        """Names of what may have friction for some values: found once, by symbols for all of them."""
+        symbolic = self._symbolic(self.function)
+        return symbolic.rubs_or_may if isinstance(symbolic, Mechanism) and _is_readable(symbolic) else ()
+
     @cached_property
     def plan(self) -> Plan:
         """Which numbers of the default drawing follow from parameters: found once, by symbols for all of them."""
-        recorder = Recorder()
-        symbols = SimpleNamespace(**{p.name: recorder.parameter(k) for k, p in enumerate(self.parameters)})
-        symbolic: Mechanism | None = None
-        with suppress(ArithmeticError, AttributeError, MechanismError, TypeError, ValueError):
-            symbolic = self._completed(symbols)
-        return plan_of(self._completed(SimpleNamespace(**{p.name: p.start for p in self.parameters})), symbolic)
+        return plan_of(self._completed(self._starts), self._symbolic(self._completed))
 
     @cached_property
     def shapes(self) -> tuple[Shape, ...]:
         """Of the default drawing."""
-        mechanism = self._completed(SimpleNamespace(**{p.name: p.start for p in self.parameters}))
+        mechanism = self._completed(self._starts)
         return tuple(draw(mechanism, self.plan.size, self.plan.follows, self._names).shapes)
 
 

@@ -94,8 +94,8 @@ class Output:
             the k-th event of the last communication step, with field one of time, guard and subject (codes;
             -1 in an empty slot), old_mode, new_mode (sum of 2^c over closed contacts c), impulse;
             "energy.kinetic|spring|work|lost";
-            "impact.count|in_step|lost|any"; "impact.<field>" of the last impact and "impacts[k].<field>" of the k-th
-            of the last communication step, with field one of time, contact, tooth, closing_speed, impulse,
+            "impact.count|in_step|lost|any|by_poisson"; "impact.<field>" of the last impact and "impacts[k].<field>" of
+            the k-th of the last communication step, with field one of time, contact, tooth, closing_speed, impulse,
             "impulse:<contact>", and, shared by all impacts of one instant: instant (a counter from 1), velocity (v_I of
             the body with teeth [m/s]), energy_lost [J], "speed_before:<body>", "speed:<body>" (after). The largest k
             says how many impacts, or events, of a step are kept (the last ones), up to 1000, and at

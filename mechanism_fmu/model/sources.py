@@ -30,6 +30,7 @@ _COUNTERS = {
     "count": (codes.COUNTER, codes.COUNT_IMPACTS),
     "in_step": (codes.COUNTER, codes.COUNT_IN_STEP),
     "lost": (codes.COUNTER, codes.COUNT_LOST),
+    "by_poisson": (codes.COUNTER, codes.COUNT_BY_POISSON),
     "any": (codes.IMPACT_FLAG, 0),
 }
 #: Of any contact, and of a stop with memory besides, for messages.

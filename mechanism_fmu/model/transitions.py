@@ -12,6 +12,8 @@ What is stated here is what `transition` and `impact` in `engine.contacts` and `
   impact.
 - Beyond a boundary the contacts of a pattern open and stand at its next copy, where they may touch at once.
 - A stop with memory clicks. A declared logical function switches its rows.
+- What touches and has friction sticks where its slip comes to an end, or slips on the other way; it slips where
+  friction has reached its bound.
 """
 
 from __future__ import annotations
@@ -20,13 +22,16 @@ from collections.abc import Iterator, Mapping
 
 from ..statechart import ANY, Logic, Region, Transition, diagram, markdown
 from .contacts import AngleStop, Contact
+from .forces import ForceElement
+from .joints import Joint
 from .logic import switch
-from .logical_functions import definitions, exists, is_kept
+from .logical_functions import definitions, exists, is_kept, rubbing
 from .mechanism import Mechanism
 
 __all__ = ["logic_of", "transition_diagram", "transition_table"]
 
 OPEN, CLOSED = "open", "closed"
+SLIPS, STICKS = "slips", "sticks"
 
 
 def logic_of(mechanism: Mechanism) -> Logic:
@@ -63,6 +68,11 @@ def memory_of(stop: AngleStop) -> str:
     return f"{stop.name}.latched"
 
 
+def slip_of(part: Contact | Joint | ForceElement) -> str:
+    """The region in which what rubs slips and sticks."""
+    return f"{part.name}.slip"
+
+
 def _regions(mechanism: Mechanism) -> Iterator[Region]:
     for contact in filter(exists, mechanism.contacts):
         states: tuple[str, ...] = (OPEN, CLOSED)
@@ -76,6 +86,9 @@ def _regions(mechanism: Mechanism) -> Iterator[Region]:
         yield Region(contact.name, _kind(contact, mechanism), states, start, True)
         if isinstance(contact, AngleStop) and contact.pitch is not None:
             yield Region(memory_of(contact), "memory of the stop", ("latched",), "", False)
+    for part in rubbing(mechanism):
+        what = "friction, where it touches" if part in mechanism.contacts else "friction"
+        yield Region(slip_of(part), what, (SLIPS, STICKS), "", False)
     for pattern in filter(exists, mechanism.patterns):
         on = ", ".join(c.name for c in mechanism.contacts if c.pattern == pattern.name)
         yield Region(pattern.name, f"repeats {on} around {pattern.body_j}", ("copy k",), "", False)
@@ -105,6 +118,8 @@ def _transitions(mechanism: Mechanism) -> Iterator[Transition]:
             yield Transition(
                 memory_of(contact), "latched", "latched", click, (click,), reset="latched angle + pitch, clicks + 1"
             )
+    for part in rubbing(mechanism):
+        yield from _rubs(part, mechanism)
     for pattern in filter(exists, mechanism.patterns):
         for verb, reset in (("next", "k + 1"), ("previous", "k - 1")):
             event = f"{pattern.name}.{verb}"
@@ -113,6 +128,16 @@ def _transitions(mechanism: Mechanism) -> Iterator[Transition]:
             )
     for function in _unused(mechanism):
         yield Transition(function, "0 or 1", "0 or 1", function, (), reset="the other value")
+
+
+def _rubs(part: Contact | Joint | ForceElement, mechanism: Mechanism) -> Iterator[Transition]:
+    """What friction does."""
+    region, name = slip_of(part), part.name
+    on = "row on; or slips on the other way at once"
+    yield Transition(region, SLIPS, STICKS, f"{name}.sticks", (f"{name}.rests",), reset=on)
+    yield Transition(region, STICKS, SLIPS, f"{name}.slips", (f"{name}.gives",), reset="row off")
+    if mechanism.tangential_shock:
+        yield Transition(region, SLIPS, SLIPS, f"{name}.shock", (), reset="impact without approach", impact=True)
 
 
 def _struck(contact: Contact) -> Iterator[Transition]:

@@ -182,6 +182,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
                 centre_j=(values.follower_length, 0.0),
                 unilateral=values.unilateral,
                 restitution=values.restitution,
+                friction=values.contact_friction,
             ),
         ),
         held=("cam.angle",),

@@ -71,6 +71,7 @@ OUTPUTS = (
     ),
     Output("contact_gap", "contact.gap", "Distance between cam and roller", "m", nominal=1e-3),
     ports.active_output("contact", "The roller is on the cam"),
+    *ports.friction_outputs("contact", "the cam on the roller, along their common tangent", INPUTS, "forwards"),
     ports.angle_output(
         "cam_contact_angle",
         "contact.alpha_i",
@@ -121,6 +122,9 @@ PARAMETERS = (
     ),
     ports.fraction_parameter("restitution", 0.0, "Coefficient of restitution of the roller on the cam (unilateral)"),
     ports.joint_friction_parameter(),
+    Parameter(
+        "contact_friction", 0.0, "Coefficient of friction of the cam on a roller that does not turn", "1", 0.0, 10.0
+    ),
     *ports.settings_parameters(),
 )
 

@@ -145,6 +145,7 @@ OUTPUTS = (
         "slots.index",
         "Number of the slot that the pin is in, has left or comes to: it changes on the far side, forwards by +1",
     ),
+    *ports.friction_outputs("slot", "the pin in the slot", INPUTS, "away from the wheel's hinge"),
     ports.active_output("slot", "The pin is in a slot and moves the wheel"),
     ports.active_output("locking_arc", "The locking arc holds the wheel"),
     ports.active_output("backstop", "The backstop holds the driver"),

@@ -33,10 +33,11 @@ from mechanism_fmu.model.drawing import square_tooth
 #: Radii as drawn [m]; the motor's equations know none.
 HOUSING, POLE, CORE = 0.05, 0.042, 0.018
 POLES = 4
+OUTLINE = square_tooth(CORE, POLE, 0.55, POLES)
 
 SHAPES = (
     Disc("housing", (0.0, 0.0), "outline_housing_radius"),
-    Wheel("rotor", (0.0, 0.0), "rotor_angle", POLES, square_tooth(CORE, POLE, 0.55, POLES)),
+    Wheel("rotor", (0.0, 0.0), "rotor_angle", POLES, OUTLINE),
     Hinge((0.0, 0.0)),
 )
 

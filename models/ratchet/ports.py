@@ -9,7 +9,7 @@ from typing import Any
 from mechanism_fmu.model import Calculated, Input, Output, Parameter, port_builders as ports
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt
 
-from .start import tooth
+from .start import locking_friction, tooth
 
 # Inputs of the ratchet.
 
@@ -120,6 +120,11 @@ def calculated(values: SimpleNamespace) -> tuple[Calculated, ...]:
         *(Calculated(name, length, description, "m") for name, length, description in lengths),
         *_solid_wheel(values),
         *_stiffnesses(values),
+        Calculated(
+            "self_locking_friction",
+            locking_friction(values),
+            "Coefficient of friction from which on the pawl does not slide down the slope, as it stands at the start",
+        ),
         Calculated(
             "tooth_slenderness",
             cos(geometry.apex_angle) / sin(geometry.apex_angle),
@@ -273,6 +278,8 @@ OUTPUTS = (
     ports.shaft_torque_output("crank", nominal=0.01, shaft=SHAFT),
     Output("face_gap", "face.gap", "Distance of the pawl's tip from the tooth face", "m", nominal=0.01),
     Output("slope_gap", "slope.gap", "Distance of the pawl's tip from the tooth slope", "m", nominal=0.01),
+    *ports.friction_outputs("slope", "the pawl's tip on the tooth slope", INPUTS, "away from the root"),
+    *ports.friction_outputs("face", "the pawl's tip on the tooth face", INPUTS, "towards the root"),
     ports.whole_output("tooth_index", "teeth.index", "Index of the tooth at which the pawl stands, counted forwards"),
     ports.angle_output("latched_angle", "holding_pawl.latched", "Wheel angle below which the holding pawl holds"),
     ports.angle_output(

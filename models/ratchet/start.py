@@ -86,7 +86,24 @@ def tip_distance(values: SimpleNamespace) -> Number:
     return pin.distance - root(b * b - pin.height * pin.height)
 
 
+def locking_friction(values: SimpleNamespace) -> Number:
+    """Coefficient of friction [1] from which on the pawl locks itself on the slope at the start: tan of an angle.
+
+    A light pawl only pushes along itself. It slides down the slope as long as this direction, from pin to tip, is
+    outside the cone of friction about the slope's normal: tan(angle between the two) > friction. The slope is that of
+    tooth 0, or, under a free pawl, that of the root at which its tip stands.
+    """
+    pin, gamma = crank_pin(values), pawl_angle(values)
+    tip = atan2(pin.y + values.pawl_length * sin(gamma), pin.x + values.pawl_length * cos(gamma))
+    root_angle = where_positive(values.guided, values.wheel_angle_start, tip)
+    off = root_angle + values.tooth_slope_angle - math.pi / 2 - gamma
+    return size(sin(off)) / _larger(size(cos(off)), _ALONG)
+
+
 # What is wrong, or odd, with parameter values that are each within their limits.
+
+#: A pawl that lies along the slope to this angle [rad] has no friction at which it locks itself.
+_ALONG = 1e-9
 
 #: Slopes less than this above the line between two roots [rad] make no tooth.
 _FLAT = 1e-6
@@ -110,8 +127,14 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
 
 def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
     """What is legal, but not what a real ratchet would do; it means something only where nothing is objected to."""
-    tip, slope = tip_distance(values), tooth(values).slope_length
-    return where(
+    tip, slope, locks = tip_distance(values), tooth(values).slope_length, locking_friction(values)
+    stuck = Finding(
+        at_most(locks, values.friction),
+        "friction = {:.6g} locks the pawl on the slope, at the start from {:.6g} on: its tip does not slide down to "
+        "the root, but takes the wheel along from where it stands. For a pawl that comes to the tooth face give less.",
+        (values.friction, locks),
+    )
+    return stuck, *where(
         values.guided,
         Finding(
             size(values.pawl_angle_start),

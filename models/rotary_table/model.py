@@ -32,9 +32,10 @@ from mechanism_fmu.model.drawing import square_tooth
 #: Radii as drawn [m]; the table's equations know none.
 RIM, STATION, BRAKE = 0.13, 0.115, 0.05
 STATIONS = 10
+OUTLINE = square_tooth(RIM, STATION, 0.6, STATIONS)
 
 SHAPES = (
-    Wheel("table", (0.0, 0.0), "table_angle", STATIONS, square_tooth(RIM, STATION, 0.6, STATIONS)),
+    Wheel("table", (0.0, 0.0), "table_angle", STATIONS, OUTLINE),
     Disc("brake", (0.0, 0.0), "outline_brake_radius"),
     Hinge((0.0, 0.0)),
 )
@@ -58,6 +59,8 @@ OUTPUTS = (
         "Torque of the brake on the table; at most brake_torque either way, and less while it holds",
         INPUTS,
     ),
+    ports.speed_output("brake_slip_speed", "brake.slip_speed", "Slip of the table in its brake; 0 while it sticks"),
+    ports.flag_output("brake_sticks", "brake.sticks", "The brake holds the table"),
     *ports.energy_outputs(
         kinetic="Kinetic energy of the table",
         spring="Energy of springs: there are none",

@@ -118,6 +118,7 @@ OUTPUTS = (
     Output("slider_position", "slider.x", "Position of the slider along its line (x)", "m", nominal=0.1),
     Output("slider_velocity", "slider.x_rate", "Rate of slider_position", "m/s", nominal=0.1),
     ports.shaft_torque_output("crank"),
+    *ports.friction_outputs("guide", "the slider on its guide", INPUTS, "outwards"),
     *ports.energy_outputs(
         kinetic="Kinetic energy of crank, rod and slider",
         spring="Energy of springs within the linkage: none, 0",

@@ -1,4 +1,4 @@
-"""The oracle of dry friction, blocks: on an incline, pushed, on a belt, on each other."""
+"""The oracle of friction, blocks: on an incline, pushed, on a belt, on each other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tests against the oracle of dry friction share: its cases, runs with their events, comparisons, parts."""
+"""What the tests against the oracle of friction share: its cases, runs with their events, comparisons, parts."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class Moment(NamedTuple):
     time: float
     name: str
     state: dict[str, float]
-    #: Of each contact o (apart), s (it sticks), + or -; behind them s, + or - of what else has dry friction.
+    #: Of each contact o (apart), s (it sticks), + or -; behind them s, + or - of what else has friction.
     modes: str
     #: Of contacts, and behind them of joints and force elements, along the direction of slip [N, N m].
     friction: list[float]
@@ -97,12 +97,12 @@ class Moment(NamedTuple):
 def simulation_of(
     bodies: Sequence[Body], tolerance: float, contacts: Sequence[Any] = (), start: float = 0.0, **parts: Any
 ) -> Simulation:
-    """A mechanism with dry friction in motion."""
+    """A mechanism with friction in motion."""
     return Simulation(mechanism_of(bodies, tolerance, contacts, **parts), start)
 
 
 def mechanism_of(bodies: Sequence[Body], tolerance: float, contacts: Sequence[Any] = (), **parts: Any) -> Mechanism:
-    """A mechanism with dry friction; its outputs are all coordinates and rates, contact forces, energies."""
+    """A mechanism with friction; its outputs are all coordinates and rates, contact forces, energies."""
     sources = [f"{body.name}.{what}" for body in bodies for what in ("x", "y", "angle", "x_rate", "y_rate", "speed")]
     sources += [f"{contact.name}.{what}" for contact in contacts for what in ("force", "closed")]
     sources += ["energy.kinetic", "energy.lost", "impact.energy_lost"]

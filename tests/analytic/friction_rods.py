@@ -1,4 +1,4 @@
-"""The oracle of dry friction, rods and blocks that strike: Painleve's rod, a rod on the floor, a block that rocks."""
+"""The oracle of friction, rods and blocks that strike: Painleve's rod, a rod on the floor, a block that rocks."""
 
 from __future__ import annotations
 

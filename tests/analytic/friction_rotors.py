@@ -1,4 +1,4 @@
-"""The oracle of dry friction, what turns: discs that roll, pendulums on a pin with friction or with a brake."""
+"""The oracle of friction, what turns: discs that roll, pendulums on a pin with friction or with a brake."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Dry friction against the numbers of an oracle, computed in two ways each: stick and slip, pins, impacts, jamming.
+"""Friction against the numbers of an oracle, computed in two ways each: stick and slip, pins, impacts, jamming.
 
 One test a kind of case, which takes all numbers from the file. The environment variable FRICTION_ORACLE names another
 file of the same kinds with other numbers.

@@ -43,6 +43,17 @@ def test_the_slides_gears_accelerate_as_they_should(flavour, request):
         assert one["mesh_force"] == pytest.approx(-11.6696269982, abs=1e-9)
 
 
+@pytest.mark.parametrize("flavour", ["", "native_"])
+def test_friction_that_locks_the_pawl_is_warned_of(flavour, request):
+    with Instance(request.getfixturevalue(f"{flavour}ratchet")) as one:
+        one.begin({"friction": 2.1})
+        (message,) = [message for message in one.log if "locks the pawl on the slope" in message.text]
+        assert "warning" in message.category.lower()
+        one.reset().begin({"friction": 2.05})
+        assert one["slope_sticks"]  # by the pawl's own mass, already
+        assert one["self_locking_friction"] == pytest.approx(2.0653, abs=1e-4)
+
+
 @pytest.mark.parametrize(
     ("values", "text"),
     [({"rise_angle": 0.9}, "The pressure angle reaches 49.25 deg"), ({"cam_speed_start": 45.0}, "contact")],

@@ -1,4 +1,4 @@
-"""Dry friction in FMUs: a rod that falls, strikes, slides and rests, a pin, a brake; the same bits everywhere."""
+"""Friction in FMUs: a rod that falls, strikes, slides and rests, a pin, a brake; the same bits everywhere."""
 
 import math
 from pathlib import Path
@@ -58,7 +58,7 @@ def mechanism(values):
     )
 
 
-MODEL = Model("Rubbing", "Dry friction", PARAMETERS, mechanism, stop_time=3.0, step_size=0.01)
+MODEL = Model("Rubbing", "Friction", PARAMETERS, mechanism, stop_time=3.0, step_size=0.01)
 '''
 
 

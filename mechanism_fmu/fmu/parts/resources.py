@@ -61,15 +61,15 @@ MOST_SWITCHES = 8
 
 
 def logic(model: Model) -> dict[str, bytes]:
-    """The file by its path within the FMU: the same bytes for the same model; none when it has no contacts.
+    """The file by its path within the FMU: the same bytes for the same model; none without contacts and friction.
 
     `{"format": 1, "contacts": [name, ...], "events": [{"guard": 0, "subject": 0, "name": "face.gap"}, ...],
-    "switches": [parameter, ...], "choices": {"10": 0, ...}, "variants": [...]}`: a key of the choices has a 1 for each
-    switch that is true or not zero, its value is the place of the variant, whose keys are as in
-    `mechanism_fmu.statechart.Logic`.
+    "impact_law": "newton", "energy_guard": true, "switches": [parameter, ...], "choices": {"10": 0, ...}, "variants":
+    [...]}`: a key of the choices has a 1 for each switch that is true or not zero, its value is the place of the
+    variant, whose keys are as in `mechanism_fmu.statechart.Logic`; law and guard are as of `Mechanism`.
     """
     mechanism = model.mechanism(model.values())
-    if not mechanism.contacts:
+    if not mechanism.contacts and not mechanism.rubs_or_may:
         return {}
     switches = switches_of(model)
     variants: list[Logic] = []
@@ -85,6 +85,8 @@ def logic(model: Model) -> dict[str, bytes]:
         "format": FORMAT,
         "contacts": [contact.name for contact in mechanism.contacts],
         "events": list(_events(mechanism)),
+        "impact_law": mechanism.impact_law,
+        "energy_guard": bool(mechanism.energy_guard),
         "switches": [parameter.name for parameter in switches],
         "choices": choices,
         "variants": [encode(variant) for variant in variants],

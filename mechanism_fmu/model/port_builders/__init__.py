@@ -16,6 +16,7 @@ from .outputs import (
     energy_outputs as energy_outputs,
     flag_output as flag_output,
     force_output as force_output,
+    friction_outputs as friction_outputs,
     hinged_beam_outputs as hinged_beam_outputs,
     member_outputs as member_outputs,
     shaft_torque_output as shaft_torque_output,

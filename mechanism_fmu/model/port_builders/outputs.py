@@ -140,6 +140,50 @@ def active_output(contact: str, description: str) -> Output:
     return flag_output(f"{contact}_active", f"{contact}.closed", description)
 
 
+def friction_outputs(
+    part: str,
+    slip: str,
+    inputs: Iterable[Input],
+    positive: str = "",
+    *,
+    angular: bool = False,
+    speed: float = 0.1,
+    force: float = 0.1,
+) -> tuple[Output, Output, Output]:
+    """What rubs: <part>_slip_speed [m/s], <part>_friction_force [N], and <part>_sticks; of angles [rad/s] and [N.m].
+
+    Args:
+        part: name of a contact, joint or brake.
+        slip: what slips on what, for the descriptions, e.g. "the slider on its guide".
+        inputs: those on which the friction depends at the same instant: its `feedthrough`.
+        positive: in which direction slip and friction are positive, e.g. "outwards"; "" where that needs no word.
+        angular: whether the slip is a rate of an angle, and friction a torque: of pins and brakes.
+        speed: typical slip speed [m/s, rad/s].
+        force: typical friction [N, N.m].
+    """
+    slipping = f"{slip}, {positive} positive" if positive else slip
+    per_time, effort, what = ("rad/s", "N.m", "torque") if angular else ("m/s", "N", "force")
+    return (
+        Output(
+            f"{part}_slip_speed",
+            f"{part}.slip_speed",
+            f"Slip of {slipping}; 0 while it sticks",
+            per_time,
+            "rpm" if angular else None,
+            nominal=speed,
+        ),
+        Output(
+            f"{part}_friction_force",
+            f"{part}.friction_force",
+            f"Friction {what} of {slipping}",
+            effort,
+            nominal=force,
+            feedthrough=tuple(port.name for port in inputs),
+        ),
+        flag_output(f"{part}_sticks", f"{part}.sticks", f"Whether {slip} sticks"),
+    )
+
+
 def energy_outputs(kinetic: str, spring: str, work: str, lost: str, nominal: float = 0.1) -> tuple[Output, ...]:
     """The energy ledger [J]: kinetic_energy + spring_energy = initial + work_done - energy_lost.
 

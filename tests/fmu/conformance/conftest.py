@@ -50,6 +50,7 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "until": 2.0,
         "impossible": {"offset": 0.3},
         "impacts": False,
+        "sticks": True,
     },
     "four_bar": {
         "rough": {
@@ -121,8 +122,8 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "rough": {"table_angle_start": 0.2, "table_speed_start": 3.0, "table_damping": 1e-2},
         "inputs": {"drive_angle": (-1.0, 1.0), "load_torque": (-0.3, 0.3), "brake_torque": (0.0, 0.4)},
         "until": 2.0,
-        "impossible": {"brake_stiffness": 1e9, "brake_damping": 1e-3},
         "impacts": False,
+        "sticks": True,
     },
 }
 
@@ -136,9 +137,23 @@ PARAMETERS = [
 ]
 
 
+#: Those of models that refuse some values, each within its limits, together.
+REFUSING = [param for param in PARAMETERS if "impossible" in SUBJECTS[str(param.values[0]).removeprefix("native_")]]
+
+
 @pytest.fixture(scope="session", params=PARAMETERS)
 def subject(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Subject:
     """An FMU that has shown in another process that what it refuses does not end the host."""
+    return _subject(request, tmp_path_factory)
+
+
+@pytest.fixture(scope="session", params=REFUSING)
+def refusing(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Subject:
+    """A subject with values that no mechanism can have together."""
+    return _subject(request, tmp_path_factory)
+
+
+def _subject(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Subject:
     fmu = request.getfixturevalue(request.param)
     once(tmp_path_factory, f"refusals_{request.param}", lambda _: run_alone(refusals, fmu.folder))
     native = request.param.startswith("native_")

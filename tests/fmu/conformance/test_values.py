@@ -3,6 +3,8 @@
 import pytest
 from fmpy.fmi1 import FMICallException
 
+from tests.fmu.conformance.host import Instance
+
 
 def middle(subject):
     return {name: (low + high) / 2 for name, (low, high) in subject.inputs.items()}
@@ -75,21 +77,21 @@ def test_a_refused_call_sets_nothing_at_all(subject, instance):
     assert one.outputs() == expected
 
 
-def test_parameters_can_be_read_while_they_do_not_fit_together_yet(subject, instance):
+def test_parameters_can_be_read_while_they_do_not_fit_together_yet(refusing):
     """Hosts set and read back one by one; what is impossible now may be mended by the next value."""
-    one = instance()
-    one.set(subject.impossible)
-    assert one.get(subject.impossible) == subject.impossible
-    assert one.get(subject.inputs) == {name: one.fmu.start(name) for name in subject.inputs}
-    one.set({name: one.fmu.start(name) for name in subject.impossible})
-    assert subject.reference(one) == subject.reference(instance("reference"))
+    with Instance(refusing.fmu) as one, Instance(refusing.fmu, "reference") as other:
+        one.set(refusing.impossible)
+        assert one.get(refusing.impossible) == refusing.impossible
+        assert one.get(refusing.inputs) == {name: one.fmu.start(name) for name in refusing.inputs}
+        one.set({name: one.fmu.start(name) for name in refusing.impossible})
+        assert refusing.reference(one) == refusing.reference(other)
 
 
-def test_impossible_parameters_are_refused_with_advice_when_initialization_ends(subject, instance):
-    one = instance()
-    with pytest.raises(FMICallException):
-        one.begin(subject.impossible)
-    (message,) = [m.text for m in one.log if m.category == "logStatusError"]
-    assert all(name in message for name in subject.impossible)
-    assert "give " in message.lower()
-    assert subject.reference(one.reset()) == subject.reference(instance("reference"))
+def test_impossible_parameters_are_refused_with_advice_when_initialization_ends(refusing):
+    with Instance(refusing.fmu) as one, Instance(refusing.fmu, "reference") as other:
+        with pytest.raises(FMICallException):
+            one.begin(refusing.impossible)
+        (message,) = [m.text for m in one.log if m.category == "logStatusError"]
+        assert all(name in message for name in refusing.impossible)
+        assert "give " in message.lower()
+        assert refusing.reference(one.reset()) == refusing.reference(other)

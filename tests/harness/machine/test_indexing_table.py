@@ -31,6 +31,8 @@ COMPONENTS = {
     "table": "rotary_table",
 }
 TOOTH = math.radians(18)
+#: How well the coupling places the pawl's tip [m].
+PLACE = 1e-6
 #: Cam at 15 rpm: one stroke in 4 s; the motor turns 15 times as fast, the other way round.
 MOTOR = -225 * math.pi / 30
 
@@ -149,7 +151,7 @@ def test_it_is_what_the_same_machine_is_as_one_mechanism(built, undisturbed, tmp
         times += [impact.time for impact in single.impacts_in_step()]
         angles.append(single.read()["table_table_angle"])
     coupled = undisturbed.loc[:16.0]
-    assert coupled["ratchet.impact_count"].iloc[-1] == len(times) == 12
+    assert coupled["ratchet.impact_count"].iloc[-1] == len(times) == 13
     found, end = single.read(), near(undisturbed, 16.0)
     for name in ("motor.rotor_angle", "cam.cam_angle", "ratchet.crank_angle"):
         assert end[name] == pytest.approx(found[name.replace(".", "_")], abs=1e-6)
@@ -193,7 +195,11 @@ def test_the_order_of_the_components_in_the_file_does_not_matter(built, tmp_path
     ("pythonfmu", "near"), [(COMPONENTS, 1e-3), (("ratchet", "motor"), 5e-5)], ids=["all", "mixed"]
 )
 def test_components_by_pythonfmu_make_the_same_machine(built, undisturbed, tmp_path, pythonfmu, near):
-    """They take no slopes of inputs, so theirs are held, at the mean."""
+    """They take no slopes of inputs, so theirs are held, at the mean.
+
+    The pawl touches its tooth again while the brake stops the table, at 13 um/s and 1.6 mm/s: when, is as uncertain as
+    the place over the closing speed.
+    """
     other = run(built, tmp_path, pythonfmu=pythonfmu, stop="3.6 s")
     same = undisturbed.loc[:3.6]
     assert other["ratchet.clicks"].iloc[-1] == same["ratchet.clicks"].iloc[-1] == 1
@@ -201,5 +207,5 @@ def test_components_by_pythonfmu_make_the_same_machine(built, undisturbed, tmp_p
         seen = np.interp(same.index, other.index, other[name])
         assert seen == pytest.approx(same[name].to_numpy(), abs=near)
     felt = other["ratchet.impact_time"].unique()
-    for time in same["ratchet.impact_time"].unique():
-        assert abs(felt - time).min() < near
+    for time, speed in same.groupby("ratchet.impact_time")["ratchet.impact_closing_speed"].first().items():
+        assert abs(felt - time).min() < near + (PLACE / speed if speed else 0.0)

@@ -13,6 +13,7 @@ from mechanism_fmu.model import (
     AngleDriver,
     AngleStop,
     Body,
+    Brake,
     Input,
     Mechanism,
     MechanismError,
@@ -21,6 +22,7 @@ from mechanism_fmu.model import (
     Revolute,
     SpringDamper,
     Torque,
+    Translational,
     compile_mechanism,
     default_outputs,
     impact_outputs,
@@ -85,6 +87,31 @@ def test_all_parts_are_there_with_units_and_feedthrough():
 
 def test_without_contacts_there_are_no_impacts():
     assert not [o.name for o in default_outputs(arm()) if "impact" in o.name or "event" in o.name]
+
+
+def test_what_may_rub_has_slip_friction_and_whether_it_sticks():
+    """A slider and a brake, with units of their own; events, for it sticks and slips; nothing of a pin without."""
+    slider = Translational("guide", GROUND, ZERO, (1.0, 0.0), "arm", ZERO, (1.0, 0.0), friction=0.1)
+    mechanism = replace(arm(), joints=(slider,), forces=(Torque("motor", "arm"), Brake("brake", "arm", limit=1.0)))
+    found = {output.name: output for output in default_outputs(mechanism)}
+    of = {name: (found[f"{name}_slip_speed"].unit, found[f"{name}_friction_force"].unit) for name in ("guide", "brake")}
+    assert of == {"guide": ("m/s", "N"), "brake": ("rad/s", "N.m")}
+    assert found["guide_friction_force"].feedthrough == ("motor_torque",)
+    assert found["brake_sticks"].type == "Boolean"
+    assert {"event_count", "events[1].guard"} <= found.keys()
+    assert "impact_count" not in found
+    assert not [output.name for output in default_outputs(arm()) if "slip" in output.name or "sticks" in output.name]
+
+
+def test_friction_that_a_parameter_may_bring_is_seen():
+    def mechanism(values):
+        pin = Revolute("pin", "arm", (-0.5, 0.0), GROUND, ZERO, values.rubbing)
+        return replace(arm(), joints=(pin,))
+
+    model = Model("Arm", "", (Parameter("rubbing", 0.0, "", "m"),), mechanism)
+    for rubbing in (0.0, 0.1):
+        assert "pin_sticks" in [output.name for output in model.build(model.values(rubbing=rubbing)).outputs]
+    assert "pin_sticks" in {one.get("name") for one in model_description(model, "").iter("ScalarVariable")}
 
 
 def test_a_name_that_is_taken_is_not_taken_twice():

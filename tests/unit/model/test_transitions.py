@@ -199,6 +199,8 @@ CASES = {
     "free": ratchet(guided=0),
     "free, e": ratchet(guided=0, restitution=0.5, holding_pawl_restitution=0.1),
     "geneva": GENEVA,
+    "free, friction": ratchet(guided=0, friction=0.1, joint_friction_radius=1e-3),
+    "brake": models.load("rotary_table").MODEL.build(models.load("rotary_table").MODEL.values()),
 }
 
 
@@ -242,3 +244,27 @@ def test_the_table_has_a_row_for_each_transition():
     assert len(rows) == 2 + len(logic_of(mechanism).transitions)
     assert rows[2].endswith("| 7 |")
     assert {line.replace("\\|", "").count("|") for line in rows} == {8}
+
+
+def test_what_rubs_slips_and_sticks_and_nothing_else_does():
+    assert not [r.part for r in logic_of(ratchet(guided=0)).regions if r.part.endswith(".slip")]
+    logic = logic_of(ratchet(guided=0, friction=0.1))
+    assert [r.part for r in logic.regions if r.part.endswith(".slip")] == ["slope.slip", "face.slip"]
+    (place,) = taken(logic, "slope.sticks", ["slope"], ["slope"], 0.0)
+    assert (logic.transitions[place].source, logic.transitions[place].target) == ("slips", "sticks")
+    (place,) = taken(logic, "face.slips", ["slope", "face"], ["slope", "face"], 0.0)
+    assert (logic.transitions[place].source, logic.transitions[place].target) == ("sticks", "slips")
+
+
+def test_a_table_that_stops_and_goes_on_takes_both_arrows():
+    """Its brake catches it, and the shaft's end, which goes on, tears it off: named events, each an arrow."""
+    model = models.load("rotary_table").MODEL
+    mechanism = model.build(model.values())
+    simulation, logic = Simulation(mechanism), logic_of(mechanism)
+    simulation.advance(1.0)
+    names = [event.guard for event in simulation.events_in_step()]
+    simulation.set_slope("load_torque", 0.5)
+    simulation.advance(2.0)
+    names += [event.guard for event in simulation.events_in_step()]
+    assert names == ["brake.sticks", "brake.slips"]
+    assert [place for name in names for place in taken(logic, name, [], [], 0.0)] == [0, 1]

@@ -187,7 +187,7 @@ ROWS = (
         "section 5",
         "Friction is neglected.",
         "none",
-        ("mechanism_fmu/engine/dynamics/friction.py",),
+        ("mechanism_fmu/engine/dynamics/sliding.py",),
         _friction,
         f"{RUN} --set friction=0.1 --stop-time 1.2",
     ),
