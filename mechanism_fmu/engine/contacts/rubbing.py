@@ -8,7 +8,7 @@ from ...tables.motion import Course, Pose, Rows, Rubs
 from ...tables.sizes import Sizes
 from ...tolerances import SLIPS_ABOVE, STUCK_BELOW
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import coefficient, friction_row, touches
+from ..constraints.friction_rows import coefficient, friction_row, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 
@@ -72,6 +72,15 @@ def free_all(block: Array) -> None:
             table.slip[k] = codes.APART
         elif coefficient(block, k) > 0.0:
             table.free[k] = codes.FREE
+
+
+@jit
+def note_sticks(block: Array) -> None:
+    """Note what sticks, before inputs change."""
+    keep_small()
+    table = Rubs(block)
+    for k in range(table.slip.shape[0]):
+        table.stuck[k] = 1 if sticks(block, k) else 0
 
 
 @jit

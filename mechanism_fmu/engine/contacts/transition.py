@@ -10,7 +10,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import rubs, touches
+from ..constraints.friction_rows import rubs, slips, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
@@ -20,7 +20,7 @@ from .doubts import other_choice, undetermined
 from .guards import can_open, gap, place_contact, place_pattern
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, make_space, strike
 from .impact_laws import shock
-from .rubbing import let_slip, look_at_slip, part
+from .rubbing import let_slip, look_at_slip, note_sticks, part
 from .trial import COUNT
 
 # Contacts that no longer touch.
@@ -69,6 +69,8 @@ def transit(block: Array, guard: int, subject: int) -> int:
     old_mode = mode_number(block)
     energy = kinetic_energy(inverse_mass, rate, n)
     work = now.y_end[Sizes(block).y_work]
+    if guard == codes.GUARD_INPUT:
+        note_sticks(block)
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
@@ -102,9 +104,21 @@ def transit(block: Array, guard: int, subject: int) -> int:
     now.ledger[codes.LEDGER_LOST] += lost
     if not (only_choose or shocks) or (guard == codes.GUARD_INPUT and mode_number(block) != old_mode):
         keep_event(block, guard, subject, old_mode, impulse)
+    if guard == codes.GUARD_INPUT:
+        _record_slips(block, old_mode)
     if only_choose:
         return status.OK
     return _progress(block)
+
+
+@jit
+def _record_slips(block: Array, old_mode: float) -> None:
+    """Record what stuck before an input changed, and slips now."""
+    keep_small()
+    rub = Rubs(block)
+    for k in range(rub.slip.shape[0]):
+        if rub.stuck[k] == 1 and slips(block, k):
+            keep_event(block, codes.GUARD_SLIP, k, old_mode, 0.0)
 
 
 @jit
