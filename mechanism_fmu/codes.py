@@ -213,7 +213,8 @@ COUNT_REJECTED = 15  # steps since the start whose error was too large
 COUNT_TRIES = 16  # steps since the start that were tried: accepted, rejected, or to find an event
 COUNT_BY_POISSON = 17  # rounds of impacts for which another law was to hold, but Poisson's did
 RUBBING = 18  # contacts, joints and brakes with friction (`friction_rows.rubbing_count`)
-COUNTERS_LENGTH = 19
+SENSE = 19  # 1 where forces of what slips agree as those of little friction do, 0 beyond (see `sliding.slide`)
+COUNTERS_LENGTH = 20
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

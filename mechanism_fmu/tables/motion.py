@@ -43,6 +43,7 @@ _COUNTERS = {
     "COUNT_TRIES": COUNT,
     "COUNT_BY_POISSON": COUNT,
     "RUBBING": whole(0, 1, "rubs"),
+    "SENSE": FLAG,
 }
 #: Columns of an impact record, the last one for all behind it, and of an event record.
 _RECORD = {
@@ -218,7 +219,7 @@ class Watch(Table, rows="guards", prefix="guard_"):
 
 
 class Rubs(Table, rows="rubs", prefix="rub_"):
-    """Dry friction of contacts, in their order, of joints, and of brakes among the force elements.
+    """Friction of contacts, in their order, of joints, and of brakes among the force elements.
 
     State: how each slips (`codes.STICKS` ...), and where along its line, or at which angle, one that sticks began to.
 
@@ -226,8 +227,9 @@ class Rubs(Table, rows="rubs", prefix="rub_"):
     friction does to rates (as `linear_system.solution`) and to multipliers; friction [N, N m], or its impulse; the slip
     speed; a part of the normal impulse that is given; what holds it least (`complementarity.hold_ratio`); whether it is
     free to stick or to slip either way. Those that slip, by number; friction that smaller coefficients would have; of
-    one that slips, what a unit of normal force does to its gap beside what it would without friction; the linear system
-    for their friction; solution and multipliers without it.
+    one that slips, what a unit of normal force does to its gap beside what it would without friction; 1 where the
+    system for their friction has a positive determinant, as it has for little friction, else 0; that system; solution
+    and multipliers without it.
     """
 
     slip = integer(holds=whole(codes.BACKWARDS, codes.STICKS))
@@ -244,6 +246,7 @@ class Rubs(Table, rows="rubs", prefix="rub_"):
     sliding = integer(work=True)
     kept = real(work=True)
     criterion = real(work=True)
+    sense = integer(1, alone=True, work=True)
     matrix = real("rub_columns", work=True)
     bare_solution = real("columns", alone=True, work=True)
     bare_multiplier = real("rows", alone=True, work=True)

@@ -9,11 +9,12 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import LinearSystem, Loads, Pose, Rubs, Strikes
+from ...tables.motion import Course, LinearSystem, Loads, Pose, Rubs, Stages, Strikes
 from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, slips
+from ..vectors import copy
 from .complementarity import agrees
 from .trial import COUNT
 
@@ -25,9 +26,13 @@ _DETERMINED = 1e-9
 def other_choice(block: Array, at: Pose) -> int:
     """A candidate that slips and may be closed as well as open, by Painlevé's paradox; `codes.NONE` if there is none.
 
-    Modes are as before, but accelerations have to be found anew if there are candidates that slip.
+    The other choice has other accelerations; rows that depend on each other may be given up without any. Modes are as
+    before, but what the last trial has left is lost.
     """
     keep_small()
+    n = Sizes(block).coordinates
+    chosen = Stages(block).dy_at
+    copy(Course(block).dy_end, chosen)
     mode = Contacts(block).mode
     rub = Rubs(block)
     for k in range(Strikes(block).problem[COUNT]):
@@ -35,11 +40,23 @@ def other_choice(block: Array, at: Pose) -> int:
         if rub.free[c] != codes.BOUND or rub.slip[c] == codes.APART or not coefficient(block, c) > 0.0:
             continue
         mode[c] = codes.CLOSED - mode[c]
-        other = agrees(block, at)
+        differs = agrees(block, at) and _differ(Course(block).dy_end[n : 2 * n], chosen[n : 2 * n])
         mode[c] = codes.CLOSED - mode[c]
-        if other:
+        if differs:
             return int(c)
     return codes.NONE
+
+
+@jit
+def _differ(first: Array, second: Array) -> bool:
+    """Whether two accelerations differ by more than rounding."""
+    keep_small()
+    difference = 0.0
+    size = 1.0
+    for k in range(first.shape[0]):
+        difference = max(difference, abs(first[k] - second[k]))
+        size = max(size, abs(first[k]))
+    return difference > _DETERMINED * size
 
 
 @jit
@@ -47,7 +64,8 @@ def undetermined(block: Array, count: int) -> int:
     """What slips by a force that the last solve, of `count` rows, has shared out at will; `codes.NONE` if nothing does.
 
     Multipliers are determined but for what does nothing to the rates: such changes are what a row leaves outside the
-    range of all rows. Where they change friction, and friction the accelerations, the motion is one of many.
+    range of all rows. Where they change friction, and friction the accelerations, the motion is one of many. It is to
+    be called right behind a trial.
     """
     keep_small()
     table = Rubs(block)

@@ -15,7 +15,7 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
 from .guards import gap
 from .impact_laws import exchange
-from .trial import COUNT
+from .trial import ABSENT, COUNT, DECIDED, KEPT
 
 # The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7)), for all touching contacts together.
 #
@@ -28,11 +28,6 @@ from .trial import COUNT
 #: From this round at the same instant on, all impacts are plastic and all touching contacts take part: that ends it.
 _PLASTIC_FROM = 32
 MOST_ROUNDS = 40
-
-# strikes.role
-ABSENT = 0
-KEPT = 1
-DECIDED = 2
 
 
 @jit

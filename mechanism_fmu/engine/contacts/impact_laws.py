@@ -1,9 +1,10 @@
 """Impulses of one round of impacts, by Newton's, Poisson's or Stronge's law of restitution (docs/friction.md).
 
 Newton: every contact that approaches separates with e times its closing speed; with friction in one complementarity
-problem (Moreau, Glocker), which may have no answer, or add energy: then Poisson's law holds. Poisson: compression is the same with e = 0, and in the expansion each contact gives back at
-least e times the impulse of its compression, with a friction of its own. Stronge: the work of a contact in expansion is
-e^2 times that of its compression, along Routh's path of the impulses.
+problem (Moreau, Glocker), which may have no answer, or add energy: then Poisson's law holds. Poisson: compression is
+the same with e = 0, and in the expansion each contact gives back at least e times the impulse of its compression, with
+a friction of its own. Stronge: the work of a contact in expansion is e^2 times that of its compression, along Routh's
+path of the impulses.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from ..vectors import largest
 from .complementarity import push_impulses
 from .routh import along_routh
 from .rubbing import free_all
-from .trial import COUNT
+from .trial import ABSENT, COUNT
 
 #: An impact may seem to add this share of the kinetic energy, by rounding.
 _ROUNDING = 1e-13
@@ -159,7 +160,7 @@ def _poisson(block: Array, at: Pose) -> int:
         return status.OK
     at = place_bodies(block, Course(block).y_end)
     for c in range(contacts):
-        if table.mode[c] == codes.CLOSED or rub.given[c] > 0.0:
+        if strike.role[c] != ABSENT:  # those that are open, too
             contact_row(block, at, c, spare_row(block))
             strike.target[c] = -Rows(block).residual_rate[spare_row(block)]
     free_all(block)

@@ -11,7 +11,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Pose, Rows, Rubs, Strikes
+from ...tables.motion import Course, Loads, Pose, Rows, Rubs, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from .. import status
@@ -96,7 +96,7 @@ def _respond(block: Array, count: int, place: int) -> float:
     keep_small()
     n = Sizes(block).coordinates
     spare = spare_row(block)
-    impulse = Rubs(block).direction[place]
+    impulse = Loads(block).applied
     for k in range(n):
         impulse[k] = Rows(block).jacobian[spare, k]
     scale_rows(block, count)

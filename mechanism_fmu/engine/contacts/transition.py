@@ -260,6 +260,7 @@ def _record_doubts(block: Array, at: Pose) -> None:
     what = undetermined(block, row_count(block))
     if what != codes.NONE:
         keep_event(block, codes.GUARD_UNDETERMINED, what, mode, 0.0)
+        return
     what = other_choice(block, at)
     if what != codes.NONE:
         keep_event(block, codes.GUARD_SEVERAL, what, mode, 0.0)

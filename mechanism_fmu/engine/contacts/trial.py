@@ -28,6 +28,11 @@ KIND = 1
 FORCES = 0
 IMPULSES = 1
 
+# strikes.role
+ABSENT = 0
+KEPT = 1
+DECIDED = 2
+
 
 @jit
 def try_modes(block: Array, at: Pose) -> int:

@@ -38,6 +38,7 @@ def slide(block: Array, at: Pose, count: int) -> float:
     """
     keep_small()
     number = _respond(block, at, count)
+    Rubs(block).sense[0] = 1
     if number > 0 and not _agree(block, number):
         return math.nan
     n = Sizes(block).coordinates
@@ -166,8 +167,10 @@ def _newton(block: Array, number: int, part: float) -> bool:
                 table.matrix[a, b] *= share
             table.matrix[a, a] += 1.0
             table.criterion[k] = table.matrix[a, a]
-        if not _eliminate(table.matrix, number):
+        determinant = _eliminate(table.matrix, number)
+        if determinant == 0.0:
             return False
+        table.sense[0] = 1 if determinant > 0.0 else 0
         change = 0.0
         largest = 0.0
         for a in range(number):
@@ -238,16 +241,19 @@ def _multiplier(block: Array, row: int, number: int) -> float:
 
 
 @jit
-def _eliminate(matrix: Array, number: int) -> bool:
-    """Solve the first `number` equations; the right side, in column `number`, becomes the solution. False: singular."""
+def _eliminate(matrix: Array, number: int) -> float:
+    """Solve the first `number` equations; the right side, in column `number`, becomes the solution. The determinant."""
     keep_small()
+    determinant = 1.0
     for c in range(number):
         best = c
         for r in range(c + 1, number):
             if abs(matrix[r, c]) > abs(matrix[best, c]):
                 best = r
         if not abs(matrix[best, c]) > 0.0:
-            return False
+            return 0.0
+        if best != c:
+            determinant = -determinant
         for k in range(c, number + 1):
             matrix[c, k], matrix[best, k] = matrix[best, k], matrix[c, k]
         for r in range(number):
@@ -256,8 +262,9 @@ def _eliminate(matrix: Array, number: int) -> bool:
                 for k in range(c, number + 1):
                     matrix[r, k] -= share * matrix[c, k]
     for c in range(number):
+        determinant *= matrix[c, c]
         matrix[c, number] /= matrix[c, c]
-    return True
+    return determinant
 
 
 @jit

@@ -90,6 +90,8 @@ def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
     keep_small()
     set_time(block, time)
     derivative(block, y, dy)
+    if rubs(block) and Rubs(block).sense[0] != Course(block).counters[codes.SENSE]:
+        dy[Sizes(block).y_loss] = math.nan  # on the way here they have been infinite
     _note_pushes(block)
     s = Stages(block)
     s.stage[0] += 1

@@ -10,9 +10,10 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, LinearSystem, Rows, Stages
+from ...tables.motion import Course, LinearSystem, Rows, Rubs, Stages
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from ..dynamics.forces import set_time
@@ -46,8 +47,14 @@ def independence(block: Array) -> float:
 
 @jit
 def note_rank(block: Array) -> None:
-    """After an event or a change of inputs, and the acceleration there: the rank that the rows have from now on."""
+    """After an event or a change of inputs, and the acceleration there: the rank that the rows have from now on.
+
+    And the sense in which the forces of what slips agree: to change it, they must become infinite on the way.
+    """
     now = Course(block)
+    now.counters[codes.SENSE] = 1
+    if rubs(block):
+        now.counters[codes.SENSE] = Rubs(block).sense[0]
     now.counters[codes.RANK] = LinearSystem(block).rank[0]
     now.independence_end[0] = LinearSystem(block).independence[0]
 

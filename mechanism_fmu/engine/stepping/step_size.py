@@ -7,11 +7,12 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, LinearSystem, Stages
+from ...tables.motion import Course, LinearSystem, Rubs, Stages
 from ...tables.parts import Contacts, Curves, Joints
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
+from ..constraints.friction_rows import slips
 from ..constraints.kinematics import place_bodies
 from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
@@ -80,6 +81,9 @@ _SMALLEST_STEP = 1e-15
 MOST_TURN = 1.0
 #: Where steps shrink to nothing and profiles fit less well than this, that is why [rad/rad].
 _FITS_BARELY = 0.01
+#: Where steps shrink to nothing and what a normal force does to its gap is this part of what it does without friction
+#: or less, forces grow without limit.
+_PARADOX = 1e-6
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0
@@ -127,6 +131,9 @@ def why_no_step(block: Array) -> int:
     lost = Sizes(block).y_loss
     for k in range(1, s.derivatives.shape[0]):
         if math.isnan(s.derivatives[k, lost]) and not math.isnan(s.derivatives[k, 0]):
+            return status.JAMMED
+    for k in range(Rubs(block).slip.shape[0]):
+        if slips(block, k) and abs(Rubs(block).criterion[k]) < _PARADOX:
             return status.JAMMED
     if LinearSystem(block).rank[0] > Course(block).counters[codes.RANK]:
         return status.SINGULAR

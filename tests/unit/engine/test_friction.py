@@ -23,7 +23,6 @@ from mechanism_fmu.model import (
     Translational,
 )
 from mechanism_fmu.simulation import Simulation, SimulationError
-from models.slider_crank import model as slider_crank
 
 GRAVITY = 9.81
 MASS, INERTIA = 1.5, 0.2
@@ -281,18 +280,3 @@ def test_friction_in_an_impact_against_rows_that_bounce_adds_no_energy():
     simulation.advance(1e-12)
     assert simulation.read()["kinetic"] <= before
     assert simulation.read()["lost"] >= 0
-
-
-def test_friction_that_jams_says_so():
-    heap = touching(0, bodies=2, contacts=6, moving=True, friction=1.0)
-    simulation = Simulation(heap.mechanism)
-    with pytest.raises(SimulationError, match=r"jams itself. Give less friction.*Contacts: \w+(, \w+)*\.$"):
-        simulation.advance(1e-12)
-
-
-def test_a_joint_that_jams_is_named():
-    """A slider-crank whose pins are so thick that friction outgrows what it is caused by."""
-    model = slider_crank.MODEL
-    simulation = Simulation(model.build(model.values(joint_friction_radius=0.1)))
-    with pytest.raises(SimulationError, match=r"cone\. Joints with friction: crank_hinge, crank_pin, slider_pin\.$"):
-        simulation.advance(0.1)

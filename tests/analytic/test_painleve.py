@@ -1,0 +1,159 @@
+"""Where rigid bodies with friction have no forces, or several, or motions that nothing determines: all are named."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from mechanism_fmu import codes
+from mechanism_fmu.model import GROUND, Brake, Mechanism, Output, PointLineContact, Revolute, Torque, rigid_body
+from mechanism_fmu.simulation import Simulation, SimulationError, friction_solutions
+from models.slider_crank import model as slider_crank
+
+FLOOR = GROUND.line((0, 0), (1, 0))
+#: The rod of the oracle, which comes to the point where A and b vanish together.
+(CASE,) = (
+    case
+    for case in json.loads((Path(__file__).parents[1] / "data" / "friction.json").read_text(encoding="utf-8"))["cases"]
+    if any("jam" in one for one in case["results"].get("runs", ()))
+)
+(RUN,) = (one for one in CASE["results"]["runs"] if "jam" in one)
+
+
+def rod(angle: float, rate: float, slip: float, friction: float, **law: bool) -> Mechanism:
+    """A uniform rod that slides on its lower end, which is at the origin."""
+    mass, half, gravity = (CASE["data"][name] for name in ("m", "l", "g"))
+    c, s = math.cos(angle), math.sin(angle)
+    body = rigid_body(
+        "rod",
+        (half * c, half * s),
+        mass=mass,
+        inertia=mass * half**2 / 3.0,
+        angle=angle,
+        velocity=(slip - half * s * rate, half * c * rate),
+        speed=rate,
+    )
+    return Mechanism(
+        (body,),
+        contacts=(PointLineContact("floor", body.at(-half, 0.0), FLOOR, closed=True, friction=friction),),
+        gravity=(0.0, -gravity),
+        outputs=(
+            Output("slip", "floor.slip_speed", "", "m/s"),
+            Output("sticks", "floor.sticks", "", "1"),
+            Output("speed", "rod.speed", "", "rad/s"),
+            *(Output(name, f"energy.{name}", "", "J") for name in ("kinetic", "work", "lost")),
+        ),
+        **law,
+    )
+
+
+def started(**law: bool) -> Simulation:
+    return Simulation(rod(RUN["theta0"], RUN["thetadot0"], RUN["vT0"], RUN["mu"], **law))
+
+
+def guards(simulation: Simulation) -> list[str]:
+    return [event.guard for event in simulation.events_in_step()]
+
+
+def test_the_end_of_all_forces_is_named_with_contact_coefficient_angle_and_criterion() -> None:
+    simulation = started()
+    expected = (
+        rf"Painleve.*Contacts: floor\. Friction: floor \({RUN['mu']:g}, at 0\.820761 rad, slips, A/G = -?\d\.\d+e-1\d\)"
+    )
+    with pytest.raises(SimulationError, match=expected):
+        simulation.advance(1.0)
+    assert simulation.time == pytest.approx(RUN["jam"]["t"], abs=1e-10)
+
+
+def test_a_shock_leads_on_and_takes_energy() -> None:
+    simulation = started(tangential_shock=True)
+    before = simulation.read()
+    shocks = 0
+    for k in range(1, 40):
+        simulation.advance(0.002 * k)
+        shocks += guards(simulation).count("floor.shock")
+        found = simulation.read()
+        assert found["kinetic"] - found["work"] + found["lost"] == pytest.approx(before["kinetic"], rel=1e-8)
+    assert shocks == 1
+
+
+@pytest.mark.parametrize("friction", [0.15, 0.3])
+def test_pins_without_forces_are_named_and_stopped_by_a_shock(friction: float) -> None:
+    """Pins thicker than the crank is long: friction outgrows what it is caused by, from 0.1405 m on."""
+    model = slider_crank.MODEL
+    mechanism = model.build(model.values(joint_friction_radius=friction))
+    assert not friction_solutions(mechanism)
+    moving = Simulation(model.build(model.values(joint_friction_radius=0.0))).read()["kinetic_energy"]
+    with pytest.raises(
+        SimulationError, match=rf"Painleve.*Friction: crank_hinge \({friction:g}, at .*crank_pin.*slider_pin"
+    ):
+        Simulation(mechanism).advance(0.1)
+    simulation = Simulation(replace(mechanism, tangential_shock=True))
+    simulation.advance(0.1)
+    assert guards(simulation) == ["crank_hinge.shock"]
+    assert simulation.read()["kinetic_energy"] < 1e-15
+    assert simulation.read()["energy_lost"] == pytest.approx(moving, rel=1e-9)
+
+
+def test_pins_with_one_solution_go_on() -> None:
+    """A fixed point of friction and pin forces diverges here, although there is one motion."""
+    model = slider_crank.MODEL
+    mechanism = model.build(model.values(joint_friction_radius=0.13))
+    assert len(friction_solutions(mechanism)) == 1
+    Simulation(mechanism).advance(0.01)
+
+
+def test_several_solutions_are_an_event() -> None:
+    line = next(line for line in CASE["results"]["table"] if line["kind"] == "two")
+    mechanism = rod(line["theta"], line["thetadot"], line["sigma"], line["mu"])
+    assert len(friction_solutions(mechanism)) == 2
+    assert guards(Simulation(mechanism)) == ["floor.several"]
+
+
+@pytest.mark.parametrize(
+    ("frictions", "named"),
+    [((0.1, 0.4, 0.2), ["foot0.undetermined"]), ((0.2, 0.2, 0.2), []), ((0.1, 0.2, 0.3), [])],
+    ids=["unequal", "equal", "linear along the plank"],
+)
+def test_a_plank_on_three_feet(frictions: tuple[float, ...], named: list[str]) -> None:
+    """Normal forces are determined up to (1, -2, 1): that changes the friction unless mu is linear along the plank."""
+    plank = rigid_body("plank", (0.0, 0.0), mass=2.0, inertia=0.3, velocity=(1.0, 0.0))
+    feet = tuple(
+        PointLineContact(f"foot{k}", plank.at(0.4 * (k - 1), 0.0), FLOOR, closed=True, friction=mu)
+        for k, mu in enumerate(frictions)
+    )
+    outputs = (Output("v", "plank.x_rate", "", "m/s"),)
+    simulation = Simulation(Mechanism((plank,), contacts=feet, gravity=(0.0, -9.81), outputs=outputs))
+    assert guards(simulation) == named
+    simulation.advance(0.2)
+    if not named:
+        assert simulation.read()["v"] == pytest.approx(1.0 - frictions[1] * 9.81 * 0.2, abs=1e-12)
+
+
+def test_an_overconstrained_pin_that_slips_is_undetermined() -> None:
+    """Two pins on one axis share the load at will: with unequal friction their torque does, too."""
+    rotor = rigid_body("rotor", (0.0, 0.0), mass=1.0, inertia=0.1, speed=5.0)
+    for radii, named in (((0.01, 0.02), ["left.undetermined"]), ((0.01, 0.0), ["left.undetermined"])):
+        pins = tuple(
+            Revolute(name, rotor, GROUND, friction_radius=radius)
+            for name, radius in zip(("left", "right"), radii, strict=True)
+        )
+        assert guards(Simulation(Mechanism((rotor,), pins, gravity=(0.0, -9.81)))) == named
+
+
+def test_two_brakes_on_one_shaft_both_stick() -> None:
+    """Friction of one is at its bound without moving anything, as the other holds: nothing slides."""
+    disc = rigid_body("disc", (0.0, 0.0), mass=1.0, inertia=0.1)
+    simulation = Simulation(
+        Mechanism(
+            (disc,),
+            (Revolute("shaft", disc, GROUND),),
+            (Brake("small", disc, limit=1.0), Brake("large", disc, limit=10.0), Torque("load", disc, torque=8.0)),
+            outputs=(Output("small", "small.sticks", "", "1"), Output("large", "large.sticks", "", "1")),
+        )
+    )
+    simulation.advance(10.0)
+    assert simulation.read() == {"small": 1.0, "large": 1.0}
+    assert simulation.counters[codes.COUNT_EVENTS] == 0
