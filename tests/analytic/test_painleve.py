@@ -71,7 +71,7 @@ def test_a_shock_leads_on_and_takes_energy() -> None:
     simulation = started(tangential_shock=True)
     before = simulation.read()
     shocks = 0
-    for k in range(1, 40):
+    for k in range(1, 60):
         simulation.advance(0.002 * k)
         shocks += guards(simulation).count("floor.shock")
         found = simulation.read()
