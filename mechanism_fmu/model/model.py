@@ -50,7 +50,9 @@ class _Completed:
         )
 
     def _completed(self, values: SimpleNamespace) -> Mechanism:
-        found: Any = self.function(values)
+        return self._whole(self.function(values), values)
+
+    def _whole(self, found: Any, values: SimpleNamespace) -> Mechanism:
         if not isinstance(found, Mechanism):
             return found  # type: ignore[no-any-return]  # a user's function may return anything: objected to elsewhere
         whole = replace(
@@ -74,24 +76,31 @@ class _Completed:
     def _starts(self) -> SimpleNamespace:
         return SimpleNamespace(**{p.name: p.start for p in self.parameters})
 
-    def _symbolic(self, function: Callable[[SimpleNamespace], Mechanism]) -> Mechanism | None:
-        """What a function of the parameters returns for symbols; None where it cannot take them."""
+    @cached_property
+    def _symbols(self) -> SimpleNamespace:
         recorder = Recorder()
-        symbols = SimpleNamespace(**{p.name: recorder.parameter(k) for k, p in enumerate(self.parameters)})
+        return SimpleNamespace(**{p.name: recorder.parameter(k) for k, p in enumerate(self.parameters)})
+
+    @cached_property
+    def _symbolic(self) -> Mechanism | None:
+        """What the function returns for symbols; None where it cannot take them. It is called with them once."""
         with suppress(ArithmeticError, AttributeError, MechanismError, TypeError, ValueError):
-            return function(symbols)
+            return self.function(self._symbols)
         return None
 
     @cached_property
     def _rubs(self) -> tuple[str, ...]:
         """Names of what may have friction for some values: found once, by symbols for all of them."""
-        symbolic = self._symbolic(self.function)
-        return symbolic.rubs_or_may if isinstance(symbolic, Mechanism) and _is_readable(symbolic) else ()
+        found = self._symbolic
+        return found.rubs_or_may if isinstance(found, Mechanism) and _is_readable(found) else ()
 
     @cached_property
     def plan(self) -> Plan:
         """Which numbers of the default drawing follow from parameters: found once, by symbols for all of them."""
-        return plan_of(self._completed(self._starts), self._symbolic(self._completed))
+        symbolic: Mechanism | None = None
+        with suppress(ArithmeticError, AttributeError, MechanismError, TypeError, ValueError):
+            symbolic = None if self._symbolic is None else self._whole(self._symbolic, self._symbols)
+        return plan_of(self._completed(self._starts), symbolic)
 
     @cached_property
     def shapes(self) -> tuple[Shape, ...]:

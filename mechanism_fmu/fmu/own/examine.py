@@ -204,15 +204,16 @@ def _check_variables(model: Model) -> None:
 
 def _old_form(said: list[warnings.WarningMessage], path: Path) -> Iterator[str]:
     """The first part of the file that is written in the old form; other warnings go on as they came."""
-    old = []
+    old: dict[str, int] = {}  # each part once, though the model's function is called for symbols, too
     for one in said:
         if not issubclass(one.category, OldFormWarning):
             warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
         elif one.filename == str(path):
-            old.append(one)
+            old.setdefault(str(one.message), one.lineno)
     if old:
         more = f" So are {len(old) - 1} more." if len(old) > 1 else ""
-        yield f"line {old[0].lineno}: {old[0].message}{more}"
+        message, line = next(iter(old.items()))
+        yield f"line {line}: {message}{more}"
 
 
 def _degrees(model: Model, mechanism: Mechanism) -> Iterator[str]:

@@ -32,15 +32,18 @@ def test_a_model_without_switches_has_one_variant():
 
 def test_the_switches_are_the_parameters_that_change_the_logic():
     names = [p.name for p in switches_of(RATCHET)]
-    assert names == ["guided", "holding_pawl", "restitution", "holding_pawl_restitution"]
+    assert names == [
+        *("guided", "holding_pawl", "restitution", "holding_pawl_restitution"),
+        *("friction", "joint_friction_radius"),
+    ]
 
 
 def test_every_choice_of_the_ratchet_is_the_logic_of_those_values():
     data = data_of(RATCHET)
-    assert len(data["choices"]) == 16
+    assert len(data["choices"]) == 64
     for key, place in data["choices"].items():
         values = {
-            name: 0.5 * int(bit) if "restitution" in name else int(bit)
+            name: 0.5 * int(bit) if "restitution" in name or "friction" in name else int(bit)
             for name, bit in zip(data["switches"], key, strict=True)
         }
         assert decode(data["variants"][place]) == logic_of(RATCHET.build(RATCHET.values(**values)))
