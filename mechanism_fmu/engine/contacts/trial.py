@@ -57,13 +57,13 @@ def _try_impulses(block: Array, at: Pose) -> int:
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
             system.right_side[table.row[c]] = strike.target[c]
+    if not rubs(block):
+        minimum_norm(block, count, Sizes(block).coordinates)
+        return count
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
         if rub.row[k] >= 0:
             system.right_side[rub.row[k]] = -Rows(block).residual_rate[rub.row[k]]
-    if not rubs(block):
-        minimum_norm(block, count, Sizes(block).coordinates)
-        return count
     gives = _given_impulses(block, at, count)
     minimum_norm(block, count, Sizes(block).coordinates)
     if gives:

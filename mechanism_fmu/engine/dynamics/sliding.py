@@ -201,7 +201,7 @@ def _normal(block: Array, rub: int, number: int, line: int) -> float:
             row = Contacts(block).row[rub]
             normal += _multiplier(block, row, number)
             side = 1.0
-            if Contacts(block).value[rub, codes.GUIDED] > 0.5 and normal < 0.0:
+            if normal < 0.0 and _has_two_sides(block, rub):
                 side = -1.0  # it holds, and is pushed from its other side
             for b in range(number):
                 slope[b] = side * table.multiplier[table.sliding[b], row]
@@ -227,6 +227,14 @@ def _normal(block: Array, rub: int, number: int, line: int) -> float:
                 slope[b] += second * table.multiplier[k, row + 1]
             slope[b] *= length / force
     return force * length
+
+
+@jit
+def _has_two_sides(block: Array, contact: int) -> bool:
+    """Whether a contact holds from both sides: it is guided, or switched by a function."""
+    table = Contacts(block)
+    both: bool = table.value[contact, codes.GUIDED] > 0.5 or table.function[contact] != codes.NONE
+    return both
 
 
 @jit
@@ -278,7 +286,7 @@ def hold(block: Array, rub: int) -> float:
         normal: float = Rubs(block).given[rub]
         if Contacts(block).mode[rub] == codes.CLOSED:
             normal += system.multiplier[Contacts(block).row[rub]]
-            if Contacts(block).value[rub, codes.GUIDED] > 0.5:
+            if _has_two_sides(block, rub):
                 normal = abs(normal)
     elif rub >= contacts + Sizes(block).joints:
         normal = 1.0

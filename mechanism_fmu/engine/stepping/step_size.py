@@ -152,7 +152,7 @@ def _try(block: Array, start: float, step: float) -> float:
     keep_small()
     s = Stages(block)
     error = try_step(block, start, step)
-    if Sizes(block).guards == 0:
+    if Sizes(block).guards == Sizes(block).rubs:  # none of positions: slip is as smooth as the motion
         return error
     turn = 0.0
     for k in range(2, Sizes(block).coordinates, 3):
