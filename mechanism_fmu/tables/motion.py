@@ -226,7 +226,7 @@ class Rubs(Table, rows="rubs", prefix="rub_"):
     Scratch: the row of one that sticks; of one that slips, its direction in the coordinates, and what a unit of
     friction does to rates (as `linear_system.solution`) and to multipliers; friction [N, N m], or its impulse; the slip
     speed; a part of the normal impulse that is given; what holds it least (`complementarity.hold_ratio`); whether it is
-    free to stick or to slip either way; whether it stuck before an input changed. Those that slip, by number; friction
+    free to stick or to slip either way; whether it stuck before. Those that slip, by number; friction
     that smaller coefficients would have; of one that slips, what a unit of normal force does to its gap beside what it
     would without friction; 1 where the system for their friction has a positive determinant, as it has for little
     friction, else 0; that system; solution and multipliers without it.

@@ -76,11 +76,32 @@ def free_all(block: Array) -> None:
 
 @jit
 def note_sticks(block: Array) -> None:
-    """Note what sticks, before inputs change."""
+    """Note what sticks."""
     keep_small()
     table = Rubs(block)
     for k in range(table.slip.shape[0]):
         table.stuck[k] = 1 if sticks(block, k) else 0
+
+
+@jit
+def let_go_for_now(block: Array) -> None:
+    """What sticks is no row while drift is mended: it may have to slip, as where a row with a tiny lever has closed."""
+    keep_small()
+    note_sticks(block)
+    table = Rubs(block)
+    for k in range(table.slip.shape[0]):
+        if table.stuck[k] == 1:
+            table.slip[k] = codes.APART
+
+
+@jit
+def hold_again(block: Array) -> None:
+    """What stuck before `let_go_for_now` does so again, until modes are chosen."""
+    keep_small()
+    table = Rubs(block)
+    for k in range(table.slip.shape[0]):
+        if table.stuck[k] == 1:
+            table.slip[k] = codes.STICKS
 
 
 @jit

@@ -20,7 +20,7 @@ from .doubts import other_choice, undetermined
 from .guards import can_open, gap, place_contact, place_pattern
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, make_space, strike
 from .impact_laws import shock
-from .rubbing import let_slip, look_at_slip, note_sticks, part
+from .rubbing import hold_again, let_go_for_now, let_slip, look_at_slip, note_sticks, part
 from .trial import COUNT
 
 # Contacts that no longer touch.
@@ -211,7 +211,9 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
         Strikes(block).candidates[count] = c
         count += 1
     if not only_choose:
+        let_go_for_now(block)
         mend(block, LEAST_DRIFT, 0.0)  # also of what is about to open: a gap must not be left below zero
+        hold_again(block)
     if count == 0 and not rubs(block):
         return status.OK
     Strikes(block).problem[COUNT] = count
