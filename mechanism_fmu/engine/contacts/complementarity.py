@@ -22,7 +22,7 @@ from ...tables.motion import Course, LinearSystem, Pose, Rubs, Strikes
 from ...tables.parts import Contacts
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, holding, rubs, touches
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
@@ -94,6 +94,7 @@ def _choose(block: Array, at: Pose) -> int:
 @jit
 def _pivot(block: Array, at: Pose, most: int) -> bool:
     """As long as a candidate is wrong, the first one changes sides, up to `most` times; whether none is at last."""
+    keep_apart()
     count = Strikes(block).problem[COUNT]
     mode = Contacts(block).mode
     candidates = Strikes(block).candidates
@@ -111,7 +112,7 @@ def _pivot(block: Array, at: Pose, most: int) -> bool:
 @jit
 def _combine(block: Array, at: Pose, count: int) -> int:
     """Try all combinations of modes of the candidates, and of stick and slip where that is free; return a status."""
-    keep_small()
+    keep_apart()
     mode = Contacts(block).mode
     candidates = Strikes(block).candidates
     rub = Rubs(block)
@@ -178,7 +179,7 @@ def _first_wrong(block: Array, at: Pose) -> int:
 
     A closed one comes off when rows that depend on each other contradict each other: the solution is then a compromise.
     """
-    keep_small()
+    keep_apart()
     mode = Contacts(block).mode
     candidates = Strikes(block).candidates
     impulses = Strikes(block).problem[KIND] == IMPULSES
@@ -206,7 +207,7 @@ def _first_wrong(block: Array, at: Pose) -> int:
 @jit
 def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
     """The first that sticks beyond its cone, or slips against its friction's direction; `codes.NONE`: none."""
-    keep_small()
+    keep_apart()
     table = Rubs(block)
     multiplier = LinearSystem(block).multiplier
     spare = spare_row(block)

@@ -12,7 +12,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Loads, Pose, Rubs, Stages, Strikes
 from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, slips
 from ..vectors import copy
 from .complementarity import agrees
@@ -29,7 +29,7 @@ def other_choice(block: Array, at: Pose) -> int:
     The other choice has other accelerations; rows that depend on each other may be given up without any. Modes are as
     before, but what the last trial has left is lost.
     """
-    keep_small()
+    keep_apart()
     n = Sizes(block).coordinates
     chosen = Stages(block).dy_at
     copy(Course(block).dy_end, chosen)
@@ -67,7 +67,7 @@ def undetermined(block: Array, count: int) -> int:
     range of all rows. Where they change friction, and friction the accelerations, the motion is one of many. It is to
     be called right behind a trial.
     """
-    keep_small()
+    keep_apart()
     table = Rubs(block)
     rank = LinearSystem(block).rank[0]
     if rank >= count:
@@ -97,7 +97,7 @@ def _is_pin(block: Array, rub: int) -> bool:
 @jit
 def _moves(block: Array, row: int, rank: int, count: int) -> bool:
     """Whether the share of the multiplier of a row that is free changes accelerations, by friction."""
-    keep_small()
+    keep_apart()
     system = LinearSystem(block)
     table = Rubs(block)
     free = Loads(block).last_multiplier

@@ -9,7 +9,7 @@ test are broken lexicographically, so that it ends.
 from __future__ import annotations
 
 from ...tables.declare import Array
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 
 #: A pivot below this, or a difference of two ratios beside their size, is rounding.
 _LEAST_PIVOT = 1e-11
@@ -25,7 +25,7 @@ def lemke(tableau: Array, basis: Array, count: int) -> bool:
     Afterwards the variable `basis[i]` (w_k is k, z_k is `count` + k) has the value `tableau[i, 2 count + 1]`, all
     others are zero.
     """
-    keep_small()
+    keep_apart()
     covering = 2 * count
     leaving = 0
     for i in range(count):
@@ -50,7 +50,7 @@ def lemke(tableau: Array, basis: Array, count: int) -> bool:
 
 @jit
 def _pivot(tableau: Array, count: int, row: int, column: int) -> None:
-    keep_small()
+    keep_apart()
     width = 2 * count + 2
     divisor = tableau[row, column]
     for k in range(width):

@@ -19,7 +19,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose, Problem, Rows, Rubs, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, holding
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
@@ -31,7 +31,7 @@ from .trial import COUNT, excess, slip_change, try_modes
 @jit
 def propose(block: Array, at: Pose) -> bool:
     """Set the modes of the candidates as the complementarity problem has them; whether it has a solution."""
-    keep_small()
+    keep_apart()
     strike = Strikes(block)
     rub = Rubs(block)
     mode = Contacts(block).mode
@@ -88,6 +88,7 @@ def _is_free(block: Array, contact: int) -> bool:
 @jit
 def _between(block: Array, a: int, b: int) -> float:
     """The acceleration along direction `a` by a unit force along direction `b`."""
+    keep_apart()
     problem = Problem(block)
     root = Bodies(block).inverse_root_mass
     total = 0.0
@@ -99,7 +100,7 @@ def _between(block: Array, a: int, b: int) -> float:
 @jit
 def _write(block: Array, count: int) -> int:
     """Write the tableau, in units in which the largest acceleration of a normal by its own force is 1; its unknowns."""
-    keep_small()
+    keep_apart()
     problem = Problem(block)
     rub = Rubs(block)
     unit = 0.0

@@ -7,7 +7,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows, Rubs, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows, contact_row, row_count
@@ -37,6 +37,7 @@ DECIDED = 2
 @jit
 def try_modes(block: Array, at: Pose) -> int:
     """The trial of the present modes; the number of rows."""
+    keep_apart()
     if Strikes(block).problem[KIND] == IMPULSES:
         return _try_impulses(block, at)
     derivative(block, Course(block).y_end, Course(block).dy_end)
@@ -46,7 +47,7 @@ def try_modes(block: Array, at: Pose) -> int:
 @jit
 def _try_impulses(block: Array, at: Pose) -> int:
     """Impulses and change of rates for the present modes, eq (7) with the targets of all closed contacts."""
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     strike = Strikes(block)
     system = LinearSystem(block)
@@ -121,7 +122,7 @@ def slip_change(block: Array, r: int) -> tuple[float, float]:
 @jit
 def _change(block: Array, r: int, left: float) -> tuple[float, float]:
     """`left` and what the trial changes along row `r`: of rates in an impact, else accelerations; and its rounding."""
-    keep_small()
+    keep_apart()
     n = Sizes(block).coordinates
     impulses = Strikes(block).problem[KIND] == IMPULSES
     tolerance = _SPEED if impulses else _ACCELERATION

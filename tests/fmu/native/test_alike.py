@@ -1,6 +1,7 @@
 """Differences between the flavours that were found once, and must not come back."""
 
 import math
+import re
 
 import pytest
 from fmpy.fmi1 import FMICallException
@@ -54,9 +55,12 @@ def test_the_words_about_a_wrong_stop_time_are_the_same(one, stop_time):
 def test_friction_of_joints_that_jams_names_them(flavour, request):
     """There are no contacts to be named."""
     with Instance(request.getfixturevalue(flavour)) as one:
-        one.begin({"joint_friction_radius": 0.1, "slider_friction": 0.0})
+        one.begin({"joint_friction_radius": 0.15, "slider_friction": 0.0})
         with pytest.raises(FMICallException):
             one.step(0.1)
-        assert "the mechanism jams itself. Give less friction" in one.refusal
-        assert one.refusal.rstrip().endswith("Joints with friction: crank_hinge, crank_pin, slider_pin.")
+        assert "No finite forces agree with friction from here on (Painleve's paradox" in one.refusal
+        assert re.search(
+            r" Friction: crank_hinge \(0\.15, at [-\d.e]+ rad, slips, A/G = [-\d.e+]+\), crank_pin .*, slider_pin .*\.$",
+            one.refusal.rstrip(),
+        )
         assert "Contacts:" not in one.refusal
