@@ -60,6 +60,7 @@ def test_friction_of_joints_that_jams_names_them(flavour, request):
             one.step(0.1)
         assert "No finite forces agree with friction from here on (Painleve's paradox" in one.refusal
         number = r"[-\d.e+]+"
-        named = rf" Friction: crank_hinge \(0\.15, at {number} rad, slips, A/G = {number}\), crank_pin .*, slider_pin .*\.$"
+        first = rf" Friction: crank_hinge \(0\.15, at {number} rad, slips, A/G = {number}\)"
+        named = rf"{first}, crank_pin .*, slider_pin .*\.$"
         assert re.search(named, one.refusal.rstrip())
         assert "Contacts:" not in one.refusal
