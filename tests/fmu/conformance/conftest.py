@@ -94,6 +94,7 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "until": 2.0,
         "impossible": {"pinion_radius": 900.0},
         "impacts": False,
+        "sticks": True,
     },
     # So fast that the roller leaves the cam again and again, lands and bounces, until a spring turns it back.
     "cam_drive": {
