@@ -37,6 +37,9 @@ BRIDGES = 2
 OPEN = 0
 CLOSED = 1
 
+# contact_touching (state): 0, 1, or this: rows that contradict each other by rounding have left an open one inside
+LEFT_INSIDE = 2
+
 # rub_slip (state): how a contact or joint with friction moves along; 0 where it does not touch
 APART = 0
 FORWARDS = 1

@@ -8,16 +8,13 @@ from typing import Any, NamedTuple
 from .. import codes
 from ..tables.declare import Array
 from ..tables.members import Structure
-from ..tables.motion import Course, LinearSystem, Pose, Rows, Rubs, Stages
+from ..tables.motion import Course, LinearSystem, Pose, Stages
 from ..tables.parts import Bodies, Contacts, Patterns, Ports
 from ..tables.sizes import Sizes
-from ..tolerances import SLIPS_ABOVE
 from .compiler.by_kind import by_kind
 from .compiler.subset import entry, jit, keep_small
-from .constraints.friction_rows import friction_row, meets, sticks, touches
 from .constraints.kinematics import place_bodies, set_instant
-from .constraints.point_line import spare_row
-from .constraints.rows import contact_row
+from .contacts.friction_readings import friction_force, gap_acceleration, slip_acceleration, slip_speed, sticks_now
 from .contacts.guards import gap
 from .dynamics.acceleration import derivative
 from .dynamics.forces import (
@@ -32,9 +29,6 @@ from .dynamics.forces import (
 from .elastic.readings import beam_reading, elastic_reading
 from .elastic.structure import bend
 from .stepping.stepper import state_at_time
-
-#: An acceleration below this is none [m/s2, rad/s2].
-_AT_REST = 1e-8
 
 
 class Reading(NamedTuple):
@@ -201,61 +195,6 @@ def _member_force(block: Array, _at: Pose, index: int, _slot: int, value: float)
     return value
 
 
-@jit
-def _slip_speed(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
-    value = 0.0
-    if meets(block, index) and not sticks(block, index):
-        friction_row(block, at, index, spare_row(block))
-        value = Rows(block).residual_rate[spare_row(block)]
-    return value
-
-
-@jit
-def _friction_force(block: Array, _at: Pose, index: int, _slot: int, _value: float) -> float:
-    value = 0.0
-    if touches(block, index):
-        value = Rubs(block).force[index]
-    return value
-
-
-@jit
-def _sticks_now(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
-    """Whether it does not slide; also where friction is at its bound, and others that stick hold it all the same."""
-    if sticks(block, index):
-        return 1.0
-    if not touches(block, index):
-        return 0.0
-    friction_row(block, at, index, spare_row(block))
-    speed = Rows(block).residual_rate[spare_row(block)]
-    rests = abs(speed) <= SLIPS_ABOVE and abs(_along_spare(block)) <= _AT_REST
-    return 1.0 if rests else 0.0
-
-
-@jit
-def _along_spare(block: Array) -> float:
-    """The second derivative of the spare row at the accelerations of the last solve."""
-    n = Sizes(block).coordinates
-    spare = spare_row(block)
-    total = -Rows(block).gamma[spare]
-    for k in range(n):
-        total += Rows(block).jacobian[spare, k] * Stages(block).dy_at[n + k]
-    return float(total)
-
-
-@jit
-def _gap_acceleration(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
-    keep_small()
-    contact_row(block, at, index, spare_row(block))
-    return _along_spare(block)
-
-
-@jit
-def _slip_acceleration(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
-    keep_small()
-    friction_row(block, at, index, spare_row(block))
-    return _along_spare(block)
-
-
 #: Every kind of output but those of elastic members.
 READINGS: dict[int, Reading] = {
     codes.CONSTANT: Reading(_constant, _rests),
@@ -277,11 +216,11 @@ READINGS: dict[int, Reading] = {
     codes.JOINT_FORCE: Reading(_joint_force, solves=True),
     codes.BUFFERED_EVENT: Reading(_buffered_event),
     codes.MEMBER_FORCE: Reading(_member_force),
-    codes.SLIP_SPEED: Reading(_slip_speed),
-    codes.FRICTION_FORCE: Reading(_friction_force, solves=True),
-    codes.STICKS_NOW: Reading(_sticks_now, solves=True),
-    codes.GAP_ACCELERATION: Reading(_gap_acceleration, solves=True),
-    codes.SLIP_ACCELERATION: Reading(_slip_acceleration, solves=True),
+    codes.SLIP_SPEED: Reading(slip_speed),
+    codes.FRICTION_FORCE: Reading(friction_force, solves=True),
+    codes.STICKS_NOW: Reading(sticks_now, solves=True),
+    codes.GAP_ACCELERATION: Reading(gap_acceleration, solves=True),
+    codes.SLIP_ACCELERATION: Reading(slip_acceleration, solves=True),
 }
 
 

@@ -258,12 +258,13 @@ class Problem(Table, rows="problem", prefix="problem_"):
 
     Directions of the normal and of the slip of each candidate in the coordinates, what a unit of force along them does
     to rates (as `linear_system.solution`), and accelerations along them without the candidates' forces; the first
-    unknown of each candidate; tableau and basis.
+    unknown of each candidate; the acceleration along a normal by which the tableau is scaled; tableau and basis.
     """
 
     direction = real("columns", work=True)
     response = real("columns", work=True)
     offset = real(work=True)
     first = integer(work=True)
+    unit = real(work=True)
     tableau = real("problem_columns", work=True)
     basis = integer(work=True)

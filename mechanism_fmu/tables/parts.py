@@ -94,7 +94,7 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     curve_j = integer()
     value = real(codes.CONTACT_VALUES)
     mode = integer(holds=whole(codes.OPEN, codes.CLOSED))
-    touching = integer(holds=FLAG)
+    touching = integer(holds=whole(0, codes.LEFT_INSIDE))
     clicks = integer(holds=COUNT)
     line = real(4, holds=FINITE)
     hollow = integer(holds=whole(codes.CONVEX, codes.BRIDGES))

@@ -68,7 +68,7 @@ class Sizes:
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])
     rub_columns = _follows(lambda n: n["rubs"] + 1)
     # unknowns of the complementarity problem of contacts with friction, and columns of its tableau
-    problem = _follows(lambda n: 3 * n["contacts"] if n["rubs"] > 0 else 0)
+    problem = _follows(lambda n: 4 * n["contacts"] if n["rubs"] > 0 else 0)
     problem_columns = _follows(lambda n: 2 * n["problem"] + 2)
     # columns of an impact record
     record = _follows(lambda n: codes.RECORD_CONTACT_IMPULSES + n["contacts"] + 2 * n["coordinates"])

@@ -28,7 +28,7 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
 from ..dynamics.sliding import hold
 from ..vectors import largest
-from .proposal import propose
+from .proposal import CONES, SPLIT, propose
 from .trial import COUNT, FORCES, IMPULSES, KIND, excess, slip_change, try_modes
 
 #: An impulse may be missing this share of the largest one.
@@ -86,8 +86,11 @@ def _choose(block: Array, at: Pose) -> int:
     if not rubs(block):
         return status.OK if _pivot(block, at, _MOST_PIVOTS * (1 + count)) else _combine(block, at, count)
     pivots = _FEW_PIVOTS * (1 + count + Course(block).counters[codes.RUBBING])
-    if _pivot(block, at, pivots) or (propose(block, at) and _pivot(block, at, pivots)):
+    if _pivot(block, at, pivots):
         return status.OK
+    for form in (CONES, SPLIT):
+        if propose(block, at, form) and _pivot(block, at, pivots):
+            return status.OK
     return _combine(block, at, count)
 
 

@@ -14,6 +14,8 @@ from ..compiler.subset import jit, keep_apart, keep_small
 #: A pivot below this, or a difference of two ratios beside their size, is rounding.
 _LEAST_PIVOT = 1e-11
 _TIE = 1e-12
+#: Of its first value, z0 is nothing when less than this is left.
+_NOTHING = 1e-13
 #: Pivots for each unknown after which it is given up.
 _MOST_PIVOTS = 12
 
@@ -23,7 +25,7 @@ def lemke(tableau: Array, basis: Array, count: int) -> bool:
     """Solve a problem with `count` unknowns in place; whether that ended, and not in a ray.
 
     Afterwards the variable `basis[i]` (w_k is k, z_k is `count` + k) has the value `tableau[i, 2 count + 1]`, all
-    others are zero.
+    others are zero. It also ends where rounding is all that is left of z0.
     """
     keep_apart()
     covering = 2 * count
@@ -32,7 +34,8 @@ def lemke(tableau: Array, basis: Array, count: int) -> bool:
         basis[i] = i
         if tableau[i, covering + 1] < tableau[leaving, covering + 1]:
             leaving = i
-    if tableau[leaving, covering + 1] >= 0.0:
+    least = tableau[leaving, covering + 1]
+    if least >= 0.0:
         return True
     entering = covering
     for _ in range(_MOST_PIVOTS * count):
@@ -41,6 +44,9 @@ def lemke(tableau: Array, basis: Array, count: int) -> bool:
         basis[leaving] = entering
         if left == covering:
             return True
+        for i in range(count):
+            if basis[i] == covering and tableau[i, covering + 1] <= -_NOTHING * least:
+                return True
         entering = left - count if left >= count else left + count
         leaving = _leaving_row(tableau, basis, count, entering)
         if leaving < 0:

@@ -84,24 +84,13 @@ def note_sticks(block: Array) -> None:
 
 
 @jit
-def let_go_for_now(block: Array) -> None:
-    """What sticks is no row while drift is mended: it may have to slip, as where a row with a tiny lever has closed."""
-    keep_small()
-    note_sticks(block)
-    table = Rubs(block)
-    for k in range(table.slip.shape[0]):
-        if table.stuck[k] == 1:
-            table.slip[k] = codes.APART
-
-
-@jit
-def hold_again(block: Array) -> None:
-    """What stuck before `let_go_for_now` does so again, until modes are chosen."""
+def set_noted(block: Array, slip: int) -> None:
+    """What stuck when it was noted has this mode for now, `codes.APART` or `codes.STICKS`."""
     keep_small()
     table = Rubs(block)
     for k in range(table.slip.shape[0]):
         if table.stuck[k] == 1:
-            table.slip[k] = codes.STICKS
+            table.slip[k] = slip
 
 
 @jit

@@ -20,7 +20,7 @@ from .doubts import other_choice, undetermined
 from .guards import can_open, gap, place_contact, place_pattern
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, make_space, strike
 from .impact_laws import shock
-from .rubbing import hold_again, let_go_for_now, let_slip, look_at_slip, note_sticks, part
+from .rubbing import let_slip, look_at_slip, note_sticks, part, set_noted
 from .trial import COUNT
 
 # Contacts that no longer touch.
@@ -36,7 +36,7 @@ def release(block: Array, struck: int) -> None:
     table = Contacts(block)
     at = place_bodies(block, Course(block).y_end)
     for c in range(table.mode.shape[0]):
-        if table.touching[c] == 1 and table.mode[c] == codes.OPEN and c != struck:
+        if table.touching[c] != 0 and table.mode[c] == codes.OPEN and c != struck:
             distance, rate = gap(block, at, c)
             if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
                 table.touching[c] = 0
@@ -211,9 +211,12 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
         Strikes(block).candidates[count] = c
         count += 1
     if not only_choose:
-        let_go_for_now(block)
-        mend(block, LEAST_DRIFT, 0.0)  # also of what is about to open: a gap must not be left below zero
-        hold_again(block)
+        # Also of what is about to open: a gap must not be left below zero. But nothing sticks meanwhile, because it may
+        # have to slip, as where a row with a tiny lever has closed.
+        note_sticks(block)
+        set_noted(block, codes.APART)
+        mend(block, LEAST_DRIFT, 0.0)
+        set_noted(block, codes.STICKS)
     if count == 0 and not rubs(block):
         return status.OK
     Strikes(block).problem[COUNT] = count
@@ -231,9 +234,12 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
     part(block)
     if rubs(block) and not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # what has come to rest
+    at = place_bodies(block, Course(block).y_end)
     for k in range(count):
         c = Strikes(block).candidates[k]
         table.touching[c] = 1 - table.mode[c]
+        if table.mode[c] == codes.OPEN and -TOUCHES_WITHIN < gap(block, at, c)[0] < -GAP_NOISE:
+            table.touching[c] = codes.LEFT_INSIDE
     return outcome
 
 

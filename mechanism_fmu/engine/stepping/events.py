@@ -7,7 +7,8 @@ falls between two steps. Only this way round counts. Of several guards the earli
 - a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at;
 - a gap that is not positive at t0, or whose contact touched there (`contacts.touching`): closing (w' < -RESTS_BELOW),
   it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then only below
-  min(w(t0), 0) - GAP_NOISE; at rest, it counts below -GAP_NOISE until it has been above GAP_NOISE.
+  min(w(t0), 0) - GAP_NOISE; at rest, it counts below -GAP_NOISE until it has been above GAP_NOISE, and where rows that
+  contradict each other by rounding have left it inside (`codes.LEFT_INSIDE`), that much further below.
 
 Guards of the position are looked at on the dense output, the forces of closed contacts at the step's stages. The root
 of a gap is then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the
@@ -22,7 +23,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
-from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE
+from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
@@ -138,8 +139,10 @@ def _begin(block: Array, at: Pose, number: int) -> bool:
     if rate < -RESTS_BELOW:
         return True
     look_at.floor[number] = -GAP_NOISE
-    if rate > RESTS_BELOW:
+    opens = rate > RESTS_BELOW
+    if opens:
         look_at.armed[number] = 0
+    if opens or (Contacts(block).touching[subject] == codes.LEFT_INSIDE and value > -TOUCHES_WITHIN):
         look_at.floor[number] += min(value, 0.0)
     fires: bool = value <= look_at.floor[number]
     return fires
