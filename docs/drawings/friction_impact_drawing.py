@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 from docs.joints.sketch import BODY_I, LINE, add, scale
 from mechanism_fmu.model import GROUND, Mechanism, Output, PointLineContact, rigid_body
@@ -22,7 +23,8 @@ INERTIA = MASS * HALF**2 / 3.0
 SPEED: Point = (1.0, -2.0)
 MU, E = 0.4, 0.5
 
-COLOURS = {"newton": FIRST, "poisson": SECOND, "stronge": THIRD}
+Law = Literal["newton", "poisson", "stronge"]
+COLOURS: dict[Law, str] = {"newton": FIRST, "poisson": SECOND, "stronge": THIRD}
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class Blow:
     energy: float
 
 
-def blow(law: str, restitution: float = E) -> Blow:
+def blow(law: Law, restitution: float = E) -> Blow:
     """The blow by one of the laws, by the engine."""
     angle = math.atan2(SIN, COS)
     rod = rigid_body("rod", (HALF * COS, HALF * SIN), mass=MASS, inertia=INERTIA, angle=angle, velocity=SPEED)
@@ -112,7 +114,7 @@ def impact_drawing() -> str:
     s = Plane((270, 300), 270.0, up=330.0)
     last, most = 2.05, 0.72
     ends = {law: blow(law).impulse for law in COLOURS}
-    half = {law: blow(law, restitution=0.0).impulse for law in ("poisson", "stronge")}
+    half = {law: blow(law, restitution=0.0).impulse for law in COLOURS if law != "newton"}
     low = -0.3
     turn = turning_point()
     cone = [(0.0, 0.0), (most / MU, most), (last, most), (last, low), (-low / MU, low)]

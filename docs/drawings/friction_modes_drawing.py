@@ -68,7 +68,7 @@ def _straight(s: Sketch, event: tuple[str, str], way: tuple[Point, Point, Point,
 def _bow(s: Sketch, start: Point, end: Point, depth: float) -> list[str]:
     """An arrow to both sides below what lies between: the slip goes on the other way at once."""
     points = [add(along(start, end, k / 40), (0.0, -depth * math.sin(math.pi * k / 40))) for k in range(41)]
-    (event,) = {EVENTS[pair] for pair in permutations(("slips backwards", "slips forwards"))}
+    (event,) = {EVENTS[pair] for pair in permutations(("slips backwards", "slips forwards"), 2)}
     name, text = event
     return [
         s.path(points, f'{_ARROW} marker-start="url(#arrow{INK[1:]})"'),

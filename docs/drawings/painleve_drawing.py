@@ -30,8 +30,8 @@ def rod(angle: float, rate: float, friction: float = MU, slip: float = SLIP) -> 
     """The rod on the floor, with its angle above it [rad], its rate [rad/s] and the speed of its lower end [m/s]."""
     c, s = math.cos(angle), math.sin(angle)
     velocity = (slip - HALF * s * rate, HALF * c * rate)
-    turning = {"angle": angle, "speed": rate, "velocity": velocity}
-    body = rigid_body("rod", (HALF * c, HALF * s), mass=MASS, inertia=MASS * HALF**2 / 3.0, **turning)
+    at, inertia = (HALF * c, HALF * s), MASS * HALF**2 / 3.0
+    body = rigid_body("rod", at, mass=MASS, inertia=inertia, angle=angle, speed=rate, velocity=velocity)
     floor = GROUND.line((0, 0), (1, 0))
     contact = PointLineContact("floor", body.at(-HALF, 0.0), floor, closed=True, friction=friction)
     outputs = tuple(Output(name, f"rod.{name}", "") for name in ("angle", "speed"))
