@@ -1,6 +1,6 @@
-"""The picture of friction: the cone of the contact force, and friction over the slip speed.
+"""The pictures of docs/friction.md, of which the first is here: the cone of the contact force, friction over slip.
 
-python -m docs.drawings.friction_drawing      rewrites docs/friction.svg, in the root of a clone
+python -m docs.drawings.friction_drawing      rewrites docs/friction*.svg, in the root of a clone
 """
 
 from __future__ import annotations
@@ -10,9 +10,14 @@ from pathlib import Path
 
 from docs.joints.sketch import ACCENT, AXIS, BODY_I, BODY_J, LINE, THIN, Sketch, add
 
+from .friction_cases_drawing import cases_drawing
+from .friction_impact_drawing import impact_drawing
+from .friction_modes_drawing import modes_drawing
+from .friction_runs_drawing import runs_drawing
+from .painleve_drawing import painleve_drawing
 from .pictures import Point, sheet
 
-PICTURE = Path(__file__).parents[1] / "friction.svg"
+PICTURES = Path(__file__).parents[1]
 
 #: Of the picture: mu = tan(rho).
 RHO = math.radians(26)
@@ -61,15 +66,27 @@ def _law(s: Sketch) -> list[str]:
     ]
 
 
-def drawing() -> str:
+def law_drawing() -> str:
     """The picture as SVG text."""
     s = Sketch((20, 300), 100)
     return sheet(760, 320, "Friction: the cone of the contact force, and friction over slip", [*_cone(s), *_law(s)])
 
 
+#: Of each file, without .svg: what draws it.
+DRAWINGS = {
+    "friction": law_drawing,
+    "friction_modes": modes_drawing,
+    "friction_runs": runs_drawing,
+    "friction_impact": impact_drawing,
+    "friction_painleve": painleve_drawing,
+    "friction_cases": cases_drawing,
+}
+
+
 def main() -> None:
-    """Rewrite the picture."""
-    PICTURE.write_text(drawing(), encoding="utf-8")
+    """Rewrite all pictures."""
+    for name, draw in DRAWINGS.items():
+        (PICTURES / f"{name}.svg").write_text(draw(), encoding="utf-8")
 
 
 if __name__ == "__main__":
