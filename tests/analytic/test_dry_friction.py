@@ -252,7 +252,7 @@ def test_energy_never_grows_and_the_ledger_adds_up(case):
         scale = before["kinetic"] + abs(now["work"]) + 1.0
         assert now["lost"] >= lost - 1e-9 * scale
         lost = now["lost"]
-        assert now["kinetic"] + now["lost"] - now["work"] == pytest.approx(before["kinetic"], abs=1e-7 * scale)
+        assert now["kinetic"] + now["lost"] - now["work"] == pytest.approx(before["kinetic"], abs=1e-9 * scale)
 
 
 @given(thrown())
@@ -272,10 +272,10 @@ def test_friction_is_within_its_cone_and_against_the_slip(case):
         for c, contact in enumerate(contacts):
             if modes[c] == codes.CLOSED:
                 push = multiplier[rows[c]]
-                assert push >= -1e-7 * scale
+                assert push >= -1e-9 * scale
                 bound = contact.friction * push
                 if slips[c] == codes.STICKS:
-                    assert abs(forces[c]) <= bound + 1e-7 * scale
+                    assert abs(forces[c]) <= bound + 1e-9 * scale
                 elif contact.friction > 0.0:
                     assert forces[c] == pytest.approx(-slips[c] * bound, abs=1e-9 * scale)
 

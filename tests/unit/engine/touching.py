@@ -15,7 +15,8 @@ Array = np.ndarray[Any, Any]
 class Touching(NamedTuple):
     """A mechanism whose contacts all have gap 0 at the start, and the same in numbers.
 
-    `masses`, `loads` and `rates`, shape (3 bodies,); `rows` are the gradients of the gaps, shape (contacts, 3 bodies).
+    `masses`, `loads` and `rates`, shape (3 bodies,); `rows` are the gradients of the gaps, shape (contacts, 3 bodies);
+    `slips` those of the slip of body_i along the line's direction, likewise.
     """
 
     mechanism: Mechanism
@@ -23,6 +24,7 @@ class Touching(NamedTuple):
     loads: Array
     rates: Array
     rows: Array
+    slips: Array
 
 
 def touching(
@@ -41,14 +43,17 @@ def touching(
     loads = random.uniform(-5, 5, (bodies, 3))
     rates = random.uniform(-1, 1, (bodies, 3)) if moving else np.zeros((bodies, 3))
     names = [*(f"body{b}" for b in range(bodies)), GROUND]
-    parts, rows = [], []
+    parts, rows, slips = [], [], []
     for c in range(contacts):
         i, j = random.permutation(bodies + 1)[:2]
-        part, row = _contact(random, f"contact{c}", (names[i], frames[i]), (names[j], frames[j]), restitution, friction)
-        full = np.zeros(3 * bodies + 3)
-        full[3 * i : 3 * i + 3], full[3 * j : 3 * j + 3] = row[:3], row[3:]
+        part, both = _contact(
+            random, f"contact{c}", (names[i], frames[i]), (names[j], frames[j]), restitution, friction
+        )
         parts.append(part)
-        rows.append(full[:-3])
+        for row, of in zip(both, (rows, slips), strict=True):
+            full = np.zeros(3 * bodies + 3)
+            full[3 * i : 3 * i + 3], full[3 * j : 3 * j + 3] = row[:3], row[3:]
+            of.append(full[:-3])
     mechanism = Mechanism(
         bodies=tuple(
             Body(names[b], *masses[b].tolist(), tuple(frames[b].tolist()), tuple(rates[b].tolist()))
@@ -64,11 +69,12 @@ def touching(
             *(Output(name, f"energy.{name}", "") for name in ("kinetic", "lost")),
         ),
     )
-    return Touching(mechanism, np.repeat(masses, [2, 1], axis=1).ravel(), loads.ravel(), rates.ravel(), np.array(rows))
+    repeated = np.repeat(masses, [2, 1], axis=1).ravel()
+    return Touching(mechanism, repeated, loads.ravel(), rates.ravel(), np.array(rows), np.array(slips))
 
 
 def _contact(random: Any, name: str, i: Any, j: Any, restitution: float | None, friction: float) -> Any:
-    """A contact between two (name, frame), and its row in their six coordinates."""
+    """A contact between two (name, frame), and its two rows, of gap and slip, in their six coordinates."""
     (body_i, (xi, yi, phi)), (body_j, (xj, yj, psi)) = i, j
     px, py = random.uniform(-0.8, 0.8, 2)
     direction = random.uniform(-math.pi, math.pi)
@@ -86,4 +92,4 @@ def _contact(random: Any, name: str, i: Any, j: Any, restitution: float | None, 
         friction=friction,
     )
     # the gap's rate is the normal part of the difference of two velocities of material points
-    return contact, [nx, ny, ny * ax - nx * ay, -nx, -ny, nx * ey - ny * ex]
+    return contact, [[x, y, y * ax - x * ay, -x, -y, x * ey - y * ex] for x, y in ((nx, ny), (ny, -nx))]
