@@ -80,12 +80,11 @@ def _events(simulation: MovingMechanism, new: int) -> Iterator[Message]:
             "logEvents",
         )
     for event in known:
-        yield Message(
-            f"Event {event.guard} at t = {event.time:.12g} s: {_mode(event.old_mode)} -> {_mode(event.new_mode)}, "
-            f"total impulse {event.impulse:.6g} N.s.",
-            Fmi2Status.ok,
-            "logEvents",
-        )
+        change = ""  # of friction, and of teeth, there is often none
+        if event.old_mode != event.new_mode or event.impulse != 0.0:
+            modes = f"{_mode(event.old_mode)} -> {_mode(event.new_mode)}"
+            change = f": {modes}, total impulse {event.impulse:.6g} N.s"
+        yield Message(f"Event {event.guard} at t = {event.time:.12g} s{change}.", Fmi2Status.ok, "logEvents")
 
 
 def _mode(closed: tuple[str, ...]) -> str:

@@ -120,11 +120,15 @@ static void log_events(Instance *x, int64_t new_events) {
             (long long)(new_events - known), time_of(x), (long long)known);
     for (int64_t k = 0; k < known; k++) {
         const double *record = FIELD(x, events) + k * CODE_EVENT_COLUMNS;
-        char event[200], old_mode[600], new_mode[600];
+        double before = record[CODE_EVENT_OLD_MODE], after = record[CODE_EVENT_NEW_MODE];
+        double impulse = record[CODE_EVENT_IMPULSE];
+        char event[200], old_mode[600], new_mode[600], change[1300] = "";
         name_event((int)record[CODE_EVENT_GUARD], (int)record[CODE_EVENT_SUBJECT], event, sizeof event);
-        say(x, OK, "logEvents", "Event %s at t = %.12g s: %s -> %s, total impulse %.6g N.s.", event,
-            record[CODE_EVENT_TIME], mode_name(x, record[CODE_EVENT_OLD_MODE], old_mode, sizeof old_mode),
-            mode_name(x, record[CODE_EVENT_NEW_MODE], new_mode, sizeof new_mode), record[CODE_EVENT_IMPULSE]);
+        if (before != after || impulse != 0) /* of friction, and of teeth, there is often none */
+            snprintf(change, sizeof change, ": %s -> %s, total impulse %.6g N.s",
+                     mode_name(x, before, old_mode, sizeof old_mode), mode_name(x, after, new_mode, sizeof new_mode),
+                     impulse);
+        say(x, OK, "logEvents", "Event %s at t = %.12g s%s.", event, record[CODE_EVENT_TIME], change);
     }
 }
 
