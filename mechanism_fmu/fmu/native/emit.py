@@ -1,6 +1,7 @@
 """Object files for each platform from the engine's intermediate code (LLVM).
 
-    python -m mechanism_fmu.fmu.native.emit FOLDER      writes FOLDER/<target>.o
+    python -m mechanism_fmu.fmu.native.emit FOLDER           writes FOLDER/engine.bc and FOLDER/<target>.o
+    python -m mechanism_fmu.fmu.native.emit FOLDER web       writes FOLDER/wasm32.o, from FOLDER/engine.bc
 
 It prints what it is about to do: how many parts are done, of how many, what is next.
 To be run in a process of its own, because numba must be imported for a generic processor (see `objects`).
@@ -17,19 +18,30 @@ import llvmlite.binding as llvm
 
 from ...engine.library import EXPORTS, intermediate_code
 from ..disk.user_cache import keep
-from .link import TARGETS, Target
+from .link import TARGETS, WEB, Target
+
+#: Of WebAssembly, what all browsers have had for years.
+_WEB_FEATURES = "+bulk-memory,+mutable-globals,+nontrapping-fptoint,+sign-ext"
 
 
-def object_file(codes: list[str], target: Target) -> bytes:
+def linked(codes: list[str]) -> bytes:
+    """The intermediate code of all exported functions in one module, as bitcode."""
+    module = llvm.parse_assembly(codes[0])
+    for code in codes[1:]:
+        module.link_in(llvm.parse_assembly(code))
+    whole: bytes = module.as_bitcode()
+    return whole
+
+
+def object_file(bitcode: bytes, target: Target) -> bytes:
     """One object of all exported functions, optimised as a whole; nothing else can be linked to.
 
     With everything but the exports internal, the optimiser proves that no error path exists, and nothing of numba or
     Python is left.
     """
-    module = llvm.parse_assembly(codes[0])
-    for code in codes[1:]:
-        module.link_in(llvm.parse_assembly(code))
-    machine = llvm.Target.from_triple(target.triple).create_target_machine(opt=3, reloc="pic", codemodel="default")
+    module = llvm.parse_bitcode(bitcode)
+    kind = {"reloc": "static", "features": _WEB_FEATURES} if target is WEB else {"reloc": "pic"}
+    machine = llvm.Target.from_triple(target.triple).create_target_machine(opt=3, codemodel="default", **kind)
     module.triple = target.triple
     module.data_layout = str(machine.target_data)
     for symbol in (*module.functions, *module.global_variables):
@@ -47,23 +59,31 @@ def object_file(codes: list[str], target: Target) -> bytes:
     return emitted
 
 
-def _write_object(codes: list[str], target: Target, folder: Path) -> None:
+def _write_object(bitcode: bytes, target: Target, folder: Path) -> None:
     """Write the object of a target, with its digest; to be run in a process of its own, too."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    keep(folder / f"{target.name}.o", object_file(codes, target))
+    keep(folder / f"{target.name}.o", object_file(bitcode, target))
+
+
+def write_web(folder: Path) -> None:
+    """Write the object of the browser, from the bitcode that is there."""
+    print(0, 1, f"optimising for {WEB.name}", flush=True)
+    _write_object((folder / "engine.bc").read_bytes(), WEB, folder)
 
 
 def main(folder: Path) -> None:
-    """Write the objects of all targets, on as many processors as there are."""
+    """Write the bitcode and the objects of all platforms, on as many processors as there are."""
     gc.disable()  # numba makes millions of objects here, of which hardly any go: looking for them takes long
     parts = len(EXPORTS) + len(TARGETS)
     codes: list[str] = []
     for done, name in enumerate(EXPORTS):
         print(done, parts, f"compiling {name}", flush=True)
         codes.append(intermediate_code(name))
+    bitcode = linked(codes)
+    keep(folder / "engine.bc", bitcode)
     # Each ends by itself, even if this process is killed.
-    writers = [Process(target=_write_object, args=(codes, target, folder)) for target in TARGETS]
+    writers = [Process(target=_write_object, args=(bitcode, target, folder)) for target in TARGETS]
     for writer in writers:
         writer.start()
     for done, (target, writer) in enumerate(zip(TARGETS, writers, strict=True), len(EXPORTS)):
@@ -74,4 +94,4 @@ def main(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    (write_web if sys.argv[2:] == ["web"] else main)(Path(sys.argv[1]))

@@ -49,6 +49,9 @@ TARGETS = (
     Target("aarch64-darwin", "darwin64", "arm64-apple-macosx11.0.0", "aarch64-macos.11.0", ".dylib"),
 )
 
+#: The browser: no platform of FMUs, and nothing of it goes into one.
+WEB = Target("wasm32", "", "wasm32-unknown-unknown", "wasm32-wasi", ".wasm")
+
 
 # Universal binaries of macOS: FMI 2.0 has one folder for both of its processors.
 
@@ -74,7 +77,7 @@ def universal(libraries: Sequence[bytes]) -> bytes:
 
 _SURFACE = Path(__file__).with_name("c")
 
-_FLAGS = (
+_FLAGS = (  # of all targets
     "-std=gnu11",  # c11 would take ??! in a text for a trigraph
     "-Os",  # what takes time is in the engine's object
     "-Wall",
@@ -84,9 +87,11 @@ _FLAGS = (
     "-fno-sanitize=all",
     "-fno-stack-protector",
     "-fvisibility=hidden",
-    "-shared",
     "-s",
 )
+
+#: A module that a page calls, with 256 kB of stack in place of 16 MB.
+_WEB_FLAGS = ("-mexec-model=reactor", "-Wl,-z,stack-size=262144")
 
 #: Nothing here throws, and the engine's object has no tables for it either: 9 kB of the FMU. Windows wants them.
 _NO_UNWINDING = ("-fno-unwind-tables", "-fno-asynchronous-unwind-tables")
@@ -117,14 +122,17 @@ def need_linker() -> None:
         )
 
 
-def link(target: Target, inputs: Sequence[Path], includes: Sequence[Path], path: Path) -> None:
-    """Link C files and objects to a shared library for a platform.
+def link(
+    target: Target, inputs: Sequence[Path], includes: Sequence[Path], path: Path, exports: Sequence[str] = ()
+) -> None:
+    """Link C files and objects to a shared library for a platform, or to a module for the browser.
 
     Args:
-        target: the platform.
+        target: the platform, or `WEB`.
         inputs: C files and objects.
         includes: folders of C headers, beside the surface's own.
         path: of the library; its name becomes part of the file on some platforms.
+        exports: functions that a module exports, beside those that say so themselves.
 
     Raises:
         MechanismError: there is no linker, or it has refused, with what it printed.
@@ -132,7 +140,7 @@ def link(target: Target, inputs: Sequence[Path], includes: Sequence[Path], path:
     need_linker()
     headers = [f"-I{folder}" for folder in (_SURFACE, *includes)]
     command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *_FLAGS, *headers]
-    command += [*map(str, inputs), *_platform(target), "-o", path.name]
+    command += [*map(str, inputs), *_platform(target), *(f"-Wl,--export={name}" for name in exports), "-o", path.name]
     environment = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(cache_directory() / "mechanism_fmu" / "zig")}
     done = subprocess.run(command, cwd=path.parent, env=environment, capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -154,9 +162,12 @@ def surface(*names: str) -> list[Path]:
 
 
 def _platform(target: Target) -> list[str]:
+    if target is WEB:
+        return list(_WEB_FLAGS)
     if not target.name.endswith("windows"):
         # Without zig's own runtime library: nothing needs it, and compiling it took half a minute of the first build.
         return [
+            "-shared",
             *_NO_UNWINDING,
             "-fPIC",
             "-nostdlib",
@@ -166,7 +177,7 @@ def _platform(target: Target) -> list[str]:
         ]
     libc = _zig_library() / "libc" / "include" / "any-windows-any"
     libraries = [f"-lapi-ms-win-crt-{name}-l1-1-0" for name in _WINDOWS_LIBRARIES]
-    return ["-nostdlib", "-isystem", str(libc), "-D_UCRT", *map(str, surface("windows.c")), *libraries]
+    return ["-shared", "-nostdlib", "-isystem", str(libc), "-D_UCRT", *map(str, surface("windows.c")), *libraries]
 
 
 def _zig_library() -> Path:

@@ -25,7 +25,7 @@ from ..disk.user_cache import alone, is_whole, keep
 from ..instance import protocol
 from ..parts.model_description import LOG_CATEGORIES
 from ..start import private_cache
-from .link import TARGETS, WRAPPED, Target, has_linker, link, linked_with, surface
+from .link import TARGETS, WEB, WRAPPED, Target, has_linker, link, linked_with, surface
 
 # engine.h: what the C surface knows of the engine and shares with the slave, written from the Python declarations.
 
@@ -33,8 +33,8 @@ _PROTOTYPES = """\
 int64_t mechanism_begin(double *block, int64_t words, double time);
 int64_t mechanism_begin_step(double *block, int64_t words);
 int64_t mechanism_go_on(double *block, int64_t words, double target, int64_t rule);
-void mechanism_read_outputs(double *block, int64_t words);
-void mechanism_read_output_rates(double *block, int64_t words);
+int mechanism_read_outputs(double *block, int64_t words); /* without a result, which only WebAssembly would notice */
+int mechanism_read_output_rates(double *block, int64_t words);
 """
 
 
@@ -119,7 +119,7 @@ class Engine:
     @property
     def complete(self) -> bool:
         """Whether all files are there, as they were made; the header comes last."""
-        return all(map(is_whole, (*self.objects.values(), self.headers / "engine.h")))
+        return all(map(is_whole, (*self.objects.values(), self.headers / "engine.bc", self.headers / "engine.h")))
 
 
 def compiled_engine(report: Report = silently) -> Engine:
@@ -167,13 +167,31 @@ def _engine() -> Engine:
     return Engine({target.name: folder / f"{target.name}.o" for target in TARGETS}, folder)
 
 
-def _emit(folder: Path, report: Report) -> None:
+def web_object(report: Report = silently) -> Path:
+    """The engine's object file for the browser; made now if need be, in half a minute, from what `compiled_engine` has.
+
+    Args:
+        report: see `compiled_engine`.
+
+    Raises:
+        MechanismError: the compilation failed, with what it printed.
+    """
+    folder = compiled_engine(report).headers
+    path = folder / f"{WEB.name}.o"
+    if not is_whole(path):
+        with alone(folder, lambda: report("waiting for another process that does it", 0.0)):
+            if not is_whole(path):
+                _emit(folder, report, "web")
+    return path
+
+
+def _emit(folder: Path, report: Report, *what: str) -> None:
     path = os.pathsep.join(filter(None, [str(_LIBRARY.parent), os.environ.get("PYTHONPATH", "")]))
     # Settings of numba that the user has for other work would change what is compiled.
     inherited = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     environment = {**inherited, **_GENERIC, "PYTHONPATH": path}
     # -P: no file of the folder that it works in stands in for a module.
-    command = [sys.executable, "-P", "-m", "mechanism_fmu.fmu.native.emit", str(folder.absolute())]
+    command = [sys.executable, "-P", "-m", "mechanism_fmu.fmu.native.emit", str(folder.absolute()), *what]
     with (
         tempfile.TemporaryFile("w+") as complaints,
         subprocess.Popen(
