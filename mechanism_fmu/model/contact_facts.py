@@ -22,7 +22,7 @@ from .findings import (
     true_or_false,
     within,
 )
-from .functions import Number
+from .functions import Number, where_positive
 
 #: A normal must have unit length to this accuracy.
 _UNIT_LENGTH = 1e-9
@@ -108,8 +108,11 @@ class ContactFacts(Attached):
 
 
 def static_findings(part: Any, label: str) -> Iterator[Finding]:
-    """That friction while it sticks is less than while it slips."""
+    """That friction while it sticks is less than while it slips, or all there is."""
     if part.friction_static is not None:
+        slips = where_positive(part.friction_static, where_positive(part.friction, 1.0, -1.0), 1.0)
+        text = f"{label}: friction_static = {{:g}} has no effect without friction while it slips: give friction, too."
+        yield refuse_unless(slips, text, part.friction_static)
         text = f"{label}: friction_static = {{:g}} is less than the friction while it slips, {{:g}}."
         least = part.friction_static - part.friction
         yield refuse_unless(not_negative(least), text, part.friction_static, part.friction)

@@ -104,8 +104,8 @@ def simulate(
 
 def _advance(simulation: Simulation, until: float, impacts: list[Impact], events: list[Event]) -> None:
     """Go on, and stop where an impact happens: so none is lost, however many there are."""
-    simulation.begin_step()
     seen_impacts, seen_events = _counts(simulation)
+    simulation.begin_step()  # where an input jumps, something may slip at once
     while simulation.time < until:
         simulation.go_on(until, codes.STOP_AT_IMPACT | codes.STOP_AT_STEP)
         now_impacts, now_events = _counts(simulation)
@@ -160,7 +160,7 @@ def _of_source(source: str, mechanism: Mechanism) -> Output:
 
 def _kept(mechanism: Mechanism) -> tuple[Output, ...]:
     """Outputs that ask for buffers with room for all that can happen at one instant; nobody sees them."""
-    if not (mechanism.contacts or mechanism.functions or mechanism.patterns):
+    if not (mechanism.contacts or mechanism.functions or mechanism.patterns or mechanism.rubbing):
         return ()
     place = min(_ROOM * (1 + len(mechanism.contacts) + len(mechanism.functions)), codes.MOST_KEPT)
     return tuple(Output(f"{what}[{place}].time", f"{what}[{place}].time", "", "s") for what in ("impacts", "events"))

@@ -136,6 +136,33 @@ def test_a_ladder_rests_where_it_can(angle, mu):
     assert abs(simulation.read()["ladder.speed"]) < 1e-9
 
 
+@pytest.mark.parametrize("law", ["newton", "poisson", "stronge"])
+@pytest.mark.parametrize("hold", [0.4, 0.5])
+def test_a_blow_without_slip_sticks_as_far_as_it_holds(law, hold):
+    """Straight down on one end: it sticks where |G_NT| <= mu_s G_TT, here 0.4615; else it slips by mu."""
+    x, y, inertia, fall, e, mu = 0.3, -0.4, 0.1, 1.0, 0.5, 0.3
+    rod = Body("rod", 1.0, inertia, (-x, -y, 0.0), (0.0, -fall, 0.0))
+    end = rod.at(x, y)
+    how = {"restitution": e, "friction": mu, "friction_static": hold}
+    floor = PointLineContact("floor", end, GROUND.line(ORIGIN, (1.0, 0.0)), **how)
+    simulation = Simulation(Mechanism((rod,), contacts=(floor,), impact_law=law))
+    simulation.advance(1e-12)
+    (impact,) = simulation.impacts_in_step()
+    across, normal, along = -x * y / inertia, 1.0 + x * x / inertia, 1.0 + y * y / inertia
+    share = across / along if hold > across / along else mu  # of the normal impulse, against the slip
+    assert impact.impulse == pytest.approx((1.0 + e) * fall / (normal - share * across), rel=1e-12)
+    rates = simulation.field("dense")[0, 3:6]
+    expected = [-share * impact.impulse, impact.impulse - fall, (x + share * y) * impact.impulse / inertia]
+    np.testing.assert_allclose(rates, expected, rtol=1e-12)
+
+
+def test_static_friction_alone_is_refused():
+    body = Body("a", 1.0, 1.0)
+    alone = PointLineContact("c", body.at(0, 0), GROUND.line(ORIGIN, (1, 0)), friction_static=0.2)
+    with pytest.raises(MechanismError, match="has no effect without friction while it slips"):
+        Simulation(Mechanism((body,), contacts=(alone,)))
+
+
 def test_words_that_are_no_law_are_refused():
     with pytest.raises(MechanismError, match="is none of"):
         Simulation(Mechanism((Body("a", 1.0, 1.0),), impact_law="hertz"))

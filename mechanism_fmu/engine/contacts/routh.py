@@ -16,7 +16,7 @@ from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import coefficient, friction_row
+from ..constraints.friction_rows import coefficient, friction_row, holding
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows, contact_row, driver_power
 from ..dynamics.acceleration import scale_rows
@@ -56,7 +56,8 @@ def along_routh(block: Array, at: Pose) -> int:
         g_nt = _along(block, 0)
         work_t = _respond(block, count, 1)
         g_tt = _along(block, 1)
-    normal, tangential = _path(v_n, v_t, g_nn, g_nt, g_tt, mu, strike.target[contact] / strike.closing[contact] - 1.0)
+    restitution = strike.target[contact] / strike.closing[contact] - 1.0
+    normal, tangential = _path(v_n, v_t, g_nn, g_nt, g_tt, mu, holding(block, contact), restitution)
     if not normal < math.inf:
         return status.NO_CHOICE
     for k in range(n):
@@ -119,9 +120,12 @@ def _along(block: Array, place: int) -> float:
 
 @jit
 def _path(
-    v_n: float, v_t: float, g_nn: float, g_nt: float, g_tt: float, mu: float, restitution: float
+    v_n: float, v_t: float, g_nn: float, g_nt: float, g_tt: float, mu: float, holds: float, restitution: float
 ) -> tuple[float, float]:
-    """Normal and tangential impulse at the end of the path; infinite where it has none."""
+    """Normal and tangential impulse at the end of the path; infinite where it has none.
+
+    `mu` is the coefficient while it slips, `holds` that while it sticks.
+    """
     keep_small()
     normal = 0.0
     tangential = 0.0
@@ -129,9 +133,9 @@ def _path(
     target = math.inf  # in expansion, the work that it does
     for _ in range(_PARTS):
         sigma = 0.0
-        if v_t > 0.0 or (v_t == 0.0 and g_nt > mu * g_tt):
+        if v_t > 0.0 or (v_t == 0.0 and g_nt > holds * g_tt):
             sigma = 1.0
-        elif v_t < 0.0 or (v_t == 0.0 and -g_nt > mu * g_tt):
+        elif v_t < 0.0 or (v_t == 0.0 and -g_nt > holds * g_tt):
             sigma = -1.0
         ratio = -sigma * mu  # dP_T / dP_N
         if sigma == 0.0 and g_tt > 0.0:

@@ -15,6 +15,7 @@ from mechanism_fmu.model import (
     GROUND,
     AngleStop,
     Body,
+    Brake,
     Input,
     Mechanism,
     MechanismError,
@@ -283,3 +284,14 @@ def test_impulses_of_stops_are_torques_times_time():
     mixed = simulate(replace(ball(), contacts=(*ball().contacts, AngleStop("stop", "ball", GROUND, angle=-1.0))), 1)
     assert mixed.impact_table.attrs["units"]["impulse"] == "N.s"
     assert mixed.impact_table.attrs["descriptions"]["impulse"] == "Impulse; of stops and locks per radian"
+
+
+def test_what_slips_as_an_input_jumps_is_among_the_events():
+    body = Body("rotor", 1.0, 0.2)
+    pin = Revolute("pin", body.at(0, 0), GROUND.at(0, 0))
+    forces = (Brake("brake", body, limit=1.0), Torque("motor", body))
+    inputs = (Input("torque", "motor.torque", 0.0, "", "N.m"),)
+    driven = Mechanism((body,), (pin,), forces=forces, inputs=inputs)
+    result = simulate(driven, 2.0, inputs={"torque": lambda t: 2.0 if t >= 1.0 else 0.0})
+    assert [(event.guard, event.time) for event in result.events] == [("brake.slips", pytest.approx(1.0))]
+    assert result.statistics.events == 1
