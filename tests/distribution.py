@@ -7,7 +7,7 @@ process that compiles begins from nothing, so that two would do the same work. T
     1  that piece; meanwhile the engine of FMUs is compiled ahead of time, beside (conftest.py)
     2  what takes longest, or mostly waits: it would otherwise stand alone at the end
     3  what needs no engine
-    4  what needs FMUs or their engine, and waits for it if need be
+    4  what needs FMUs or their engine, and waits for it if need be; what takes longest first
 """
 
 from __future__ import annotations
@@ -54,7 +54,24 @@ _LONG = (
     "tests/test_house.py::test_tool_has_no_complaint[mypy]",
     "tests/fmu/test_life_cycle.py::test_two_thousand_instances_do_not_grow",
 )
-_EACH = ("tests/fmu/conformance/test_alone.py", *_LONG)
+_EACH = (
+    "tests/docs/test_ked_page.py",
+    "tests/fmu/conformance/test_alone.py",
+    "tests/fmu/conformance/test_sequences.py",
+    "tests/fmu/test_gallery.py",
+    *_LONG,
+)
+#: Files that take long, of those that need FMUs: each would otherwise be at work when all others have ended.
+_LONG_WITH_FMUS = (
+    "tests/faults/test_faults.py",
+    "tests/harness/machine/test_indexing_table.py",
+    "tests/harness/test_harness_sweep_command.py",
+    "tests/fmu/conformance/test_alone.py",
+    "tests/fmu/conformance/test_sequences.py",
+    "tests/fmu/test_gallery.py",
+    "tests/docs/test_ked_page.py",
+    "tests/analytic/test_million_impacts.py",
+)
 
 
 def compiles_just_in_time(nodeid: str) -> bool:
@@ -73,7 +90,9 @@ def ordered(items: Iterable[pytest.Item]) -> list[pytest.Item]:
             for k, name in enumerate(names):
                 if item.nodeid.startswith(name):
                     return group, k
-        return 4 if file in with_fmus or file.startswith(_ENGINE) else 3, 0
+        if file in _LONG_WITH_FMUS:
+            return 4, _LONG_WITH_FMUS.index(file)
+        return (4, len(_LONG_WITH_FMUS)) if file in with_fmus or file.startswith(_ENGINE) else (3, 0)
 
     return sorted(kept, key=place)
 

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from string import Formatter
 
 from .errors import MechanismError
@@ -158,7 +159,8 @@ class Finding:
         return self.text.format(*self.numbers)
 
 
-def pieces(text: str) -> list[tuple[str, str | None]]:
+@lru_cache(maxsize=4096)  # the same few hundred, each time that a mechanism is made
+def pieces(text: str) -> tuple[tuple[str, str | None], ...]:
     """A finding's text in pieces: what is said as it is, and the format of the number behind it (None: no number).
 
     Raises:
@@ -171,7 +173,7 @@ def pieces(text: str) -> list[tuple[str, str | None]]:
     for _, name, form, conversion in parsed:
         if name is not None and (name or conversion or not _FORMAT.fullmatch(form or "")):
             raise MechanismError(f"Finding {text!r} has a field that is neither {{:g}} nor like {{:.6g}}; use these.")
-    return [(plain, form if name is not None else None) for plain, name, form, _ in parsed]
+    return tuple((plain, form if name is not None else None) for plain, name, form, _ in parsed)
 
 
 def messages(findings: Iterable[Finding]) -> list[str]:
@@ -202,7 +204,8 @@ def where(condition: Number, *findings: Finding) -> tuple[Finding, ...]:
         condition: positive where they may apply, else 0; a number of unit 1.
         findings: those that apply in addition only where they did.
     """
-    return tuple(replace(f, applies=where_positive(condition, f.applies, 0.0)) for f in findings)
+    applying = [where_positive(condition, f.applies, 0.0) for f in findings]
+    return tuple(f if a is f.applies else replace(f, applies=a) for f, a in zip(findings, applying, strict=True))
 
 
 def first(*findings: Finding) -> tuple[Finding, ...]:

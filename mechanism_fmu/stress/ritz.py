@@ -10,7 +10,6 @@ from typing import Protocol
 
 import numpy as np
 from numpy.polynomial import legendre
-from scipy.linalg import eigh
 
 from .beam import Beam, FloatArray, gauss_points, require_within
 from .material import Material
@@ -270,6 +269,8 @@ def natural_modes(
 
     Source: Pennestrì, Valentini, Vita, eqs (9), (11), (12).
     """
+    from scipy.linalg import eigh  # takes long to load, and few commands get here
+
     motions = rigid_motions(root, tip)
     advice = "12 give the first three modes of most beams to ten digits; each rigid motion takes one"
     require_within("number of Ritz terms", terms, 1 + len(motions), _MOST_TERMS, "", advice)

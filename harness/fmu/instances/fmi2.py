@@ -8,7 +8,6 @@ from functools import partial
 from typing import Any
 
 from fmpy.fmi2 import (
-    FMU2Slave,
     defaultCallbacks,
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
@@ -19,6 +18,7 @@ from fmpy.fmi2 import (
 from ...errors import Status
 from ..description import Value
 from .common import FmuSlave
+from .loading import FMU2SlaveLoaded
 from .reals import Batch, RawReals
 
 
@@ -46,7 +46,7 @@ class Fmi2Slave(FmuSlave):
         return end
 
     def _load(self, **where: str) -> Any:
-        return FMU2Slave(**where)
+        return FMU2SlaveLoaded(**where)
 
     def _instantiate(self) -> None:
         self._instance.instantiate(visible=False, callbacks=self._callbacks(), loggingOn=True)

@@ -9,11 +9,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
-from fmpy.fmi3 import FMU3Slave
-
 from ...errors import FmuError
 from ..description import Description, Value
 from .common import FmuSlave, SavedState
+from .loading import FMU3SlaveLoaded
 from .message_log import MessageHandler
 from .reals import Batch, ElementReals, RawReals
 
@@ -229,7 +228,7 @@ class Fmi3Slave(FmuSlave):
         return self._call(f"fmi3{name}", getattr(self._instance, name[0].lower() + name[1:]), *arguments)
 
     def _load(self, **where: str) -> Any:
-        return FMU3Slave(**where)
+        return FMU3SlaveLoaded(**where)
 
     def _instantiate(self) -> None:
         self._instance.instantiate(

@@ -201,7 +201,7 @@ def threads(folder: str) -> None:
 
 
 def _growth(call: Callable[[], None]) -> float:
-    """What 500 calls cost each [bytes]; the allocator comes to rest, a leak does not: the least of several tells."""
+    """What 500 calls cost each [bytes]."""
     before = _resident()
     for _ in range(500):
         call()
@@ -214,8 +214,24 @@ def _resident() -> int:
         return int(file.read().split()[1]) * 4096
 
 
-def memory(folder: str) -> None:
-    """Print the size of a saved state, and what saving, refusing and resetting cost each time [bytes]."""
+def _least_growth(call: Callable[[], None], enough: float) -> float:
+    """The least `_growth` of several [bytes]: the allocator comes to rest, a leak does not.
+
+    The first one of less than `enough` ends the search: the least is not more.
+    """
+    found = _growth(call)
+    for _ in range(2):
+        if found < enough:
+            break
+        found = min(found, _growth(call))
+    return found
+
+
+def memory(folder: str, most: str) -> None:
+    """Print the size of a saved state, and what saving, refusing and resetting cost each time [bytes].
+
+    Less than `most` is not looked into further; of a refused state, its own size is not counted.
+    """
     with Instance(Fmu.at(folder), logging=False) as one:
         one.begin().step(0.1)
         saved = one.save_bytes()
@@ -236,4 +252,5 @@ def memory(folder: str) -> None:
         for call in (save, refuse_step, refuse_state, reset):
             for _ in range(100):
                 call()
-            print(call.__name__, min(_growth(call) for _ in range(3)))
+            enough = float(most) + (len(saved) if call is refuse_state else 0)
+            print(call.__name__, _least_growth(call, enough))

@@ -12,13 +12,14 @@ from typing import Any, NamedTuple, Self
 import fmpy
 from fmpy import calloc, free
 from fmpy.fmi2 import (
-    FMU2Slave,
     fmi2CallbackAllocateMemoryTYPE,
     fmi2CallbackFreeMemoryTYPE,
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
 )
 from fmpy.model_description import ModelDescription, ScalarVariable
+
+from harness.fmu.instances.loading import FMU2SlaveLoaded
 
 Value = float | int | bool
 
@@ -76,7 +77,7 @@ class Instance:
         self.fmu = fmu
         self.log: list[Message] = []
         self.time = 0.0
-        self.slave = FMU2Slave(
+        self.slave = FMU2SlaveLoaded(
             guid=fmu.description.guid,
             unzipDirectory=fmu.folder,
             modelIdentifier=fmu.description.coSimulation.modelIdentifier,

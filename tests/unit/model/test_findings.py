@@ -18,7 +18,7 @@ def test_a_finding_says_its_text_with_its_numbers_where_it_applies():
 
 
 def test_pieces_are_plain_text_and_the_format_behind_it():
-    assert pieces("{:g} of {:.12g} m") == [("", "g"), (" of ", ".12g"), (" m", None)]
+    assert pieces("{:g} of {:.12g} m") == (("", "g"), (" of ", ".12g"), (" m", None))
 
 
 @pytest.mark.parametrize(
