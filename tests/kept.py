@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from tests.public import listed_by
+from tests.report_page import opened
 
 FOLDER = Path(__file__).parent / "data" / "kept"
 
@@ -31,6 +32,7 @@ _NUMBER = re.compile(r"(?<![\w#.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 _RELATIVE, _NOTHING = 1e-6, 1e-12
 #: Scripts and styles are files of their own; versions are those of this machine.
 _LEFT_OUT = (
+    (re.compile(r"<!--.*?-->", re.DOTALL), ""),
     (re.compile(r"<style>.*?</style>", re.DOTALL), "<style>…</style>"),
     (re.compile(r"<script>.*?</script>", re.DOTALL), "<script>…</script>"),
     (re.compile(r"<h2>Versions</h2>.*?</section>", re.DOTALL), "<h2>Versions</h2>…</section>"),
@@ -55,6 +57,7 @@ def same_as_kept(name: str, text: str) -> None:
 
 def plain_page(html: str) -> str:
     """A report's page in lines, with the data of its charts, and without what is in files of its own."""
+    html = opened(html)
     for pattern, instead in _LEFT_OUT:
         html = pattern.sub(instead, html)
     html = re.sub(r'(<script type="application/json">)(.*?)(</script>)', _opened, html, flags=re.DOTALL)

@@ -1,4 +1,4 @@
-// Draws the charts of a report: every .chart element holds its figure as JSON (see page.py).
+// Draws the charts of a report: its .chart elements, with the figures of packed.js in their order.
 (function () {
   "use strict";
 
@@ -16,8 +16,7 @@
     return result;
   }
 
-  function chart(root) {
-    const figure = JSON.parse(root.querySelector("script").textContent);
+  function chart(root, figure) {
     const place = root.querySelector(".plot");
     function draw() {
       const layout = phone.matches ? merged(merged(figure.layout, NARROW), figure.narrow) : merged(figure.layout, {});
@@ -28,5 +27,30 @@
     phone.addEventListener("change", draw);
   }
 
-  document.querySelectorAll(".chart").forEach(chart);
+  // What is folded has no size: it gets one when it unfolds.
+  function fitWhenUnfolded(fold) {
+    fold.addEventListener("toggle", () => {
+      if (fold.open) fold.querySelectorAll(".js-plotly-plot").forEach((place) => Plotly.Plots.resize(place));
+    });
+  }
+
+  async function draw() {
+    const figures = await PACKED.figures();
+    const library = document.createElement("script");
+    library.textContent = await PACKED.text("library");
+    document.head.append(library);
+    document.querySelectorAll(".chart").forEach((root, place) => chart(root, figures[place]));
+    document.querySelectorAll("details").forEach(fitWhenUnfolded);
+  }
+
+  // The page says from the beginning what to do if the charts do not come, as where no script runs at all.
+  const notice = document.querySelector(".unpacking");
+  draw().then(() => {
+    notice.remove();
+    document.documentElement.classList.add("drawn");
+  }).catch((error) => {
+    const old = typeof DecompressionStream === "undefined";
+    notice.textContent = (old ? "This browser cannot unpack the charts. " : `The charts cannot be drawn: ${error}. `) +
+      notice.dataset.advice;
+  });
 })();

@@ -26,7 +26,7 @@ from ..analysis.stress import (
 from ..fmu.declared import Chain, Struck
 from ..fmu.description import Value
 from ..fmu.values import engineering
-from .page import COLOURS, IMPACT_COLOUR, chart, charts, layout, section, table
+from .page import COLOURS, IMPACT_COLOUR, chart, charts, folded_if_long, layout, section, table
 from .plot import Curve, Plot, interactive, thin
 
 # The table of impacts.
@@ -70,7 +70,8 @@ def impacts_section(
     note = f"The first {_MOST} of {len(impacts)}; all are in impacts.csv." if len(impacts) > _MOST else ""
     note = " ".join([note, *notes]).strip()
     numbered = [[str(i), *row] for i, row in enumerate(rows, 1)]
-    return section(heading, table(["#", *headings], numbered, numeric=range(len(headings) + 1)), note=note)
+    drawn = table(["#", *headings], numbered, numeric=range(len(headings) + 1))
+    return section(heading, folded_if_long(drawn, len(rows), "impacts"), note=note)
 
 
 def _speeds_of_others(impacts: pd.DataFrame) -> list[str]:

@@ -246,7 +246,7 @@ def _banner(run: MachineRun) -> str:
     if run.outcome.ending is Ending.COMPLETED:
         return ""
     reason = str(run.outcome.error) if run.outcome.error else "It was interrupted by the user."
-    return section(f"This run ended early, at {run.outcome.final_time:.9g} s", note=reason, css_class="banner")
+    return section(f"This run ended early, at {run.outcome.final_time:.9g} s", note=reason, banner=True)
 
 
 def _key_figures(run: MachineRun) -> list[tuple[str, str]]:
@@ -268,7 +268,7 @@ def _cautions(run: MachineRun) -> str:
             warnings.append(f"{name}: {struck.objection}")
         if struck.lost:
             warnings.append(f"{name}: {struck.lost} impacts could not be reported by the FMU; take a shorter step.")
-    return section("Before you believe these numbers", points(warnings), css_class="banner") if warnings else ""
+    return section("Before you believe these numbers", points(warnings), banner=True) if warnings else ""
 
 
 def _notes(run: MachineRun) -> str:

@@ -37,7 +37,7 @@ def in_power_flow(run: MachineRun) -> list[str]:
 
 def machine_animation(run: MachineRun) -> str:
     """The section; one that says why there is nothing to see, if so."""
-    data, figures = _pictures(run)
+    data, figures, blank = _pictures(run)
     if data is None:
         note = "None of the components has a picture: their FMUs bring no resources/drawing.json that can be shown."
         return section(HEADING, note=note)
@@ -48,20 +48,22 @@ def machine_animation(run: MachineRun) -> str:
     shown = len(data["impacts"])
     if shown < len(run.impacts):
         note += f" Of {len(run.impacts)} impacts the {shown} strongest of each component flash."
+    if blank:
+        note += f" Not shown: {' '.join(blank)}"
     return section(HEADING, player(data, f'<div class="panels">{"".join(figures)}</div>'), note=note)
 
 
-def _pictures(run: MachineRun) -> tuple[dict[str, Any] | None, list[str]]:
-    """What the player needs, None when there is no picture; and a figure for each component."""
+def _pictures(run: MachineRun) -> tuple[dict[str, Any] | None, list[str], list[str]]:
+    """What the player needs, None when there is no picture; a figure for each component with one; others' reasons."""
     table = run.seen.table
-    panels, lamps, figures = [], [], []
+    panels, lamps, figures, blank = [], [], [], []
     for number, name in enumerate(in_power_flow(run), start=1):
         caption = f"<figcaption>{number} {escape(name)}</figcaption>"
         picture = None if table.empty else _picture(run, name, table)
         if picture is None:
             drawing = run.drawings[name]
             reason = drawing.objection or ("There is nothing to draw." if drawing.shapes else "Its FMU has no picture.")
-            figures.append(f'<figure><div class="blank">{escape(reason)}</div>{caption}</figure>')
+            blank.append(f"{number} {name}: {reason}")
             continue
         found = _contacts(run, name, table)
         lamps += [_lamp(contact, table) for contact in found]
@@ -72,11 +74,11 @@ def _pictures(run: MachineRun) -> tuple[dict[str, Any] | None, list[str]]:
             f"{legend(picture['shapes'], [_own(contact) for contact in found])}</figure>"
         )
     if not panels:
-        return None, figures
+        return None, figures, blank
     times, whose = _all_impacts(run)
     clock = times_data(table["time"].to_numpy())
     shared = {"impacts": times, "whose": whose, "contacts": lamps, "flash": IMPACT_COLOUR}
-    return clock | shared | {"panels": panels}, figures
+    return clock | shared | {"panels": panels}, figures, blank
 
 
 def _picture(run: MachineRun, name: str, table: pd.DataFrame) -> dict[str, Any] | None:

@@ -1,9 +1,11 @@
-"""Charts of a run over time: quantities, active contacts, modes and transitions, events."""
+"""Charts of a run over time: quantities, active contacts."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from html import escape
+from textwrap import wrap
 
 import numpy as np
 import numpy.typing as npt
@@ -11,13 +13,11 @@ import pandas as pd
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from mechanism_fmu.statechart import diagram
-
 from ..fmu.description import Variable
+from ..fmu.values import in_display_unit
 from ..run.checks import energy_residual
 from ..run.experiment import Run
-from ..run.logic import UNITS, counts_of
-from .page import COLOURS, IMPACT_COLOUR, layout, section, table
+from .page import COLOURS, IMPACT_COLOUR, layout
 from .plot import FloatArray, frame_rows, strongest, thin
 
 # Which contacts are active, and what sticks: Boolean outputs named `<contact>_active` or `<part>_sticks`, as bands over
@@ -177,18 +177,40 @@ QUANTITIES = {
     "A": "Currents",
 }
 
-#: Heights [px]: a row of curves, a lane of a contact, between two rows, and what lies around them all.
-_ROW, _LANE, _GAP, _AROUND = 168, 26, 47, 90
+#: Heights [px]: a row of curves at least, a line of its legend, a lane of a contact, between two rows, around them all.
+_ROW, _LINE, _LANE, _GAP, _AROUND = 168, 19, 26, 47, 90
+_BALANCE = "kinetic + spring<br>− initial − work<br>+ lost"
+#: Letters in a line of a legend.
+_LETTERS = 32
 #: More vertical lines than this hide the curves.
 _MOST_MARKS = 150
 
 
 @dataclass(frozen=True)
+class _Curve:
+    """One of them: in the legend it has the FMU's description of its variable, at the pointer the variable's name."""
+
+    variable: str
+    name: str
+    values: pd.Series[float]
+
+
+@dataclass(frozen=True)
 class _Row:
-    """Curves of one quantity: (name, values)."""
+    """Curves of one quantity."""
 
     title: str
-    curves: list[tuple[str, pd.Series[float]]]
+    curves: list[_Curve]
+
+    @property
+    def moves(self) -> bool:
+        """Whether any of its curves changes: else its chart would be empty but for level lines."""
+        return any(curve.values.nunique() > 1 for curve in self.curves)
+
+    @property
+    def height(self) -> int:
+        """For its curves and for its legend beside them [px]."""
+        return max(_ROW, _LINE * sum(1 + curve.name.count("<br>") for curve in self.curves))
 
 
 def motion_chart(run: Run) -> go.Figure | None:
@@ -198,20 +220,23 @@ def motion_chart(run: Run) -> go.Figure | None:
 
     None when there is nothing of that kind.
     """
-    rows = _rows(run)
+    rows = [row for row in _rows(run) if row.moves]
     lanes = [] if run.results.empty else contacts(run)
-    heights = [_ROW] * len(rows) + ([_LANE * len(lanes)] if lanes else [])
+    heights = [row.height for row in rows] + ([_LANE * len(lanes)] if lanes else [])
     if not heights:
         return None
     height = sum(heights) + _GAP * (len(heights) - 1)
-    figure = make_subplots(rows=len(heights), shared_xaxes=True, row_heights=heights, vertical_spacing=_GAP / height)
+    spacing = _GAP / height if len(heights) > 1 else 0.0
+    figure = make_subplots(rows=len(heights), shared_xaxes=True, row_heights=heights, vertical_spacing=spacing)
     time = run.results["time"].to_numpy()
     for number, row in enumerate(rows, start=1):
         legend = "legend" if number == 1 else f"legend{number}"
-        for i, (name, values) in enumerate(row.curves):
-            x, y = thin(time, values.to_numpy(dtype=np.float64))
+        for i, curve in enumerate(row.curves):
+            x, y = thin(time, curve.values.to_numpy(dtype=np.float64))
             line = {"width": 1.8, "color": COLOURS[i % len(COLOURS)]}
-            figure.add_trace(go.Scatter(x=x, y=y, name=name, mode="lines", line=line, legend=legend), row=number, col=1)
+            at = f"%{{y}} at %{{x}} s<extra>{curve.variable}</extra>"
+            shown = go.Scatter(x=x, y=y, name=curve.name, mode="lines", line=line, legend=legend, hovertemplate=at)
+            figure.add_trace(shown, row=number, col=1)
         top = figure.layout[f"yaxis{number if number > 1 else ''}"].domain[1]
         figure.update_layout({legend: {"x": 1.01, "y": top, "yanchor": "top", "xanchor": "left"}})
         figure.update_yaxes(title_text=row.title, exponentformat="power", title_standoff=8, row=number, col=1)
@@ -219,8 +244,20 @@ def motion_chart(run: Run) -> go.Figure | None:
         add_lanes(figure, run, row=len(heights))
     _mark_impacts(figure, run)
     figure.update_xaxes(title_text="time [s]", row=len(heights), col=1)
-    figure.update_layout(layout(height=height + _AROUND, hovermode="x unified", barmode="overlay"))
+    named = {"namelength": -1}
+    figure.update_layout(layout(height=height + _AROUND, hovermode="x unified", barmode="overlay", hoverlabel=named))
     return figure
+
+
+def still(run: Run) -> str:
+    """What has no chart because nothing of its kind changes, with values, as a sentence; "" when there is none."""
+    names = [curve.variable for row in _rows(run) if not row.moves for curve in row.curves]
+    values = [
+        " ".join((name, *in_display_unit(float(run.results[name].iloc[0]), name, run.description, digits=6)))
+        for name in names
+        if name in run.results
+    ]
+    return f"Not drawn, for it did not change: {', '.join(values)}." if values else ""
 
 
 def _rows(run: Run) -> list[_Row]:
@@ -232,11 +269,11 @@ def _rows(run: Run) -> list[_Row]:
     for unit in dict.fromkeys(v.unit for v in outputs):
         rows.append(_quantity(unit, [v for v in outputs if v.unit == unit], run))
         if unit == "J" and residual is not None:
-            rows.append(_Row("Balance [J]", [("kinetic + spring<br>− initial − work<br>+ lost", residual)]))
+            rows.append(_Row("Balance [J]", [_Curve("balance", _BALANCE, residual)]))
     varying = [v for v in run.description.of("input") if v.name in run.results and run.results[v.name].nunique() > 1]
     for unit in dict.fromkeys(v.unit for v in varying):
         row = _quantity(unit, [v for v in varying if v.unit == unit], run)
-        rows.append(_Row(f"Input {row.title[0].lower()}{row.title[1:]}", row.curves))
+        rows.append(replace(row, title=f"Input {row.title[0].lower()}{row.title[1:]}"))
     return rows
 
 
@@ -253,16 +290,17 @@ def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
     known = run.description.units.displayed.get(unit, {})
     shown = variables[0].display_unit if variables[0].display_unit in known else ""
     factor, offset = known.get(shown, (1.0, 0.0))
-    curves = [(variable.name, factor * run.results[variable.name] + offset) for variable in variables]
-    title = f"{QUANTITIES.get(unit, 'Values')} [{shown or unit or '1'}]"
-    if unit == "rad":
-        unit_shown = shown or unit
-        curves = [
-            (f"{name}, from {values.iloc[0] + 0.0:.5g} {unit_shown}", values - values.iloc[0])
-            for name, values in curves
-        ]
-        title = title.replace("Angles", "Angle change")
-    return _Row(title, curves)
+    from_start = unit == "rad"
+    curves = []
+    for variable in variables:
+        values, name = factor * run.results[variable.name] + offset, variable.description or variable.name
+        if from_start:
+            name += f", from {values.iloc[0] + 0.0:.5g} {shown or unit}"
+            values = values - values.iloc[0]
+        lines = wrap(name, _LETTERS, break_long_words=False, break_on_hyphens=False)
+        curves.append(_Curve(variable.name, escape("\n".join(lines), quote=False).replace("\n", "<br>"), values))
+    title = "Angle change" if from_start else QUANTITIES.get(unit, "Values")
+    return _Row(f"{title} [{shown or unit or '1'}]", curves)
 
 
 def _mark_impacts(figure: go.Figure, run: Run) -> None:
@@ -280,53 +318,3 @@ def _mark_impacts(figure: go.Figure, run: Run) -> None:
         for instant in strongest(run.impacts, _MOST_MARKS)
     ]
     figure.update_layout(shapes=lines)
-
-
-# The mechanism's modes and transitions, and the events of a run.
-
-#: A longer table is in events.csv.
-_MOST_EVENTS = 100
-
-_HEADING = "Modes and transitions"
-
-
-def modes_section(run: Run) -> str:
-    """The state charts with how often each transition happened; "" when the FMU describes none."""
-    if run.logic.objection:
-        return section(_HEADING, note=run.logic.objection)
-    logic = run.logic.chosen(run.parameters)
-    if logic is None or not logic.regions or not run.parameters:
-        return ""
-    note = (
-        "The state charts run beside each other. An arrow has its event, [its guard, a product of logical functions] "
-        "and / what it resets"
-    )
-    if run.logic.contacts and run.logic.impact_law and any(region.part.endswith(".slip") for region in logic.regions):
-        again = "; one that would add energy is repeated by Poisson's" if run.logic.energy_guard else ""
-        note += f". Impacts with friction are {run.logic.impact_law.capitalize()}'s{again}"
-    if not run.reports_events:
-        note += ". How often each happened in this run is not known: the FMU reports no single events."
-        return section(_HEADING, f'<div class="scroll">{diagram(logic)}</div>', note=note)
-    note += "; how often it happened in this run stands beside it, and what never happened is grey."
-    if run.events_lost:
-        note += f" {run.events_lost} events that the FMU could not report are not counted."
-    return section(_HEADING, f'<div class="scroll">{diagram(logic, counts_of(logic, run.events))}</div>', note=note)
-
-
-def events_section(run: Run) -> str:
-    """The first events, a row each; "" when there were none."""
-    if run.events.empty:
-        return ""
-    headings = [f"{name.replace('_', ' ')} [{unit}]".removesuffix(" [1]") for name, unit in UNITS.items()]
-    rows = [
-        [str(number), f"{time:.9g}", guard, old or "all open", new or "all open", f"{impulse:.6g}"]
-        for number, (time, guard, old, new, impulse) in enumerate(
-            run.events.head(_MOST_EVENTS).itertuples(index=False), 1
-        )
-    ]
-    notes = []
-    if len(run.events) > _MOST_EVENTS:
-        notes.append(f"The first {_MOST_EVENTS} of {len(run.events)}; all are in events.csv.")
-    if run.events_lost:
-        notes.append(f"{run.events_lost} more did not fit into the FMU's buffer; use a shorter communication step.")
-    return section("Events", table(["#", *headings], rows, numeric=(0, 1, 5)), note=" ".join(notes))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from ..run.checks import Check
+from .packed import packed_figures, packed_library
 
 # The look of the reports.
 
@@ -31,7 +32,14 @@ header p {{ margin: 4px 0 0; color: var(--soft); overflow-wrap: anywhere; }}
 section {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 18px 20px;
   margin-top: 18px; }}
 h2 {{ margin: 0 0 4px; font-size: 18px; }}
-section > p {{ margin: 0 0 10px; color: var(--soft); overflow-wrap: anywhere; }}
+section > p, section > details > p {{ margin: 0 0 10px; color: var(--soft); overflow-wrap: anywhere; }}
+summary {{ cursor: pointer; }}
+summary h2 {{ display: inline; }}
+section > details > summary + * {{ margin-top: 4px; }}
+nav {{ margin-top: 18px; }}
+nav ul {{ columns: 15em; list-style: none; margin: 6px 0 0; padding: 0; max-height: 34vh; overflow-y: auto; }}
+nav a {{ color: inherit; overflow-wrap: anywhere; }}
+.unpacking {{ margin: 18px 0 0; color: var(--soft); }}
 .cards {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 14px; margin-top: 18px; }}
 .card {{ background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 12px 16px; }}
 .card b {{ display: block; font-size: 22px; font-weight: 650; letter-spacing: -0.01em;
@@ -69,9 +77,8 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
 .animation .panels {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 190px), 1fr));
   gap: 14px; }}
 .animation figure {{ margin: 0; min-width: 0; }}
-.animation .panels svg, .animation .blank {{ height: 230px; }}
+.animation .panels svg {{ height: 230px; }}
 .animation .panels svg.hit {{ box-shadow: inset 0 0 0 2px {IMPACT_COLOUR}; }}
-.animation .blank {{ background: #fbfcfd; border-radius: 8px; padding: 14px; color: var(--soft); font-size: 13px; }}
 .animation figcaption {{ font-weight: 600; margin-top: 6px; }}
 .animation .panels .legend {{ margin: 4px 0 6px; font-size: 12px; }}
 .animation ul {{ list-style: none; display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 0; padding: 0; }}
@@ -109,7 +116,7 @@ code {{ font: 13px ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; }}
   .parameters td:nth-child(5) {{ grid-area: meaning; }}
   .parameters td:nth-child(n + 4) {{ font-size: 13px; color: var(--soft); }}
   .animation .panels {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
-  .animation .panels svg, .animation .blank {{ height: 170px; }}
+  .animation .panels svg {{ height: 170px; }}
   .cards {{ grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }}
   .card b {{ font-size: 18px; }}
   ul.checks small {{ display: block; margin-left: 0; }}
@@ -155,31 +162,80 @@ def layout(**more: Any) -> dict[str, Any]:
 
 #: Texts in a cell that are longer than this may fold into lines.
 _LONG = 28
+#: More sections than this have a table of contents.
+_MOST_WITHOUT_CONTENTS = 4
+
+#: Longer tables of impacts and events are folded.
+_MOST_ROWS_UNFOLDED = 20
+
+#: Browsers that can.
+_UNPACKS = "Chrome or Edge 80, Firefox 113, Safari 16.4, or a later one"
+_FIGURE = re.compile(r'<div class="plot"></div><script type="application/json">(.*?)</script>')
+_HEADING = re.compile(r'<section id="([^"]*)"><details open><summary><h2>(.*?)</h2>')
+_NOT_IN_ANCHOR = re.compile(r"[^0-9a-z]+")
 
 
 def page(title: str, subtitle: str, body: Iterable[str]) -> str:
-    """A whole HTML page that needs no network: the chart library is inside."""
-    plotly = files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
-    charts = Path(__file__).with_name("charts.js").read_text(encoding="utf-8")
+    """A whole HTML page that needs no network: the chart library is inside, if there is a chart, and compressed."""
+    content = "\n".join(body)
+    # what is no number is a gap in a curve
+    figures = [json.loads(text, parse_constant=lambda _: None) for text in _FIGURE.findall(content)]
+    content = _FIGURE.sub('<div class="plot"></div>', content)
+    unpacking, drawing = _unpacked(figures) if figures else ("", "")
     return "\n".join(
         [
             "<!doctype html>",
             '<html lang="en">',
             '<head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">',
             f"<title>{escape(title)}</title>",
-            f"<style>{CSS}</style>",
-            f"<script>{plotly}</script></head>",
+            f"<style>{CSS}</style></head>",
             f"<body><main><header><h1>{escape(title)}</h1><p>{escape(subtitle)}</p></header>",
-            *body,
-            f"</main><script>{charts}</script></body></html>\n",
+            f"{unpacking}{_contents(content)}",
+            content,
+            f"</main><script>{_script('folds.js')}</script>{drawing}</body></html>\n",
         ]
     )
 
 
-def section(heading: str, *parts: str, note: str = "", css_class: str = "") -> str:
-    """A framed part of the page."""
+def _unpacked(figures: Sequence[dict[str, Any]]) -> tuple[str, str]:
+    """What a page says until its charts are drawn, and the elements that draw them."""
+    advice = f"They need {_UNPACKS}, with scripts allowed; all else on this page is there without them."
+    notice = f"The charts are being unpacked. If this line stays, the browser cannot draw them. {advice}"
+    scripts = "".join(f"<script>{_script(name)}</script>" for name in ("packed.js", "charts.js"))
+    return (
+        f'<p class="unpacking" data-advice="{escape(advice)}">{escape(notice)}</p>',
+        f"{packed_library()}{packed_figures(figures)}{scripts}",
+    )
+
+
+def _script(name: str) -> str:
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")
+
+
+def _contents(content: str) -> str:
+    """Links to all sections; "" where there are few."""
+    found = _HEADING.findall(content)
+    if len(found) <= _MOST_WITHOUT_CONTENTS:
+        return ""
+    links = "".join(f'<li><a href="#{anchor}">{heading}</a></li>' for anchor, heading in found)
+    return f"<nav><details open><summary>Contents</summary><ul>{links}</ul></details></nav>"
+
+
+def section(heading: str, *parts: str, note: str = "", banner: bool = False) -> str:
+    """A framed part of the page that folds, but for a banner."""
     explanation = f"<p>{escape(note)}</p>" if note else ""
-    return f'<section class="{css_class}"><h2>{escape(heading)}</h2>{explanation}{"".join(parts)}</section>'
+    title, inside = f"<h2>{escape(heading)}</h2>", f"{explanation}{''.join(parts)}"
+    if banner:
+        return f'<section class="banner">{title}{inside}</section>'
+    anchor = _NOT_IN_ANCHOR.sub("-", f"section {heading}".lower()).strip("-")
+    return f'<section id="{anchor}"><details open><summary>{title}</summary>{inside}</details></section>'
+
+
+def folded_if_long(drawn: str, count: int, what: str) -> str:
+    """A table of `count` rows; a long one unfolds at a line that says how many of `what` it has."""
+    if count <= _MOST_ROWS_UNFOLDED:
+        return drawn
+    return f"<details><summary>{count} {escape(what)}</summary>{drawn}</details>"
 
 
 def cards(figures: Iterable[tuple[str, str]]) -> str:

@@ -18,7 +18,8 @@ from ..run.master import Ending
 from ..run.results import settings, versions, write_text
 from .animation import animation
 from .impact_sections import compliance_section, fatigue_section, impacts_section, severity_section, stress_section
-from .motion import contacts, events_section, modes_section, motion_chart
+from .modes_and_events import events_section, modes_section
+from .motion import contacts, motion_chart, still
 from .page import cards, chart, checks_list, page, section, table, versions_section
 from .parameters import Origin, Row, parameters_section, table_note
 
@@ -108,7 +109,7 @@ def _banner(run: Run) -> str:
         return ""
     reason = str(run.outcome.error) if run.outcome.error else "It was interrupted by the user."
     heading = f"This run ended early, at {run.outcome.final_time:.9g} s"
-    return section(heading, note=reason, css_class="banner")
+    return section(heading, note=reason, banner=True)
 
 
 def _key_figures(run: Run) -> list[tuple[str, str]]:
@@ -124,11 +125,11 @@ def _key_figures(run: Run) -> list[tuple[str, str]]:
 
 
 def _motion(run: Run) -> str:
-    figure = motion_chart(run)
+    figure, level = motion_chart(run), still(run)
     if figure is None:
-        return ""
+        return section("Motion", note=level) if level else ""
     bands = "Bands below the curves show which contacts are active. " if contacts(run) else ""
-    note = f"Dotted red lines mark impacts. {bands}Drag to zoom, double-click to return."
+    note = f"Dotted red lines mark impacts. {bands}Drag to zoom, double-click to return. {level}".strip()
     return section("Motion", chart(figure, stacked(figure)), note=note)
 
 

@@ -103,7 +103,7 @@ def sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | Non
     body = [cards(figures)]
     if failed:
         rows = [[str(number), message] for number, message in failed[:_MOST_ROWS]]
-        body.append(section("Failed designs", table(["design", "message"], rows, numeric=[0]), css_class="banner"))
+        body.append(section("Failed designs", table(["design", "message"], rows, numeric=[0]), banner=True))
     body += [
         section("Ranges", ranges_table(sweep.task, description, results)),
         section("Results", *charts, note="Each dot is one design. Drag over an axis to zoom."),

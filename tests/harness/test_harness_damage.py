@@ -35,6 +35,7 @@ from mechanism_fmu.stress import (
     sequence_damage,
 )
 from tests.declared import STRUCK, TEETH
+from tests.report_page import opened
 
 TOOTH = WedgeTooth(length=0.033, apex_angle=0.61)
 PERIOD = 2 * math.pi / ritz_modes(TOOTH, STEEL)[0].natural_frequency
@@ -126,7 +127,7 @@ def test_history_begins_with_the_first_impact_and_holds_the_largest_stress() -> 
     assert (time[0], stress[0], stress[-1]) == (0.3, 0.0, 0.0)
     assert np.all(np.diff(time) >= 0)
     assert np.abs(stress).max() == run.damage.stress
-    assert "bending stress [Pa]" in run_report(run)
+    assert "bending stress [Pa]" in opened(run_report(run))
 
 
 def test_run_without_tooth_or_impact_has_no_damage(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -22,6 +22,7 @@ from harness.papers.ked.ked_report import ked_report, write_ked_report
 from harness.papers.ked.options import asked
 from harness.papers.ked.solve import prepared, solved, swept
 from harness.papers.ked.tables import cycle_rows, feedback_sentence, narrow_columns
+from tests import report_page
 
 INCH, POUND_FORCE = 0.0254, 0.45359237 * 9.80665
 SPEED = 500 * math.pi / 30
@@ -160,7 +161,9 @@ def test_speeds_that_are_asked_for_are_a_file_and_peak_at_a_critical_speed(resul
 
 def test_the_report_marks_the_critical_speeds_within_the_sweep(result):
     found = result.solution
-    shown = ked_report(result)
+    html = ked_report(result)
+    assert len(html) < 2.4e6  # with 0.1 MB of the animation
+    shown = report_page.opened(html)
     assert "critical, mode 1" in shown
     assert "critical, mode 3" not in shown  # its eighth harmonic is at 12,762 rpm
     assert found.critical[2, 7] > result.sweep.speed[-1]
@@ -228,6 +231,7 @@ def test_the_reader_exaggerates_the_deflection_in_the_report(result, tmp_path):
     path = write_ked_report(result, tmp_path / "report.html")
     tip = "document.querySelector('.bent').getAttribute('points').split(' ').pop().split(',').map(Number)"
     with chromium(tmp_path / "profile") as browser, opened(browser, path, 1200) as page:
+        page.wait_until("document.documentElement.classList.contains('drawn')")
         assert page.errors == []
         assert page.requests == [path.resolve().as_uri()]
         assert page.value("document.querySelectorAll('.plot .main-svg').length") >= 6

@@ -30,6 +30,7 @@ from harness.papers.ked.tables import (
     synthesis_rows,
 )
 from mechanism_fmu.elastodynamics import with_friction
+from tests.report_page import opened
 
 MODEL, SPEED = "four_bar_path_generator", 500 * math.pi / 30
 DEPTHS = ["crank_depth", "coupler_depth", "rocker_depth", "arm_depth"]
@@ -224,7 +225,7 @@ def test_friction_and_flywheel_are_in_files_and_report(rubbing, native_four_bar_
         sweep = swept(turned, SPEED, lambda *_: None)
         result = Result(fmu, "Path generator", {}, found, sweep, agreed, frictionless=frictionless)
         files = write_result(result, tmp_path)
-        page = ked_report(result)
+        page = opened(ked_report(result))
     assert all(check.passed for check in result.checks)
     table = pd.read_csv(files[0])
     torque = table["friction_torque_crank_hinge [N.m]"]
@@ -262,7 +263,7 @@ def test_the_report_shows_the_lightest_design(lightest, plain, native_four_bar_p
         turned = prepared(described({}), SPEED, 0.02, 36)
         agreed = agreement(fmu, described({}), plain, {})
         sweep = swept(turned, SPEED, lambda *_: None)
-        page = ked_report(Result(fmu, "", {}, plain, sweep, agreed, lightest.limits, lightest))
+        page = opened(ked_report(Result(fmu, "", {}, plain, sweep, agreed, lightest.limits, lightest)))
     assert "<h2>The lightest design within the limits</h2>" in page
     assert "Deviation, quasi-static" in page
     assert "Friction in the joints" not in page

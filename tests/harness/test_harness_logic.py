@@ -11,7 +11,7 @@ from fake_slave import FakeFmu, FakeSlave, fake_description
 from hypothesis import given, strategies as st
 
 from harness.fmu.description import Value, Variable
-from harness.report.motion import events_section, modes_section
+from harness.report.modes_and_events import events_section, modes_section
 from harness.run.experiment import Experiment, perform
 from harness.run.logic import EventCollector, LogicFile, counts_of, default_parameters, read_logic
 from harness.run.results import write_run

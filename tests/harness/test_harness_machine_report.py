@@ -29,6 +29,7 @@ from harness.report.machine_report import machine_report
 from harness.report.machine_signals import in_power_flow
 from harness.run.master import Ending
 from tests.harness.machine.fakes import Trouble, Wheel, description
+from tests.report_page import opened
 
 DRAWING = {
     "format": 1,
@@ -97,7 +98,7 @@ def _free(name: str, plan: Plan) -> dict[str, float]:
 
 def held(html: str) -> list[dict[str, Any]]:
     """What charts and players get."""
-    return [json.loads(text) for text in re.findall(r'<script type="application/json">(.*?)</script>', html)]
+    return [json.loads(text) for text in re.findall(r'<script type="application/json">(.*?)</script>', opened(html))]
 
 
 def player(html: str) -> dict[str, Any]:

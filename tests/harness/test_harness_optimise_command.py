@@ -75,7 +75,7 @@ def test_an_optimum_from_the_file_to_the_report(slider_crank_fmu: Path, tmp_path
     page = (out / "report.html").read_text(encoding="utf-8")
     assert "<h1>The shortest crank</h1>" in page
     assert "<h2>Search</h2>" in page
-    assert f"<h2>Mechanism</h2><p>Design {best['design']}, the best: " in page
+    assert f"<h2>Mechanism</h2></summary><p>Design {best['design']}, the best: " in page
     before = (out / "results.parquet").read_bytes()
     assert "40 designs, 40 of them there before." in invoke(file_of(tmp_path, slider_crank_fmu), "-o", out)[1]
     assert (out / "results.parquet").read_bytes() == before
