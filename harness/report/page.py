@@ -37,7 +37,8 @@ summary {{ cursor: pointer; }}
 summary h2 {{ display: inline; }}
 section > details > summary + * {{ margin-top: 4px; }}
 nav {{ margin-top: 18px; }}
-nav ul {{ columns: 15em; list-style: none; margin: 6px 0 0; padding: 0; max-height: 34vh; overflow-y: auto; }}
+nav details {{ max-height: 40vh; overflow-y: auto; }}
+nav ul {{ columns: 15em; list-style: none; margin: 6px 0 0; padding: 0; }}
 nav a {{ color: inherit; overflow-wrap: anywhere; }}
 .unpacking {{ margin: 18px 0 0; color: var(--soft); }}
 .cards {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 14px; margin-top: 18px; }}
