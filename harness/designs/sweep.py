@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
-from scipy.stats import qmc
 
 from ..fmu.description import Description
 from ..run.master import never
@@ -50,11 +49,15 @@ def _random(count: int, axes: int, seed: int) -> npt.NDArray[np.float64]:
 
 
 def _latin_hypercube(count: int, axes: int, seed: int) -> npt.NDArray[np.float64]:
+    from scipy.stats import qmc  # takes a second to load
+
     return np.asarray(qmc.LatinHypercube(axes, rng=np.random.default_rng(seed)).random(count))
 
 
 def _sobol(count: int, axes: int, seed: int) -> npt.NDArray[np.float64]:
     """The first of a sequence whose length is a power of 2, for which alone it is balanced."""
+    from scipy.stats import qmc  # takes a second to load
+
     whole = math.ceil(math.log2(count)) if count > 1 else 0
     return np.asarray(qmc.Sobol(axes, rng=np.random.default_rng(seed)).random_base2(whole))[:count]
 

@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.optimize import minimize
 
 from .beam import Beam, FloatArray, require_impact_velocity, require_within
 from .material import Material
@@ -148,6 +147,8 @@ def _locate(field: BendingField, centre: tuple[float, float], cell: tuple[float,
         values = -stress_around(point) / scale
         slope = np.array([values[2, 1] - values[0, 1], values[1, 2] - values[1, 0]]) / (2 * _DIFFERENCE)
         return float(values[1, 1]), slope
+
+    from scipy.optimize import minimize  # takes half a second to load, which most runs can do without
 
     start = np.zeros(2)
     scale = stress_around(start)[1, 1]

@@ -9,8 +9,6 @@ from math import comb
 
 import numpy as np
 from numpy.polynomial import polynomial
-from scipy.optimize import brentq
-from scipy.special import ive, jv
 
 from .beam import Beam, FloatArray, require_within
 from .material import Material
@@ -198,6 +196,8 @@ def exact_wedge_frequencies(tooth: WedgeTooth, material: Material, count: int) -
     Source: G. Kirchhoff, Über die Transversalschwingungen eines Stabes von veränderlichem Querschnitt (1879).
     """
     require_within("number of frequencies", count, 1, _MOST, "", "ask for as many as you can use")
+    from scipy.optimize import brentq  # takes half a second to load, which most runs can do without
+
     roots = [brentq(_clamped, k * math.pi, (k + 1) * math.pi, xtol=1e-14, rtol=1e-15) for k in range(1, count + 1)]
     unit = math.sqrt(material.youngs_modulus / material.density) * math.tan(tooth.apex_angle) / tooth.length
     return np.array(roots) ** 2 / (4 * math.sqrt(12)) * unit
@@ -205,4 +205,6 @@ def exact_wedge_frequencies(tooth: WedgeTooth, material: Material, count: int) -
 
 def _clamped(z: float) -> float:
     """J1 I2 + I1 J2, the modified functions without their growth exp(z)."""
+    from scipy.special import ive, jv
+
     return float(jv(1, z) * ive(2, z) + ive(1, z) * jv(2, z))

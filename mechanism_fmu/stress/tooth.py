@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from .beam import Beam, FloatArray, require_within
 
@@ -345,6 +344,7 @@ class TableBeam:
         return np.asarray(self._interpolants[2](x))
 
     @cached_property
-    def _interpolants(self) -> tuple[PchipInterpolator, ...]:
-        columns = self.areas, self.second_moments, self.outer_fibres
-        return tuple(PchipInterpolator(self.places, column) for column in columns)
+    def _interpolants(self) -> tuple[Callable[[FloatArray], FloatArray], ...]:
+        from scipy.interpolate import PchipInterpolator  # takes half a second to load, which most runs can do without
+
+        return tuple(PchipInterpolator(self.places, y) for y in (self.areas, self.second_moments, self.outer_fibres))
