@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy import optimize
 
 from ..errors import UsageError
 from ..fmu.description import Value
@@ -197,6 +196,7 @@ def _merits(optimum: Optimum, history: History, candidates: Sequence[dict[str, V
 
 def _differential_evolution(optimum: Optimum, history: History) -> None:
     """R. Storn, K. Price, J. Global Optimization 11 (1997): it compares merits, and nothing else."""
+    from scipy import optimize  # takes half a second to load
 
     def merits(fractions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         return _merits(optimum, history, [_at(optimum.axes, point) for point in np.atleast_2d(fractions.T)])
@@ -215,6 +215,8 @@ def _differential_evolution(optimum: Optimum, history: History) -> None:
 
 def _nelder_mead(optimum: Optimum, history: History, real: Sequence[Axis]) -> None:
     """Refine the Real variables of the best design; it compares merits, and nothing else."""
+    from scipy import optimize  # takes half a second to load
+
     best = best_of(optimum, history).design.values
     start = np.array([axis.fraction(float(best[axis.name])) for axis in real])
     simplex = np.vstack([start, *(_moved(start, k) for k in range(len(real)))])

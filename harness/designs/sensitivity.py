@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy import stats
 
 from ..fmu.description import Value
 from .optimum_file import Optimum, near
@@ -55,6 +54,8 @@ def sensitivity(optimum: Optimum, best: Best, history: History) -> Sensitivity |
     free = near(optimum.axes)
     if around is None:
         return None
+    from scipy import stats  # takes a second to load
+
     history.allow(len(history.designs) + around.designs(len(free)))
     vicinity = [_vicinity(axis, best.design.values[axis.name], around.width) for axis in free]
     seen: list[float] = []
