@@ -38,16 +38,19 @@ def rigid_rows(mechanism: Mechanism, pose: Pose) -> tuple[FloatArray, tuple[str,
     found: list[FloatArray] = []
     owners: list[str] = []
     for joint in mechanism.joints:
+        ends = [
+            (pose.bodies.index(body), left(pose.turned(body, point)), columns)
+            for body, point, columns in (
+                (joint.body_i, getattr(joint, "point_i", (0.0, 0.0)), slice(0, 3)),
+                (joint.body_j, getattr(joint, "point_j", (0.0, 0.0)), slice(3, 6)),
+            )
+        ]
         for row in (*translation_rows(joint, pose), *rotation_rows(joint, pose)):
             wide = np.zeros((len(pose.time), len(pose.bodies), 3))
-            for body, point, part in (
-                (joint.body_i, getattr(joint, "point_i", (0.0, 0.0)), row[:, :3]),
-                (joint.body_j, getattr(joint, "point_j", (0.0, 0.0)), row[:, 3:]),
-            ):
-                arm = left(pose.turned(body, point))
-                k = pose.bodies.index(body)
+            for k, arm, columns in ends:
+                part = row[:, columns]
                 wide[:, k, :2] += part[:, :2]
-                wide[:, k, 2] += part[:, 2] + np.einsum("tk,tk->t", part[:, :2], arm)
+                wide[:, k, 2] += part[:, 2] + dot(part, arm)
             found.append(wide)
             owners.append(joint.name)
     for body, what in held_coordinates(mechanism):

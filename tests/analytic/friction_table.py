@@ -1,6 +1,6 @@
 """The table of docs/friction.md: how far friction is off its oracle, kind by kind.
 
-python tests/analytic/friction_table.py      prints it, in a second
+python tests/analytic/friction_table.py      prints it
 """
 
 from __future__ import annotations

@@ -1,12 +1,14 @@
 """Sweeps whose designs take a moment and leave a trace, and a process that runs one until it is killed."""
 
 import gc
+import multiprocessing
 import os
 import socket
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from multiprocessing import forkserver
 from pathlib import Path
 
 from fake_slave import fake_description
@@ -113,6 +115,17 @@ def run_cheap(count: int, folder: Path, on_progress: Callable[[Progress], None] 
     """Run what is left of a sweep in a folder, in this process."""
     sweep = cheap_sweep(count)
     perform_sweep(sweep, store_of(sweep, folder), partial(here, work_of(sweep, folder)), on_progress)
+
+
+def begin_processes_with_what_they_need() -> None:
+    """From now on all are copies of one that has imported most of it; else each would take seconds for that.
+
+    The one that tests before have left is without it, and cannot be given it any more. It ends here.
+    """
+    assert not multiprocessing.active_children()  # for whose end that one would wait
+    forkserver._forkserver._stop()
+    multiprocessing.get_context("forkserver").set_forkserver_preload(["harness.designs.sweep", "harness.designs.store"])
+    forkserver.ensure_running()
 
 
 def run_until_killed(count: int, folder: Path) -> None:

@@ -1,17 +1,15 @@
 """What a process that runs designs writes is data: a forged result fails its design alone, and nothing of it runs."""
 
 import json
-import multiprocessing
 import os
 import pickle
 import struct
 from dataclasses import dataclass
-from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any
 
 import pytest
-from cheap_designs import FORGED, cheap_sweep, forging, work_of
+from cheap_designs import FORGED, begin_processes_with_what_they_need, cheap_sweep, forging, work_of
 from hypothesis import given, strategies as st
 
 from harness.designs.task import Design, Quantity, Task, When
@@ -36,9 +34,7 @@ def frame(data: Any, tail: bytes = b"") -> bytes:
 
 @pytest.fixture(scope="module", autouse=True)
 def _processes_begin_with_what_they_need() -> None:
-    """All are copies of one that has imported most of it; else each would take seconds for that."""
-    multiprocessing.get_context("forkserver").set_forkserver_preload(["harness.designs.sweep", "harness.designs.store"])
-    forkserver.ensure_running()
+    begin_processes_with_what_they_need()
 
 
 @pytest.mark.parametrize(

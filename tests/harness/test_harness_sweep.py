@@ -8,7 +8,6 @@ import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +21,7 @@ from cheap_designs import (
     SQUARE,
     TROUBLED,
     axis,
+    begin_processes_with_what_they_need,
     cheap_sweep,
     run_cheap,
     run_until_killed,
@@ -43,9 +43,7 @@ from harness.run.master import TimeGrid
 
 @pytest.fixture(scope="module", autouse=True)
 def _processes_begin_with_what_they_need() -> None:
-    """All are copies of one that has imported most of it; else each would take seconds for that."""
-    multiprocessing.get_context("forkserver").set_forkserver_preload(["harness.designs.sweep", "harness.designs.store"])
-    forkserver.ensure_running()
+    begin_processes_with_what_they_need()
 
 
 @given(st.sampled_from(sorted(sweep.METHODS)), st.integers(1, 40), st.integers(0, 10))

@@ -130,7 +130,7 @@ def translation_rows(joint: Joint, pose: Pose) -> list[FloatArray]:
     if isinstance(joint, (Revolute, XDriver, YDriver)):
         axes = (_X, _Y) if isinstance(joint, Revolute) else (_X,) if isinstance(joint, XDriver) else (_Y,)
         sign = -1.0 if isinstance(joint, Revolute) else 1.0  # phi = r_i - r_j of a pin, r_j - r_i of drivers
-        return [_row(pose, sign * np.broadcast_to(axis, (len(pose.time), 2)), 0.0) for axis in axes]
+        return [_row(pose, sign * axis, 0.0) for axis in axes]
     if isinstance(joint, (Translational, RevoluteTranslational, TranslationalDriver)):
         along = pose.turned(joint.body_i, _unit(joint.axis_i))
         if isinstance(joint, TranslationalDriver):
@@ -175,7 +175,7 @@ def guide_axis(joint: Translational | RevoluteTranslational, pose: Pose) -> Floa
 
 
 def _row(pose: Pose, direction: FloatArray, turn: FloatArray | float) -> FloatArray:
-    """The row of direction . (u_j - u_i) + turn theta_i."""
+    """The row of direction . (u_j - u_i) + turn theta_i; direction of shape (times, 2), or (2,) if always the same."""
     row = np.zeros((len(pose.time), 6))
     row[:, 0:2], row[:, 2], row[:, 3:5] = -direction, turn, direction
     return row
