@@ -198,7 +198,6 @@ def exact_wedge_frequencies(tooth: WedgeTooth, material: Material, count: int) -
     from scipy.optimize import brentq  # takes long to load, and few commands get here
 
     require_within("number of frequencies", count, 1, _MOST, "", "ask for as many as you can use")
-    from scipy.optimize import brentq  # takes half a second to load, which most runs can do without
 
     roots = [brentq(_clamped, k * math.pi, (k + 1) * math.pi, xtol=1e-14, rtol=1e-15) for k in range(1, count + 1)]
     unit = math.sqrt(material.youngs_modulus / material.density) * math.tan(tooth.apex_angle) / tooth.length

@@ -274,7 +274,6 @@ def natural_modes(
     motions = rigid_motions(root, tip)
     advice = "12 give the first three modes of most beams to ten digits; each rigid motion takes one"
     require_within("number of Ritz terms", terms, 1 + len(motions), _MOST_TERMS, "", advice)
-    from scipy.linalg import eigh  # takes a moment to load, which most runs can do without
 
     basis = admissible(terms, root, tip)
     polynomials = norms(len(basis) - 1)[:, None] * basis

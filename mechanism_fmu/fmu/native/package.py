@@ -97,10 +97,10 @@ def _instance(slave: Any) -> Iterator[None]:
 
 #: The files of the C surface, each using those before it; both versions of FMI stand in one library.
 SURFACE = ("log.c", "instance.c", "values.c", "saved_check.c", "saved.c", "fmi2.c", "fmi3.c")
-_HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h", "saved.h")
+HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h", "saved.h")
 
 #: The headers of both standards, which the package fmpy brings.
-_STANDARD = Path(fmpy.__file__).with_name("c-code")
+STANDARD = Path(fmpy.__file__).with_name("c-code")
 
 #: Where FMI 3.0 wants what has another name in FMI 2.0 (sections 2.5.1.2 and 2.5.1.5).
 _PLACES3 = {
@@ -180,8 +180,8 @@ def _fingerprint(model: Model, traced: Formulas, entries: Mapping[str, bytes], e
     parts = {
         **entries,
         "model.c": model_source(model, traced, "", bytes(16)).encode(),
-        **linked_with(*SURFACE, *_HEADERS),
-        **{file.name: file.read_bytes() for file in sorted(_STANDARD.glob("fmi[23]*.h"))},
+        **linked_with(*SURFACE, *HEADERS),
+        **{file.name: file.read_bytes() for file in sorted(STANDARD.glob("fmi[23]*.h"))},
         **{name: object_file.read_bytes() for name, object_file in engine.objects.items()},
     }
     return uuid.UUID(content_hash(parts)[:32])
@@ -197,7 +197,7 @@ def _binaries(model: Model, source: str, engine: Engine) -> dict[Target, bytes]:
             place.mkdir()
             inputs = [*surface(*SURFACE), folder / "model.c", engine.objects[target.name]]
             library = place / f"{model.name}{target.suffix}"
-            link(target, inputs, [engine.headers, _STANDARD], library)
+            link(target, inputs, [engine.headers, STANDARD], library)
             return library.read_bytes()
 
         with ThreadPoolExecutor() as pool:

@@ -7,10 +7,7 @@ from __future__ import annotations
 
 import uuid
 from dataclasses import dataclass
-from pathlib import Path
 from types import ModuleType
-
-import fmpy
 
 from ...model import Model, compile_mechanism
 from ...model.baked import NOTHING_BAKED, Baked
@@ -23,9 +20,9 @@ from .formulas import formulas
 from .link import WEB, link, linked_with, need_linker, surface
 from .model_data import model_source
 from .objects import Report, compiled_engine, silently, web_object
+from .package import HEADERS, STANDARD, SURFACE
 
-_SURFACE = ("log.c", "instance.c", "values.c", "saved_check.c", "saved.c", "fmi3.c", "page.c")
-_STANDARD = Path(fmpy.__file__).with_name("c-code")
+_SURFACE = (*(name for name in SURFACE if name != "fmi2.c"), "page.c")
 
 #: Of FMI 3.0, and of the C library, what a page calls.
 EXPORTS = (
@@ -70,12 +67,12 @@ def web_module(module: ModuleType, report: Report = silently, *, baked: Baked = 
     need_linker()
     model = model_of(module, baked).model
     traced = formulas(trace(model), pack(compile_mechanism(model.build(model.values()))))
-    made_from = {"model.c": model_source(model, traced, "", bytes(16)).encode(), **linked_with(*_SURFACE)}
+    made_from = {"model.c": model_source(model, traced, "", bytes(16)).encode(), **linked_with(*_SURFACE, *HEADERS)}
     engine = web_object(report)
     guid = uuid.UUID(content_hash(made_from | {engine.name: engine.read_bytes()})[:32])
     headers = compiled_engine(report).headers
     with temporary_folder() as folder:
         (folder / "model.c").write_text(model_source(model, traced, f"{{{guid}}}", guid.bytes), encoding="ascii")
         made = folder / f"{model.name}{WEB.suffix}"
-        link(WEB, [*surface(*_SURFACE), folder / "model.c", engine], [headers, _STANDARD], made, EXPORTS)
+        link(WEB, [*surface(*_SURFACE), folder / "model.c", engine], [headers, STANDARD], made, EXPORTS)
         return WebModule(model, f"{{{guid}}}", made.read_bytes())

@@ -74,6 +74,7 @@ def test_two_that_need_the_engine_compile_it_once(tmp_path: Path, monkeypatch: p
         waiting.wait(60)
         for target in TARGETS:
             keep(folder / f"{target.name}.o", b"object")
+        keep(folder / "engine.bc", b"object")
 
     monkeypatch.setenv("MECHANISM_FMU_CACHE", str(tmp_path))
     monkeypatch.setattr(objects, "_emit", emit)

@@ -60,6 +60,7 @@ def test_the_engine_is_compiled_again(damage: str, which: str, cache: Path, monk
         compiled.append(folder)
         for target in TARGETS:
             keep(folder / f"{target.name}.o", b"object")
+        keep(folder / "engine.bc", b"object")
 
     monkeypatch.setattr(objects, "_emit", emit)
     engine = objects.compiled_engine()
