@@ -179,7 +179,7 @@ def _loaded(model: str, what: str, native: bool) -> Iterator[_Loaded]:
     """A model's module, the file if it is the user's own, what shows how far the engine is compiled, what warns.
 
     Raises:
-        typer.Exit: it cannot be loaded, or what is made of it within the block cannot be made; the reason has been said.
+        typer.Exit: it cannot be loaded, or what the block makes of it cannot be made; the reason has been said.
     """
     import models
     from mechanism_fmu.fmu.own.find import WrongUseError

@@ -120,7 +120,7 @@
     for (const one of MODEL.given) constants[one.name] = Number(asked.has(one.name) ? asked.get(one.name) : one.start);
     const picture = SCENE.scene(MODEL.shapes, columns, constants) || { columns: [], shapes: [], view: [0, 0, 1, 1] };
     return {
-      ...picture, time: run.time, end: MODEL.stop, decimals: MODEL.decimals, flash: "var(--hit)",
+      ...picture, time: Array.from(run.time), end: MODEL.stop, decimals: MODEL.decimals, flash: "var(--hit)",
       impacts: run.struck.map((row) => run.time[row]),
       contacts: MODEL.contacts.map((one) => ({ active: run.of(one.variable).join("") })),
     };

@@ -32,8 +32,9 @@ def page_data(web: WebModule) -> dict[str, Any]:
 
     Keys: `name`, `token`; `stop` [s], `steps`, `decimals` of times; `given`, the parameters and inputs; `reals` and
     `flags`, the outputs that a run records, in this order behind time and impact; `constants`, the calculated
-    parameters that the drawing needs; `shapes`, those of drawing.json with colours, and `moving`, the reals that move them; `contacts`, the flags that have a
-    lamp; `charts`, titles with names of reals; `impact`, the reals of the last impact.
+    parameters that the drawing needs; `shapes`, those of drawing.json with colours, and `moving`, the reals that move
+    them; `contacts`, the flags that have a lamp; `charts`, titles with names of reals; `impact`, the reals of the last
+    impact.
 
     Args:
         web: the model for a page.

@@ -92,8 +92,8 @@ def _stage(data: Mapping[str, Any]) -> str:
     return (
         '<section class="stage" aria-label="Mechanism"><div id="refusal" role="alert" hidden></div>'
         '<div id="note" role="status" hidden></div><p id="no-picture" hidden>There is no drawing of this run.</p>'
-        f'<div class="animation"><svg role="img" aria-label="The mechanism at the time shown below"></svg>{plays}{named}'
-        '</div><div class="buttons"><button type="button" id="reset">Reset</button>'
+        '<div class="animation"><svg role="img" aria-label="The mechanism at the time shown below"></svg>'
+        f'{plays}{named}</div><div class="buttons"><button type="button" id="reset">Reset</button>'
         '<button type="button" id="csv">Download CSV</button><span id="state"></span></div></section>'
     )
 

@@ -51,6 +51,39 @@ const calls = {
     await until(scope, (found) => found.finished);
     return scope.heard.map((found) => found.id);
   },
+  // What the reader sees after each of `steps`: {set: [name, value]}, {hash}, {click: selector}.
+  async session(options, steps) {
+    const { document, location, errors, blobs, when } = require("./page_document.js").opened(html, options);
+    const find = (selector) => document.querySelector(selector), text = (selector) => find(selector)?.textContent ?? null;
+    const seen = () => ({ alert: find("#refusal").hidden ? "" : text("#refusal"), note: find("#note").hidden ? "" : text("#note"),
+      count: text("#impact-count"), first: text("#impacts tbody td"), time: text(".time"), struck: text(".struck"),
+      shapes: find(".animation svg").children.length, curves: document.querySelectorAll("#charts polyline").length,
+      values: document.querySelectorAll("#charts b").filter((one) => one.textContent).length, hash: location.hash,
+      files: blobs.map((one) => one.text.split("\r\n")[0]).filter((line) => line.startsWith("time")), errors });
+    const settled = () => when(() => text("#state") === "" && text("#impact-count"));
+    await settled();
+    const found = [seen()];
+    for (const step of steps) {
+      if (step.set) {
+        const field = find("#of_" + step.set[0]);
+        Object.assign(field, typeof step.set[1] === "boolean" ? { checked: step.set[1] } : { value: step.set[1] });
+        field.dispatch("change");
+      }
+      if (step.slide) {
+        const slider = find("#of_" + step.slide[0]).parentNode.children.find((one) => one.type === "range");
+        slider.value = step.slide[1];
+        slider.dispatch("input");
+      }
+      if (step.hash !== undefined) {
+        location.hash = step.hash;
+        document.dispatch("hashchange");
+      }
+      if (step.click) find(step.click).click();
+      await settled();
+      found.push(seen());
+    }
+    return found;
+  },
   scene: (...given) => script("scene.js").scene(...given),
   ticks: (...given) => script("curves.js").ticks(...given),
   hash(hash) {

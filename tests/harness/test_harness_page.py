@@ -25,14 +25,16 @@ from harness.report.scene import Scene
 from harness.run.drawing import WITH_POINTS, Shape
 from mechanism_fmu.fmu.native.link import has_linker
 from mechanism_fmu.fmu.native.web import web_module
+from mechanism_fmu.fmu.own.prepare import load
 from tests.once import once
 
 NODE = shutil.which("node")
+GALLERY = Path(__file__).parents[2] / "docs/examples/gallery"
 SCRIPTS = Path(page_package.__file__).parent
 needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 needs_linker = pytest.mark.skipif(not has_linker(), reason="ziglang is not installed")
 
-#: The closed forms and the reference of the ratchet's base case: README.md.
+#: When the pawl strikes in the ratchet's base case [s]: the reference of README.md.
 IMPACT = 0.9399211769
 ALL = [pytest.param(name, marks=() if name == "ratchet" else pytest.mark.slow) for name in models.available()]
 
@@ -43,7 +45,8 @@ def page_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
 
     def made(name: str) -> Path:
         def work(folder: Path) -> None:
-            (folder / "model.html").write_text(page(web_module(models.load(name))), encoding="utf-8")
+            module = load(GALLERY / name) if name.endswith(".py") else models.load(name)
+            (folder / "model.html").write_text(page(web_module(module)), encoding="utf-8")
 
         return once(tmp_path_factory, f"page_{name}", work) / "model.html"
 
@@ -122,6 +125,55 @@ def test_the_base_case_of_the_ratchet_and_an_impossible_crank(page_of: Callable[
     assert not refused["text"].startswith("page")
     assert stronger["struck"]
     assert stronger["struck"][0] < IMPACT
+
+
+@needs_linker
+@needs_node
+@pytest.mark.parametrize("worker", [True, False])
+def test_a_reader_changes_values(worker: bool, page_of: Callable[[str], Path]) -> None:
+    steps: list[dict[str, Any]] = [
+        {"set": ["crank_length", "0.02"]},
+        {"set": ["crank_length", "0.11"]},
+        {"slide": ["drive_torque", 300]},
+        {"click": ".next"},
+        {"set": ["guided", False]},
+        {"click": "#reset"},
+        {"hash": "#drive_torque=0.002&nonsense=1"},
+        {"click": "#csv"},
+    ]
+    (seen,) = in_node(["session", {"worker": worker}, steps], of=page_of("ratchet"))
+    assert seen[-1]["errors"] == []
+    start, refused, back, strong, struck, free, reset, from_hash, saved = seen
+    base = f"{IMPACT:.10f}"
+    assert (start["first"], start["count"], start["alert"], start["hash"]) == (base, "One impact.", "", "")
+    assert (start["time"], start["shapes"] > 5, start["curves"]) == ("t = 0.000 s", True, start["values"])
+    # a refusal is said, and the last good picture stays
+    assert "give more than 0.066394 m" in refused["alert"]
+    assert refused["hash"] == "#crank_length=0.02"
+    assert [refused[key] for key in ("first", "shapes", "curves")] == [
+        start[key] for key in ("first", "shapes", "curves")
+    ]
+    assert (back["alert"], back["first"], back["hash"]) == ("", base, "#")
+    # the slider's end is twice the start
+    assert strong["hash"] == "#drive_torque=0.002"
+    assert float(strong["first"]) < IMPACT
+    assert "impact 1 of 1 at 0.66" in struck["struck"]
+    assert struck["time"] == f"t = {float(strong['first']):.3f} s"
+    assert free["hash"] == "#drive_torque=0.002&guided=false"
+    assert (reset["first"], reset["hash"], reset["time"]) == (base, "#", "t = 0.000 s")
+    assert from_hash["first"] == strong["first"]
+    assert saved["files"][0].startswith("time [s],wheel_angle [rad],")
+
+
+@needs_linker
+@needs_node
+@pytest.mark.parametrize("name", [*ALL, pytest.param("woodpecker.py", marks=pytest.mark.slow)])  # which has a trace
+def test_a_page_shows_its_model(name: str, page_of: Callable[[str], Path]) -> None:
+    (seen,) = in_node(["session", {}, []], of=page_of(name))
+    assert seen[0]["errors"] == []
+    assert seen[0]["alert"] == ""
+    assert seen[0]["shapes"] > 1
+    assert seen[0]["curves"] == seen[0]["values"] > 1
 
 
 @needs_linker
@@ -267,9 +319,10 @@ def test_the_command_writes_the_page_of_a_file(tmp_path: Path, monkeypatch: pyte
     assert "A &lt;/script&gt;&lt;b&gt;lever &amp; co" in html
     assert html.count("<script") == html.count("</script>") == 12
     if NODE is not None:
-        (run,) = in_node(["run", {}], of=Path("lever.html"))
+        run, seen = in_node(["run", {}], ["session", {}, []], of=tmp_path / "lever.html")
         assert run["finished"]
         assert run["struck"]
+        assert (seen[0]["errors"], seen[0]["shapes"] > 1) == ([], True)
 
 
 @pytest.mark.parametrize("name", ["gearbox", "nowhere.py"])
