@@ -90,17 +90,18 @@ def _stage(data: Mapping[str, Any]) -> str:
     lamps = [Contact(c["name"], c["variable"], c["colour"]) for c in data["contacts"]]
     named = legend([shape for shape in data["shapes"] if shape.get("name")], lamps)
     return (
-        '<section class="stage" aria-label="Mechanism"><div id="refusal" role="alert" hidden></div>'
-        '<div id="note" role="status" hidden></div><p id="no-picture" hidden>There is no drawing of this run.</p>'
+        '<section class="stage" aria-label="Mechanism"><p id="no-picture" hidden>There is no drawing of this run.</p>'
         '<div class="animation"><svg role="img" aria-label="The mechanism at the time shown below"></svg>'
         f'{plays}{named}</div><div class="buttons"><button type="button" id="reset">Reset</button>'
-        '<button type="button" id="csv">Download CSV</button><span id="state"></span></div></section>'
+        '<button type="button" id="csv">Download CSV</button><span id="state"></span></div>'
+        # nothing that is pressed moves when a run says something: refusals lie over the page, warnings above curves
+        '<div id="refusal" role="alert" hidden></div></section>'
     )
 
 
 def _results() -> str:
     return (
-        '<section aria-label="Curves"><div id="charts"></div></section>'
+        '<section aria-label="Curves"><div id="note" role="status" hidden></div><div id="charts"></div></section>'
         '<section aria-label="Impacts"><h2>Impacts</h2><p id="impact-count"></p><div class="scroll" tabindex="0" '
         'role="region" aria-label="Table of impacts"><table id="impacts"><thead></thead><tbody></tbody></table></div>'
         "</section>"
