@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import tempfile
 import time
-from collections.abc import Callable, Mapping
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from types import ModuleType
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from mechanism_fmu.fmu.native.objects import Report
+    from mechanism_fmu.fmu.native.web import WebModule
     from mechanism_fmu.model import Mechanism
+
+    _Loaded = tuple[ModuleType, Path | None, Report, Callable[[str], None]]
 
 # Everything else is imported where it is used: --help must not wait for numba.
 
@@ -114,33 +119,77 @@ def built(
     Raises:
         typer.Exit: it cannot be built; the reason has been said.
     """
-    import models
     from mechanism_fmu.fmu.native.package import build_native_fmu
-    from mechanism_fmu.fmu.own.find import WrongUseError, looks_like_a_file
     from mechanism_fmu.fmu.own.freedoms import report_freedoms
-    from mechanism_fmu.fmu.own.mistakes import explained_in_fmu
-    from mechanism_fmu.fmu.own.prepare import prepare
     from mechanism_fmu.fmu.package import build_fmu
-    from mechanism_fmu.model import MechanismError
     from mechanism_fmu.model.baked import Baked, Seen
 
     own = Baked(starts or {}, {name: Seen(*given) for name, given in (inputs or {}).items()})
-    messages = _messages()
-    if not model or not (model in models.available() or looks_like_a_file(model)):
-        asked = f"There is no model {model!r}" if model else "Say which model to build"
-        names = ", ".join(models.available())
-        example = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
-        text = f"{asked}; there are: {names}. For a mechanism of your own, give its file, e.g. {example}."
-        messages.print(text, style="red", markup=False)
-        raise typer.Exit(_USAGE_ERROR)
+    _require(model)
     if fmi == 3 and flavour is not Flavour.NATIVE:
-        messages.print("FMI 3.0 comes in the native flavour only; add --flavour native.", style="red", markup=False)
-        raise typer.Exit(_USAGE_ERROR)
+        _refuse("FMI 3.0 comes in the native flavour only; add --flavour native.")
     if clocks and fmi != 3:
-        messages.print("Clocks come with FMI 3.0 only; add --fmi 3.", style="red", markup=False)
-        raise typer.Exit(_USAGE_ERROR)
+        _refuse("Clocks come with FMI 3.0 only; add --fmi 3.")
+    with _loaded(model, "the FMU", flavour is Flavour.NATIVE) as (module, file, report, warn):
+        if flavour is Flavour.NATIVE:
+            path = build_native_fmu(module, output, fmi, report, clocks=clocks, baked=own)
+        else:
+            path = build_fmu(module, output, report, baked=own)
+        if inform is not None and file is not None:
+            report_freedoms(module.MODEL, file, inform, warn)
+    return path
+
+
+def web(model: str) -> WebModule:
+    """The WebAssembly module of a model, for a page; what is to be said goes to stderr.
+
+    Args:
+        model: name of a ready-made model, or file of your own mechanism.
+
+    Raises:
+        typer.Exit: it cannot be built; the reason has been said.
+    """
+    from mechanism_fmu.fmu.native.web import web_module
+
+    _require(model)
+    with _loaded(model, "the page", True) as (module, _, report, _):
+        return web_module(module, report)
+
+
+def _require(model: str) -> None:
+    """That there can be such a model."""
+    import models
+    from mechanism_fmu.fmu.own.find import looks_like_a_file
+
+    if model and (model in models.available() or looks_like_a_file(model)):
+        return
+    asked = f"There is no model {model!r}" if model else "Say which model to build"
+    names = ", ".join(models.available())
+    example = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
+    _refuse(f"{asked}; there are: {names}. For a mechanism of your own, give its file, e.g. {example}.")
+
+
+def _refuse(text: str) -> NoReturn:
+    _messages().print(text, style="red", markup=False)
+    raise typer.Exit(_USAGE_ERROR)
+
+
+@contextmanager
+def _loaded(model: str, what: str, native: bool) -> Iterator[_Loaded]:
+    """A model's module, the file if it is the user's own, what shows how far the engine is compiled, what warns.
+
+    Raises:
+        typer.Exit: it cannot be loaded, or what the block makes of it cannot be made; the reason has been said.
+    """
+    import models
+    from mechanism_fmu.fmu.own.find import WrongUseError
+    from mechanism_fmu.fmu.own.mistakes import explained_in_fmu
+    from mechanism_fmu.fmu.own.prepare import prepare
+    from mechanism_fmu.model import MechanismError
+
+    messages = _messages()
     try:
-        with messages.status(f"Building the FMU of {model} ...") as status, ExitStack() as explanations:
+        with messages.status(f"Building {what} of {model} ...") as status, ExitStack() as explanations:
 
             def report(text: str, done: float) -> None:
                 status.update(f"The engine is compiled once for all platforms, {100 * done:.0f} %: {text} ...")
@@ -149,20 +198,14 @@ def built(
                 messages.print(f"Warning: {text}", style="yellow", markup=False)
 
             if model in models.available():
-                module = models.load(model)
+                yield models.load(model), None, report, warn
             else:
-                module, file = prepare(model, flavour is Flavour.NATIVE, warn)
+                module, file = prepare(model, native, warn)
                 explanations.enter_context(explained_in_fmu(file))
-            if flavour is Flavour.NATIVE:
-                path = build_native_fmu(module, output, fmi, report, clocks=clocks, baked=own)
-            else:
-                path = build_fmu(module, output, report, baked=own)
-            if inform is not None and model not in models.available():
-                report_freedoms(module.MODEL, file, inform, warn)
+                yield module, file, report, warn
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
-    return path
 
 
 def mechanism(model: str, **parameters: float) -> Mechanism:

@@ -248,6 +248,42 @@ def modes(
         raise typer.Exit(show_modes(fmu, settings or [], output))
 
 
+@main.command()
+def page(
+    model: Annotated[
+        str,
+        typer.Argument(
+            metavar="MODEL",
+            help="Name of a ready-made model, e.g. 'ratchet', or file of your own mechanism.",
+            show_default=False,
+        ),
+    ],
+    output: Annotated[Path | None, file_option("FILE.html", "MODEL.html")] = None,
+) -> None:
+    """Write a model as a page in which its engine runs: one HTML file, for any browser, without network or server.
+
+    Move a slider, and the run is computed anew, with the numbers of the native FMU: the mechanism in motion, curves,
+    impacts; what cannot be built is refused in words. Values that you change stand in the address: send it with the
+    file.
+
+    Try:
+
+        mechanism-fmu page ratchet
+
+        mechanism-fmu page my_mechanism.py -o for_the_team.html
+
+    The first page compiles the engine, which takes a minute or two. Needs the package ziglang:
+    `python -m pip install ziglang==0.17.0`. See docs/page.md.
+
+    Exit code: 0 all well, 1 the model cannot be built, 2 wrong use.
+    """
+    from .commands.page_written import write_page
+    from .terminal import user_errors
+
+    with user_errors():
+        raise typer.Exit(write_page(model, output))
+
+
 main.command()(designs_cli.sweep)
 main.command()(designs_cli.optimise)
 main.command()(papers_cli.ked)

@@ -1,9 +1,10 @@
-// Plays the mechanism of a report: every .animation element holds its data as JSON (see animation.py).
-(function () {
+// Plays the mechanism of a report: every .animation element holds its data as JSON (see animation.py). A page whose data
+// change plays them by ANIMATION.animate.
+var ANIMATION = (function () {
   "use strict";
 
   const { element, fit, held, player } = PLAYER;
-  const INK = "#1c2733";
+  const INK = "var(--ink)";
   // Of the picture, in its own pixels: the most it takes, and the room around the mechanism.
   const MOST_WIDTH = 1000, MOST_HEIGHT = 520, MARGIN = 40;
   // How long an impact flashes while playing, in seconds of the reader's time.
@@ -88,7 +89,7 @@
       return () => {};
     },
     hinge(shape, layer) {
-      const group = element("g", { stroke: INK, "stroke-width": 1.6, fill: "#fff" }, layer);
+      const group = element("g", { stroke: INK, "stroke-width": 1.6, fill: "var(--card, #fff)" }, layer);
       if (typeof shape.at !== "string") {
         element("path", { d: "M0 0 l-11 19 h22 Z" }, group);
         element("path", { d: "M-16 19 h32 M-9 19 l-5 6 m13 -6 l-5 6 m13 -6 l-5 6 m13 -6 l-5 6", fill: "none" }, group);
@@ -173,23 +174,29 @@
     };
   }
 
-  function animate(root) {
+  // Plays `data` in an element that has the controls of animation.py; `moved(time)` hears of each time that is shown.
+  // Returns `take(data)`, which plays other data of as many panels and contacts on from the same time, and `go(time)`.
+  function animate(root, data, moved) {
     const find = (selector) => root.querySelector(selector);
-    const data = held(root);
-    const slider = find("input"), play = find(".play"), speed = find("select");
-    const lamps = [...root.querySelectorAll(".lamp")];
-    const start = data.time[0], end = data.time[data.time.length - 1];
-    const svgs = [...root.querySelectorAll("svg")];
-    // Each picture flashes at its own impacts.
-    const pictures = (data.panels || [data]).map((panel, i) =>
-      ({ impacts: panel.impacts, svg: svgs[i], draw: picture(svgs[i], panel, data) }));
-    let now = start;
+    const slider = find("input"), play = find(".play"), speed = find("select"), marks = find(".marks");
+    const lamps = [...root.querySelectorAll(".lamp")], svgs = [...root.querySelectorAll("svg")];
+    let start, end, pictures, now = data.time[0];
 
-    for (const instant of data.impacts) {
-      const mark = document.createElement("i");
-      mark.style.left = 100 * (instant - start) / (end - start || 1) + "%";
-      mark.style.background = data.flash;
-      find(".marks").appendChild(mark);
+    function hold(given) {
+      data = given;
+      start = data.time[0];
+      end = data.end === undefined ? data.time[data.time.length - 1] : data.end;
+      now = Math.min(Math.max(now, start), end);
+      svgs.forEach((svg) => svg.replaceChildren());
+      // Each picture flashes at its own impacts.
+      pictures = (data.panels || [data]).map((panel, i) =>
+        ({ impacts: panel.impacts, svg: svgs[i], draw: picture(svgs[i], panel, data) }));
+      marks.replaceChildren(...data.impacts.map((instant) => {
+        const mark = document.createElement("i");
+        mark.style.left = 100 * (instant - start) / (end - start || 1) + "%";
+        mark.style.background = data.flash;
+        return mark;
+      }));
     }
 
     // Of which component of a machine an impact is, or of which ones, if several have one at once.
@@ -216,7 +223,7 @@
       let frame = Math.max(0, lastUpTo(data.time, now));
       if (last >= 0 && data.impacts[last] > data.time[frame]) frame = Math.min(frame + 1, data.time.length - 1);
       data.contacts.forEach((contact, i) => lamps[i].classList.toggle("lit", contact.active[frame] === "1"));
-      [...find(".marks").children].forEach((mark, i) => mark.classList.toggle("now", struck && i === last));
+      [...marks.children].forEach((mark, i) => mark.classList.toggle("now", struck && i === last));
       const text = now.toFixed(data.decimals) + " s";
       find(".time").textContent = "t = " + text;
       find(".struck").textContent = last < 0 ? "" :
@@ -224,6 +231,7 @@
         whose(last);
       slider.value = Math.round(SLIDER * (now - start) / (end - start || 1));
       slider.setAttribute("aria-valuetext", text);
+      if (moved) moved(now);
     }
 
     function advance(seconds) {
@@ -244,9 +252,11 @@
     });
     slider.addEventListener("input", () => go(start + (end - start) * slider.value / SLIDER));
     if (find(".next"))
-      find(".next").addEventListener("click", () =>
-        go(data.impacts[(lastUpTo(data.impacts, now) + 1) % data.impacts.length]));
+      find(".next").addEventListener("click", () => {
+        if (data.impacts.length) go(data.impacts[(lastUpTo(data.impacts, now) + 1) % data.impacts.length]);
+      });
 
+    hold(data);
     show();
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) {
       // It plays by itself once, when the reader first sees it, unless they were faster.
@@ -257,7 +267,11 @@
       }, { threshold: 0.5 });
       seen.observe(find("svg"));
     }
+    return { take: (given) => { hold(given); show(); }, go };
   }
 
-  document.querySelectorAll(".animation").forEach(animate);
+  document.querySelectorAll(".animation").forEach((root) => {
+    if (root.querySelector("script[type='application/json']")) animate(root, held(root));
+  });
+  return { animate };
 })();

@@ -34,7 +34,8 @@ _MOST_TEETH = 10_000
 #: A run plays within these times [s] by default; the speeds to choose from reach at least from 0.1 to 10.
 _SHORTEST, _LONGEST = 2.0, 20.0
 
-_WHEEL = "#c9d2dc"
+#: What has no colour of its own.
+WHEEL = "#c9d2dc"
 
 
 def picture_data(scene: Scene, angles: set[str]) -> dict[str, Any] | None:
@@ -114,7 +115,7 @@ def player(data: Mapping[str, Any], pictures: str) -> str:
             `picture_data`: of one picture here, or of several under `panels`.
         pictures: an <svg> for each, in their order, with legends.
     """
-    return playing("animation", pictures + _controls(data), data, Path(__file__).with_name("animation.js"))
+    return playing("animation", pictures + controls(data), data, Path(__file__).with_name("animation.js"))
 
 
 def playing(kind: str, shown: str, data: Mapping[str, Any], script: Path) -> str:
@@ -139,10 +140,16 @@ def legend(shapes: Sequence[Mapping[str, Any]], contacts: Sequence[Contact]) -> 
     return f'<div class="legend"><ul>{parts}</ul>{in_contact}</div>'
 
 
+def colours_of(kinds: Sequence[str]) -> list[str]:
+    """A colour for each shape of these kinds, in their order: bars, links and traces stay apart."""
+    apart = iter(COLOURS * len(kinds))
+    return [next(apart) if kind in ("bar", "link", "trace") else WHEEL for kind in kinds]
+
+
 def _shapes(scene: Scene) -> list[dict[str, Any]]:
     """The shapes for the player: its own copy of `Shape`, with numbers, colours and a wheel's whole rim."""
     moving = list(scene.columns)
-    colours = iter(COLOURS * len(scene.shapes))
+    colours = iter(colours_of([shape.kind for shape in scene.shapes]))
     struck_with = {shape.at for shape in scene.shapes if shape.kind == "striker" and isinstance(shape.at, str)}
 
     def number(quantity: Quantity) -> float | list[int]:
@@ -167,14 +174,16 @@ def _shapes(scene: Scene) -> list[dict[str, Any]]:
             record["hull"] = hull(record["points"])
         if shape.to is not None:
             record["to"] = shape.to if isinstance(shape.to, str) else list(map(number, shape.to))
+        colour = next(colours)
         if shape.name:
-            record["colour"] = next(colours) if shape.kind in ("bar", "link", "trace") else _WHEEL
+            record["colour"] = colour
         return record
 
     return [shown(shape) for shape in scene.shapes]
 
 
-def _controls(data: Mapping[str, Any]) -> str:
+def controls(data: Mapping[str, Any]) -> str:
+    """What the reader plays by: the time, buttons, speeds; that for the next impact only where `impacts` has any."""
     speeds = "".join(
         f'<option value="{speed!r}"{" selected" if speed == data["speed"] else ""}>{speed:g}×</option>'
         for speed in data["speeds"]

@@ -56,7 +56,11 @@ def contacts(run: Run) -> list[Contact]:
 
 def contacts_among(outputs: Iterable[Variable], ever: Callable[[str], bool]) -> list[Contact]:
     """The contacts whose activity some outputs report; and what sticks by them, if it ever was true."""
-    booleans = [v.name for v in outputs if v.type == "Boolean"]
+    return contacts_named([v.name for v in outputs if v.type == "Boolean"], ever)
+
+
+def contacts_named(booleans: Iterable[str], ever: Callable[[str], bool]) -> list[Contact]:
+    """As `contacts_among`, by the names of Boolean outputs."""
     variables = [name for name in booleans if name.endswith(SUFFIX) or (name.endswith(STICKS) and ever(name))]
     return [
         Contact(name.removesuffix(SUFFIX).replace("_", " "), name, COLOURS[i % len(COLOURS)])

@@ -50,6 +50,7 @@ COMMANDS = [
     ["modes"],
     ["new"],
     ["optimise"],
+    ["page"],
     ["run"],
     ["study"],
     ["study", "ratchet"],

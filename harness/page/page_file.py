@@ -1,0 +1,115 @@
+"""A model's page: one HTML file with its engine, its data and the scripts, that loads nothing."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from mechanism_fmu.fmu.native.web import WebModule
+
+from .. import report
+from ..report.animation import controls, legend, playing_speeds
+from ..report.motion import Contact
+from ..report.page import CSS
+from .page_data import page_data
+
+#: What the page may do: run what stands in it, and nothing from elsewhere.
+POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; style-src 'unsafe-inline'; "
+    "img-src data:; worker-src blob:; base-uri 'none'; form-action 'none'"
+)
+
+#: The scripts in the order in which they need each other; those of the reports are their own. Those with an id also run
+#: in the worker.
+_SCRIPTS = (
+    ("engine.js", "engine-code"),
+    ("runner.js", "runner-code"),
+    ("player.js", ""),
+    ("animation.js", ""),
+    ("scene.js", ""),
+    ("record.js", ""),
+    ("given.js", ""),
+    ("controls.js", ""),
+    ("curves.js", ""),
+    ("live.js", ""),
+)
+_OF_REPORTS = ("player.js", "animation.js")
+
+
+def page(web: WebModule) -> str:
+    """The HTML file of a model.
+
+    Args:
+        web: the model for a page.
+
+    Raises:
+        MechanismError: its drawing names what it does not have.
+    """
+    data = page_data(web)
+    title, about = escape(web.model.name), escape(web.model.description)
+    wasm = base64.b64encode(web.binary).decode()
+    # "<" could close the script element
+    model = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    style = CSS + Path(__file__).with_name("page.css").read_text(encoding="utf-8")
+    return "\n".join(
+        [
+            "<!doctype html>",
+            '<html lang="en">',
+            '<head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">',
+            f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
+            f'<link rel="icon" href="data:,"><title>{title}</title>',
+            f"<style>{style}</style></head>",
+            f"<body><main><header><h1>{title}</h1><p>{about}</p></header>",
+            _given(),
+            f'<div class="seen">{_stage(data)}{_results()}</div></main>',
+            '<noscript><p class="banner">This page computes; it needs JavaScript.</p></noscript>',
+            f'<script type="application/json" id="model">{model}</script>',
+            f'<script type="application/wasm" id="wasm">{wasm}</script>',
+            *(_script(name, identifier) for name, identifier in _SCRIPTS),
+            "</body></html>\n",
+        ]
+    )
+
+
+def _given() -> str:
+    """Where sliders and fields come to stand."""
+    return (
+        '<aside aria-label="What is given"><details open><summary>Inputs</summary><div id="inputs"></div></details>'
+        '<details open><summary>Parameters</summary><div id="parameters"></div></details></aside>'
+    )
+
+
+def _stage(data: Mapping[str, Any]) -> str:
+    """The picture with what plays it, and what is wrong."""
+    speeds, speed = playing_speeds(data["stop"])
+    plays = controls({"speeds": speeds, "speed": speed, "impacts": [0.0]})
+    lamps = [Contact(c["name"], c["variable"], c["colour"]) for c in data["contacts"]]
+    named = legend([shape for shape in data["shapes"] if shape.get("name")], lamps)
+    return (
+        '<section class="stage" aria-label="Mechanism"><p id="no-picture" hidden>There is no drawing of this run.</p>'
+        '<div class="animation"><svg role="img" aria-label="The mechanism at the time shown below"></svg>'
+        f'{plays}{named}</div><div class="buttons"><button type="button" id="reset">Reset</button>'
+        '<button type="button" id="csv">Download CSV</button><span id="state"></span></div>'
+        # nothing that is pressed moves when a run says something: refusals lie over the page, warnings above curves
+        '<div id="refusal" role="alert" hidden></div></section>'
+    )
+
+
+def _results() -> str:
+    return (
+        '<section aria-label="Curves"><div id="note" role="status" hidden></div><div id="charts"></div></section>'
+        '<section aria-label="Impacts"><h2>Impacts</h2><p id="impact-count"></p><div class="scroll" tabindex="0" '
+        'role="region" aria-label="Table of impacts"><table id="impacts"><thead></thead><tbody></tbody></table></div>'
+        "</section>"
+    )
+
+
+def _script(name: str, identifier: str) -> str:
+    folder = Path(report.__file__).parent if name in _OF_REPORTS else Path(__file__).parent
+    code = (folder / name).read_text(encoding="utf-8").replace("</script", "<\\/script").replace("<!--", "<\\!--")
+    marked = f' id="{identifier}"' if identifier else ""
+    return f"<script{marked}>{code}</script>"
