@@ -7,7 +7,7 @@ import pytest
 from numba import carray, cfunc, types
 
 from mechanism_fmu.engine.library import EXPORTS
-from mechanism_fmu.fmu.native.emit import object_file
+from mechanism_fmu.fmu.native.emit import linked, object_file
 from mechanism_fmu.fmu.native.link import TARGETS
 from mechanism_fmu.fmu.native.objects import compiled_engine
 from tests.fmu.native.symbols import undefined_symbols
@@ -64,11 +64,11 @@ def compiler():
 @pytest.mark.usefixtures("compiler")
 @pytest.mark.parametrize(("function", "prefix"), [(allocating, "NRT_"), (raising, "numba_")])
 def test_a_function_that_leaves_the_subset_is_found_out(function, prefix):
-    found = strangers(object_file([intermediate_code(function)], TARGETS[0]))
+    found = strangers(object_file(linked([intermediate_code(function)]), TARGETS[0]))
     assert any(name.startswith(prefix) for name in found), found
 
 
 @pytest.mark.usefixtures("compiler")
 def test_the_object_is_the_same_every_time():
-    code = intermediate_code(allocating)
-    assert object_file([code], TARGETS[0]) == object_file([code], TARGETS[0])
+    code = linked([intermediate_code(allocating)])
+    assert object_file(code, TARGETS[0]) == object_file(code, TARGETS[0])
