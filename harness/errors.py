@@ -109,15 +109,24 @@ def exhaustion_reported() -> Iterator[None]:
     except MemoryError:
         _end("The memory is full.")
     except ImportError as error:
-        if not any(words in str(error).lower() for words in _NOT_LOADED):
+        if not _has_no_memory(error):
             raise
         _end(f"The memory is full: {error}.")
     except OSError as error:
-        if error.errno == errno.ENOMEM:
+        if error.errno == errno.ENOMEM or _has_no_memory(error):
             _end(f"The memory is full: {error}.")
         if error.errno in NO_ROOM:
             _end(f"There is no space for what is printed or written: {error}.")
         raise
+
+
+def _has_no_memory(error: BaseException | None) -> bool:
+    """Whether an error, or one in whose handling it was raised, says that a library found no memory."""
+    while error is not None:
+        if any(words in str(error).lower() for words in _NOT_LOADED):
+            return True
+        error = error.__context__
+    return False
 
 
 def _end(reason: str) -> None:
