@@ -3,35 +3,26 @@
 import base64
 import json
 import re
-import shutil
-import subprocess
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from chromium import PROGRAM, chromium, opened
+from page_in_node import NODE, in_node, needs_node
 from typer.testing import CliRunner
 
 import models
-from harness import page as page_package
 from harness.app.cli import main
 from harness.page.page_data import slider_range
 from harness.page.page_file import page
-from harness.report.animation import picture_data
-from harness.report.scene import Scene
-from harness.run.drawing import WITH_POINTS, Shape
 from mechanism_fmu.fmu.native.link import has_linker
 from mechanism_fmu.fmu.native.web import web_module
 from mechanism_fmu.fmu.own.prepare import load
 from tests.once import once
 
-NODE = shutil.which("node")
 GALLERY = Path(__file__).parents[2] / "docs/examples/gallery"
-SCRIPTS = Path(page_package.__file__).parent
-needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 needs_linker = pytest.mark.skipif(not has_linker(), reason="ziglang is not installed")
 
 #: When the pawl strikes in the ratchet's base case [s]: the reference of README.md.
@@ -51,16 +42,6 @@ def page_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
         return once(tmp_path_factory, f"page_{name}", work) / "model.html"
 
     return made
-
-
-def in_node(*calls: list[Any], of: Path | None = None, **more: Any) -> list[Any]:
-    asked = {"page": None if of is None else str(of), "folder": str(SCRIPTS), "calls": calls} | more
-    program = Path(__file__).with_name("page_scripts.js")
-    assert NODE is not None
-    done = subprocess.run([NODE, program], input=json.dumps(asked), capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    answers: list[Any] = json.loads(done.stdout)
-    return answers
 
 
 def held(html: str, identifier: str) -> str:
@@ -237,71 +218,6 @@ def test_a_slider_goes_from_half_to_twice_its_start(
     start: float, minimum: float | None, maximum: float | None, expected: tuple[float, float]
 ) -> None:
     assert slider_range(start, minimum, maximum) == expected
-
-
-SHAPES = (
-    Shape("disc", (0.0, "-y"), "eye", {"radius": "size"}),
-    Shape("bar", ("x", "-y"), "arm", {"angle": "-turn", "length": 2.0}),
-    Shape("bar", "arm", "hand", {"angle": "turn", "length": "size"}),
-    Shape("striker", "arm"),
-    Shape("wheel", (1.0, 0.0), "wheel", {"angle": "turn", "count": "teeth"}, (("size", 0.0), (0.3, "-y")), True),
-    Shape("hinge", (0.0, 0.0)),
-    Shape("link", ("x", 0.5), "plate", {"angle": "turn"}, ((0.0, 0.0), ("size", 0.1), (0.2, "y"), (0.1, 0.1))),
-    Shape("outline", (0.0, 0.0), "wall", {"angle": 0.3}, ((0.0, -1.0), (0.0, "size"))),
-    Shape("spring", "plate.1", "coil", to="wall.1"),
-    Shape("rod", (0.0, "y"), "rod", to=("x", 3.0)),
-    Shape("trace", "plate.2", "path"),
-)
-
-
-def raw(shape: Shape) -> dict[str, Any]:
-    """A shape as drawing.json has it."""
-    entry: dict[str, Any] = {"kind": shape.kind, "at": shape.at, **shape.quantities}
-    entry |= {"name": shape.name} if shape.name else {}
-    entry |= {"points" if shape.kind in WITH_POINTS else "outline": shape.outline} if shape.outline else {}
-    entry |= {"to": shape.to} if shape.to else {}
-    return entry | ({"clockwise": True} if shape.clockwise else {})
-
-
-@needs_node
-def test_pictures_are_those_of_the_reports() -> None:
-    rng = np.random.default_rng(7)
-    scenes = []
-    for _ in range(40):
-        turn = np.cumsum(rng.uniform(-0.25, 0.25, rng.integers(1, 30)))
-        x = rng.normal(size=len(turn))
-        values = {"y": rng.normal(), "size": rng.uniform(0, 2), "teeth": rng.uniform(-2, 30)}
-        shapes = SHAPES[: rng.integers(6, len(SHAPES) + 1)]
-        scenes.append(Scene(shapes, {"turn": np.round(turn, 3), "x": np.round(x, 3)}, values))
-    still = replace(scenes[0], columns={}, constants=scenes[0].constants | {"turn": 0.1, "x": 0.2})
-    calls = [
-        ["scene", [raw(s) for s in one.shapes], {n: c.tolist() for n, c in one.columns.items()}, one.constants]
-        for one in (*scenes, still)
-    ]
-    for one, drawn in zip((*scenes, still), in_node(*calls), strict=True):
-        expected = picture_data(one, {"turn"})
-        assert expected is not None
-        assert drawn["view"] == pytest.approx(expected["view"], rel=1e-12, abs=1e-12)
-        for own, other in zip(drawn["shapes"], expected["shapes"], strict=True):
-            other.pop("colour", None)
-            assert own == json.loads(json.dumps(other))
-
-
-@needs_node
-def test_what_is_not_finite_or_has_no_extent_is_no_picture() -> None:
-    disc = {"kind": "disc", "at": [0.0, 0.0], "name": "d", "radius": "r"}
-    calls = [["scene", [disc], {}, {"r": radius}] for radius in (1e-10, 0.4e-12, None)]
-    assert [one is None for one in in_node(*calls, ["scene", [], {}, {}])] == [False, True, True, True]
-
-
-@needs_node
-def test_ticks_are_round_numbers() -> None:
-    calls = [["ticks", 0, 6, 6], ["ticks", -0.11, 0.31, 5], ["ticks", 1e6, 1.00003e6, 5]]
-    assert in_node(*calls) == [
-        [0, 1, 2, 3, 4, 5, 6],
-        [-0.1, 0, 0.1, 0.2, 0.3],
-        [1000000, 1000010, 1000020, 1000030],
-    ]
 
 
 @needs_linker

@@ -59,7 +59,10 @@ static int step(void *c, double *now, double target) {
 OF_PAGE(page_run)
 int page_run(void *c, double *now, double spacing, int steps, int room, const fmi3ValueReference *reals, int real_count,
              const fmi3ValueReference *flags, int flag_count, double *rows) {
-    if (flag_count > MOST_FLAGS) return 0;
+    if (flag_count > MOST_FLAGS) {
+        keep_message(NULL, fmi3Error, "", "page_run: a page records at most 256 Boolean outputs; declare fewer.");
+        return 0;
+    }
     double start = *now;
     int row = 0, what = ON_GRID;
     for (int point = 0; row < room;) {
