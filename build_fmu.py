@@ -57,13 +57,13 @@ def build(
     ] = False,
     show_list: Annotated[bool, typer.Option("--list", help="List the models and stop.")] = False,
 ) -> None:
-    """Build the FMU of a model: one file that any FMI co-simulation tool can load.
+    """Build the FMU of a model: one file for FMI co-simulation.
 
     `mechanism-fmu build` and `python build_fmu.py` are the same command.
     `python build_fmu.py ratchet -o build/` writes build/Ratchet.fmu, which runs where there is a Python with numpy.
     `python build_fmu.py my_mechanism.py` builds a mechanism of your own: a file that sets MODEL (to begin with one,
-    run `mechanism-fmu new my_mechanism`; see docs/your-own-mechanism.md).
-    With `--flavour native` it runs everywhere: binaries for Linux, Windows and macOS, no Python; add `--fmi 3` for FMI
+    run `mechanism-fmu new my_mechanism`; see docs/tutorials/your-first-mechanism.md).
+    With `--flavour native` it needs no Python: binaries for Linux, Windows and macOS; add `--fmi 3` for FMI
     3.0 with event mode and early return at impacts. Where it is built, the native flavour needs the package ziglang
     (`python -m pip install ziglang==0.17.0`). The first build compiles the engine, which takes a minute or two;
     the same sources always give the same GUID.
@@ -213,7 +213,7 @@ def mechanism(model: str, **parameters: float) -> Mechanism:
 
     Args:
         model: name of a ready-made model, or file of your own; `built` says more of what is wrong with that.
-        parameters: values that differ from the defaults.
+        parameters: values that differ from the defaults, each in the SI unit of its parameter [m, rad, kg, ...].
 
     Raises:
         typer.Exit: there is no such mechanism; the reason has been said.
@@ -274,9 +274,10 @@ def machines() -> dict[str, Path]:
 
 def advise(flavour: Flavour) -> None:
     """Say what an FMU of this flavour, built here, could have more of."""
-    from mechanism_fmu.fmu.native.link import INSTALL, has_linker
+    from mechanism_fmu.fmu.native.link import INSTALL
+    from mechanism_fmu.fmu.native.objects import has_libraries
 
-    if flavour is Flavour.PYTHONFMU and not has_linker():
+    if flavour is Flavour.PYTHONFMU and not has_libraries():
         _messages().print(
             "The engine is not inside in compiled form, because the package ziglang is not installed: the FMU needs "
             "numba, and its first start takes 15 to 30 s. For a fast one, install it and build again: " + INSTALL,

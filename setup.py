@@ -9,7 +9,11 @@ written anew.
 from __future__ import annotations
 
 import ast
+import importlib.util
+import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 from setuptools import setup
@@ -22,6 +26,9 @@ _ROOT = Path(__file__).resolve().parent
 #: The one name at the root of site-packages, and what a wheel has below it.
 NAME = "mechanism_fmu"
 MOVED = ("harness", "models", "build_fmu")
+
+#: What compiles and links the engine that a wheel carries; backend/engine_backend.py asks for them.
+COMPILERS = ("numba", "ziglang")
 
 #: What the commands read beside packages, at the same place from the root of the tree as from `NAME` in a wheel.
 BESIDE = ("docs/examples/*.*", "docs/examples/gallery/*.py", "docs/joints/*.svg")
@@ -90,6 +97,7 @@ class BuildPy(build_py):
             after = relocated(before, str(path))
             if after != before:
                 path.write_text(after, encoding="utf-8", newline="\n")
+        _write_engine(built, package / "fmu" / "native" / "compiled")
 
 
 class BdistWheel(bdist_wheel):
@@ -101,6 +109,27 @@ class BdistWheel(bdist_wheel):
         folder = Path(wheelfile_base)
         if folder.parent == Path(self.bdist_dir):  # an editable install has its own elsewhere
             (folder / "top_level.txt").write_text(f"{NAME}\n", encoding="utf-8")
+
+
+def _write_engine(built: Path, folder: Path) -> None:
+    """Put the compiled engine of what has been collected beside it: minutes, unless the user's cache has it."""
+    missing = [name for name in COMPILERS if importlib.util.find_spec(name) is None]
+    if missing:
+        raise SetupError(
+            f"The engine of a wheel is compiled with {' and '.join(missing)}, not installed here: build the wheel "
+            "without --no-build-isolation, or install them first: python -m pip install -e '.[native]'"
+        )
+    print("compiling the engine for all platforms; without an earlier one in the cache, minutes")
+    program = (
+        "import sys; from pathlib import Path; from mechanism_fmu.fmu.native.objects import write_engine; "
+        "write_engine(Path(sys.argv[1]))"
+    )
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(built), os.environ.get("PYTHONPATH", "")])}
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", program, str(folder)], env=environment, capture_output=True, text=True, check=False
+    )
+    if done.returncode != 0:
+        raise SetupError(f"The engine could not be compiled:\n{done.stderr.strip()}")
 
 
 def _remove(path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Command: `python -m benchmarks`, from the root of the repository; see docs/benchmarks.md."""
+"""Command: `python -m benchmarks`, from the root of the repository; see docs/project/benchmarks.md."""
 
 from __future__ import annotations
 

@@ -18,8 +18,8 @@ From the ground up; each knows only those above it in this list:
 - `papers`: what the papers say, worked out
 - `app`: the command `mechanism-fmu`
 
-The modules named in `__all__` are for users (docs/public-interface.md); import from them, e.g. `from harness.fmu import
-open_fmu`. They are not imported here, because `mechanism-fmu --help` must not wait for them.
+The modules named in `__all__` are for users (docs/reference/public-interface.md); import from them, e.g. `from
+harness.fmu import open_fmu`. They are not imported here, because `mechanism-fmu --help` must not wait for them.
 """
 
 from ._moved import install as _install

@@ -26,3 +26,5 @@ PUSHES_WITHIN = 1e-9
 PUSHES_SHARE = 1e-11
 #: A row that a logical function closes may be off by this [m, rad]: mending would otherwise be a jump.
 CLOSES_WITHIN = 1e-6
+#: Position rows are closed when none is off by more than this [m, rad, m^2].
+CLOSED_WITHIN = 1e-12

@@ -30,6 +30,9 @@ FOLDER = Path(__file__).parent / "data" / "kept"
 _NUMBER = re.compile(r"(?<![\w#.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 #: By how much numbers may differ: in parts of themselves, and what is nothing beside the largest of a line, or 1.
 _RELATIVE, _NOTHING = 1e-6, 1e-12
+#: In a curve, a line of more numbers than this, what is nothing beside the largest: after a hundred oscillations, the
+#: last digit of a frequency, which each processor's linear algebra has its own, is 2e-8 of the stress.
+_CURVE, _NOTHING_IN_A_CURVE = 50, 1e-7
 #: Scripts and styles are files of their own; versions are those of this machine.
 _LEFT_OUT = (
     (re.compile(r"<!--.*?-->", re.DOTALL), ""),
@@ -118,6 +121,8 @@ def _alike(old: str | None, new: str | None) -> bool:
         return False
     were, are = ([float(text) for text in _NUMBER.findall(line)] for line in (old, new))
     nothing = _NOTHING * max((1.0, *map(abs, were)))
+    if len(were) > _CURVE:
+        nothing = max(nothing, _NOTHING_IN_A_CURVE * max(map(abs, were)))
     return all(
         math.isclose(one, other, rel_tol=_RELATIVE, abs_tol=nothing) for one, other in zip(were, are, strict=True)
     )

@@ -5,7 +5,7 @@
 Works in a copy of the tree, which goes afterwards. The tests of a file are those that import it, then those that import
 what imports it, and so on. Those named after it or its folder are asked first, with the slow ones among them, then the
 others, nearest first. `-- ARGUMENTS` are pytest's, e.g. `-- tests/harness/machine`, and take their place. What lives is
-printed. See docs/how-it-is-tested.md.
+printed. See docs/project/how-it-is-tested.md.
 """
 
 from __future__ import annotations

@@ -12,10 +12,30 @@ from pathlib import Path
 
 import pytest
 
+from mechanism_fmu.fmu.native.link import TARGETS, WEB
+from mechanism_fmu.fmu.start import CACHE_VARIABLE
+
 ROOT = Path(__file__).parents[1]
-TRAVELS = ("mechanism_fmu", "harness", "models", "docs/examples", "docs/joints")
+TRAVELS = ("mechanism_fmu", "harness", "models", "docs/examples", "docs/joints", "backend")
 FILES = ("pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE", "build_fmu.py")
 MINE = "WHO = 'mine'\n"
+#: What a wheel carries of the compiled engine, each file with its digest.
+LIBRARIES = {f"libraries/{target.name}{target.suffix}" for target in TARGETS}
+OBJECTS = {f"{target.name}.o" for target in (*TARGETS, WEB)}
+DIGESTED = LIBRARIES | OBJECTS | {"engine.h", "engine.bc"}
+ENGINE = DIGESTED | {f"{path}.sha256" for path in DIGESTED} | {"sources"}
+#: As if numba, llvmlite and ziglang were not installed.
+WITHOUT_COMPILERS = """
+import importlib.abc, runpy, sys
+class Refuse(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in ("numba", "llvmlite", "ziglang"):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Refuse())
+import importlib.util
+real = importlib.util.find_spec
+importlib.util.find_spec = lambda name, *rest: None if name == "ziglang" else real(name, *rest)
+"""
 
 #: Prints every module below a folder that is loaded under two names, or under a name that its path does not have.
 ONE_NAME = """
@@ -149,6 +169,7 @@ def test_the_wheel_has_one_name_at_its_root_and_everything_below_it(wheel: Path)
     expected = tree(ROOT / "mechanism_fmu") | {"build_fmu.py"}
     expected |= {f"{name}/{path}" for name in ("harness", "models", "docs/examples") for path in tree(ROOT / name)}
     expected |= {f"docs/joints/{path.name}" for path in (ROOT / "docs" / "joints").glob("*.svg")}
+    expected |= {f"fmu/native/compiled/{path}" for path in ENGINE}
     assert below == expected
 
 
@@ -176,6 +197,40 @@ def test_the_command_builds_the_fmu_of_the_tree_and_runs_it(
     first = dict(zip(impacts[0].split(","), impacts[1].split(","), strict=True))
     assert float(first["time"]) == pytest.approx(0.9399211769, abs=1e-9)
     assert float(first["stress_max"]) == pytest.approx(16080.32337, rel=1e-7)
+
+
+@pytest.mark.slow
+def test_nothing_is_compiled_where_it_is_installed(
+    python: Callable[..., str], tmp_path: Path, ratchet_fmu: Path
+) -> None:
+    """The demo, an FMU that carries the engine, a run without an FMU: with an empty cache, without any compiler."""
+    bare = f"import os\nos.environ[{CACHE_VARIABLE!r}] = {str(tmp_path / 'cache')!r}\n" + WITHOUT_COMPILERS
+    program = bare + "from mechanism_fmu.harness.app.cli import main\nmain(sys.argv[1:])\n"
+    python("-c", program, "demo", "-o", "demo")
+    assert (tmp_path / "demo" / "Ratchet.fmu").read_bytes() == ratchet_fmu.read_bytes()
+    assert (tmp_path / "demo" / "report.html").is_file()
+    run = """
+from mechanism_fmu.models.ratchet.model import MODEL
+from mechanism_fmu.simulation import Simulation
+simulation = Simulation(MODEL.build(MODEL.values()))
+simulation.advance(2.0)
+print(simulation.read()["impact_count"])
+"""
+    assert float(python("-c", bare + run)) >= 1
+    assert not list((tmp_path / "cache").rglob("native_*"))
+
+
+@pytest.mark.slow
+def test_an_engine_of_other_sources_is_not_used(python: Callable[..., str], installed: Path, tmp_path: Path) -> None:
+    asked = "from mechanism_fmu.fmu.native.objects import is_bundled; print(is_bundled())"
+    assert python("-c", asked).split() == ["True"]
+    source = installed / "mechanism_fmu" / "engine" / "vectors.py"
+    before = source.read_text()
+    try:
+        source.write_text(before + "# changed\n")
+        assert python("-c", asked).split() == ["False"]
+    finally:
+        source.write_text(before)
 
 
 @pytest.mark.slow

@@ -1,6 +1,6 @@
 """Command: `python -m benchmarks.many`, from the root of the repository, with the extra `bench`: designs per second.
 
-The sweep varies slope, spring and torque of the paper's ratchet; see docs/benchmarks.md.
+The sweep varies slope, spring and torque of the paper's ratchet; see docs/project/benchmarks.md.
 """
 
 from __future__ import annotations

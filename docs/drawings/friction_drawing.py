@@ -1,6 +1,6 @@
-"""The pictures of docs/friction.md, of which the first is here: the cone of the contact force, friction over slip.
+"""The pictures of docs/explanation/friction.md; here the first: the cone of the contact force, friction over slip.
 
-python -m docs.drawings.friction_drawing      rewrites docs/friction*.svg, in the root of a clone
+python -m docs.drawings.friction_drawing      rewrites docs/explanation/friction*.svg, in the root of a clone
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .friction_runs_drawing import runs_drawing
 from .painleve_drawing import painleve_drawing
 from .pictures import Point, sheet
 
-PICTURES = Path(__file__).parents[1]
+PICTURES = Path(__file__).parents[1] / "explanation"
 
 #: Of the picture: mu = tan(rho).
 RHO = math.radians(26)

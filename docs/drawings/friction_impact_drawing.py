@@ -57,7 +57,7 @@ def blow(law: Law, restitution: float = E) -> Blow:
     return Blow((normal, MASS * (x - SPEED[0])), ends, energy)
 
 
-#: Of the lower end, what impulses do to its speeds: G of `docs/friction.md` [1/kg].
+#: Of the lower end, what impulses do to its speeds: G of `docs/explanation/friction.md` [1/kg].
 G_NN = 1.0 / MASS + (HALF * COS) ** 2 / INERTIA
 G_NT = -(HALF**2) * COS * SIN / INERTIA
 G_TT = 1.0 / MASS + (HALF * SIN) ** 2 / INERTIA

@@ -17,7 +17,8 @@ from .plane import FIRST, SECOND, SMALL, Plane, words
 EXAMPLES = Path(__file__).parents[1] / "examples" / "gallery"
 _STICKS = "#e9c46a"
 
-#: The block of the example of docs/friction.md: slope [rad], friction, gravity [m/s2], mass [kg]; what pulls [N/s].
+#: The block of the example of docs/explanation/friction.md: slope [rad], friction, gravity [m/s2], mass [kg]; what
+# pulls [N/s].
 SLOPE, MU, GRAVITY, MASS, PULL = math.radians(20), 0.5, 9.81, 2.0, 10.0
 #: When the rope begins to pull, when the run ends [s].
 PULLED, END = 0.8, 2.8

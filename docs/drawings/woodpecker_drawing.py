@@ -1,6 +1,6 @@
-"""The picture of docs/woodpecker.md: the toy, and the bird's rate over its angle in the limit cycles.
+"""The picture of docs/explanation/woodpecker.md: the toy, and the bird's rate over its angle in the limit cycles.
 
-python -m docs.drawings.woodpecker_drawing      rewrites docs/woodpecker.svg, in the root of a clone
+python -m docs.drawings.woodpecker_drawing      rewrites docs/explanation/woodpecker.svg, in the root of a clone
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from mechanism_fmu.simulation import Simulation
 
 from .pictures import DIMENSION, INK, Point, View, sheet
 
-PICTURE = Path(__file__).parents[1] / "woodpecker.svg"
+PICTURE = Path(__file__).parents[1] / "explanation" / "woodpecker.svg"
 PROGRAM = Path(__file__).parents[1] / "examples" / "woodpecker_cycle.py"
 
 #: Limit cycles that are shown: law, its name on the sheet, colour; "small" has small angles.

@@ -3,8 +3,8 @@
     python docs/examples/blow_on_a_lever.py
 
 `mechanism-fmu run` says what bending each impact of an FMU leaves, of a beam that its model declares
-(docs/your-own-mechanism.md). This goes on from there, with what no FMU knows: how long the contact lasts, how round the
-tip is, how sharp a notch. Formulas and their limits: docs/stress.md.
+(docs/tutorials/your-first-mechanism.md). This goes on from there, with what no FMU knows: how long the contact lasts,
+how round the tip is, how sharp a notch. Formulas and their limits: docs/explanation/stress.md.
 """
 
 from __future__ import annotations

@@ -2,9 +2,10 @@
 
     python docs/examples/cam_report.py cam_drive contact cam base_radius=0.03
 
-writes cam_report.csv. The arguments are a ready-made model, or a file of your own (docs/your-own-mechanism.md), the
-name of its pair of profiles, the body that is the cam, and parameters in SI units. No FMU is built and nothing is
-simulated: it is the geometry of the mechanism (docs/kinematics.md).
+writes cam_report.csv. The arguments are a ready-made model, or a file of your own
+(docs/tutorials/your-first-mechanism.md), the name of its pair of profiles, the body that is the cam, and parameters in
+SI units. No FMU is built and nothing is simulated: it is the geometry of the mechanism
+(docs/explanation/kinematics.md).
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@
 
 Once a cycle the sleeve is jammed and the bird stands still; then its angle is all there is to know, and the motion
 leads from one such angle to the next: a map of one number to another, whose fixed point is sought by the secant method.
-What comes out: docs/woodpecker.md. Source of the map: Leine, Glocker, van Campen, Nonlinear dynamics of the woodpecker
-toy, DETC2001/VIB-21608 (2001), eq (13).
+What comes out: docs/explanation/woodpecker.md. Source of the map: Leine, Glocker, van Campen, Nonlinear dynamics of the
+woodpecker toy, DETC2001/VIB-21608 (2001), eq (13).
 """
 
 from __future__ import annotations

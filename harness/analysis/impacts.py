@@ -77,7 +77,7 @@ class Collector:
 
 #: A body whose beam's tip moves by less than this share of the closing speed is held. Rounding leaves some 1e-16 of it,
 #: and a heavy one, the paper's wheel of 5.6 kg, moves by 7.5e-3 of it where it is free.
-_HELD = 1e-9
+HELD_RATIO = 1e-9
 
 #: The buffer has one unit for all contacts, that of points on lines.
 UNITS_OF_STOPS = (
@@ -132,4 +132,4 @@ def body_held(impacts: pd.DataFrame, jump: str) -> npt.NDArray[np.bool_]:
     velocity, speed, impulse = (
         impacts[name].abs().to_numpy(dtype=np.float64) for name in (jump, "closing_speed", "impulse")
     )
-    return np.asarray((velocity <= _HELD * speed) & (impulse > 0.0))
+    return np.asarray((velocity <= HELD_RATIO * speed) & (impulse > 0.0))

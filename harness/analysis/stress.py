@@ -48,7 +48,7 @@ STRESS_UNITS = {"stress_max": "Pa", "stress_position": "1", "stress_delay": "s"}
 STRESS_COLUMNS = STRESS_UNITS | {"remark": ""}
 
 #: How the stress of one impact is found; that of all of them together has converged modes.
-BY_TWO_MODES = "by the paper's two modes; converged modes give a wedge 29 % more (docs/stress.md)."
+BY_TWO_MODES = "by the paper's two modes; converged modes give a wedge 29 % more (docs/explanation/stress.md)."
 
 _TIMES = 600
 _PLACES = 101
@@ -276,7 +276,7 @@ def damage_note(damage: SequenceDamage, struck: Struck, beam: Beam) -> str:
     note = (
         f"All jumps of the {struck.body}'s speed on one {struck.name} that still rings from those before, at x/l = "
         f"{damage.position:.4f}, by converged modes{less}; rainflow cycles, Goodman, "
-        f"Miner; smooth specimens, no notch at the root (docs/stress.md). {beam_theory_note(beam)}"
+        f"Miner; smooth specimens, no notch at the root (docs/explanation/stress.md). {beam_theory_note(beam)}"
     )
     if damage.yield_safety < 1:
         beyond = f"a {struck.name} yields there, and these numbers no longer hold."

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +9,7 @@ import typer
 
 from build_fmu import build
 
-from . import designs_cli, machine_cli, papers_cli
+from . import designs_cli, file_cli, machine_cli, papers_cli
 from .cli_group import Group
 from .options import file_option, settings_option
 
@@ -24,16 +23,6 @@ main = typer.Typer(
     rich_markup_mode="markdown",
     pretty_exceptions_enable=False,
 )
-
-
-class New(StrEnum):
-    """What a new file can be like."""
-
-    LEVER = "lever"
-    FOUR_BAR = "four_bar"
-    CAM = "cam"
-    RATCHET = "ratchet"
-    BLANK = "blank"
 
 
 FmuPath = Annotated[Path, typer.Argument(metavar="FMU", help="FMU file, e.g. build/Ratchet.fmu", show_default=False)]
@@ -94,40 +83,23 @@ def demo(
         raise typer.Exit(run_cycle(output) if full else run_demo(output))
 
 
-@main.command()
-def new(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Of the file and of its FMU.", show_default=False)],
-    like: Annotated[New, typer.Option("--like", help="What it begins as.")] = New.LEVER,
-) -> None:
-    """Write NAME.py, a mechanism of your own to begin with: a lever that falls on a stop, or what --like says.
-
-    It builds and runs as it is, and its comments say what to change. See docs/your-own-mechanism.md.
-
-    Exit code: 0 all well, 2 a name that cannot be, or a file that is there already.
-    """
-    from .commands.one_run import new_mechanism
-    from .terminal import user_errors
-
-    with user_errors():
-        raise typer.Exit(new_mechanism(name, like.value))
+main.command()(file_cli.new)
+main.command()(file_cli.check)
 
 
 @main.command()
-def check(
-    file: Annotated[str, typer.Argument(metavar="FILE", help="Of a mechanism of your own.", show_default=False)],
-) -> None:
-    """Say everything about a file of a mechanism, in about a second, without a build.
+def doctor() -> None:
+    """Say what is installed here, what is missing, and how to get it.
 
-    Parameters, inputs, outputs with units, bodies with the pose at the start, degrees of freedom, redundant joints,
-    warnings, and mistakes with the line.
+    Python and packages, the linker of native FMUs, the cache folder, whether the engine is compiled.
 
-    Exit code: 0 no mistakes, 1 mistakes, 2 no such file.
+    Exit code: 0 all that everything needs is there, 1 something is missing.
     """
-    from .commands.check_file import check_mechanism
+    from .commands.doctor import examine
     from .terminal import user_errors
 
     with user_errors():
-        raise typer.Exit(check_mechanism(file))
+        raise typer.Exit(examine())
 
 
 @main.command()
@@ -158,6 +130,14 @@ def run(
     fmu: FmuPath,
     settings: Annotated[
         list[str] | None, settings_option("Set an input or parameter, with a unit if you like; repeat it for more.")
+    ] = None,
+    parameters: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.toml",
+            help="Inputs and parameters to set, one a line, `drive_torque = 0.002` or `drive_torque = '2 N.mm'`, as a "
+            "page saves them; what --set says holds.",
+        ),
     ] = None,
     stop_time: Annotated[
         str | None,
@@ -219,7 +199,9 @@ def run(
     from .terminal import user_errors
 
     with user_errors():
-        code = run_fmu(fmu, settings or [], stop_time, step, input_file, material, output, in_process, units_row)
+        code = run_fmu(
+            *(fmu, settings or [], stop_time, step, input_file, material, output, in_process, units_row, parameters)
+        )
         raise typer.Exit(code)
 
 
@@ -248,42 +230,8 @@ def modes(
         raise typer.Exit(show_modes(fmu, settings or [], output))
 
 
-@main.command()
-def page(
-    model: Annotated[
-        str,
-        typer.Argument(
-            metavar="MODEL",
-            help="Name of a ready-made model, e.g. 'ratchet', or file of your own mechanism.",
-            show_default=False,
-        ),
-    ],
-    output: Annotated[Path | None, file_option("FILE.html", "MODEL.html")] = None,
-) -> None:
-    """Write a model as a page in which its engine runs: one HTML file, for any browser, without network or server.
-
-    Move a slider, and the run is computed anew, with the numbers of the native FMU: the mechanism in motion, curves,
-    impacts; what cannot be built is refused in words. Values that you change stand in the address: send it with the
-    file.
-
-    Try:
-
-        mechanism-fmu page ratchet
-
-        mechanism-fmu page my_mechanism.py -o for_the_team.html
-
-    The first page compiles the engine, which takes a minute or two. Needs the package ziglang:
-    `python -m pip install ziglang==0.17.0`. See docs/page.md.
-
-    Exit code: 0 all well, 1 the model cannot be built, 2 wrong use.
-    """
-    from .commands.page_written import write_page
-    from .terminal import user_errors
-
-    with user_errors():
-        raise typer.Exit(write_page(model, output))
-
-
+main.command()(file_cli.page)
+main.command()(file_cli.watch)
 main.command()(designs_cli.sweep)
 main.command()(designs_cli.optimise)
 main.command()(papers_cli.ked)

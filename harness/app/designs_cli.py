@@ -71,7 +71,8 @@ def sweep(
         first_impact = ["time", "stress_max"]
 
     Results are kept as they come: whenever the command ends, by Ctrl-C, SIGTERM or killed by somebody, the same command
-    goes on where it stopped. The table results.parquet is for pandas, report.html for people. See docs/sweeps.md.
+    goes on where it stopped. The table results.parquet is for pandas, report.html for people. See
+    docs/how-to/sweeps.md.
 
     Exit code: 0 all well, 1 some designs failed, 2 wrong use, 130 interrupted.
     """
@@ -116,7 +117,7 @@ def optimise(
         unit = "mm"
 
     The same file finds the same design on every machine, and the same command goes on after an interruption. The files
-    are those of a sweep, and optimum.json. See docs/optimum-design.md.
+    are those of a sweep, and optimum.json. See docs/how-to/optimum-design.md.
 
     Exit code: 0 all well, 1 no design keeps all constraints, 2 wrong use, 130 interrupted.
     """

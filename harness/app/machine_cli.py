@@ -47,7 +47,7 @@ def machines() -> None:
         from = "gears.wheel_speed"
         to = "wheel.drive_speed"
 
-    See docs/machines.md.
+    See docs/how-to/machines.md.
     """
 
 
@@ -123,7 +123,7 @@ def new_machine(
 ) -> None:
     """Write NAME.toml, a machine of your own to begin with: gears that turn a cam.
 
-    It runs as it is, and its comments say what to change. See docs/machines.md.
+    It runs as it is, and its comments say what to change. See docs/how-to/machines.md.
 
     Exit code: 0 all well, 2 a name that cannot be, or a file that is there already.
     """

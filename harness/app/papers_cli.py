@@ -82,7 +82,7 @@ def ked(
     elastodynamic analysis), and in the periodic motion that follows from it (elastodynamically; theirs is
     kineto-elastodynamic analysis): path deviation, stresses, natural frequencies, critical speeds, input torque, forces
     in the joints, shaking force and shaking moment on the frame. The FMU is built, too, and its elastic outputs are
-    compared. See docs/ked.md.
+    compared. See docs/how-to/ked.md.
 
     Limits alone give verdicts. With --synthesise, the depths of the members (or what --vary names) are changed until
     the linkage is as light as the limits allow, and that design is what is shown. --fluctuation sizes the flywheel that

@@ -23,7 +23,7 @@ FILE = "resources/analysis.json"
 #: What is said where nothing leaves a stress, and how it is to be had.
 NO_BEAM = (
     "the FMU declares no beam that impacts strike. In its model, add Model(analysis=(ImpactStress(...),)) and build it "
-    "again: docs/your-own-mechanism.md."
+    "again: docs/how-to/stress-in-a-part.md."
 )
 
 #: Columns of a table, which are a beam's sizes.

@@ -1,4 +1,4 @@
-"""Machines: several FMUs that exchange outputs and inputs (docs/machines.md).
+"""Machines: several FMUs that exchange outputs and inputs (docs/how-to/machines.md).
 
 - `connection` and `structure`: who follows whom, known before any component is there
 - `machine`: parts and their exchange (`part`, `exchange`: values that are no continuous signals, `event_iteration`)

@@ -201,7 +201,7 @@ def bond_cautions(energies: Mapping[str, BondEnergy], time: float) -> list[LogMe
                     f"over the bond '{name}', the coupling itself has {did} {abs(energy.made):.3g} J, where "
                     f"{energy.most:.3g} J passed at most: the motion is that of another machine, or unstable. Take "
                     'extrapolation = "derivatives" and a step that the lightest body on this shaft allows '
-                    '(docs/machines-running.md), or algorithm = "adaptive".',
+                    '(docs/how-to/machines-running.md), or algorithm = "adaptive".',
                     time,
                 )
             )

@@ -1,7 +1,7 @@
-"""A mechanism that lives in one HTML file: the engine runs in the page, as WebAssembly.
+"""A model in one HTML file: the engine runs in the page, as WebAssembly.
 
-Internal: `page_file.page` serves the command `mechanism-fmu page`. The scripts, one job a file, are those beside it and
-the player of the reports; `page_data.page_data` says what they get.
+`shown` is for notebooks; the rest is internal: `page_file.page` serves the command `mechanism-fmu page`. The scripts,
+one job a file, are those beside it and the player of the reports; `page_data.page_data` says what they get.
 """
 
-__all__: list[str] = []
+__all__ = ["shown"]

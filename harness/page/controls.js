@@ -2,9 +2,11 @@
 var CONTROLS = (function () {
   "use strict";
 
-  // Builds the control of a variable into `host`; `changed(value)` is called with SI values. Returns `put(value)`.
+  const make = (tag, attributes) => Object.assign(document.createElement(tag), attributes);
+
+  // Builds the control of a variable into `host`; `changed(value, drags)` is called with SI values, `drags` while a slider
+  // is on its way. Returns `put(value, start, over)`: the value, what it is compared with, what else it follows over time.
   function control(host, variable, changed) {
-    const make = (tag, attributes) => Object.assign(document.createElement(tag), attributes);
     const words = variable.name.replaceAll("_", " ");
     const row = make("div", { className: "control" });
     const label = make("label", { htmlFor: "of_" + variable.name, textContent: words });
@@ -15,28 +17,33 @@ var CONTROLS = (function () {
     if (variable.type === "Boolean") {
       field.addEventListener("change", () => changed(field.checked));
       row.append(label, field, about);
-      return (value) => {
+      return (value, start) => {
         field.checked = value;
-        row.classList.toggle("changed", value !== variable.start);
+        row.classList.toggle("changed", value !== start);
       };
     }
     const slider = make("input", { type: "range", min: 0, max: GIVEN.places(variable), step: 1 });
     const unit = make("span", { className: "unit", textContent: variable.shown });
     const withUnit = words + (variable.shown ? " in " + variable.shown : "");
+    let compared = variable.start;
     slider.setAttribute("aria-label", withUnit + ", slider");
     field.setAttribute("aria-label", withUnit);
     field.step = variable.type === "Int32" ? "1" : "any";
-    slider.addEventListener("input", () => changed(GIVEN.valueAt(variable, Number(slider.value))));
+    slider.addEventListener("input", () => changed(GIVEN.valueAt(variable, Number(slider.value)), true));
+    slider.addEventListener("change", () => changed(GIVEN.valueAt(variable, Number(slider.value))));
     field.addEventListener("change", () => {
       const shown = GIVEN.read(variable, field.value);
-      changed(shown === undefined ? variable.start : variable.type === "Int32" ? shown : GIVEN.si(variable, shown));
+      changed(shown === undefined ? compared : variable.type === "Int32" ? shown : GIVEN.si(variable, shown));
     });
     row.append(label, field, unit, slider, about);
-    return (value) => {
-      field.value = GIVEN.shown(variable, value);
+    return (value, start, over) => {
+      compared = start;
+      field.value = over ? "" : GIVEN.shown(variable, value);
+      field.placeholder = over ? "varies" : "";
       slider.value = GIVEN.placeOf(variable, value);
-      slider.setAttribute("aria-valuetext", field.value + " " + variable.shown);
-      row.classList.toggle("changed", value !== variable.start);
+      slider.setAttribute("aria-valuetext", over || field.value + " " + variable.shown);
+      about.textContent = (over ? "Now " + over + ". " : "") + variable.description;
+      row.classList.toggle("changed", !over && value !== start);
     };
   }
 

@@ -2,9 +2,11 @@
 var CURVES = (function () {
   "use strict";
 
-  const WIDTH = 560, HEIGHT = 230, LEFT = 62, RIGHT = 10, TOP = 8, BOTTOM = 26;
+  const WIDTH = 560, HEIGHT = 230, LEFT = 86, RIGHT = 10, TOP = 8, BOTTOM = 26, AROUND = TOP + BOTTOM;
   // As many colours as the reports have, and no more lines across the curves than leave them to be seen.
   const COLOURS = 7, MOST_MARKS = 150;
+
+  const colour = (k) => "var(--c" + (k % COLOURS + 1) + ")";
 
   // Round numbers between two, about `count` of them.
   function ticks(low, high, count) {
@@ -28,14 +30,61 @@ var CURVES = (function () {
     return [low - room, high + room];
   }
 
-  // A chart in `host` of variables with one unit; `go(time)` is called when the reader points at a time.
-  function chart(host, title, variables, stop, go) {
-    const { element } = PLAYER;
-    const unit = variables[0].shown, figure = document.createElement("figure");
-    const caption = document.createElement("figcaption"), legend = document.createElement("ul");
-    caption.textContent = title + (unit ? " [" + unit + "]" : "");
-    const svg = element("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img" });
-    svg.setAttribute("aria-label", caption.textContent + " over time: " + variables.map((one) => one.name).join(", "));
+  // A figure in `host` with a time axis, of all `height` pixels; `go(time)` is called when the reader points at a time.
+  function frame(host, title, about, height, go) {
+    const { element } = PLAYER, figure = document.createElement("figure"), caption = document.createElement("figcaption");
+    const svg = element("svg", { viewBox: `0 0 ${WIDTH} ${height}`, role: "img" });
+    let from = 0, to = 1, line = null;
+    caption.textContent = title + (about ? " [" + about + "]" : "");
+    figure.append(caption, svg);
+    host.append(figure);
+    const place = (time) => LEFT + (WIDTH - LEFT - RIGHT) * (time - from) / (to - from), across = (time) => place(time).toFixed(1);
+    const add = (name, attributes) => element(name, attributes, svg);
+    const text = (words, attributes) => { add("text", attributes).textContent = words; };
+    svg.addEventListener("click", (event) => {
+      const box = svg.getBoundingClientRect(), x = (event.clientX - box.left) * WIDTH / box.width;
+      go(Math.min(to, Math.max(from, from + (x - LEFT) / (WIDTH - LEFT - RIGHT) * (to - from))));
+    });
+
+    // An empty chart of a run's times, with its impacts.
+    function begin(run) {
+      [from, to] = [run.from, run.to];
+      svg.replaceChildren();
+      for (const time of ticks(from, to, 6)) {
+        add("path", { d: `M${across(time)} ${TOP}V${height - BOTTOM}`, "class": "grid" });
+        text(time + " s", { x: across(time), y: height - 8, "text-anchor": "middle" });
+      }
+      for (const row of run.struck.slice(0, MOST_MARKS))
+        add("path", { d: `M${across(run.time[row])} ${TOP}V${height - BOTTOM}`, "class": "struck" });
+    }
+
+    const cursor = (time) => {
+      if (line) line.setAttribute("d", `M${across(Math.min(to, Math.max(from, time)))} ${TOP}V${height - BOTTOM}`);
+    };
+    return { figure, svg, begin, add, text, place, across, cursor, end: () => { line = add("path", { "class": "cursor" }); } };
+  }
+
+  // The points of a line in tenths of a pixel; of those that lie on one level only the ends.
+  function polyline(time, column, across, down) {
+    let points = "", level = NaN, last = "";
+    for (let row = 0; row < column.length; row++) {
+      const y = Math.round(10 * down(column[row]));
+      if (y !== y) continue;
+      const point = Math.round(10 * across(time[row])) / 10 + "," + y / 10 + " ";
+      if (y === level) last = point;
+      else {
+        points += last + point;
+        last = "";
+      }
+      level = y;
+    }
+    return points + last;
+  }
+
+  // A chart in `host` of variables with one unit.
+  function chart(host, title, variables, go) {
+    const within = frame(host, title, variables[0].shown, HEIGHT, go), legend = document.createElement("ul");
+    within.svg.setAttribute("aria-label", title + " over time: " + variables.map((one) => one.name).join(", "));
     const values = variables.map((one, k) => {
       const item = document.createElement("li"), swatch = document.createElement("i"), value = document.createElement("b");
       swatch.style.background = colour(k);
@@ -44,54 +93,41 @@ var CURVES = (function () {
       legend.append(item);
       return value;
     });
-    figure.append(caption, svg, legend);
-    host.append(figure);
-    svg.addEventListener("click", (event) => {
-      const box = svg.getBoundingClientRect(), x = (event.clientX - box.left) * WIDTH / box.width;
-      go(Math.min(stop, Math.max(0, (x - LEFT) / (WIDTH - LEFT - RIGHT) * stop)));
-    });
-    const across = (time) => (LEFT + (WIDTH - LEFT - RIGHT) * time / stop).toFixed(1);
-    let cursor, held;
+    within.figure.append(legend);
+    const columnsOf = (run) => variables.map((one) => one.factor === 1 ? run.of(one.name) : run.of(one.name).map((value) => value * one.factor));
+    let held;
 
-    function draw(run) {
-      const columns = variables.map((one) => run.of(one.name).map((value) => value * one.factor));
-      const [low, high] = span(columns);
+    // A run {from, to, ...} with another one behind it, dashed.
+    function draw(run, kept) {
+      const columns = columnsOf(run), behind = kept ? columnsOf(kept) : [], [low, high] = span([...columns, ...behind]);
       const up = (value) => (TOP + (HEIGHT - TOP - BOTTOM) * (high - value) / (high - low)).toFixed(1);
-      held = { run, columns };
-      svg.replaceChildren();
-      const text = (words, attributes) => { element("text", attributes, svg).textContent = words; };
+      held = columns;
+      within.begin(run);
       const digits = Math.max(1, Math.ceil(Math.log10(Math.max(Math.abs(low), Math.abs(high)) / (high - low))) + 2);
       for (const value of ticks(low, high, 5)) {
-        element("path", { d: `M${LEFT} ${up(value)}H${WIDTH - RIGHT}`, "class": "grid" }, svg);
-        text(String(Number(value.toPrecision(Math.min(digits, 15)))),
+        within.add("path", { d: `M${LEFT} ${up(value)}H${WIDTH - RIGHT}`, "class": "grid" });
+        within.text(String(Number(value.toPrecision(Math.min(digits, 15)))),
           { x: LEFT - 6, y: up(value), dy: "0.35em", "text-anchor": "end" });
       }
-      for (const time of ticks(0, stop, 6)) {
-        element("path", { d: `M${across(time)} ${TOP}V${HEIGHT - BOTTOM}`, "class": "grid" }, svg);
-        text(time + " s", { x: across(time), y: HEIGHT - 8, "text-anchor": "middle" });
-      }
-      for (const row of run.struck.slice(0, MOST_MARKS))
-        element("path", { d: `M${across(run.time[row])} ${TOP}V${HEIGHT - BOTTOM}`, "class": "struck" }, svg);
-      columns.forEach((column, k) => {
-        const points = Array.from(column, (value, row) => Number.isFinite(value) ? across(run.time[row]) + "," + up(value) : "");
-        element("polyline", { points: points.join(" "), fill: "none", stroke: colour(k), "stroke-width": 2,
-          "stroke-linejoin": "round" }, svg);
-      });
-      cursor = element("path", { "class": "cursor" }, svg);
+      const line = (time, column, k, more) => {
+        const points = polyline(time, column, within.place, (value) => TOP + (HEIGHT - TOP - BOTTOM) * (high - value) / (high - low));
+        within.add("polyline", { points, fill: "none", stroke: colour(k), "stroke-linejoin": "round", ...more });
+      };
+      behind.forEach((column, k) => line(kept.time, column, k, { "class": "kept", "stroke-width": 1.5 }));
+      columns.forEach((column, k) => line(run.time, column, k, { "stroke-width": 2 }));
+      within.end();
     }
 
     // The values at a row, which is shown at `time`.
     function show(time, row) {
       if (!held) return;
-      cursor.setAttribute("d", `M${across(time)} ${TOP}V${HEIGHT - BOTTOM}`);
-      held.columns.forEach((column, k) => { values[k].textContent = Number(column[row].toPrecision(5)); });
+      within.cursor(time);
+      held.forEach((column, k) => { values[k].textContent = Number((column[row] ?? NaN).toPrecision(5)); });
     }
 
     return { draw, show };
   }
 
-  const colour = (k) => "var(--c" + (k % COLOURS + 1) + ")";
-
-  return { chart, ticks, span };
+  return { chart, frame, ticks, span, colour, LEFT, TOP, AROUND };
 })();
 if (typeof module === "object") module.exports = CURVES;

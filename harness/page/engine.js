@@ -5,7 +5,8 @@ var ENGINE = (function () {
 
   const ARRAYS = { Float64: Float64Array, Int32: Int32Array, Boolean: Uint8Array };
 
-  async function load(bytes, token) {
+  // `recorded`: {reals, flags, wholes}, the value references of what rows hold.
+  async function load(bytes, token, recorded) {
     const { instance } = await WebAssembly.instantiate(bytes, {});
     const x = instance.exports;
     x._initialize();
@@ -18,6 +19,9 @@ var ENGINE = (function () {
       return at;
     }
     const name = put(new TextEncoder().encode(token + "\0")), now = x.malloc(8), one = x.malloc(8), which = x.malloc(4);
+    const lists = [recorded.reals, recorded.flags, recorded.wholes]
+      .flatMap((references) => [put(Uint32Array.from(references)), references.length]);
+    const width = 2 + recorded.reals.length + recorded.flags.length + recorded.wholes.length;
     let rows = 0, room = 0;
 
     // What has been said since the instance was made, which is called "page": refusals and warnings, one a line.
@@ -56,24 +60,20 @@ var ENGINE = (function () {
       return c;
     }
 
-    // Where value references stand in the module's memory, for `run`.
-    const list = (references) => ({ at: put(Uint32Array.from(references)), count: references.length });
-
-    // At most `most` rows [time, 1 behind an impact else 0, reals, flags]: at `from`, where the instance is, at each of
-    // `steps` points `spacing` apart, and behind each impact between them. `now` is where the last one is.
-    function run(c, from, spacing, steps, most, reals, flags) {
-      const width = 2 + reals.count + flags.count;
+    // At most `most` rows [time, 1 behind an impact else 0, reals, flags, wholes]: at `from`, where the instance is, at
+    // each of `steps` points `spacing` apart, and behind each impact between them. `now` is where the last one is.
+    function run(c, from, spacing, steps, most) {
       if (room < most * width) {
         if (rows) x.free(rows);
         room = most * width;
         rows = x.malloc(8 * room);
       }
       view(Float64Array, now, 1)[0] = from;
-      const count = x.page_run(c, now, spacing, steps, most, reals.at, reals.count, flags.at, flags.count, rows);
+      const count = x.page_run(c, now, spacing, steps, most, ...lists, rows);
       return { width, count, rows: view(Float64Array, rows, count * width).slice(), now: view(Float64Array, now, 1)[0] };
     }
 
-    return { make, get, list, run, text, free: (c) => x.fmi3FreeInstance(c) };
+    return { make, set, get, run, text, width, free: (c) => x.fmi3FreeInstance(c) };
   }
 
   return { load };

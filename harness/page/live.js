@@ -1,180 +1,106 @@
-// The page: what is given -> a run -> picture, curves, impacts; what is given stands in the address.
-(function () {
+// A mechanism that lives: it goes on as long as it plays, and an input that is moved acts at once.
+var LIVE = (function () {
   "use strict";
 
-  const find = (selector) => document.querySelector(selector);
-  const held = (id) => document.getElementById(id).textContent;
-  const MODEL = JSON.parse(held("model"));
-  // Of a table that people read.
-  const MOST_ROWS = 50;
-  const starts = new Map(MODEL.given.map((one) => [one.name, one.start]));
-  // What was given when a run was asked for, by its number.
-  const asked = new Map();
-  const byName = new Map([...MODEL.reals, ...MODEL.flags].map((one) => [one.name, one]));
-  let values = GIVEN.fromHash(MODEL.given, location.hash);
-  let run = null, player = null, newest = 0, drawn = 0, coming = null, waiting = false;
+  // What is kept of the past [s], in rows at most; how often curves are drawn [ms]; points of one answer.
+  const LONGEST = 10, MOST = 3000, CURVES_EACH = 80, MOST_POINTS = 50;
 
-  const valueOf = (name) => values.has(name) ? values.get(name) : starts.get(name);
+  // `post(question)` asks the engine. `shown`: {begin(data), grow(), go(time), draw(run), refuse(text), note(text)}.
+  function live(model, post, shown) {
+    let id = 0, setting = null, run = null, data = null, box = null;
+    // Up to when there are rows; whether an answer is due, to a question for an impact, and whether that is next.
+    let known = 0, waits = false, looksFor = false, wanted = false, sent = new Map(), drawn = 0, refusal = "";
 
-  // --- what is given ---------------------------------------------------------------------------------------------
-  const puts = MODEL.given.map((variable) => {
-    const put = CONTROLS.control(find(variable.causality === "input" ? "#inputs" : "#parameters"), variable, (value) => {
-      if (value === variable.start) values.delete(variable.name); else values.set(variable.name, value);
-      given();
-    });
-    return () => put(valueOf(variable.name));
-  });
-
-  function given() {
-    puts.forEach((put) => put());
-    ask();
-    try {
-      history.replaceState(null, "", GIVEN.toHash(MODEL.given, values));
-    } catch {
-      // A host that shows the page in a frame of its own may have no address for it: then there is nothing to send.
+    function sizes() {
+      const { stop, steps } = GIVEN.caseOf(model, setting);
+      return { stop, step: stop / steps, span: Math.min(LONGEST, stop) };
     }
-  }
 
-  // --- the run: in a worker, or here where there can be none --------------------------------------------------------
-  const bytes = Uint8Array.from(atob(held("wasm").trim()), (letter) => letter.charCodeAt(0));
-  const plan = {
-    stop: MODEL.stop, steps: MODEL.steps, reals: MODEL.reals.map((one) => one.reference),
-    flags: MODEL.flags.map((one) => one.reference), constants: MODEL.constants.map((one) => [one.reference, one.type]),
-  };
-  let post = inWorker() || here();
+    // An input that follows a signal has no value of its own: one that it is given later is news, whichever it is.
+    const driven = () => GIVEN.signalsOf(model, setting);
+    const inputs = () => model.given.filter((one) => one.causality === "input" && !driven().some(([other]) => other === one))
+      .map((one) => [one, Number(GIVEN.valueOf(model, setting, one))]);
+    const signals = () => driven().map(([one, signal]) => [one.reference, one.type, signal]);
 
-  function inWorker() {
-    try {
-      const code = held("engine-code") + held("runner-code") + "RUNNER.serve(self);";
-      const worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
-      worker.onmessage = ({ data }) => take(data);
-      worker.onerror = () => {
-        worker.terminate();
-        post = here();
-        ask();
-      };
-      worker.postMessage({ bytes, token: MODEL.token, plan });
-      return (question) => worker.postMessage(question);
-    } catch {
-      return null;
+    // From time 0, with a setting {name, values}, whose inputs may change from then on; `view` is what is seen at least.
+    function start(given, view) {
+      setting = given;
+      [id, run, known, waits, looksFor, wanted, sent, box] = [id + 1, null, 0, true, false, false, new Map(inputs()), view];
+      const first = signals().map(([reference, type, signal]) => [reference, type, SIGNALS.at(signal, 0)]);
+      post({ live: "begin", id, values: [...GIVEN.valuesOf(model, setting), ...first] });
     }
-  }
 
-  function here() {
-    const ready = ENGINE.load(bytes, MODEL.token).then((engine) => RUNNER.runner(engine, plan, take));
-    return (question) => ready.then((one) => one.ask(question))
-      .catch((error) => take({ id: question.id, parts: [], text: error.message, refused: true }));
-  }
-
-  function ask() {
-    newest += 1;
-    asked.set(newest, new Map(values));
-    find("#state").textContent = "computing …";
-    post({ id: newest, values: MODEL.given.filter((one) => values.has(one.name))
-      .map((one) => [one.reference, one.type, Number(values.get(one.name))]) });
-  }
-
-  // What has come of a run: its next rows, or a refusal. Parts of one run make a whole.
-  function take(found) {
-    if (coming && coming.id === found.id)
-      found = { ...found, constants: coming.constants, parts: [...coming.parts, ...found.parts] };
-    if (found.id < drawn || (coming && found.id < coming.id)) return;
-    coming = found;
-    if (waiting) return;
-    waiting = true;
-    requestAnimationFrame(() => {
-      waiting = false;
-      draw(coming);
-    });
-  }
-
-  // --- what is shown ---------------------------------------------------------------------------------------------
-  const charts = MODEL.charts.map(({ title, names }) => CURVES.chart(find("#charts"), title,
-    names.map((name) => byName.get(name)), MODEL.stop, (time) => player && player.go(time)));
-
-  function draw(found) {
-    drawn = found.id;
-    for (const id of asked.keys()) if (id < drawn) asked.delete(id);
-    const last = found.id === newest;
-    const alert = find("#refusal"), note = find("#note");
-    alert.hidden = !found.refused;
-    alert.textContent = found.refused ? found.text || "The run was refused." : "";
-    note.hidden = found.refused || !found.text;
-    note.textContent = found.refused ? "" : found.text;
-    if (last && (found.finished || found.refused)) find("#state").textContent = "";
-    document.body.classList.toggle("stale", Boolean(found.refused) && !found.parts.length);
-    if (!found.parts.some((part) => part.length)) return;
-    run = RECORD.record(MODEL, found);
-    charts.forEach((chart) => chart.draw(run));
-    impacts();
-    const data = played(asked.get(found.id));
-    find(".animation svg").classList.toggle("none", !data.shapes.length);
-    find("#no-picture").hidden = Boolean(data.shapes.length);
-    if (player) player.take(data); else player = ANIMATION.animate(find(".animation"), data, moved);
-  }
-
-  // The run for the player: of a model without a drawing, a clock without a picture.
-  function played(asked) {
-    const columns = Object.fromEntries(MODEL.moving.map((name) => [name, run.of(name)]));
-    const constants = { ...run.constants };
-    for (const one of MODEL.given) constants[one.name] = Number(asked.has(one.name) ? asked.get(one.name) : one.start);
-    const picture = SCENE.scene(MODEL.shapes, columns, constants) || { columns: [], shapes: [], view: [0, 0, 1, 1] };
-    return {
-      ...picture, time: Array.from(run.time), end: MODEL.stop, decimals: MODEL.decimals, flash: "var(--hit)",
-      impacts: run.struck.map((row) => run.time[row]),
-      contacts: MODEL.contacts.map((one) => ({ active: run.of(one.variable).join("") })),
-    };
-  }
-
-  function moved(time) {
-    let low = 0, high = run.count;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (run.time[middle] <= time) low = middle; else high = middle;
+    function stop() {
+      if (setting) post({ live: "end" });
+      setting = null;
     }
-    charts.forEach((chart) => chart.show(time, low));
-  }
 
-  function impacts() {
-    const table = find("#impacts"), columns = MODEL.impact.map((name) => byName.get(name));
-    const cell = (row, text, tag) => { row.append(Object.assign(document.createElement(tag || "td"), { textContent: text })); };
-    const head = document.createElement("tr"), body = run.struck.slice(0, MOST_ROWS).map((row) => {
-      const line = document.createElement("tr");
-      cell(line, run.time[row].toPrecision(10));
-      for (const one of columns) cell(line, GIVEN.shown(one, run.of(one.name)[row]));
-      return line;
-    });
-    cell(head, "time [s]", "th");
-    for (const one of columns) {
-      cell(head, one.name.replace(/^impact_/, "").replaceAll("_", " ") + (one.shown ? " [" + one.shown + "]" : ""), "th");
-      Object.assign(head.lastChild, { scope: "col", title: one.description });
+    function ask(until, points, strike) {
+      const moved = inputs().filter(([one, value]) => sent.get(one) !== value);
+      moved.forEach(([one, value]) => sent.set(one, value));
+      driven().forEach(([one]) => sent.delete(one));
+      [waits, looksFor] = [true, strike];
+      post({ live: "go", id, until, points, strike, signals: signals(),
+        inputs: moved.map(([one, value]) => [one.reference, one.type, value]) });
     }
-    table.tHead.replaceChildren(head);
-    table.tBodies[0].replaceChildren(...body);
-    table.hidden = !body.length;
-    const count = run.struck.length;
-    find("#impact-count").textContent = !count ? "No impact in this run." :
-      count === 1 ? "One impact." : count + " impacts" + (count > MOST_ROWS ? ", the first " + MOST_ROWS + ":" : ".");
+
+    // The clock goes from one time to another: what it needs is asked for a frame before. What was refused stands still.
+    function ahead(from, to) {
+      if (!run && !waits) shown.refuse(refusal);
+      if (!run) return from;
+      const until = to + (to - from);
+      if (!waits && until > known)
+        ask(until, Math.min(MOST_POINTS, Math.max(1, Math.ceil((until - known) / sizes().step))), false);
+      return Math.min(to, known);
+    }
+
+    // On to the next impact, for as long as a whole run at most.
+    function strike() {
+      wanted = waits;
+      if (!waits && run) ask(known + sizes().stop, Math.ceil(sizes().stop / sizes().step), true);
+    }
+
+    // An answer of the engine; those to what has ended since are no news.
+    function take(found) {
+      if (!setting || found.id !== id) return;
+      waits = false;
+      refusal = found.refused ? found.text || "The engine gives up here." : "";
+      if (found.refused) shown.refuse(refusal);
+      else shown.note(found.text);
+      if (!found.rows.length) return;
+      const begins = found.live === "begin", since = known;
+      if (begins) run = RECORD.last(model, found.constants, sizes().span, MOST);
+      if (begins) data = { time: run.time, end: undefined, impacts: [], decimals: model.decimals, flash: "var(--hit)", ahead,
+        strike, contacts: model.contacts.map((one) => ({ active: run.of(one.variable) })) };
+      const hits = run.hits;
+      run.add(found.rows, model.width);
+      known = found.now;
+      data.impacts.splice(0, Infinity, ...run.struck.map((row) => run.time[row]));
+      if (begins || run.hits > hits || performance.now() - drawn > CURVES_EACH) draw(begins);
+      shown.grow();
+      if (wanted && !begins) return strike();
+      if (!looksFor) return;
+      looksFor = false;
+      shown.go(found.struck ? data.impacts.find((time) => time > since) : known);
+      if (!found.struck) shown.note("No impact in the next " + sizes().stop + " s.");
+    }
+
+    // Curves, and the picture anew where the mechanism has left it.
+    function draw(begins) {
+      drawn = performance.now();
+      Object.assign(run, { from: run.time[0], to: Math.max(run.time[0] + sizes().span, known) });
+      shown.draw(run);
+      const picture = SCENE.pictured(model, run, setting);
+      const [left, bottom, right, top] = picture.view, before = box || picture.view;
+      box = [Math.min(left, before[0]), Math.min(bottom, before[1]), Math.max(right, before[2]), Math.max(top, before[3])];
+      const left_it = box.some((edge, k) => edge !== before[k]) || model.shapes.some((shape) => shape.kind === "trace");
+      if (!begins && !left_it) return;
+      Object.assign(data, picture, { view: box });
+      shown.begin(data, begins);
+    }
+
+    return { start, stop, take };
   }
 
-  // --- reset, file, address ----------------------------------------------------------------------------------------
-  find("#reset").addEventListener("click", () => {
-    values = new Map();
-    if (player) player.go(0);
-    given();
-  });
-  find("#csv").addEventListener("click", () => {
-    if (!run) return;
-    const address = URL.createObjectURL(new Blob([RECORD.csv(MODEL, run)], { type: "text/csv" }));
-    Object.assign(document.createElement("a"), { href: address, download: MODEL.name + ".csv" }).click();
-    setTimeout(() => URL.revokeObjectURL(address), 10000);
-  });
-  addEventListener("hashchange", () => {
-    values = GIVEN.fromHash(MODEL.given, location.hash);
-    puts.forEach((put) => put());
-    ask();
-  });
-
-  puts.forEach((put) => put());
-  ask();
+  return { live };
 })();

@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from mechanism_fmu.fmu.native.web import WebModule
+from mechanism_fmu.fmu.native.web_data import WebData, web_data
 from mechanism_fmu.fmu.parts.fmi_units import display_factor
 from mechanism_fmu.fmu.parts.resources import DRAWING, drawing
 from mechanism_fmu.fmu.parts.variables import Variable, variables_of
 
 from ..report.animation import WHEEL, colours_of, decimals
-from ..report.motion import QUANTITIES, contacts_named
+from ..report.motion import QUANTITIES, STICKS, SUFFIX, contacts_named
 from ..report.page import COLOURS
+from .stress_data import stress_data
 
 _TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
 
 #: A run has no more points than this; each impact is one more.
 _MOST_POINTS = 2000
+
+#: Outputs that say something of one communication step only, and counters of impacts.
+_OF_A_STEP = ("impact.in_step", "impact.lost", "event.in_step")
+_COUNTED = (*_OF_A_STEP, "impact.count", "impact.any", "impact.by_poisson")
 
 #: What a default drawing's numbers begin with: they are for no chart.
 _OF_DRAWING = "Drawing: "
@@ -30,51 +37,68 @@ _PALETTE = {colour: f"var(--c{k})" for k, colour in enumerate(COLOURS, start=1)}
 def page_data(web: WebModule) -> dict[str, Any]:
     """All that the scripts need of a model, as JSON.
 
-    Keys: `name`, `token`; `stop` [s], `steps`, `decimals` of times; `given`, the parameters and inputs; `reals` and
-    `flags`, the outputs that a run records, in this order behind time and impact; `constants`, the calculated
-    parameters that the drawing needs; `shapes`, those of drawing.json with colours, and `moving`, the reals that move
-    them; `contacts`, the flags that have a lamp; `charts`, titles with names of reals; `impact`, the reals of the last
-    impact.
+    Keys: `name`, `token`; `stop` [s] of the first case, `decimals` of times; `cases`, of which the page begins with the
+    first; `given`, the parameters and inputs; `reals`, `flags` and `wholes`, the outputs that a run records, in this
+    order behind time and impact, in rows of `width` numbers; `constants`, the calculated parameters that the drawing
+    needs; `shapes`, those of drawing.json with colours, and `moving`, the reals that move them; `contacts`, the flags
+    that have a lamp, and `parts`, the contacts that have a strip; `charts`, titles with names of outputs; `impact`,
+    what is recorded of the last impact, `struck`, which of it numbers a contact, and `stress`, what it leaves.
 
     Args:
         web: the model for a page.
 
     Raises:
-        MechanismError: its drawing names what it does not have.
+        MechanismError: its drawing names what it does not have, or a case cannot be.
     """
     model = web.model
-    variables = variables_of(model)
+    more, variables = web_data(model), variables_of(model)
     shapes = _shapes(drawing(model), variables)
     needed = set(_names(shapes))
-    reals = [v for v in variables if v.causality == "output" and v.type == "Real" and "[" not in v.name]
-    flags = [v for v in variables if v.causality == "output" and v.type == "Boolean" and v.variability == "discrete"]
-    shown = [v for v in reals if v.variability == "continuous" and not _is_of_drawing(v)]
+    outputs = [v for v in variables if v.causality == "output" and "[" not in v.name]
+    reals = [v for v in outputs if v.type == "Real"]
+    flags = [v for v in outputs if v.type == "Boolean" and v.variability == "discrete"]
+    wholes = [v for v in outputs if v.type == "Integer" and v.source not in _OF_A_STEP]
+    of_impact = [v for v in (*reals, *wholes) if v.source.startswith("impact.") and v.source not in _COUNTED]
     constants = [v for v in variables if v.causality == "calculatedParameter" and v.name in needed]
-    lamps = contacts_named([v.name for v in flags], lambda _: True)
+    cases = [_with_steps(case) for case in more.cases]
     return {
         "name": model.name,
         "token": web.token,
-        "stop": model.stop_time,
-        "steps": max(1, min(_MOST_POINTS, round(model.stop_time / model.step_size))),
-        "decimals": decimals(model.stop_time / 1000),
-        "given": [_given(v) for v in variables if v.causality in ("input", "parameter")],
+        "stop": cases[0]["stop"],
+        "decimals": decimals(cases[0]["stop"] / 1000),
+        "cases": cases,
+        "given": [_given(v, more) for v in variables if v.causality in ("input", "parameter")],
         "reals": [_known(v) for v in reals],
         "flags": [_known(v) for v in flags],
+        "wholes": [_known(v) for v in wholes],
+        "width": 2 + len(reals) + len(flags) + len(wholes),
         "constants": [_known(v) for v in constants],
         "shapes": shapes,
         "moving": [v.name for v in reals if v.name in needed],
-        "contacts": [{"variable": c.variable, "name": c.name, "colour": _PALETTE[c.colour]} for c in lamps],
-        "charts": _charts(shown),
-        "impact": [v.name for v in reals if v.source.startswith("impact.") and v.source != "impact.time"],
+        "contacts": [
+            {"variable": c.variable, "name": c.name, "colour": _PALETTE[c.colour]}
+            for c in contacts_named([v.name for v in flags], lambda _: True)
+        ],
+        "parts": _parts([v.name for v in flags]),
+        "charts": _charts([v for v in reals if v.variability == "continuous" and not _is_of_drawing(v)])
+        + _counts([v for v in wholes if v not in of_impact]),
+        "impact": [v.name for v in of_impact if v.source != "impact.time"],
+        "struck": _struck(of_impact, more.contacts),
+        "stress": stress_data(more.struck, of_impact),
     }
 
 
-def slider_range(start: float, minimum: float | None, maximum: float | None) -> tuple[float, float]:
-    """From where to where a slider goes: from half to twice its start, of zero from -1 to 1, within the limits.
+#: Of a start of zero, by unit: half a turn each way, and what is slow for people; else 1.
+_AROUND_ZERO = {"rad": math.pi, "rad/s": 10.0, "m/s2": 10.0}
 
-    The limits of a value say what the engine computes, often far beyond what anybody builds.
+
+def slider_range(start: float, minimum: float | None, maximum: float | None, unit: str = "1") -> tuple[float, float]:
+    """From where to where a slider goes without a usual range: half to twice its start, or around zero.
+
+    It stays within the limits. They say what the engine computes, often far beyond what anybody builds.
     """
-    low, high = sorted((start / 2, start * 2)) if start else (-1.0, 1.0)
+    around = _AROUND_ZERO.get(unit, 1.0)
+    low, high = sorted((start / 2, start * 2)) if start else (-around, around)
     return low if minimum is None else max(low, minimum), high if maximum is None else min(high, maximum)
 
 
@@ -93,11 +117,19 @@ def _known(v: Variable) -> dict[str, Any]:
     }
 
 
-def _given(v: Variable) -> dict[str, Any]:
+def _with_steps(case: Mapping[str, Any]) -> dict[str, Any]:
+    """A case with the number of its `steps`."""
+    return {**case, "steps": max(1, min(_MOST_POINTS, round(case["stop"] / case["step"])))}
+
+
+def _given(v: Variable, more: WebData) -> dict[str, Any]:
     """A variable that can be set, with the range of its slider, unless it is yes or no."""
-    known = _known(v) | {"causality": v.causality, "start": v.start}
+    group = "setting" if v.name in more.settings else v.causality
+    known = _known(v) | {"causality": v.causality, "group": group, "start": v.start}
     if v.type != "Boolean":
-        known["range"] = slider_range(float(v.start or 0.0), v.minimum, v.maximum)
+        known["range"] = more.usual.get(v.name) or slider_range(
+            float(v.start or 0.0), v.minimum, v.maximum, v.unit or "1"
+        )
     return known
 
 
@@ -108,6 +140,30 @@ def _charts(variables: Sequence[Variable]) -> list[dict[str, Any]]:
         {"title": QUANTITIES.get(unit, "Values"), "names": [v.name for v in variables if (v.unit or "1") == unit]}
         for unit in units
     ]
+
+
+def _counts(variables: Sequence[Variable]) -> list[dict[str, Any]]:
+    """A chart of whole numbers, where there are any."""
+    return [{"title": "Counts", "names": [v.name for v in variables]}] if variables else []
+
+
+def _parts(flags: Sequence[str]) -> list[dict[str, str]]:
+    """What closes or sticks, with the flags that say so; "" for none."""
+    names = dict.fromkeys(name.removesuffix(end) for name in flags for end in (SUFFIX, STICKS) if name.endswith(end))
+    return [
+        {"name": name.replace("_", " ")}
+        | {
+            key: f"{name}{end}" if f"{name}{end}" in flags else ""
+            for key, end in (("active", SUFFIX), ("sticks", STICKS))
+        }
+        for name in names
+    ]
+
+
+def _struck(of_impact: Iterable[Variable], contacts: Iterable[str]) -> dict[str, Any] | None:
+    """The whole number that says which contact was struck, with the contacts' names."""
+    names = [name.replace("_", " ") for name in contacts]
+    return next(({"variable": v.name, "names": names} for v in of_impact if v.source == "impact.contact"), None)
 
 
 def _is_of_drawing(v: Variable) -> bool:

@@ -23,19 +23,23 @@ POLICY = (
     "img-src data:; worker-src blob:; base-uri 'none'; form-action 'none'"
 )
 
-#: The scripts in the order in which they need each other; those of the reports are their own. Those with an id also run
-#: in the worker.
+#: The scripts in the order in which they need each other; those of the reports are their own. The engine's run in the
+#: worker, too.
+_ENGINE = ("signals.js", "engine.js", "stepper.js", "runner.js")
 _SCRIPTS = (
-    ("engine.js", "engine-code"),
-    ("runner.js", "runner-code"),
-    ("player.js", ""),
-    ("animation.js", ""),
-    ("scene.js", ""),
-    ("record.js", ""),
-    ("given.js", ""),
-    ("controls.js", ""),
-    ("curves.js", ""),
-    ("live.js", ""),
+    *_ENGINE,
+    *(
+        "player.js",
+        "animation.js",
+        "given.js",
+        "scene.js",
+        "record.js",
+        "files.js",
+        "controls.js",
+        "curves.js",
+        "strips.js",
+    ),
+    *("impacts.js", "live.js", "main.js"),
 )
 _OF_REPORTS = ("player.js", "animation.js")
 
@@ -64,22 +68,30 @@ def page(web: WebModule) -> str:
             f'<link rel="icon" href="data:,"><title>{title}</title>',
             f"<style>{style}</style></head>",
             f"<body><main><header><h1>{title}</h1><p>{about}</p></header>",
-            _given(),
+            _given(data),
             f'<div class="seen">{_stage(data)}{_results()}</div></main>',
             '<noscript><p class="banner">This page computes; it needs JavaScript.</p></noscript>',
             f'<script type="application/json" id="model">{model}</script>',
             f'<script type="application/wasm" id="wasm">{wasm}</script>',
-            *(_script(name, identifier) for name, identifier in _SCRIPTS),
+            *map(_script, _SCRIPTS),
             "</body></html>\n",
         ]
     )
 
 
-def _given() -> str:
-    """Where sliders and fields come to stand."""
+def _given(data: Mapping[str, Any]) -> str:
+    """Where the choice of a case, sliders and fields come to stand."""
+    options = "".join(
+        f'<option value="{c["name"]}">{escape(c["name"].replace("_", " "))}</option>' for c in data["cases"]
+    )
+    alone = " hidden" if len(data["cases"]) < 2 else ""
+    none = "" if any(one["group"] == "input" for one in data["given"]) else " hidden"
     return (
-        '<aside aria-label="What is given"><details open><summary>Inputs</summary><div id="inputs"></div></details>'
-        '<details open><summary>Parameters</summary><div id="parameters"></div></details></aside>'
+        f'<aside aria-label="What is given"><div class="case"{alone}><label for="case">Case</label>'
+        f'<select id="case" aria-describedby="about-case">{options}</select><small id="about-case"></small></div>'
+        f'<details open{none}><summary>Inputs</summary><div id="inputs"></div></details>'
+        '<details open><summary>Parameters</summary><div id="parameters"></div></details>'
+        '<details><summary>Integration</summary><div id="settings"></div></details></aside>'
     )
 
 
@@ -92,8 +104,12 @@ def _stage(data: Mapping[str, Any]) -> str:
     return (
         '<section class="stage" aria-label="Mechanism"><p id="no-picture" hidden>There is no drawing of this run.</p>'
         '<div class="animation"><svg role="img" aria-label="The mechanism at the time shown below"></svg>'
-        f'{plays}{named}</div><div class="buttons"><button type="button" id="reset">Reset</button>'
-        '<button type="button" id="csv">Download CSV</button><span id="state"></span></div>'
+        f'{plays}{named}</div><div class="buttons"><button type="button" id="live" aria-pressed="false">Live</button>'
+        '<button type="button" id="restart" hidden>Restart</button>'
+        '<button type="button" id="keep" aria-pressed="false">Keep to compare</button>'
+        '<button type="button" id="reset">Reset</button><button type="button" id="csv">Results (CSV)</button>'
+        '<button type="button" id="toml">Values (TOML)</button>'
+        '<button type="button" id="inputs-csv" hidden>Inputs (CSV)</button><span id="state" role="status"></span></div>'
         # nothing that is pressed moves when a run says something: refusals lie over the page, warnings above curves
         '<div id="refusal" role="alert" hidden></div></section>'
     )
@@ -108,8 +124,8 @@ def _results() -> str:
     )
 
 
-def _script(name: str, identifier: str) -> str:
+def _script(name: str) -> str:
     folder = Path(report.__file__).parent if name in _OF_REPORTS else Path(__file__).parent
     code = (folder / name).read_text(encoding="utf-8").replace("</script", "<\\/script").replace("<!--", "<\\!--")
-    marked = f' id="{identifier}"' if identifier else ""
+    marked = ' class="engine"' if name in _ENGINE else ""
     return f"<script{marked}>{code}</script>"

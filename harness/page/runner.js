@@ -1,54 +1,68 @@
-// Whole runs, in slices between which a newer question is heard: in a worker, or in the page where there is none.
+// Runs, in slices between which a newer question is heard: in a worker, or in the page where there is none.
 // `post` gets what is known so far, finished or not: of a run that takes long its beginning is there to be seen.
 var RUNNER = (function () {
   "use strict";
 
   // Points of the grid and rows of a slice, and after how long others have their turn [ms].
-  const SLICE = 20, ROOM = 2000, TURN = 25;
+  const SLICE = 20, ROOM = 2000, TURN = 40;
 
   const others = () => new Promise((go) => setTimeout(go));
 
-  // `plan`: {stop, steps, reals, flags: value references, constants: [[reference, type], ...]}.
-  function runner(engine, plan, post) {
-    const reals = engine.list(plan.reals), flags = engine.list(plan.flags);
-    const spacing = plan.stop / plan.steps;
+  // How many points of the grid a slice has reached.
+  function onGrid({ rows, width, count }) {
+    let reached = 0;
+    for (let k = 1; k < count; k++) if (rows[k * width + 1] === 0) reached++;
+    return reached;
+  }
+
+  // Inputs [[reference, type, signal], ...] as they are at a time.
+  const setAt = (engine, c, signals, time) =>
+    signals.forEach(([reference, type, signal]) => engine.set(c, [reference, type, SIGNALS.at(signal, time)]));
+
+  // `constants`: [[reference, type], ...] of what a run gives once.
+  function runner(engine, constants, post) {
     let newest = 0;
 
-    // The run of {id, values}; those that are asked for later end it, or take its place before it has begun.
-    async function ask({ id, values }) {
-      newest = id;
+    // The run of {id, values, signals, stop, steps}; those that are asked for later end it, or take its place before it
+    // has begun. Signals are held from point to point.
+    async function ask(asked) {
+      newest = asked.id;
       await others();
-      if (newest !== id) return;
-      const found = { id, width: 2 + reals.count + flags.count, parts: [], constants: [], finished: false, text: "" };
+      if (newest !== asked.id) return;
+      const found = { id: asked.id, width: engine.width, parts: [], constants: [], finished: false, text: "" };
       let c;
       try {
-        c = engine.make(values);
+        c = engine.make([...asked.values, ...asked.signals.map(([reference, type, one]) => [reference, type, SIGNALS.at(one, 0)])]);
       } catch (error) {
         post({ ...found, text: error.message, refused: true });
         return;
       }
       try {
-        found.constants = plan.constants.map((one) => engine.get(c, one));
-        await advance(c, found);
+        found.constants = constants.map((one) => engine.get(c, one));
+        await advance(c, asked, found);
+      } catch (error) {
+        post({ ...found, text: error.message, refused: true, finished: true });
       } finally {
         engine.free(c);
       }
     }
 
-    async function advance(c, found) {
+    async function advance(c, { stop, steps: all, signals }, found) {
+      const spacing = stop / all, slice = signals.length ? 1 : SLICE;
       let point = 0, now = 0, since = performance.now(), first = true, refused = false;
-      while (point < plan.steps && !refused) {
+      while (point < all && !refused) {
         // Behind a slice that was full before its end, the next point of the grid is nearer.
         const behind = now > (point + 1e-6) * spacing;
-        const steps = behind ? 1 : Math.min(SLICE, plan.steps - point);
+        const steps = behind ? 1 : Math.min(slice, all - point);
         const apart = ((point + steps) * spacing - now) / steps;
-        const slice = engine.run(c, now, apart, steps, ROOM, reals, flags);
-        const grid = onGrid(slice);
-        refused = grid < steps && slice.count < ROOM;
+        if (!behind) setAt(engine, c, signals, now);
+        const part = engine.run(c, now, apart, steps, ROOM);
+        const grid = onGrid(part);
+        refused = grid < steps && part.count < ROOM;
         point += grid;
-        now = slice.now;
+        now = part.now;
         // The first row of a slice is the last one of that before.
-        found.parts.push(first ? slice.rows : slice.rows.subarray(slice.width));
+        found.parts.push(first ? part.rows : part.rows.subarray(part.width));
         first = false;
         if (performance.now() - since < TURN) continue;
         post({ ...found, text: engine.text(), refused });
@@ -60,30 +74,36 @@ var RUNNER = (function () {
       post({ ...found, text: engine.text(), refused, finished: true });
     }
 
-    // How many points of the grid a slice has reached.
-    function onGrid({ rows, width, count }) {
-      let reached = 0;
-      for (let k = 1; k < count; k++) if (rows[k * width + 1] === 0) reached++;
-      return reached;
-    }
-
-    return { ask };
+    return { ask, stop: () => { newest = 0; } };
   }
 
-  // In a worker: the first message is {bytes, token, plan}, all others are questions.
+  // Answers questions: those with `live` go to the stepper, all others are runs.
+  async function answering({ bytes, token, recorded, constants }, post) {
+    const engine = await ENGINE.load(bytes, token, recorded);
+    const whole = runner(engine, constants, post), steps = STEPPER.stepper(engine, constants, post);
+    return (asked) => {
+      if (!asked.live) {
+        steps.end();
+        return whole.ask(asked);
+      }
+      whole.stop();
+      return steps[asked.live](asked);
+    };
+  }
+
+  // In a worker: the first message is what the engine is made of, all others are questions.
   function serve(scope) {
     let ready;
     scope.onmessage = ({ data }) => {
       if (!ready) {
-        ready = ENGINE.load(data.bytes, data.token).then((engine) =>
-          runner(engine, data.plan, (found) => scope.postMessage(found)));
+        ready = answering(data, (found) => scope.postMessage(found));
         return;
       }
-      ready.then((one) => one.ask(data)).catch((error) =>
-        scope.postMessage({ id: data.id, parts: [], text: error.message, refused: true }));
+      ready.then((answer) => answer(data)).catch((error) =>
+        scope.postMessage({ id: data.id, live: data.live, parts: [], text: error.message, refused: true }));
     };
   }
 
-  return { runner, serve };
+  return { runner, answering, serve, setAt };
 })();
 if (typeof module === "object") module.exports = RUNNER;

@@ -99,6 +99,14 @@ var SCENE = (function () {
     return { columns: names.map((name) => columns[name]), shapes: shapes.map(shown), view };
   }
 
+  // The picture of a run with a setting, as the player has it; of a model without a drawing, none, for its clock alone.
+  function pictured(model, run, setting) {
+    const columns = Object.fromEntries(model.moving.map((name) => [name, run.of(name)]));
+    const constants = { ...run.constants };
+    for (const one of model.given) constants[one.name] = Number(GIVEN.valueOf(model, setting, one));
+    return scene(model.shapes, columns, constants) || { columns: [], shapes: [], view: [0, 0, 1, 1] };
+  }
+
   // The corners of the convex hull of points, counter-clockwise: two of points on a line, one of equal points.
   // Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions, Inf. Process. Lett. 9 (1979).
   function hull(points) {
@@ -119,6 +127,6 @@ var SCENE = (function () {
     return sorted.length < 3 ? sorted : [...half(sorted), ...half([...sorted].reverse())];
   }
 
-  return { scene };
+  return { scene, pictured };
 })();
 if (typeof module === "object") module.exports = SCENE;

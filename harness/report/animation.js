@@ -10,6 +10,8 @@ var ANIMATION = (function () {
   // How long an impact flashes while playing, in seconds of the reader's time.
   const FLASH = 0.4;
   const SLIDER = 1000;
+  // What is made as it plays leaps no further than this, in seconds of the reader's time.
+  const LEAP = 0.1;
 
   // The last index whose value is not above x; `values` increase.
   function lastUpTo(values, x) {
@@ -175,7 +177,9 @@ var ANIMATION = (function () {
   }
 
   // Plays `data` in an element that has the controls of animation.py; `moved(time)` hears of each time that is shown.
-  // Returns `take(data)`, which plays other data of as many panels and contacts on from the same time, and `go(time)`.
+  // Returns `take(data)`, which plays other data of as many panels and contacts on from the same time, `go(time)` and
+  // `run(whether)`. Data that grow have `ahead(from, to)`, which sees to it that there are some up to the time `to`, and
+  // gives up to when there are; `strike()`, which goes on to the next impact; and `grow()` is called when there are more.
   function animate(root, data, moved) {
     const find = (selector) => root.querySelector(selector);
     const slider = find("input"), play = find(".play"), speed = find("select"), marks = find(".marks");
@@ -191,12 +195,22 @@ var ANIMATION = (function () {
       // Each picture flashes at its own impacts.
       pictures = (data.panels || [data]).map((panel, i) =>
         ({ impacts: panel.impacts, svg: svgs[i], draw: picture(svgs[i], panel, data) }));
+      mark();
+    }
+
+    function mark() {
       marks.replaceChildren(...data.impacts.map((instant) => {
         const mark = document.createElement("i");
         mark.style.left = 100 * (instant - start) / (end - start || 1) + "%";
         mark.style.background = data.flash;
         return mark;
       }));
+    }
+
+    function grow() {
+      [start, end] = [data.time[0], data.time[data.time.length - 1]];
+      now = Math.min(Math.max(now, start), end);
+      mark();
     }
 
     // Of which component of a machine an impact is, or of which ones, if several have one at once.
@@ -222,7 +236,7 @@ var ANIMATION = (function () {
       // What an impact has closed is active from then on, not only from the next frame.
       let frame = Math.max(0, lastUpTo(data.time, now));
       if (last >= 0 && data.impacts[last] > data.time[frame]) frame = Math.min(frame + 1, data.time.length - 1);
-      data.contacts.forEach((contact, i) => lamps[i].classList.toggle("lit", contact.active[frame] === "1"));
+      data.contacts.forEach((contact, i) => lamps[i].classList.toggle("lit", Number(contact.active[frame]) === 1));
       [...marks.children].forEach((mark, i) => mark.classList.toggle("now", struck && i === last));
       const text = now.toFixed(data.decimals) + " s";
       find(".time").textContent = "t = " + text;
@@ -235,6 +249,10 @@ var ANIMATION = (function () {
     }
 
     function advance(seconds) {
+      if (data.ahead) {
+        now = Math.max(now, data.ahead(now, now + speed.value * Math.min(seconds, LEAP)));
+        return true;
+      }
       now = Math.min(end, now + speed.value * seconds);
       return now < end;
     }
@@ -247,13 +265,14 @@ var ANIMATION = (function () {
     }
 
     play.addEventListener("click", () => {
-      if (!playing.playing && now >= end) now = start;
+      if (!playing.playing && now >= end && !data.ahead) now = start;
       playing.set(!playing.playing);
     });
     slider.addEventListener("input", () => go(start + (end - start) * slider.value / SLIDER));
     if (find(".next"))
       find(".next").addEventListener("click", () => {
-        if (data.impacts.length) go(data.impacts[(lastUpTo(data.impacts, now) + 1) % data.impacts.length]);
+        if (data.strike && lastUpTo(data.impacts, now) === data.impacts.length - 1) data.strike();
+        else if (data.impacts.length) go(data.impacts[(lastUpTo(data.impacts, now) + 1) % data.impacts.length]);
       });
 
     hold(data);
@@ -267,7 +286,7 @@ var ANIMATION = (function () {
       }, { threshold: 0.5 });
       seen.observe(find("svg"));
     }
-    return { take: (given) => { hold(given); show(); }, go };
+    return { take: (given) => { hold(given); show(); }, go, grow, run: playing.set };
   }
 
   document.querySelectorAll(".animation").forEach((root) => {

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from .. import elementary
 from ..model.functions import Number
 from ..model.symbol import Symbol
 from ..model.trace import Trace
@@ -19,17 +19,11 @@ Column = Any
 
 
 def _each(function: Callable[..., float]) -> Callable[..., Column]:
-    """One of `math`'s functions for columns: numpy's own sines differ from it in the last bit."""
-
-    def one(*operands: float) -> float:
-        try:
-            return function(*operands)
-        except ValueError:
-            return math.nan
+    """An elementary function for columns: numpy's own sines differ from it in the last bit."""
 
     def all_of_them(*operands: Column) -> Column:
         columns = np.broadcast_arrays(*operands)
-        found = [one(*values) for values in zip(*(column.ravel().tolist() for column in columns), strict=True)]
+        found = [function(*values) for values in zip(*(column.ravel().tolist() for column in columns), strict=True)]
         return np.array(found).reshape(columns[0].shape)
 
     return all_of_them
@@ -41,11 +35,11 @@ _APPLY: dict[str, Callable[..., Column]] = {
     "multiply": np.multiply,
     "divide": np.divide,
     "negate": np.negative,
-    "sin": _each(math.sin),
-    "cos": _each(math.cos),
-    "tan": _each(math.tan),
+    "sin": _each(elementary.sin),
+    "cos": _each(elementary.cos),
+    "tan": _each(elementary.tan),
     "sqrt": np.sqrt,
-    "atan2": _each(math.atan2),
+    "atan2": _each(elementary.atan2),
     "where_positive": lambda condition, positive, otherwise: np.where(condition > 0, positive, otherwise),
 }
 

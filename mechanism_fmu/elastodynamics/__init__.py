@@ -1,11 +1,11 @@
-"""Kineto-elastodynamics: the linkage bends (Erdman, Sandor and Oakberg 1972); theory in docs/elastodynamics.md.
+"""Kineto-elastodynamics: the linkage bends (Erdman, Sandor and Oakberg 1972); docs/explanation/elastodynamics.md.
 
 `linkage` makes a structure of a mechanism with members, `configurations` follows it along a motion: compatibility,
 transfer of forces, flexibility and stiffness in all configurations at once. `quasi_static` bends it by the inertia of
 the rigid motion and by loads, with stresses, reactions, input torque and power.
 
-`elastic_cycle` makes the equations of a linkage that swings (docs/elastodynamics-dynamics.md), `periodic_response` is
-their steady state; `lightest` looks for the lightest design.
+`elastic_cycle` makes the equations of a linkage that swings (docs/explanation/elastodynamics-dynamics.md),
+`periodic_response` is their steady state; `lightest` looks for the lightest design.
 """
 
 from .cycle import (

@@ -108,7 +108,7 @@ def quasi_static(configurations: Configurations, loads: Mapping[str, ArrayLike] 
             pin takes none, or friction does not settle.
 
     Source: Erdman, Sandor, Oakberg (1972), eqs (10) to (12) and (14); friction, stress and power:
-        docs/elastodynamics.md, section Inertia, torque and power.
+        docs/explanation/elastodynamics.md, section Inertia, torque and power.
     """
     applied = _applied(configurations, loads or {})
     inertia = inertia_forces(configurations)
@@ -192,8 +192,8 @@ def flywheel(angle: FloatArray, torque: FloatArray, speed: float, coefficient: f
     Raises:
         LinkageError: the coefficient or the speed cannot be, or the angles are as `torque_fluctuation` refuses them.
 
-    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis; docs/elastodynamics.md,
-        section Inertia, torque and power.
+    Source: textbook: R. L. Norton, Design of Machinery, chapter on dynamic force analysis;
+        docs/explanation/elastodynamics.md, section Inertia, torque and power.
     """
     if not 0.0 < coefficient < 2.0:
         raise LinkageError(

@@ -34,7 +34,7 @@ class ElasticCycle:
     Raises:
         ValueError: shapes do not fit, a value is not finite, or there are fewer than 8 samples.
 
-    Source: docs/elastodynamics-dynamics.md, eqs (K1), (K2).
+    Source: docs/explanation/elastodynamics-dynamics.md, eqs (K1), (K2).
     """
 
     period: float
@@ -129,7 +129,7 @@ class InstantaneousModes:
         omega: shape (T, n), ascending [rad/s]; infinite where a mode has no mass.
         shapes: shape (T, n, n), mode k in `shapes[:, :, k]`, with shape^T K shape = 1 and shape^T M shape = 1/omega^2.
 
-    Source: docs/elastodynamics-dynamics.md, eqs (K3), (K4).
+    Source: docs/explanation/elastodynamics-dynamics.md, eqs (K3), (K4).
     """
 
     omega: FloatArray
@@ -173,7 +173,8 @@ def instantaneous_modes(stiffness: FloatArray, mass: FloatArray) -> Instantaneou
     Raises:
         ValueError: K is not positive, or M negative, in some position.
 
-    Source: textbook: the generalised eigenvalue problem of free vibration; docs/elastodynamics-dynamics.md, eq (K3).
+    Source: textbook: the generalised eigenvalue problem of free vibration; docs/explanation/elastodynamics-dynamics.md,
+        eq (K3).
     """
     try:
         root = np.linalg.cholesky(stiffness)
@@ -203,9 +204,10 @@ _CLOSED = 1e-6
 class MassModel(Enum):
     """Where the mass of a member is.
 
-    LUMPED: half at each of its ends: the paper's Case 2 has masses at the joints, the halves are this project's. A
-        rotation without a disk has no inertia then.
-    CONSISTENT: along it, swinging with the cubics in which it bends.
+    Attributes:
+        LUMPED: half at each of its ends: the paper's Case 2 has masses at the joints, the halves are this project's. A
+            rotation without a disk has no inertia then.
+        CONSISTENT: along it, swinging with the cubics in which it bends.
     """
 
     LUMPED = "lumped"
@@ -224,8 +226,8 @@ def elastic_cycle(cycle: Cycle, damping_ratio: npt.ArrayLike, mass_model: MassMo
         LinkageError: the times are not even, or what the cycle ends with is not what it began with.
         ValueError: as of `InstantaneousModes.damping`.
 
-    Source: docs/elastodynamics-dynamics.md, eqs (K1), (K2), (K4); Erdman, Sandor, Oakberg (1972) name a third case and
-        do not describe it in the pages at hand.
+    Source: docs/explanation/elastodynamics-dynamics.md, eqs (K1), (K2), (K4); Erdman, Sandor, Oakberg (1972) name a
+        third case and do not describe it in the pages at hand.
     """
     configurations = cycle.configurations
     steps = np.diff(configurations.pose.time)
@@ -261,7 +263,7 @@ def deflection_of(configurations: Configurations, displacement: FloatArray, plac
     Raises:
         LinkageError: there is no such place.
 
-    Source: docs/elastodynamics.md, section Flexibility approach: the rows of `Configurations.displacement`.
+    Source: docs/explanation/elastodynamics.md, section Flexibility approach: the rows of `Configurations.displacement`.
     """
     return np.asarray((configurations.displacement(place) @ displacement[:, :, None])[:, :, 0])
 

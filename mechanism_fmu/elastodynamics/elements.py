@@ -15,7 +15,7 @@ from scipy.integrate import quad_vec
 
 from ..model import Section
 
-# What the room refuses.
+# What is refused.
 
 
 class LinkageError(ValueError):
@@ -222,7 +222,7 @@ def tapered_cantilever(beam: VaryingBeam, young: float) -> FloatArray:
         ValueError: E is not positive, or an integral does not exist: A or I vanish somewhere.
 
     Source: Erdman, Sandor, Oakberg (1972), eq (2), with A and I as functions of x by the unit-load method:
-        docs/elastodynamics-dynamics.md, eq (K11).
+        docs/explanation/elastodynamics-dynamics.md, eq (K11).
     """
 
     def integrand(x: float) -> FloatArray:

@@ -57,7 +57,7 @@ def with_friction(mechanism: Mechanism, coefficient: float, pin_radius: float | 
     Raises:
         LinkageError: coefficient or radius cannot be, or it has pins and no radius is given.
 
-    Source: Coulomb's law; docs/elastodynamics.md, section Inertia, torque and power.
+    Source: Coulomb's law; docs/explanation/elastodynamics.md, section Inertia, torque and power.
     """
     if not 0.0 <= coefficient < np.inf:
         raise LinkageError(f"The coefficient of friction is {coefficient:g}; give one from 0 on, e.g. 0.1.")
@@ -161,8 +161,8 @@ def reactions(configurations: Configurations, forces: FloatArray) -> Reactions:
         LinkageError: the rigid mechanism can move although its drivers stand still, always or in one configuration, or
             friction does not settle: a joint is about to lock itself.
 
-    Source: multipliers as in Pennestrì, Valentini, Vita, eq (1), with the sign of docs/theory.md; friction and its
-        iteration: docs/elastodynamics.md, section Inertia, torque and power.
+    Source: multipliers as in Pennestrì, Valentini, Vita, eq (1), with the sign of docs/explanation/theory.md; friction
+        and its iteration: docs/explanation/elastodynamics.md, section Inertia, torque and power.
     """
     rows, owners = rigid_rows(configurations.linkage.mechanism, configurations.pose)
     joints = rubbing_joints(configurations)
@@ -218,8 +218,8 @@ def joint_forces(configurations: Configurations, found: Reactions) -> tuple[Join
     Raises:
         LinkageError: the reactions are another linkage's.
 
-    Source: Coulomb's law and viscous friction of what each joint carries; docs/elastodynamics.md, section Inertia,
-        torque and power.
+    Source: Coulomb's law and viscous friction of what each joint carries; docs/explanation/elastodynamics.md, section
+        Inertia, torque and power.
     """
     rubbing = {joint.joint: joint for joint in rubbing_joints(configurations)}
     none = np.zeros(len(configurations.pose.time))

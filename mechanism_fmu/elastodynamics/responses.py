@@ -34,7 +34,7 @@ class PeriodicResponse:
         residual: what is left of M u'' + C u' + K u = p at the given times, in parts of the motion [-], both
             measured by the root of the elastic energy that they have, or would make.
 
-    Source: `periodic_response`: docs/elastodynamics-dynamics.md, eqs (K1), (K5).
+    Source: `periodic_response`: docs/explanation/elastodynamics-dynamics.md, eqs (K1), (K5).
     """
 
     period: float
@@ -78,8 +78,8 @@ def periodic_response(cycle: ElasticCycle) -> PeriodicResponse:
     Raises:
         ValueError: without damping a harmonic meets a resonance, so there is no periodic solution.
 
-    Source: docs/elastodynamics-dynamics.md, eq (K5): Fourier collocation by the derivative matrix of L. N. Trefethen,
-        Spectral Methods in MATLAB, SIAM 2000, chapter 3.
+    Source: docs/explanation/elastodynamics-dynamics.md, eq (K5): Fourier collocation by the derivative matrix of L. N.
+        Trefethen, Spectral Methods in MATLAB, SIAM 2000, chapter 3.
     """
     most = (cycle.samples - 2) // 4
     harmonics = min(_FIRST_HARMONICS, most)
@@ -218,8 +218,8 @@ def fed_back(cycle: ElasticCycle) -> Feedback:
     Warns:
         UserWarning: it stopped before it converged.
 
-    Source: docs/elastodynamics-dynamics.md, eq (K6): the "effects of elastic deformation upon the inertia forces" of
-        Erdman, Sandor, Oakberg (1972) as an iteration.
+    Source: docs/explanation/elastodynamics-dynamics.md, eq (K6): the "effects of elastic deformation upon the inertia
+        forces" of Erdman, Sandor, Oakberg (1972) as an iteration.
     """
     speed = 2.0 * math.pi / cycle.period
     static = cycle.static()
@@ -269,7 +269,7 @@ def critical_speeds(modes: InstantaneousModes, harmonics: int) -> FloatArray:
     Raises:
         ValueError: there is not one harmonic or more.
 
-    Source: docs/elastodynamics-dynamics.md, eq (K7).
+    Source: docs/explanation/elastodynamics-dynamics.md, eq (K7).
     """
     if harmonics < 1:
         raise ValueError(f"{harmonics} harmonics: ask for one or more.")
@@ -315,7 +315,7 @@ def speed_sweep(
     Raises:
         ValueError: as of `periodic_response`.
 
-    Source: `periodic_response` at each speed: docs/elastodynamics-dynamics.md, eqs (K1) and (K5).
+    Source: `periodic_response` at each speed: docs/explanation/elastodynamics-dynamics.md, eqs (K1) and (K5).
     """
     parts = np.asarray(factors, dtype=float)
     solved = cycle if samples is None else cycle.resampled(samples)

@@ -1,7 +1,7 @@
 """Stretch–rotation operators: from the link vector of the rigid mechanism to that of the deformed one.
 
 The paper names them ("Kineto-Elastodynamic Stretch Rotation Operators ... which will rotate and stretch both planar and
-spatial link vectors") but its first pages, which we have, do not define them. These definitions are ours.
+spatial link vectors") but its first pages, which we have, do not define them. These definitions are this project's.
 
 A link vector r, from one end of a link to the other, becomes S r with S = (1 + epsilon) R: R turns it and 1 + epsilon
 makes it longer. Both follow from u, by how much one end moves against the other in the linear theory (the difference of
@@ -30,7 +30,7 @@ def planar_operator(stretch: npt.ArrayLike, rotation: npt.ArrayLike) -> FloatArr
         stretch: epsilon [-], shape (...).
         rotation: theta [rad], counter-clockwise, shape (...).
 
-    Source: docs/elastodynamics-dynamics.md, eqs (K8) and (K9).
+    Source: docs/explanation/elastodynamics-dynamics.md, eqs (K8) and (K9).
     """
     epsilon, theta = np.broadcast_arrays(np.asarray(stretch, dtype=float), np.asarray(rotation, dtype=float))
     c, s = (1.0 + epsilon) * np.cos(theta), (1.0 + epsilon) * np.sin(theta)
@@ -44,7 +44,7 @@ def spatial_operator(stretch: npt.ArrayLike, rotation: npt.ArrayLike) -> FloatAr
         stretch: epsilon [-], shape (...).
         rotation: theta, the axis times the angle [rad], shape (..., 3).
 
-    Source: docs/elastodynamics-dynamics.md, eqs (K8) and (K10): Rodrigues' formula.
+    Source: docs/explanation/elastodynamics-dynamics.md, eqs (K8) and (K10): Rodrigues' formula.
     """
     theta = np.asarray(rotation, dtype=float)
     angle = np.linalg.norm(theta, axis=-1)[..., None, None]
@@ -66,7 +66,7 @@ def planar_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tupl
     Raises:
         ValueError: a link has no length.
 
-    Source: docs/elastodynamics-dynamics.md, eq (K8).
+    Source: docs/explanation/elastodynamics-dynamics.md, eq (K8).
     """
     r, u = np.asarray(link, dtype=float), np.asarray(displacement, dtype=float)
     square = _square(r)
@@ -85,7 +85,7 @@ def spatial_deformation(link: npt.ArrayLike, displacement: npt.ArrayLike) -> tup
     Raises:
         ValueError: a link has no length.
 
-    Source: docs/elastodynamics-dynamics.md, eq (K8).
+    Source: docs/explanation/elastodynamics-dynamics.md, eq (K8).
     """
     r, u = np.asarray(link, dtype=float), np.asarray(displacement, dtype=float)
     square = _square(r)
@@ -102,7 +102,7 @@ def deformed_links(link: npt.ArrayLike, displacement: npt.ArrayLike) -> FloatArr
     Raises:
         ValueError: a link has no length.
 
-    Source: docs/elastodynamics-dynamics.md, eqs (K8) to (K10).
+    Source: docs/explanation/elastodynamics-dynamics.md, eqs (K8) to (K10).
     """
     r = np.asarray(link, dtype=float)
     if r.shape[-1] == 2:

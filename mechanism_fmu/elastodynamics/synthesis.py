@@ -1,7 +1,7 @@
 """Kineto-elastodynamic synthesis: the lightest linkage that keeps to its path and below its stress at its speed.
 
-The paper names it; the method is ours: sequential quadratic programming over cross-sections, and lengths if wanted,
-with one constraint for every time of the cycle.
+The paper names it; the method is this project's: sequential quadratic programming over cross-sections, and lengths if
+wanted, with one constraint for every time of the cycle.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ def judge_quasi_static(cycle: Cycle, place: str, target: FloatArray | None = Non
     Raises:
         LinkageError: there is no such place.
 
-    Source: Case 2 of Erdman, Sandor, Oakberg (1972): `quasi_static`; docs/elastodynamics-dynamics.md, section
-        Synthesis.
+    Source: Case 2 of Erdman, Sandor, Oakberg (1972): `quasi_static`; docs/explanation/elastodynamics-dynamics.md,
+        section Synthesis.
     """
     return _judged(cycle, cycle.displacement, place, target)
 
@@ -78,7 +78,7 @@ def judge_steady_state(
         LinkageError: as of `elastic_cycle`, or there is no such place.
         ValueError: as of `periodic_response`.
 
-    Source: docs/elastodynamics-dynamics.md, section Synthesis, by eqs (K1) to (K5).
+    Source: docs/explanation/elastodynamics-dynamics.md, section Synthesis, by eqs (K1) to (K5).
     """
     swinging = elastic_cycle(cycle, damping_ratio, mass_model)
     displacement = periodic_response(swinging).samples(swinging.samples)
@@ -172,8 +172,8 @@ def lightest(
         LinkageError: bounds or limits cannot be, or no design was found within the limits; the message says how near
             the best came.
 
-    Source: sequential quadratic programming, SLSQP of scipy; docs/elastodynamics-dynamics.md, section Synthesis.
-        Erdman, Sandor, Oakberg (1972) name synthesis; the method is this project's.
+    Source: sequential quadratic programming, SLSQP of scipy; docs/explanation/elastodynamics-dynamics.md, section
+        Synthesis. Erdman, Sandor, Oakberg (1972) name synthesis; the method is this project's.
     """
     search = _Search(judge, *_box(start, lower, upper), largest_deviation, largest_stress)
     if not (largest_deviation > 0.0 and largest_stress > 0.0):

@@ -19,8 +19,8 @@ from .disk.archive import content_hash, read_entries, with_guid, write_archive
 from .disk.folders import temporary_folder
 from .disk.user_cache import record_build
 from .instance.self_check import StartError
-from .native.link import WRAPPED, has_linker
-from .native.objects import Report, engine_libraries, library_of, silently
+from .native.link import WRAPPED
+from .native.objects import Report, engine_libraries, has_libraries, library_of, silently
 from .parts.contents import Closure, Home, closure, common_entries, file_in, model_of
 from .parts.documentation import dependencies
 from .parts.reference_results import reference_results
@@ -95,7 +95,7 @@ def build_fmu(
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
     sources = closure(homes, ("fmu.instance.slave", *(() if baked == NOTHING_BAKED else ("model.baked",)), main))
     code = {name: text.encode() for name, text in sources.files.items()}
-    compiled = engine_libraries(report) if has_linker() else {}
+    compiled = engine_libraries(report) if has_libraries() else {}
     code |= {f"engine/compiled/{name}": library for name, library in compiled.items()}
     start = (_LIBRARY / "fmu" / "start.py").read_text(encoding="utf-8")
 

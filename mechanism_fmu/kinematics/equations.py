@@ -8,13 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..engine import status
-from ..engine.constraints.textbook import textbook_rows
-from ..engine.starting.assembly import CLOSED_WITHIN
-from ..engine.starting.begin import assemble_at
 from ..model import Contact, Mechanism, compile_mechanism
 from ..model.joints import Joint
 from ..tables.layout import field_of, pack
 from ..tables.sizes import sizes_of
+from ..tolerances import CLOSED_WITHIN
 
 # What can go wrong in kinematic analysis.
 
@@ -89,6 +87,8 @@ class Equations:
         self._columns = np.where(self.angular, 1.0 / self.size, 1.0)
 
     def _assembled(self, time: float) -> FloatArray:
+        from ..engine.starting.begin import assemble_at  # compiled just in time: what only describes needs none of it
+
         outcome = assemble_at(self._block, float(time))
         y = field_of(self._block, "y_end")
         q = np.concatenate([y[: self._bodies], y[self._alphas]])
@@ -139,6 +139,8 @@ class Equations:
         y[:n], y[n : 2 * n] = q[:n], rates[:n]
         y[self._alphas] = q[n:]
         field_of(self._block, "alpha_rate")[:] = rates[n:]
+        from ..engine.constraints.textbook import textbook_rows
+
         textbook_rows(self._block, float(time))
         residual, rate, gamma, jacobian = (
             field_of(self._block, name)[self._selected] for name in ("residual", "residual_rate", "gamma", "jacobian")

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..engine.starting.assembly import CLOSED_WITHIN
 from ..model import Mechanism
+from ..tolerances import CLOSED_WITHIN
 from .equations import Equations, FloatArray, KinematicsError, newton
 
 # Rank of constraint rows: which of them depend on others, and what they leave free.

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..engine.starting.assembly import CLOSED_WITHIN
 from ..model import Mechanism
+from ..tolerances import CLOSED_WITHIN
 from .equations import Equations, FloatArray, KinematicsError, SingularConfigurationError, close
 from .mobility import independence, moving, rows_around
 

@@ -10,11 +10,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from types import SimpleNamespace
+from typing import TypeVar
 
 from .errors import MechanismError
 from .mechanism import Mechanism
 from .model import Model, check_value
-from .ports import Input
+from .ports import Input, Parameter
+
+_Port = TypeVar("_Port", Parameter, Input)
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,7 @@ def baked_model(model: Model, baked: Baked) -> Model:
             raise MechanismError(f"{model.name}: the factor of input {name} is 0; then leave it unconnected.")
     return replace(
         model,
-        parameters=tuple(replace(p, start=own.get(p.name, p.start)) for p in model.parameters),
+        parameters=tuple(_started(p, own.get(p.name, p.start)) for p in model.parameters),
         mechanism=partial(_mechanism, model, baked),
     )
 
@@ -85,7 +88,7 @@ def _input(port: Input, baked: Baked) -> Input:
     seen = baked.inputs.get(port.name)
     start = baked.starts.get(port.name, port.start)
     if seen is None:
-        return replace(port, start=start)
+        return _started(port, start)
 
     def outside(value: float) -> float:
         return (value - seen.offset) / seen.factor + 0.0  # no -0.0
@@ -99,10 +102,17 @@ def _input(port: Input, baked: Baked) -> Input:
         maximum=high if seen.factor > 0.0 else low,
         unit=port.unit if seen.unit is None else seen.unit,
         display_unit=None if other_unit else port.display_unit,
+        usual=None,
         factor=seen.factor * port.factor,
         offset=port.factor * seen.offset + port.offset,
         description=f"{port.description} (acts as {_formula(seen, port.unit)})",
     )
+
+
+def _started(port: _Port, start: float) -> _Port:
+    """A port with a start value of its own, which may lie beyond what is usual."""
+    usual = port.usual if port.usual and port.usual[0] <= start <= port.usual[1] else None
+    return replace(port, start=start, usual=usual)
 
 
 def _formula(seen: Seen, unit: str) -> str:

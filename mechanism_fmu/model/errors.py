@@ -1,4 +1,4 @@
-"""The one error of the model room, and where in the user's own code an error arose."""
+"""The one error of the package `model`, and where in the user's own code an error arose."""
 
 import traceback
 from pathlib import Path

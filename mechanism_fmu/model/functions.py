@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from .. import elementary
+
 __all__ = [
     "Number",
     "atan2",
@@ -48,7 +50,34 @@ def _apply(name: str, x: Number) -> Number:
     if hasattr(x, "law"):
         return x.law.apply(name, x)
     method = getattr(x, name, None)
-    return getattr(math, name)(x) if method is None else method()
+    return _evaluated(name, x) if method is None else method()
+
+
+#: Where functions of plain numbers have values.
+_DOMAINS = dict.fromkeys(("sin", "cos", "tan"), "Give an angle below 1e12 rad.") | {
+    "sqrt": "Give x >= 0.",
+    "log": "Give x > 0.",
+    "exp": "Give x <= 709.",
+    "power": "Give a base >= 0, or > 0 for exponents below 0; a whole power of any number is a product.",
+}
+
+
+def _square_root(x: float) -> float:
+    return math.sqrt(x) if x >= 0.0 else math.nan
+
+
+def _evaluated(name: str, *numbers: Number) -> float:
+    """A function of plain numbers.
+
+    Raises:
+        ValueError: it has no value there, or one that no float holds.
+    """
+    function = _square_root if name == "sqrt" else getattr(elementary, name)
+    value: float = function(*map(float, numbers))
+    if not math.isfinite(value) and all(map(math.isfinite, numbers)):
+        given = ", ".join(f"{x:.9g}" for x in numbers)
+        raise ValueError(f"{name}({given}) has no finite value. {_DOMAINS[name]}")
+    return value
 
 
 def sin(x: Number) -> Number:
@@ -57,7 +86,7 @@ def sin(x: Number) -> Number:
     Args:
         x: angle [rad].
 
-    Source: `math.sin`.
+    Source: `mechanism_fmu.elementary`: the same bits on every platform.
     """
     return _apply("sin", x)
 
@@ -68,7 +97,7 @@ def cos(x: Number) -> Number:
     Args:
         x: angle [rad].
 
-    Source: `math.cos`.
+    Source: `mechanism_fmu.elementary`: the same bits on every platform.
     """
     return _apply("cos", x)
 
@@ -79,7 +108,7 @@ def tan(x: Number) -> Number:
     Args:
         x: angle [rad].
 
-    Source: `math.tan`.
+    Source: `mechanism_fmu.elementary`: the same bits on every platform.
     """
     return _apply("tan", x)
 
@@ -101,7 +130,7 @@ def exp(x: Number) -> Number:
     Args:
         x: number of unit 1, at most 709.
 
-    Source: `math.exp`.
+    Source: `mechanism_fmu.elementary`: the same bits on every platform.
     """
     return _apply("exp", x)
 
@@ -112,7 +141,7 @@ def log(x: Number) -> Number:
     Args:
         x: number of unit 1, > 0.
 
-    Source: `math.log`.
+    Source: `mechanism_fmu.elementary`: the same bits on every platform.
     """
     return _apply("log", x)
 
@@ -123,7 +152,7 @@ def tanh(x: Number) -> Number:
     Args:
         x: number of unit 1.
 
-    Source: `math.tanh`.
+    Source: `mechanism_fmu.elementary`: the same bits on every platform.
     """
     return _apply("tanh", x)
 
@@ -135,10 +164,10 @@ def power(base: Number, exponent: Number) -> Number:
         base: number of unit 1, >= 0.
         exponent: number of unit 1.
 
-    Source: `math.pow`.
+    Source: `mechanism_fmu.elementary`: the same bits on every platform.
     """
     law = _law(base, exponent)
-    return math.pow(base, exponent) if law is None else law.apply("power", base, exponent)
+    return _evaluated("power", base, exponent) if law is None else law.apply("power", base, exponent)
 
 
 def atan2(y: Number, x: Number) -> Number:
@@ -148,7 +177,7 @@ def atan2(y: Number, x: Number) -> Number:
         y: coordinates of the point, of one unit.
         x: coordinates of the point, of one unit.
 
-    Source: `math.atan2`.
+    Source: `mechanism_fmu.elementary`: the same bits on every platform.
     """
     law = _law(y, x)
     if law is not None:
@@ -156,7 +185,7 @@ def atan2(y: Number, x: Number) -> Number:
     if hasattr(x, "arctan2") and not hasattr(y, "arctan2"):
         y = y + 0 * x  # a float beside a symbol becomes a symbol
     method = getattr(y, "arctan2", None)
-    return math.atan2(y, x) if method is None else method(x)
+    return _evaluated("atan2", y, x) if method is None else method(x)
 
 
 def where_positive(condition: Number, positive: Number, otherwise: Number) -> Number:

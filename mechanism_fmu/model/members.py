@@ -76,7 +76,7 @@ class Member(Attached):
 
 @dataclass(frozen=True, init=False)
 class Disk(Attached):
-    """A lump of mass that turns with a body, whose mass and inertia it is a part of.
+    """A point mass with rotary inertia on a body, whose mass and inertia it is a part of.
 
     Attributes:
         name: unique within the mechanism.
@@ -121,8 +121,8 @@ def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> Lu
         members: those of the body.
         disks: lumps of mass on it.
 
-    Source: half of each member at either end: docs/elastodynamics.md, section Inertia, torque and power; textbook:
-        centre of mass, and Steiner's theorem.
+    Source: half of each member at either end: docs/explanation/elastodynamics.md, section Inertia, torque and power;
+        textbook: centre of mass, and Steiner's theorem.
     """
     lumps: list[tuple[Number, Point]] = [(disk.mass, disk.point) for disk in disks]
     for member in members:

@@ -11,6 +11,7 @@ from types import EllipsisType, SimpleNamespace
 from typing import Any, Protocol
 
 from .analysis import Analysis
+from .cases import Case
 from .default_drawing import Plan, draw, plan_of
 from .default_ports import default_outputs
 from .drawing import Shape
@@ -139,6 +140,7 @@ class Model:
         inputs, outputs: what the outside sees of the mechanism, where `mechanism` gives none; of a model without any
             outputs, `default_outputs` of all its parts.
         calculated: likewise; pure function, as `mechanism` is, to what follows from the parameters.
+        cases: named values and inputs over time, to choose from on its page.
 
     Raises:
         MechanismError: stop_time or step_size is not positive and finite.
@@ -159,6 +161,7 @@ class Model:
     inputs: tuple[Input, ...] = ()
     outputs: tuple[Output, ...] = ()
     calculated: Callable[[SimpleNamespace], tuple[Calculated, ...]] = _nothing
+    cases: tuple[Case, ...] = ()
 
     def __post_init__(self) -> None:
         own = self.mechanism.function if isinstance(self.mechanism, _Completed) else self.mechanism

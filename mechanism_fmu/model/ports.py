@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
+from .errors import MechanismError
 from .functions import Number
 from .quantities import quantity
 
@@ -12,18 +14,47 @@ from .quantities import quantity
 VariableType = Literal["Real", "Integer", "Boolean"]
 
 
+#: Least and greatest value that people try.
+Range = tuple[float, float]
+
+
 class _OfTexts:
-    """A port whose start value and limits may be texts with units, which become numbers."""
+    """A port whose start value, limits and usual range may be texts with units, which become numbers."""
 
     name: str
     unit: str
+    start: float
+    minimum: float | None
+    maximum: float | None
+    usual: Range | None
 
     def __post_init__(self) -> None:
-        """Make numbers of the texts."""
+        """Make numbers of the texts, and refuse a usual range that is none."""
         for what in ("start", "minimum", "maximum"):
             value = getattr(self, what)
             if isinstance(value, str):
                 object.__setattr__(self, what, quantity(value, self.unit, f"{self.name}: {what}"))
+        if self.usual is not None:
+            object.__setattr__(self, "usual", self._range(self.usual))
+
+    def _range(self, usual: Range) -> Range:
+        ends = tuple(usual) if isinstance(usual, tuple | list) else ()
+        low, high = ends if len(ends) == 2 else (None, None)
+        low, high = (quantity(end, self.unit, f"{self.name}: usual") for end in (low, high))
+        if not isinstance(low, int | float) or not isinstance(high, int | float):
+            text = f"{self.name}: usual = {usual!r}, but it must be two numbers (low, high), e.g. (0.0, 2.0)."
+            raise MechanismError(text)
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        said = f"{self.name}: its usual range is {low:g} to {high:g}{unit}"
+        least = -math.inf if self.minimum is None else self.minimum
+        most = math.inf if self.maximum is None else self.maximum
+        if not -math.inf < low < high < math.inf:
+            raise MechanismError(f"{said}; give two finite numbers, the lower one first.")
+        if not least <= low < high <= most:
+            raise MechanismError(f"{said}, beyond the limits {least:g} to {most:g}{unit}; give a part of them.")
+        if not low <= self.start <= high:
+            raise MechanismError(f"{said}, without the start value {self.start:g}{unit}; give one that holds it.")
+        return float(low), float(high)
 
 
 @dataclass(frozen=True)
@@ -38,9 +69,11 @@ class Parameter(_OfTexts):
         type: FMI type.
         description: one line for the user.
         display_unit: e.g. "deg"; None for the SI unit itself.
+        usual: least and greatest value that people try, in `unit`: the range of a page's slider, no limit of validity.
+            It lies within the limits and holds the start; None for a guess.
 
     Raises:
-        MechanismError: a text is no number with a unit of this kind.
+        MechanismError: a text is no number with a unit of this kind, or the usual range is none.
     """
 
     name: str
@@ -51,6 +84,7 @@ class Parameter(_OfTexts):
     maximum: float | None = None
     type: VariableType = "Real"
     display_unit: str | None = None
+    usual: Range | None = None
 
 
 @dataclass(frozen=True)
@@ -62,6 +96,7 @@ class Input(_OfTexts):
         target: the table entry it writes, "<force>.<column>", e.g. "drive.torque" or "spring.preload".
         start, unit, minimum, maximum, display_unit, description: as of `Parameter`.
         factor, offset: the entry gets factor * value + offset, in SI units; the factor is not 0.
+        usual: as of `Parameter`.
     """
 
     name: str
@@ -74,6 +109,7 @@ class Input(_OfTexts):
     display_unit: str | None = None
     factor: float = 1.0
     offset: float = 0.0
+    usual: Range | None = None
 
 
 @dataclass(frozen=True)

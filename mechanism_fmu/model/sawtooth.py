@@ -100,7 +100,7 @@ def wheel_outline(tooth: Sawtooth, tooth_count: int, inner_radius: float) -> lis
     """The wheel as a polygon in wheel axes [m]: root, apex, next root, ..., clockwise from P0; plain numbers only."""
     points = []
     for k in range(tooth_count):
-        c, s = math.cos(-k * tooth.pitch), math.sin(-k * tooth.pitch)
+        c, s = cos(k * tooth.pitch), -sin(k * tooth.pitch)
         for x, y in ((inner_radius, 0.0), tooth.apex):
             points.append((c * x - s * y, s * x + c * y))
     return points

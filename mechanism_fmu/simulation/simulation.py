@@ -37,7 +37,7 @@ class Simulation(MovingMechanism):
             values of inputs are too few, too many, or such as an input does not take.
 
     Source: Pennestrì, Valentini, Vita, eqs (1) to (4), (6) and (7); steps by Dormand and Prince, in E. Hairer, S. P.
-        Nørsett, G. Wanner, Solving Ordinary Differential Equations I; equation by equation: docs/theory.md.
+        Nørsett, G. Wanner, Solving Ordinary Differential Equations I; equation by equation: docs/explanation/theory.md.
     """
 
     def __init__(

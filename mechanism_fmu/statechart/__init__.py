@@ -1,6 +1,6 @@
 """The logic of a mechanism as plain data: logical functions, states, transitions; as a table and as a diagram.
 
-It knows neither the model room, which derives it, nor the FMU and the harness, which carry and show it.
+It knows neither the package `model`, which derives it, nor the FMU and the harness, which carry and show it.
 """
 
 from .pictures import (

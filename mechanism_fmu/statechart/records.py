@@ -178,8 +178,8 @@ def taken(logic: Logic, event: str, old_mode: Collection[str], new_mode: Collect
         new_mode: names of the closed contacts after.
         impulse: total impulse of the event [N s]; 0 when there was no impact.
 
-    Source: definition: an arrow is taken at its event where its states are those before and after; docs/theory.md,
-        section Logical functions, modes and transitions.
+    Source: definition: an arrow is taken at its event where its states are those before and after;
+        docs/explanation/theory.md, section Logical functions, modes and transitions.
     """
     found = []
     for region in logic.regions:

@@ -41,7 +41,7 @@ STEEL = Material(youngs_modulus=2.06e11, density=7850.0, damping_ratio=0.03)
 # Material cards: steels with their strength, and where each number is printed.
 #
 # Every card gives minimum values of a standard or mean values of tests, of smooth specimens at room temperature.
-# Notches, surface, size, the tooth's own heat treatment and scatter are not in them: docs/stress.md.
+# Notches, surface, size, the tooth's own heat treatment and scatter are not in them: docs/explanation/stress.md.
 
 _PAPER_DAMPING = "zeta: 0.03 for steel, Pennestrì, Valentini, Vita, section 5"
 _HANDBOOK = "E, rho: usual handbook values of steel, not of this one in particular"
@@ -96,7 +96,7 @@ def _tested(name: str, text: str, strength: Strength) -> MaterialCard:
 _CARDS = (
     MaterialCard(
         "steel",
-        "Steel that nobody has named: the paper's, with the strength of the weakest common structural steel",
+        "Generic structural steel: the paper's, with the strength of the weakest common structural steel",
         STEEL,
         _estimated(235e6, 360e6),
         (_HANDBOOK, _PAPER_DAMPING, "R_e, R_m: least of S235, EN 10025-2, up to 16 mm thick", _UNIFORM_MATERIAL_LAW),

@@ -201,7 +201,7 @@ def shear_force(
         ValueError: when velocity, a place or a time is outside its limits or not a number.
 
     Source: equilibrium of the part beyond x, with the modes of Pennestrì, Valentini, Vita, eqs (8) to (10);
-        docs/stress.md, section Shear, axial stress, contact pressure.
+        docs/explanation/stress.md, section Shear, axial stress, contact pressure.
     """
     places, times = checked(tooth, impact_velocity, x, t)
     modes = ritz_modes(tooth, material) if modes is None else modes

@@ -175,7 +175,7 @@ class NaturalMode:
         return NaturalMode(series, factor**2 * self.mass, factor**2 * self.stiffness, self.name)
 
 
-# How large a mode shape is taken: it has no scale of its own, but the stress depends on it.
+# Mode normalisation: a mode shape has no scale of its own, but the stress depends on it.
 
 #: A mode of which this part or less takes part in a motion takes no part in it.
 _NO_SHARE = 1e-9

@@ -44,8 +44,8 @@ def peak_force(impulse: float, duration: float) -> float:
     Raises:
         ValueError: when a value is outside its limits or not a number.
 
-    Source: definition of a half sine, whose mean is 2 / pi of its largest value; docs/stress.md, section Shear, axial
-        stress, contact pressure.
+    Source: definition of a half sine, whose mean is 2 / pi of its largest value; docs/explanation/stress.md, section
+        Shear, axial stress, contact pressure.
     """
     require_within("impulse", impulse, 0.0, _LARGEST_IMPULSE, "N s", "give its size, without sign")
     require_within(
@@ -69,7 +69,7 @@ def axial_stress(tooth: Beam, force: float, x: npt.ArrayLike) -> FloatArray:
     Raises:
         ValueError: when the force is not finite, or a place is off the tooth or at a sharp tip.
 
-    Source: textbook law F / A; docs/stress.md, section Shear, axial stress, contact pressure.
+    Source: textbook law F / A; docs/explanation/stress.md, section Shear, axial stress, contact pressure.
     """
     require_within("force", force, -_LARGEST_FORCE, _LARGEST_FORCE, "N", "give a finite one")
     places = np.atleast_1d(np.asarray(x, dtype=np.float64))

@@ -12,6 +12,7 @@ from types import SimpleNamespace
 from mechanism_fmu.model import (
     GROUND,
     CamFollower,
+    Case,
     CompliantShaft,
     Damper,
     Finding,
@@ -189,6 +190,16 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     )
 
 
+CASES = (
+    Case(
+        "lift_off",
+        "So fast that the roller leaves the cam, and strikes when it lands",
+        {"unilateral": True, "cam_speed_start": "400 rpm", "drive_speed": "400 rpm", "restitution": 0.2},
+        stop_time=0.6,
+        step_size=1e-3,
+    ),
+)
+
 MODEL = Model(
     name="CamDrive",
     description="Cam with a roller follower on an arm: a steady rotation becomes a swing to and fro with dwells",
@@ -204,4 +215,5 @@ MODEL = Model(
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,
+    cases=CASES,
 )

@@ -48,8 +48,8 @@ def form(values: SimpleNamespace) -> tuple[Calculated, ...]:
 
 INPUTS = (
     *ports.shaft_inputs(speed=2 * math.pi),
-    ports.torque_input("drive", "cam"),
-    ports.load_torque_input("follower"),
+    ports.torque_input("drive", "cam", usual=(-0.1, 0.1)),
+    ports.load_torque_input("follower", usual=(-0.05, 0.05)),
 )
 
 #: What is known of an impact: of the roller on the cam, for there is no other.
@@ -110,10 +110,12 @@ PARAMETERS = (
     *ports.rotor_parameters("cam", 0.8, 1e-3),
     *ports.rotor_parameters("follower", 0.1, 1.5e-4),
     ports.angle_parameter("cam_angle_start", 0.0, "Cam angle at the start (theta); the follower's follows"),
-    ports.speed_parameter("cam_speed_start", 2 * math.pi, "Cam speed at the start; the follower's follows"),
+    ports.speed_parameter(
+        "cam_speed_start", 2 * math.pi, "Cam speed at the start; the follower's follows", usual=(0.0, 10 * math.pi)
+    ),
     ports.stiffness_parameter("spring_stiffness", 0.1, "Stiffness of the return spring"),
     ports.torque_parameter("spring_preload", 0.02, "Torque of the return spring on the base circle"),
-    ports.damping_parameter("follower"),
+    ports.damping_parameter("follower", usual=(0.0, 1e-2)),
     *ports.shaft_parameters(damping=1.0),
     ports.flag_parameter(
         "unilateral",

@@ -13,6 +13,7 @@ from types import SimpleNamespace
 from mechanism_fmu.model import (
     GROUND,
     Body,
+    Case,
     CompliantShaft,
     Damper,
     Force,
@@ -20,6 +21,7 @@ from mechanism_fmu.model import (
     Model,
     Parameter,
     Revolute,
+    SineSignal,
     Torque,
     TorsionSpring,
     port_builders as ports,
@@ -39,8 +41,8 @@ from mechanism_fmu.model.four_bar import (
 
 INPUTS = (
     *ports.shaft_inputs(speed=2 * math.pi),
-    ports.torque_input("drive", "crank"),
-    ports.load_torque_input("rocker"),
+    ports.torque_input("drive", "crank", usual=(-0.5, 0.5)),
+    ports.load_torque_input("rocker", usual=(-0.5, 0.5)),
 )
 
 OUTPUTS = (
@@ -65,8 +67,8 @@ PARAMETERS = (
         "crank_speed_start", 2 * math.pi, "Crank speed at the start; those of coupler and rocker follow"
     ),
     Parameter("gravity", 0.0, "Gravitational acceleration, downwards", "m/s2", -1e3, 1e3),
-    ports.damping_parameter("crank"),
-    ports.stiffness_parameter("spring_stiffness", 0.0, "Stiffness of the rocker's torsion spring"),
+    ports.damping_parameter("crank", usual=(0.0, 0.05)),
+    ports.stiffness_parameter("spring_stiffness", 0.0, "Stiffness of the rocker's torsion spring", usual=(0.0, 2.0)),
     ports.angle_parameter("spring_free_angle", math.radians(90), "Rocker angle at which the torsion spring is relaxed"),
     *ports.shaft_parameters(damping=0.1),
     ports.joint_friction_parameter(),
@@ -115,6 +117,20 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
     )
 
 
+CASES = (
+    Case(
+        "pendulum",
+        "No drive: let go under gravity, with little damping",
+        {"drive_damping": 0.0, "crank_speed_start": 0.0, "gravity": 9.81, "crank_damping": 2e-3},
+        stop_time=4.0,
+    ),
+    Case(
+        "load",
+        "A load on the rocker that comes and goes twice a second",
+        signals={"load_torque": SineSignal(0.0, 0.2, 0.5)},
+    ),
+)
+
 MODEL = Model(
     name="FourBar",
     description="Four-bar linkage: a crank moves a rocker through a coupler, open or crossed",
@@ -130,4 +146,5 @@ MODEL = Model(
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,
+    cases=CASES,
 )

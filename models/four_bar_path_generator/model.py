@@ -113,7 +113,7 @@ _POUND_FORCE = _POUND * 9.80665
 #: 500 rpm [rad/s].
 _SPEED = 500 * math.pi / 30
 
-INPUTS = (*ports.shaft_inputs(speed=_SPEED), ports.torque_input("drive", "crank"))
+INPUTS = (*ports.shaft_inputs(speed=_SPEED), ports.torque_input("drive", "crank", usual=(-50.0, 50.0)))
 
 OUTPUTS = (
     *MOTIONS,
@@ -172,7 +172,7 @@ PARAMETERS = (
     CROSSED,
     ports.angle_parameter("crank_angle_start", math.radians(30), "Crank angle at the start (theta)"),
     ports.speed_parameter("crank_speed_start", _SPEED, "Crank speed at the start; those of coupler and rocker follow"),
-    *ports.shaft_parameters(damping=100.0),
+    *ports.shaft_parameters(damping=100.0, stiffest=1e4),
     *ports.settings_parameters(),
 )
 

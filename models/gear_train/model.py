@@ -126,8 +126,8 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
 # Inputs, outputs and parameters of the gear train.
 
 INPUTS = (
-    ports.torque_input("drive", "pinion", 1.5),
-    ports.load_torque_input("wheel", -0.7),
+    ports.torque_input("drive", "pinion", 1.5, usual=(-5.0, 5.0)),
+    ports.load_torque_input("wheel", -0.7, usual=(-5.0, 5.0)),
     *ports.shaft_inputs(speed=0.0),
 )
 
@@ -158,8 +158,8 @@ PARAMETERS = (
         "pinion_angle_start", 0.0, "Pinion angle at the start (phi_1); the wheel's is ratio times this"
     ),
     ports.speed_parameter("pinion_speed_start", 0.0, "Pinion speed at the start; the wheel's is ratio times this"),
-    ports.damping_parameter("pinion"),
-    ports.damping_parameter("wheel"),
+    ports.damping_parameter("pinion", usual=(0.0, 0.5)),
+    ports.damping_parameter("wheel", usual=(0.0, 0.5)),
     *ports.shaft_parameters(damping=0.0),
     ports.joint_friction_parameter(),
     *ports.settings_parameters(),

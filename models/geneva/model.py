@@ -13,6 +13,7 @@ from mechanism_fmu.model import (
     GROUND,
     AngleLock,
     AngleStop,
+    Case,
     CircularPattern,
     CompliantShaft,
     Contact,
@@ -131,6 +132,15 @@ def _slots(values: SimpleNamespace) -> CircularPattern:
     )
 
 
+CASES = (
+    Case("friction", "Friction between pin and slot brakes the driver", {"slot_friction": 0.3}),
+    Case(
+        "backstop",
+        "No drive, and a load on the wheel: the backstop keeps the driver from turning back",
+        {"drive_damping": 0.0, "load_torque": 0.2, "backstop": True},
+    ),
+)
+
 MODEL = Model(
     name="Geneva",
     description="External Geneva drive: a driver's pin turns a slotted wheel by one station per turn",
@@ -145,4 +155,5 @@ MODEL = Model(
     stop_time=3.0,
     step_size=5e-3,
     drawing=SHAPES,
+    cases=CASES,
 )

@@ -110,8 +110,8 @@ def _seen(c: Number, r: Number, angle: Number) -> tuple[Number, Number]:
 
 INPUTS = (
     *ports.shaft_inputs(speed=2 * math.pi),
-    ports.torque_input("drive", "driver"),
-    ports.load_torque_input("wheel"),
+    ports.torque_input("drive", "driver", usual=(-0.5, 0.5)),
+    ports.load_torque_input("wheel", usual=(-0.1, 0.1)),
 )
 
 #: What is known of an impact: of the driver on its backstop, for there is no other.
@@ -160,7 +160,7 @@ OUTPUTS = (
 )
 
 PARAMETERS = (
-    Parameter("slot_count", 4, "Number of slots of the wheel (n)", "1", 3, 24, "Integer"),
+    Parameter("slot_count", 4, "Number of slots of the wheel (n)", "1", 3, 24, "Integer", usual=(3, 12)),
     ports.length_parameter("centre_distance", 0.1, "Distance between the hinges of wheel and driver (c)"),
     ports.length_parameter(
         "pin_diameter", 0.008, "Diameter of the pin; it matters for nothing but the form", minimum=1e-9
@@ -173,7 +173,7 @@ PARAMETERS = (
         "Driver angle at the start (theta); 0: pin on the far side, 180 deg: pin in the middle of its way in the slot",
     ),
     ports.speed_parameter("driver_speed_start", 2 * math.pi, "Driver speed at the start; the wheel's follows"),
-    ports.damping_parameter("wheel"),
+    ports.damping_parameter("wheel", usual=(0.0, 0.05)),
     *ports.shaft_parameters(damping=1.0),
     ports.fraction_parameter("slot_friction", 0.0, "Coefficient of friction between pin and slot"),
     ports.joint_friction_parameter(),

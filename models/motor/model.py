@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from mechanism_fmu.model import (
     GROUND,
     Calculated,
+    Case,
     Damper,
     DCMotor,
     Disc,
@@ -21,6 +22,7 @@ from mechanism_fmu.model import (
     Output,
     Parameter,
     Revolute,
+    TableSignal,
     Torque,
     Wheel,
     port_builders as ports,
@@ -73,7 +75,7 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
 
 INPUTS = (
     Input("speed_reference", "motor.speed", 50.0, "Speed that the controller keeps", "rad/s", -1e6, 1e6, "rpm"),
-    ports.load_torque_input("rotor"),
+    ports.load_torque_input("rotor", usual=(-2.0, 2.0)),
 )
 
 OUTPUTS = (
@@ -116,7 +118,10 @@ PARAMETERS = (
     ),
     ports.angle_parameter("rotor_angle_start", 0.0, "Rotor angle at the start (phi)"),
     ports.speed_parameter(
-        "rotor_speed_start", 0.0, "Rotor speed at the start (omega); current and integral begin at 0"
+        "rotor_speed_start",
+        0.0,
+        "Rotor speed at the start (omega); current and integral begin at 0",
+        usual=(-100.0, 100.0),
     ),
     *ports.settings_parameters(),
 )
@@ -166,6 +171,14 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     )
 
 
+CASES = (
+    Case(
+        "load_step",
+        "A load of 1 N.m comes on in the middle, and the controller finds back",
+        signals={"load_torque": TableSignal((0.25, 0.251), (0.0, -1.0))},
+    ),
+)
+
 MODEL = Model(
     name="Motor",
     description="Direct-current motor with a PI controller of its speed and limited voltage",
@@ -180,4 +193,5 @@ MODEL = Model(
     stop_time=0.5,
     step_size=1e-3,
     drawing=SHAPES,
+    cases=CASES,
 )

@@ -39,6 +39,7 @@ from mechanism_fmu.model import (
 from mechanism_fmu.model.body import Point, rotor_body
 from mechanism_fmu.model.functions import Number, cos, sin
 
+from .cases import CASES
 from .ports import INPUTS, OUTPUTS, PARAMETERS, calculated
 from .start import crank_pin, objections, pawl_angle, starts_on_slope, tooth, warnings
 
@@ -250,4 +251,5 @@ MODEL = Model(
     step_size=1e-2,
     drawing=SHAPES,
     analysis=ANALYSIS,
+    cases=CASES,
 )

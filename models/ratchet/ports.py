@@ -19,7 +19,7 @@ SHAFT = "compliant drive shaft"
 _speed, _angle = ports.shaft_inputs(speed=0.0, angle=math.radians(77), shaft=SHAFT)
 
 INPUTS = (
-    ports.torque_input("drive", "crank", 1e-3),
+    ports.torque_input("drive", "crank", 1e-3, usual=(0.0, 5e-3)),
     Input(
         "spring_preload",
         "spring.preload",
@@ -28,8 +28,9 @@ INPUTS = (
         "N.m",
         -1e6,
         1e6,
+        usual=(0.0, 1e-2),
     ),
-    ports.load_torque_input("wheel"),
+    ports.load_torque_input("wheel", usual=(-1e-2, 1e-2)),
     _angle,
     _speed,
 )
@@ -41,13 +42,14 @@ INPUTS = (
 _DENSITY, _THICKNESS, _BORE = 7850.0, 0.02, 6.5e-3
 
 PARAMETERS = (
-    Parameter("tooth_count", 10, "Number of teeth of the wheel (nt)", "1", 3, 1000, "Integer"),
+    Parameter("tooth_count", 10, "Number of teeth of the wheel (nt)", "1", 3, 1000, "Integer", usual=(6, 30)),
     ports.angle_parameter(
         "tooth_slope_angle",
         math.radians(90),
         "Angle between the slope of a tooth and the radius at its root (beta_0)",
         math.radians(30),
         math.radians(150),
+        usual=(math.radians(70), math.radians(110)),
     ),
     ports.length_parameter("hinge_distance", 0.130, "Distance between the fixed hinges of wheel and crank (d)"),
     ports.length_parameter("crank_length", 0.110, "Length of the crank (a)"),
@@ -79,10 +81,12 @@ PARAMETERS = (
         0.0,
         "Pawl angle at the start (gamma) of a free pawl; 0: solved, so that the tip rests on the teeth",
     ),
-    ports.torque_parameter("pawl_spring_torque", 0.0, "Torque of the pawl's spring, counter-clockwise on the pawl"),
-    ports.damping_parameter("wheel"),
-    Parameter("drive_stiffness", 0.0, f"Stiffness of the {SHAFT}", "N.m/rad", 0.0, 1e9),
-    Parameter("drive_damping", 0.0, f"Damping of the {SHAFT}", "N.m.s/rad", 0.0, 1e9),
+    ports.torque_parameter(
+        "pawl_spring_torque", 0.0, "Torque of the pawl's spring, counter-clockwise on the pawl", usual=(0.0, 0.02)
+    ),
+    ports.damping_parameter("wheel", usual=(0.0, 0.5)),
+    Parameter("drive_stiffness", 0.0, f"Stiffness of the {SHAFT}", "N.m/rad", 0.0, 1e9, usual=(0.0, 10.0)),
+    Parameter("drive_damping", 0.0, f"Damping of the {SHAFT}", "N.m.s/rad", 0.0, 1e9, usual=(0.0, 0.5)),
     Parameter("friction", 0.0, "Coefficient of friction between pawl and teeth", "1", 0.0, 10.0),
     ports.joint_friction_parameter("every hinge"),
     Parameter("elastic_modulus", 2.06e11, "Modulus of elasticity of pawl and crank (E)", "Pa", 1.0, 1e15),

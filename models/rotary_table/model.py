@@ -5,12 +5,14 @@ Frame: the table's hinge at the origin. Equations and source: README.md beside t
 
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 
 from mechanism_fmu.model import (
     GROUND,
     Brake,
     Calculated,
+    Case,
     CompliantShaft,
     Damper,
     Disc,
@@ -20,6 +22,7 @@ from mechanism_fmu.model import (
     Model,
     Parameter,
     Revolute,
+    SineSignal,
     Torque,
     Wheel,
     port_builders as ports,
@@ -45,7 +48,7 @@ SHAPES = (
 
 INPUTS = (
     *ports.shaft_inputs(speed=0.0, angle=0.3),
-    ports.load_torque_input("table"),
+    ports.load_torque_input("table", usual=(-1.0, 1.0)),
     Input("brake_torque", "brake.limit", 0.2, "Torque up to which the brake holds the table", "N.m", 0.0, 1e6),
 )
 
@@ -72,7 +75,7 @@ OUTPUTS = (
 
 PARAMETERS = (
     *ports.rotor_parameters("table", 2.0, 0.02),
-    ports.damping_parameter("table"),
+    ports.damping_parameter("table", usual=(0.0, 0.1)),
     Parameter("drive_stiffness", 2.0, "Stiffness of the drive shaft", "N.m/rad", 0.0, 1e9),
     Parameter("drive_damping", 0.02, "Damping of the drive shaft: torque per lag of speed", "N.m.s/rad", 0.0, 1e9),
     ports.angle_parameter("table_angle_start", 0.0, "Table angle at the start (theta)"),
@@ -101,6 +104,17 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     )
 
 
+CASES = (
+    Case(
+        "to_and_fro",
+        "The drive swings: the brake holds the table until the shaft is wound up, and lets it slip",
+        signals={
+            "drive_angle": SineSignal(0.0, 0.3, 2.0),
+            "drive_speed": SineSignal(0.0, 0.3 * math.pi, 2.0, math.pi / 2),
+        },
+    ),
+)
+
 MODEL = Model(
     name="RotaryTable",
     description="Rotary table with a friction brake that sticks and slips, turned through a compliant shaft",
@@ -114,4 +128,5 @@ MODEL = Model(
     stop_time=4.0,
     step_size=5e-3,
     drawing=SHAPES,
+    cases=CASES,
 )

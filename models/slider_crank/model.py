@@ -12,6 +12,7 @@ from types import SimpleNamespace
 from mechanism_fmu.model import (
     GROUND,
     Body,
+    Case,
     CompliantShaft,
     Damper,
     Finding,
@@ -136,6 +137,14 @@ def _bodies(values: SimpleNamespace) -> tuple[Body, ...]:
     )
 
 
+CASES = (
+    Case(
+        "runs_down",
+        "No drive: friction between slider and guide brakes the crank until it stands",
+        {"drive_damping": 0.0, "slider_friction": 0.2, "gravity": 9.81, "crank_speed_start": "60 rpm"},
+    ),
+)
+
 MODEL = Model(
     name="SliderCrank",
     description="Slider-crank: a crank moves a slider through a connecting rod, or the slider the crank",
@@ -151,4 +160,5 @@ MODEL = Model(
     stop_time=2.0,
     step_size=5e-3,
     drawing=SHAPES,
+    cases=CASES,
 )

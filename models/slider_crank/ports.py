@@ -83,7 +83,7 @@ def dead_positions(values: SimpleNamespace) -> DeadPositions:
 HALF_LENGTH, HALF_HEIGHT = 0.4, 0.24
 
 _CRANK_HINGE = (0.0, 0.0)
-_CORNER = math.atan2(HALF_HEIGHT, HALF_LENGTH)
+_CORNER = atan2(HALF_HEIGHT, HALF_LENGTH)
 _CORNERS = (_CORNER, math.pi - _CORNER, math.pi + _CORNER, -_CORNER + 2 * math.pi)
 
 SHAPES = (
@@ -109,8 +109,17 @@ def form(values: SimpleNamespace) -> tuple[Calculated, ...]:
 
 INPUTS = (
     *ports.shaft_inputs(speed=2 * math.pi),
-    ports.torque_input("drive", "crank"),
-    Input("load_force", "load.x", 0.0, "Force on the slider along its line, outwards positive", "N", -1e6, 1e6),
+    ports.torque_input("drive", "crank", usual=(-1.0, 1.0)),
+    Input(
+        "load_force",
+        "load.x",
+        0.0,
+        "Force on the slider along its line, outwards positive",
+        "N",
+        -1e6,
+        1e6,
+        usual=(-20.0, 20.0),
+    ),
 )
 
 OUTPUTS = (
@@ -131,7 +140,9 @@ PARAMETERS = (
     *ports.link_parameters("crank", 0.05, 1.0, 2e-3, 0.0, "its hinge"),
     *ports.link_parameters("rod", 0.2, 0.5, 2e-3, 0.06, "the crank pin"),
     ports.mass_parameter("slider_mass", 0.8, "Mass of the slider"),
-    ports.length_parameter("offset", 0.0, "Height of the slider's line above the crank's hinge (e)", minimum=-1e3),
+    ports.length_parameter(
+        "offset", 0.0, "Height of the slider's line above the crank's hinge (e)", -1e3, usual=(-0.05, 0.05)
+    ),
     ports.angle_parameter(
         "crank_angle_start",
         0.0,
@@ -139,7 +150,7 @@ PARAMETERS = (
     ),
     ports.speed_parameter("crank_speed_start", 2 * math.pi, "Crank speed at the start; those of rod and slider follow"),
     Parameter("gravity", 0.0, "Gravitational acceleration, across the slider's line, downwards", "m/s2", -1e3, 1e3),
-    ports.damping_parameter("crank"),
+    ports.damping_parameter("crank", usual=(0.0, 0.05)),
     *ports.shaft_parameters(damping=0.1),
     ports.joint_friction_parameter(),
     ports.fraction_parameter("slider_friction", 0.0, "Coefficient of friction between slider and guide"),

@@ -1,4 +1,4 @@
-"""The table of docs/friction.md: how far friction is off its oracle, kind by kind.
+"""The table of docs/explanation/friction.md: how far friction is off its oracle, kind by kind.
 
 python tests/analytic/friction_table.py      prints it
 """

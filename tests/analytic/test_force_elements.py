@@ -179,7 +179,7 @@ def test_a_bushing_swings_along_each_of_its_directions():
 
 def test_the_work_of_weights_is_work_done_as_the_page_says():
     """2 kg that fall by h = g t^2/2 have been given m g h, and nothing is stored."""
-    page = " ".join((Path(__file__).parents[2] / "docs" / "fmu.md").read_text(encoding="utf-8").split())
+    page = " ".join((Path(__file__).parents[2] / "docs" / "reference" / "fmu.md").read_text(encoding="utf-8").split())
     assert (
         "`gravity` has no potential energy in this ledger, and a body of mass m that falls by h has `work_done` m g h."
         in page

@@ -1,4 +1,4 @@
-"""The examples of docs/batch.md, which follow each other in one file, print what stands below them."""
+"""The examples of docs/how-to/batch.md, which follow each other in one file, print what stands below them."""
 
 import contextlib
 import io
@@ -6,7 +6,7 @@ import shutil
 
 from pages import JOINTS, examples
 
-PAGE = JOINTS.parent / "batch.md"
+PAGE = JOINTS.parent / "how-to" / "batch.md"
 
 
 def test_examples_print_what_the_page_says(ratchet_fmu, tmp_path, monkeypatch):

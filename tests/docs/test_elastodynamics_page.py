@@ -1,11 +1,11 @@
-"""The examples of docs/elastodynamics.md, which follow each other in one file, print what stands below them."""
+"""The examples of docs/explanation/elastodynamics.md print what stands below them."""
 
 import contextlib
 import io
 
 from pages import JOINTS, examples
 
-PAGE = JOINTS.parent / "elastodynamics.md"
+PAGE = JOINTS.parent / "explanation" / "elastodynamics.md"
 
 
 def test_examples_print_what_the_page_says():

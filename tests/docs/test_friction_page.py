@@ -1,4 +1,4 @@
-"""docs/friction.md: its example prints what it says, its pictures are the script's, its table holds."""
+"""docs/explanation/friction.md: its example prints what it says, its pictures are the script's, its table holds."""
 
 import contextlib
 import importlib
@@ -13,7 +13,7 @@ from pages import JOINTS, examples
 from docs.drawings.friction_drawing import DRAWINGS, PICTURES
 from mechanism_fmu.model import CamFlatFollower, CamFollower, Mechanism, PointFollower, PointLineContact, Revolute
 
-PAGE = JOINTS.parent / "friction.md"
+PAGE = JOINTS.parent / "explanation" / "friction.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 ANALYTIC = Path(__file__).parents[1] / "analytic"
 _NUMBER = re.compile(r"\d\.\de-\d\d")

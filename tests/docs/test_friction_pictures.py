@@ -1,4 +1,4 @@
-"""What the pictures of docs/friction.md show is what the engine does: events between modes, impacts, regions."""
+"""The pictures of docs/explanation/friction.md show what the engine does: events between modes, impacts, regions."""
 
 import json
 import math

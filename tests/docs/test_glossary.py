@@ -11,10 +11,10 @@ import models
 from harness.app import cli
 from mechanism_fmu import elastodynamics, kinematics
 
-PAGE = Path(__file__).parents[2] / "docs" / "glossary.md"
+PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "glossary.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 #: Name and file of each row that has both: "| symbol | `name`, `other` | unit | meaning | [..](../file) |".
-ROWS = re.findall(r"^\|[^|]*\|([^|]*`[^|]*)\|[^|]*\|[^|]*\| \[[^]]*\]\(\.\./([^)]+)\) \|$", TEXT, re.MULTILINE)
+ROWS = re.findall(r"^\|[^|]*\|([^|]*`[^|]*)\|[^|]*\|[^|]*\| \[[^]]*\]\(\.\./\.\./([^)]+)\) \|$", TEXT, re.MULTILINE)
 ENTRIES = [(name, place) for names, place in ROWS for name in re.findall(r"`([^`]+)`", names)]
 
 

@@ -1,4 +1,4 @@
-"""The walks of docs/how-it-flows.md pass functions that are where the page says."""
+"""The walks of docs/project/how-it-flows.md pass functions that are where the page says."""
 
 import re
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "how-it-flows.md"
+PAGE = ROOT / "docs" / "project" / "how-it-flows.md"
 ROW = re.compile(r"\| (`[^|]*`) \| (`[^|]*`) \| [^|]+ \|")
 
 

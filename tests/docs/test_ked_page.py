@@ -1,4 +1,4 @@
-"""The commands of docs/ked.md print what stands below them, but for the sizes of what only rounding leaves.
+"""The commands of docs/how-to/ked.md print what stands below them, but for the sizes of what only rounding leaves.
 
 A line of three dots stands for lines that the page leaves out.
 """
@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-PAGE = Path(__file__).parents[2] / "docs" / "ked.md"
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "ked.md"
 EXAMPLES = re.findall(r"```text\n\$ (mechanism-fmu ked [^\n]*)\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
 #: Numbers that rounding makes, and which another processor makes otherwise; how many designs a search took.
 _ROUNDING = re.compile(r"\d\.\de-\d\d( of [^;]*)?|of \d+ that were judged")

@@ -1,11 +1,11 @@
-"""The examples of docs/kinematics.md, which follow each other in one file, print what stands below them."""
+"""The examples of docs/explanation/kinematics.md, which follow each other in one file, print what stands below them."""
 
 import contextlib
 import io
 
 from pages import JOINTS, examples
 
-PAGE = JOINTS.parent / "kinematics.md"
+PAGE = JOINTS.parent / "explanation" / "kinematics.md"
 
 
 def test_examples_print_what_the_page_says():

@@ -1,4 +1,4 @@
-"""The example of docs/machines-running.md runs as it stands there."""
+"""The example of docs/how-to/machines-running.md runs as it stands there."""
 
 import re
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-PAGE = Path(__file__).parents[2] / "docs" / "machines-running.md"
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "machines-running.md"
 
 
 def test_the_example_runs(

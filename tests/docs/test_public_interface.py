@@ -1,4 +1,4 @@
-"""What is for users is listed by the packages and by docs/public-interface.md alike, and each name is explained."""
+"""What is for users stands in the packages and in docs/reference/public-interface.md alike, each name explained."""
 
 import importlib
 import inspect
@@ -12,7 +12,7 @@ import harness
 import mechanism_fmu
 from tests.public import listed_by
 
-PAGE = (Path(__file__).parents[2] / "docs" / "public-interface.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "reference" / "public-interface.md").read_text(encoding="utf-8")
 NAME = re.compile(r"`([\w.]+)`")
 #: By module, all names in its rows.
 LISTED: dict[str, list[str]] = {}

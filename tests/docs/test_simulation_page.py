@@ -1,11 +1,11 @@
-"""The examples of docs/simulation.md, which follow each other in one file, print what stands below them."""
+"""The examples of docs/how-to/simulation.md, which follow each other in one file, print what stands below them."""
 
 import contextlib
 import io
 
 from pages import JOINTS, examples
 
-PAGE = JOINTS.parent / "simulation.md"
+PAGE = JOINTS.parent / "how-to" / "simulation.md"
 
 
 def test_examples_print_what_the_page_says() -> None:

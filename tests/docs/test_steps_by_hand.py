@@ -1,4 +1,4 @@
-"""The two ways of docs/plug-it-into-your-tool.md to step an FMU by hand give the same motion."""
+"""The two ways of docs/how-to/plug-it-into-your-tool.md to step an FMU by hand give the same motion."""
 
 import re
 import shutil
@@ -8,7 +8,7 @@ import pytest
 
 from harness.fmu import open_fmu
 
-PAGE = Path(__file__).parents[2] / "docs" / "plug-it-into-your-tool.md"
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "plug-it-into-your-tool.md"
 
 
 def test_steps_by_hand_find_the_impact(

@@ -1,4 +1,4 @@
-"""The examples of docs/stress.md, which follow each other in one file, print what stands below them."""
+"""The examples of docs/explanation/stress.md, which follow each other in one file, print what stands below them."""
 
 import contextlib
 import io
@@ -18,7 +18,7 @@ from mechanism_fmu.stress import (
     natural_modes,
 )
 
-PAGE = JOINTS.parent / "stress.md"
+PAGE = JOINTS.parent / "explanation" / "stress.md"
 
 
 def test_examples_print_what_the_page_says():

@@ -1,4 +1,4 @@
-"""docs/woodpecker.md: its numbers are those that the program prints, its picture is the script's, its links hold."""
+"""docs/explanation/woodpecker.md: its numbers are the program's, its picture is the script's, its links hold."""
 
 import re
 import runpy
@@ -9,7 +9,7 @@ from pages import JOINTS
 
 from docs.drawings.woodpecker_drawing import PICTURE, PROGRAM, drawing
 
-PAGE = JOINTS.parent / "woodpecker.md"
+PAGE = JOINTS.parent / "explanation" / "woodpecker.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e-\d+)?")
 

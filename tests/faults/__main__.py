@@ -5,7 +5,7 @@
 Each fault comes to each command several times, at random moments or with random limits, equally spread: `kill -9`, a
 full disk, a folder that cannot be written to, a cache that goes, a clock that is set back, too little memory, the same
 command twice at once. Afterwards all that was recorded must be there, and the same command must end with the results of
-an undisturbed run, to the byte. See docs/what-can-go-wrong.md.
+an undisturbed run, to the byte. See docs/how-to/what-can-go-wrong.md.
 """
 
 from __future__ import annotations

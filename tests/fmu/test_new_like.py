@@ -12,8 +12,9 @@ import pytest
 from fmpy import read_model_description
 from typer.testing import CliRunner
 
-from harness.app.cli import New, main
+from harness.app.cli import main
 from harness.app.commands.one_run import _LIKE
+from harness.app.file_cli import New
 from mechanism_fmu.fmu.own.find import Like, write_new
 from mechanism_fmu.fmu.own.prepare import load
 from mechanism_fmu.model import Model

@@ -76,7 +76,7 @@ def test_the_package_holds_what_runs_and_no_more(entries: dict[str, bytes], dige
     package = {name.removeprefix(prefix) for name in entries if name.startswith(prefix)}
     assert {name.partition("/")[0] for name in package} == {
         *("__init__.py", "codes.py", "advice.py", "moving.py", "tolerances.py", "units.py"),
-        *("engine", "fmu", "model", "models", "tables"),
+        *("elementary", "engine", "fmu", "model", "models", "tables"),
     }
     assert {"fmu/instance/slave.py", "engine/stepping/stepper.py", "models/ratchet/model.py"} <= package
     assert not {"fmu/package.py", "fmu/start.py", "fmu/parts/documentation.py", "fmu/parts/contents.py"} & package

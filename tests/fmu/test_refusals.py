@@ -231,8 +231,8 @@ def test_a_parameter_can_be_read_while_the_geometry_is_not_complete(instance):
 
 
 def test_the_wrapper_accepts_any_guid(ratchet):
-    """Documented in docs/fmu.md: pythonfmu does not look at it."""
-    assert "accepted" in Path(__file__).parents[2].joinpath("docs/fmu.md").read_text(encoding="utf-8")
+    """Documented in docs/reference/fmu.md: pythonfmu does not look at it."""
+    assert "accepted" in Path(__file__).parents[2].joinpath("docs/reference/fmu.md").read_text(encoding="utf-8")
     stranger = copy(ratchet.description)
     stranger.guid = "{00000000-0000-0000-0000-000000000000}"
     with Instance(Fmu(ratchet.folder, stranger)) as one:

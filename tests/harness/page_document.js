@@ -3,6 +3,8 @@
 "use strict";
 const vm = require("vm");
 
+// Of a busy machine [ms].
+const PATIENCE = 20000;
 const VOID = new Set(["meta", "link", "input", "br"]);
 
 class Element {
@@ -69,14 +71,15 @@ function parsed(html) {
     for (const [, name, , value] of (raw ? rawAttributes : attributes).matchAll(/([\w-]+)(="([^"]*)")?/g)) made.setAttribute(name, value ?? "");
     if (raw) made.words = code;
     parent.append(made);
+    if ("selected" in made.attributes) parent.value = made.value;
     if (!raw && !VOID.has(tag)) open.push(made);
   }
   return root;
 }
 
-// Opens a page: {document, location, errors, when(condition)}; `worker` says whether there can be one.
+// Opens a page: {document, location, errors, asked: what the worker is asked of what lives, when(condition)}; `worker` says whether there can be one.
 function opened(html, { hash = "", worker = true } = {}) {
-  const document = parsed(html), location = { hash, pathname: "/page.html", search: "" }, errors = [], blobs = [];
+  const document = parsed(html), location = { hash, pathname: "/page.html", search: "" }, errors = [], blobs = [], steps = [], asked = [];
   document.createElement = (tag) => new Element(tag);
   document.createElementNS = (_, tag) => new Element(tag);
   document.getElementById = (id) => document.querySelector("#" + id);
@@ -89,20 +92,26 @@ function opened(html, { hash = "", worker = true } = {}) {
     constructor(address) {
       const scope = { postMessage: (data) => setTimeout(guarded(() => this.onmessage({ data: structuredClone(data) }))) };
       vm.runInNewContext(blobs[address].text.replace("RUNNER.serve(self)", "RUNNER.serve(scope)"), { ...standard, scope });
-      this.postMessage = (data) => setTimeout(guarded(() => scope.onmessage({ data: structuredClone(data) })));
+      this.postMessage = (data) => {
+        if (data.live) asked.push(structuredClone(data));
+        setTimeout(guarded(() => scope.onmessage({ data: structuredClone(data) })));
+      };
     }
   }
   const context = vm.createContext({ ...standard, document, location, atob, Blob,
-    history: { replaceState: (state, title, address) => { location.hash = address; } },
+    history: { pushState: (state, title, address) => { location.hash = address; steps.push(address); } },
     URL: { createObjectURL: (blob) => String(blobs.push(blob) - 1), revokeObjectURL() {} },
     matchMedia: () => ({ matches: true }), addEventListener: (type, listener) => document.addEventListener(type, listener),
     requestAnimationFrame: (work) => setTimeout(guarded(() => work(performance.now()))), ...(worker ? { Worker } : {}) });
   for (const script of document.querySelectorAll("script"))
     if (!script.getAttribute("type")) vm.runInContext(script.textContent, context);
   async function when(condition) {
-    while (!condition() && !errors.length) await new Promise((go) => setTimeout(go, 5));
+    for (const since = performance.now(); !condition() && !errors.length;) {
+      if (performance.now() - since > PATIENCE) throw new Error("not in " + PATIENCE / 1000 + " s: " + condition);
+      await new Promise((go) => setTimeout(go, 5));
+    }
   }
-  return { document, location, errors, blobs, when };
+  return { document, location, errors, blobs, steps, asked, when };
 }
 
 module.exports = { opened };

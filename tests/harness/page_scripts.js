@@ -5,6 +5,8 @@ const fs = require("fs"), path = require("path"), vm = require("vm");
 
 const asked = JSON.parse(fs.readFileSync(0, "utf8"));
 const script = (name) => require(path.join(asked.folder, name));
+// What each other's scripts find in the page.
+for (const name of ["signals", "given", "record"]) globalThis[name.toUpperCase()] = script(name + ".js");
 const html = asked.page ? fs.readFileSync(asked.page, "utf8") : "";
 const held = (id) => html.match(new RegExp(`<script[^>]* id="${id}">([^]*?)</script>`))[1];
 const model = () => JSON.parse(held("model"));
@@ -12,13 +14,13 @@ const model = () => JSON.parse(held("model"));
 // The worker as the page starts it: its code, and a scope of its own.
 function worker() {
   const scope = { heard: [], postMessage: (found) => { scope.heard.push(structuredClone(found)); scope.wake && scope.wake(); } };
-  const code = held("engine-code") + held("runner-code") + "RUNNER.serve(scope);";
+  const code = [...html.matchAll(/<script class="engine">([^]*?)<\/script>/g)].map((one) => one[1]).join("") + "RUNNER.serve(scope);";
   vm.runInNewContext(code, { scope, WebAssembly, TextEncoder, TextDecoder, performance, setTimeout,
     Float64Array, Int32Array, Uint32Array, Uint8Array });
   const data = model(), references = (list) => list.map((one) => one.reference);
-  const plan = { stop: data.stop, steps: data.steps, reals: references(data.reals), flags: references(data.flags),
-    constants: data.constants.map((one) => [one.reference, one.type]) };
-  scope.onmessage({ data: { bytes: Buffer.from(held("wasm"), "base64"), token: asked.token || data.token, plan } });
+  const recorded = { reals: references(data.reals), flags: references(data.flags), wholes: references(data.wholes) };
+  scope.onmessage({ data: { bytes: Buffer.from(held("wasm"), "base64"), token: asked.token || data.token, recorded,
+    constants: data.constants.map((one) => [one.reference, one.type]) } });
   return scope;
 }
 
@@ -26,44 +28,48 @@ async function until(scope, done) {
   while (!scope.heard.some(done)) await new Promise((wake) => { scope.wake = wake; });
 }
 
+const signalsOf = (data, setting) => GIVEN.signalsOf(data, setting).map(([one, signal]) => [one.reference, one.type, signal]);
+function settingOf(data, values, name = data.cases[0].name) {
+  return { name, values: new Map(Object.entries(values)) };
+}
+
 const calls = {
-  // What a run with other values records: {refused, text, ...}.
-  async run(values) {
-    const { record, csv } = script("record.js"), data = model(), scope = worker();
-    const known = new Map(data.given.map((one) => [one.name, one]));
-    scope.onmessage({ data: { id: 1, values: Object.entries(values)
-      .map(([name, value]) => [known.get(name).reference, known.get(name).type, Number(value)]) } });
+  // What a run of a case with other values records: {refused, text, ...}.
+  async run(values, name) {
+    const { csv } = script("files.js"), data = model(), scope = worker(), setting = settingOf(data, values, name);
+    const { stop, steps } = GIVEN.caseOf(data, setting);
+    scope.onmessage({ data: { id: 1, stop, steps, values: GIVEN.valuesOf(data, setting), signals: signalsOf(data, setting) } });
     await until(scope, (found) => found.finished || found.refused);
     const parts = scope.heard.flatMap((found) => found.parts), last = scope.heard.at(-1);
     if (!parts.length) return { refused: last.refused, text: last.text, count: 0 };
-    const run = record(data, { ...last, parts });
-    const columns = Object.fromEntries(data.moving.map((name) => [name, run.of(name)]));
-    const constants = { ...run.constants };
-    for (const one of data.given) constants[one.name] = Number(one.name in values ? values[one.name] : one.start);
+    const run = RECORD.record(data, { ...last, parts });
     return { refused: last.refused, finished: last.finished, text: last.text, count: run.count, messages: scope.heard.length,
       time: Array.from(run.time), struck: run.struck.map((row) => run.time[row]), csv: csv(data, run),
-      picture: script("scene.js").scene(data.shapes, columns, constants) !== null };
+      picture: script("scene.js").pictured(data, run, setting).shapes.length > 0,
+      last: Object.fromEntries(data.wholes.map((one) => [one.name, run.of(one.name).at(-1)])) };
   },
   // Numbers of the questions that were answered when several came at once.
   async several(count) {
     const scope = worker();
-    for (let id = 1; id <= count; id++) scope.onmessage({ data: { id, values: [] } });
+    for (let id = 1; id <= count; id++) scope.onmessage({ data: { id, values: [], signals: [], stop: 1, steps: 100 } });
     await until(scope, (found) => found.finished);
     return scope.heard.map((found) => found.id);
   },
   // What the reader sees after each of `steps`: {set: [name, value]}, {hash}, {click: selector}.
-  async session(options, steps) {
-    const { document, location, errors, blobs, when } = require("./page_document.js").opened(html, options);
+  async session(options, done) {
+    const { document, location, errors, blobs, steps, asked, when } = require("./page_document.js").opened(html, options);
     const find = (selector) => document.querySelector(selector), text = (selector) => find(selector)?.textContent ?? null;
     const seen = () => ({ alert: find("#refusal").hidden ? "" : text("#refusal"), note: find("#note").hidden ? "" : text("#note"),
       count: text("#impact-count"), first: text("#impacts tbody td"), time: text(".time"), struck: text(".struck"),
       shapes: find(".animation svg").children.length, curves: document.querySelectorAll("#charts polyline").length,
       values: document.querySelectorAll("#charts b").filter((one) => one.textContent).length, hash: location.hash,
-      files: blobs.map((one) => one.text.split("\r\n")[0]).filter((line) => line.startsWith("time")), errors });
-    const settled = () => when(() => text("#state") === "" && text("#impact-count"));
+      kept: document.querySelectorAll("#charts .kept").length, texts: blobs.splice(0).map((one) => one.text),
+      impacts: document.querySelectorAll("#impacts tbody tr").map((row) => row.children.map((one) => one.textContent)),
+      heads: document.querySelectorAll("#impacts th").map((one) => one.textContent), steps: steps.splice(0), playing: text(".play"), asked: asked.splice(0), errors });
+    const settled = () => when(() => text("#state") === "" && (text("#impact-count") || !find("#refusal").hidden));
     await settled();
     const found = [seen()];
-    for (const step of steps) {
+    for (const step of done) {
       if (step.set) {
         const field = find("#of_" + step.set[0]);
         Object.assign(field, typeof step.set[1] === "boolean" ? { checked: step.set[1] } : { value: step.set[1] });
@@ -73,22 +79,29 @@ const calls = {
         const slider = find("#of_" + step.slide[0]).parentNode.children.find((one) => one.type === "range");
         slider.value = step.slide[1];
         slider.dispatch("input");
+        slider.dispatch("change");
       }
       if (step.hash !== undefined) {
         location.hash = step.hash;
         document.dispatch("hashchange");
       }
+      if (step.choose) {
+        find("#case").value = step.choose;
+        find("#case").dispatch("change");
+      }
       if (step.click) find(step.click).click();
+      if (step.until) await when(() => new RegExp(step.until[1]).test(text(step.until[0])));
       await settled();
       found.push(seen());
     }
     return found;
   },
   scene: (...given) => script("scene.js").scene(...given),
+  signal: (signal, time) => SIGNALS.at(signal, time),
   ticks: (...given) => script("curves.js").ticks(...given),
-  hash(hash) {
-    const given = script("given.js"), values = given.fromHash(model().given, hash);
-    return [Object.fromEntries(values), given.toHash(model().given, values)];
+  hash(hash, data = model()) {
+    const { setting, kept } = GIVEN.fromHash(data, hash);
+    return [setting.name, Object.fromEntries(setting.values), GIVEN.toHash(data, setting, kept)];
   },
   // Of each slider: what its places give, and the place of what each gives.
   sliders() {

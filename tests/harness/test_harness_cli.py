@@ -188,7 +188,7 @@ def test_what_is_being_done_is_said_first(command: list[str], purpose: str, tmp_
 
 def test_a_build_says_what_it_made_before_what_it_lacks(ratchet_fmu: Path, tmp_path: Path, monkeypatch) -> None:
     monkeypatch.setattr("mechanism_fmu.fmu.package.build_fmu", lambda *_, **__: ratchet_fmu)
-    monkeypatch.setattr("mechanism_fmu.fmu.native.link.has_linker", lambda: False)
+    monkeypatch.setattr("mechanism_fmu.fmu.native.objects.has_libraries", lambda: False)
     code, text = invoke("build", "ratchet", "-o", tmp_path)
     assert code == 0
     assert text.startswith(str(ratchet_fmu))

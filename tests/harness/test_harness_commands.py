@@ -10,7 +10,7 @@ import pytest
 
 from harness.app.commands import one_run
 from harness.app.terminal import FAILED
-from harness.errors import FmuError
+from harness.errors import FmuError, UsageError
 from harness.papers.study import indexing
 from harness.run.checks import Check
 from harness.run.experiment import Experiment, Run, perform
@@ -72,3 +72,14 @@ def test_a_run_that_never_began_writes_nothing(tmp_path: Path, capsys: pytest.Ca
     assert one_run._written(replace(whole, outcome=outcome, results=whole.results.head(0)), tmp_path) == FAILED
     assert not list(tmp_path.iterdir())
     assert "it cannot be assembled" in capsys.readouterr().err
+
+
+def test_parameters_come_from_a_file_and_set_holds(tmp_path: Path) -> None:
+    file = tmp_path / "p.toml"
+    file.write_text("guided = false\nrestitution = 0.3  # 1\ndrive_torque = '2 N.mm'\nelastic_modulus = 1e21\n")
+    found = one_run._settings_of(file, ["restitution = 0.5"])
+    assert found == ["guided=false", "drive_torque=2 N.mm", "elastic_modulus=1e+21"]
+    assert one_run._settings_of(None, []) == []
+    file.write_text("a = 1\nb = [1]\n[c]\nd = 2\n")
+    with pytest.raises(UsageError, match=r"(?s)toml:2: b: is no value; write name = value.*toml:3: c: is no value"):
+        one_run._settings_of(file, [])

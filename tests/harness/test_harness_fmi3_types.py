@@ -150,7 +150,7 @@ def test_all_types_are_connected(fmu: Fmu, process: bool) -> None:
 
 
 def test_a_machine_records_integers_of_64_bits_as_doubles(path: Path, tmp_path: Path) -> None:
-    """Exact up to 2^53 only, as docs/machines-running.md says; the largest of them is no reason for a warning."""
+    """Exact to 2^53, as docs/how-to/machines-running.md says; the largest of them is no reason for a warning."""
     file = tmp_path / "one.toml"
     text = f"""[run]
 stop_time = 0.2

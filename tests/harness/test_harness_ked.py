@@ -143,7 +143,7 @@ def test_rows_for_people_are_in_millimetres_and_megapascals(solution):
 
 
 def test_speeds_that_are_asked_for_are_a_file_and_peak_at_a_critical_speed(result, turned, tmp_path):
-    """Harmonic 8 of the crank meets the first mode at 590 rpm: (K7) of docs/elastodynamics-dynamics.md."""
+    """Harmonic 8 of the crank meets the first mode at 590 rpm: (K7) of docs/explanation/elastodynamics-dynamics.md."""
     speeds = asked(speeds=("530 rpm", "650 rpm", 25)).speeds
     assert speeds[0] * 30 / math.pi == pytest.approx(530)
     done = []

@@ -148,7 +148,7 @@ def test_the_lightest_design_is_within_its_limits_over_the_whole_turn(lightest):
     assert all(check.passed for check in lightest.limits.checks(found))
     assert found.static.largest_stress.max() == pytest.approx(60e6, rel=1e-3)
     assert lightest.before.deviation.max() > 1.8e-3
-    # as docs/elastodynamics-dynamics.md finds it with one depth for coupler and arm: at most that heavy
+    # as docs/explanation/elastodynamics-dynamics.md finds it with one depth for coupler and arm: at most that heavy
     assert lightest.after.mass < 0.5091
     assert lightest.values["rocker_depth"] == pytest.approx(0.0127 / 4)
 

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -16,32 +17,13 @@ from typer.testing import CliRunner
 import models
 from harness.app.cli import main
 from harness.page.page_data import slider_range
-from harness.page.page_file import page
 from mechanism_fmu.fmu.native.link import has_linker
-from mechanism_fmu.fmu.native.web import web_module
-from mechanism_fmu.fmu.own.prepare import load
-from tests.once import once
 
-GALLERY = Path(__file__).parents[2] / "docs/examples/gallery"
 needs_linker = pytest.mark.skipif(not has_linker(), reason="ziglang is not installed")
 
 #: When the pawl strikes in the ratchet's base case [s]: the reference of README.md.
 IMPACT = 0.9399211769
 ALL = [pytest.param(name, marks=() if name == "ratchet" else pytest.mark.slow) for name in models.available()]
-
-
-@pytest.fixture(scope="session")
-def page_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The page of a model by its name."""
-
-    def made(name: str) -> Path:
-        def work(folder: Path) -> None:
-            module = load(GALLERY / name) if name.endswith(".py") else models.load(name)
-            (folder / "model.html").write_text(page(web_module(module)), encoding="utf-8")
-
-        return once(tmp_path_factory, f"page_{name}", work) / "model.html"
-
-    return made
 
 
 def held(html: str, identifier: str) -> str:
@@ -62,7 +44,7 @@ def test_a_page_is_small_and_whole(name: str, page_of: Callable[[str], Path]) ->
     assert "default-src 'none'" in html
     assert base64.b64decode(held(html, "wasm")).startswith(b"\0asm")
     # scripts end where they should: as many as there are, and no text of them is seen
-    assert html.count("<script") == html.count("</script>") == 12
+    assert html.count("<script") == html.count("</script>") == 18
     data = json.loads(held(html, "model"))
     model = models.load(name).MODEL
     assert (data["name"], data["stop"]) == (model.name, model.stop_time)
@@ -71,7 +53,10 @@ def test_a_page_is_small_and_whole(name: str, page_of: Callable[[str], Path]) ->
     }
     assert data["shapes"]
     assert set(data["moving"]) | {one["name"] for one in data["constants"]}
-    assert {one for chart in data["charts"] for one in chart["names"]} <= {one["name"] for one in data["reals"]}
+    assert {one for chart in data["charts"] for one in chart["names"]} <= {
+        one["name"] for kind in ("reals", "wholes") for one in data[kind]
+    }
+    assert {one["name"] for one in data["cases"]} >= {case.name for case in model.cases}
 
 
 @needs_linker
@@ -115,7 +100,7 @@ def test_a_reader_changes_values(worker: bool, page_of: Callable[[str], Path]) -
     steps: list[dict[str, Any]] = [
         {"set": ["crank_length", "0.02"]},
         {"set": ["crank_length", "0.11"]},
-        {"slide": ["drive_torque", 300]},
+        {"slide": ["drive_torque", 120]},
         {"click": ".next"},
         {"set": ["guided", False]},
         {"click": "#reset"},
@@ -135,7 +120,7 @@ def test_a_reader_changes_values(worker: bool, page_of: Callable[[str], Path]) -
         start[key] for key in ("first", "shapes", "curves")
     ]
     assert (back["alert"], back["first"], back["hash"]) == ("", base, "#")
-    # the slider's end is twice the start
+    # the slider goes from 0 to 5 N.mm in 300 places
     assert strong["hash"] == "#drive_torque=0.002"
     assert float(strong["first"]) < IMPACT
     assert "impact 1 of 1 at 0.66" in struck["struck"]
@@ -143,7 +128,7 @@ def test_a_reader_changes_values(worker: bool, page_of: Callable[[str], Path]) -
     assert free["hash"] == "#drive_torque=0.002&guided=false"
     assert (reset["first"], reset["hash"], reset["time"]) == (base, "#", "t = 0.000 s")
     assert from_hash["first"] == strong["first"]
-    assert saved["files"][0].startswith("time [s],wheel_angle [rad],")
+    assert saved["texts"][-1].startswith("time [s],wheel_angle [rad],")
 
 
 @needs_linker
@@ -175,14 +160,23 @@ def test_an_engine_that_does_not_start_says_why(page_of: Callable[[str], Path]) 
 @needs_linker
 @needs_node
 def test_the_address_holds_what_differs_from_the_start(page_of: Callable[[str], Path]) -> None:
-    cases = {
-        "": ({}, "#"),
+    cases: dict[str, tuple[str, dict[str, Any], str]] = {
+        "": ("guided", {}, "#"),
         "#drive_torque=0.002&guided=false&tooth_count=12": (
+            "guided",
             {"drive_torque": 0.002, "guided": False, "tooth_count": 12},
             "#drive_torque=0.002&tooth_count=12&guided=false",
         ),
-        "#drive_torque=0.001&nonsense=3&load_torque=&crank_length=long&guided=1": ({}, "#"),
-        "#elastic_modulus=1e%2B21": ({"elastic_modulus": 1e21}, "#elastic_modulus=1e%2B21"),
+        "#drive_torque=0.001&nonsense=3&load_torque=&crank_length=long&guided=1&case=none": ("guided", {}, "#"),
+        "#elastic_modulus=1e%2B21": ("guided", {"elastic_modulus": 1e21}, "#elastic_modulus=1e%2B21"),
+        # of a case: what it has itself is no difference, a constant in place of a signal is
+        "#case=jam&tooth_count=20&guided=true&load_torque=0": (
+            "jam",
+            {"guided": True, "load_torque": 0},
+            "#case=jam&load_torque=0&guided=true",
+        ),
+        "#case=free&kept=case%3Djam%26tooth_count%3D21": ("free", {}, "#case=free&kept=case%3Djam%26tooth_count%3D21"),
+        "#kept=": ("guided", {}, "#kept="),
     }
     answers = in_node(*(["hash", one] for one in cases), of=page_of("ratchet"))
     assert [tuple(one) for one in answers] == list(cases.values())
@@ -218,6 +212,15 @@ def test_a_slider_goes_from_half_to_twice_its_start(
     start: float, minimum: float | None, maximum: float | None, expected: tuple[float, float]
 ) -> None:
     assert slider_range(start, minimum, maximum) == expected
+    assert slider_range(0.0, -1e3, 1.0, "rad") == (-math.pi, 1.0)
+
+
+def test_models_say_what_is_usual_of_what_starts_at_zero() -> None:
+    for name in models.available():
+        model = models.load(name).MODEL
+        for port in (*model.mechanism(model.values()).inputs, *model.parameters):
+            guessed = port.start == 0 and getattr(port, "type", "Real") != "Boolean" and port.usual is None
+            assert not guessed or port.unit in ("rad", "rad/s", "m/s2", "1"), f"{name}: {port.name}"
 
 
 @needs_linker
@@ -233,7 +236,7 @@ def test_the_command_writes_the_page_of_a_file(tmp_path: Path, monkeypatch: pyte
     assert "lever.html" in done.output
     html = Path("lever.html").read_text(encoding="utf-8")
     assert "A &lt;/script&gt;&lt;b&gt;lever &amp; co" in html
-    assert html.count("<script") == html.count("</script>") == 12
+    assert html.count("<script") == html.count("</script>") == 18
     if NODE is not None:
         run, seen = in_node(["run", {}], ["session", {}, []], of=tmp_path / "lever.html")
         assert run["finished"]
@@ -266,5 +269,20 @@ def test_in_a_browser(width: int, page_of: Callable[[str], Path], tmp_path: Path
         shown.wait_until(f"{first} === '{IMPACT}'")
         shown.click(".next")
         assert "impact 1 of 1" in shown.value("document.querySelector('.struck').textContent")
+        # it lives, and an input that is dragged does not begin anew
+        shown.click("#live")
+        shown.wait_until("document.querySelector('#state').textContent === ''")
+        shown.click(".play")
+        shown.wait_until("document.querySelector('.time').textContent > 't = 0.2'")
+        shown.value(
+            "(() => { const slider = document.querySelector('#inputs input[type=range]'); slider.value = 240;"
+            " slider.dispatchEvent(new Event('input')); })()"
+        )
+        shown.click(".next")
+        shown.wait_until("document.querySelector('.struck').textContent.includes('impact 1 of 1')")
+        assert 0.2 < float(shown.value(first)) < IMPACT
+        assert shown.value("document.documentElement.scrollWidth") <= width
+        shown.click("#live")
+        shown.wait_until(f"{first} && document.querySelector('#state').textContent === ''")
         assert shown.errors == []
         assert all(one.startswith(("file:", "blob:", "data:")) for one in shown.requests)

@@ -202,7 +202,7 @@ def test_without_dask_the_extra_is_named(slider_crank_fmu: Path, tmp_path: Path,
     path = file_of(tmp_path, slider_crank_fmu, 1)
     code, text = invoke(path, "-o", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
     assert code == 2
-    assert 'python -m pip install "mechanism_fmu[cluster]"' in text
+    assert 'python -m pip install -e ".[cluster]"' in text
 
 
 @pytest.mark.slow

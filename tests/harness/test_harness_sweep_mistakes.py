@@ -40,7 +40,7 @@ MISTAKES = {
         'first_impact = ["time"]',
         'first_impact = ["stress_max"]',
         "34: record.first_impact: Fake gives no 'stress_max': the FMU declares no beam that impacts strike. In its "
-        "model, add Model(analysis=(ImpactStress(...),)) and build it again: docs/your-own-mechanism.md.",
+        "model, add Model(analysis=(ImpactStress(...),)) and build it again: docs/how-to/stress-in-a-part.md.",
     ),
     "quantity at another time": (
         'end = ["wheel_angle"]',
@@ -246,7 +246,7 @@ MISTAKES = {
         'first_impact = ["time"]',
         'all_impacts = ["damage"]',
         "34: record.all_impacts: Fake gives no 'damage': the FMU declares no beam that impacts strike. In its "
-        "model, add Model(analysis=(ImpactStress(...),)) and build it again: docs/your-own-mechanism.md.",
+        "model, add Model(analysis=(ImpactStress(...),)) and build it again: docs/how-to/stress-in-a-part.md.",
     ),
     "no table of inputs": (
         "step = 0.1",

@@ -1,4 +1,4 @@
-"""The table of the last run, as it stands in docs/plug-it-into-your-tool.md."""
+"""The table of the last run, as it stands in docs/how-to/plug-it-into-your-tool.md."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tests.importers.forms import FORMS
 from tests.importers.matrix import Cell
 from tests.importers.tools import TOOLS
 
-PAGE = Path(__file__).parents[2] / "docs" / "plug-it-into-your-tool.md"
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "plug-it-into-your-tool.md"
 BEGIN = "<!-- made by python -m tests.importers, not by hand -->"
 END = "<!-- end of what is made -->"
 

@@ -39,7 +39,7 @@ def mechanism(values):
     push = PointForce("push", wedge.at(length, 0))
     outputs = (Output("x", wedge.x, "Of the wedge", "m"), Output("speed", "wedge.x_rate", "Of the wedge", "m/s"))
     outputs += (Output("height", load.y, "Of the load", "m"), Output("normal", "slope.force", "On the load", "N"))
-    ports = {"inputs": (Input("push", "push.x", 0.0, "To the right, which is out", "N"),), "outputs": outputs}
+    ports = {"inputs": (Input("push", "push.x", 0.0, "Outwards", "N", usual=(0.0, 300.0)),), "outputs": outputs}
     parts = {"contacts": (slope,), "gravity": (0.0, -9.81), "held": (wedge.x,), **ports}
     return Mechanism((wedge, load), joints, (push,), **parts)
 

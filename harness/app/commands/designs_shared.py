@@ -202,7 +202,7 @@ def executor_of(fmu: Fmu, task: Task, runners: Runners) -> Iterator[Executor]:
         if error.name != "distributed":
             raise
         raise UsageError(
-            '--scheduler needs Dask, which is not installed: python -m pip install "mechanism_fmu[cluster]"'
+            '--scheduler needs Dask, which is not installed: python -m pip install -e ".[cluster]"'
         ) from None
     with connected(runners.scheduler) as client:
         yield partial(on_cluster, client, fmu.path, task, BY_FMU)

@@ -83,7 +83,7 @@ def _copy(name: str, source: Source, numbers: Numbers, place: Path) -> Path:
 _HELD = (
     "Where an angle leads a turning shaft, a held one lags by half a step, and the torque is off by stiffness x speed "
     'x step / 2: see the energy over bonds of a run with algorithm = "jacobi" and extrapolation = "constant", and '
-    "choose the step by it (docs/machines.md)."
+    "choose the step by it (docs/how-to/machines.md)."
 )
 
 

@@ -257,9 +257,9 @@ def _show(machine: Prepared) -> None:
     for name in order:
         fmu = machine.fmus[name]
         abilities = {
-            "put back": fmu.description.saves_state,
-            "takes slopes": fmu.description.takes_slopes,
-            "gives slopes": fmu.description.gives_slopes,
+            "rollback": fmu.description.saves_state,
+            "input derivatives": fmu.description.takes_slopes,
+            "output derivatives": fmu.description.gives_slopes,
             "event mode": fmu.description.has_event_mode,
         }
         can = ", ".join(ability for ability, there in abilities.items() if there)

@@ -20,6 +20,7 @@ from ...run.checks import Check, all_passed
 from ...run.experiment import Experiment, Run, default_times, performing, start_values
 from ...run.logic import default_parameters, read_logic
 from ...run.results import prepare_folder, summary, write_run, write_text
+from ...toml_file import TomlFile, as_text
 from ..execution import alone_in, interruption, with_instances
 from ..output import give
 from ..terminal import (
@@ -89,7 +90,7 @@ def new_mechanism(name: str, like: str) -> int:
     console.print(
         f"Written: {path}, {_LIKE[like]}. Build its FMU, and run it:\n\n"
         f"mechanism-fmu build {path}\nmechanism-fmu run build/{path.stem}.fmu\n\n"
-        "Then change the file; docs/your-own-mechanism.md explains its parts, and how to begin with a ready model.",
+        "Then change the file; docs/tutorials/your-first-mechanism.md explains it, and how to begin with a model.",
         soft_wrap=True,
         markup=False,
     )
@@ -106,15 +107,18 @@ def run_fmu(
     folder: Path,
     in_process: bool = False,
     units_row: bool = False,
+    parameters: Path | None = None,
 ) -> int:
     """Run an FMU and write what comes of it; times are in seconds, or have a unit.
+
+    Of `settings` and a file of parameters that set the same, the settings hold.
 
     The files are written before the instance is freed, to a folder that stays the same whatever the FMU does to the
     working folder.
     """
     card, folder = card_of("steel" if material is None else material), folder.absolute()
     with open_fmu(path) as fmu:
-        values = start_values(settings, fmu.description)
+        values = start_values([*_settings_of(parameters, settings), *settings], fmu.description)
         until = parse_time(stop_time, "--stop-time", fmu.description)
         times = default_times(fmu.description, until, parse_time(step, "--step", fmu.description))
         if step is None and fmu.description.step is None:
@@ -130,6 +134,22 @@ def run_fmu(
 
         with alone_in(folder, waits=False):
             return with_instances(fmu, in_process, work)
+
+
+def _settings_of(path: Path | None, others: Sequence[str]) -> list[str]:
+    """What a TOML file of names and values sets, but what `others` set; nothing without a file.
+
+    Raises:
+        UsageError: it cannot be read, or a value is neither number, nor true or false, nor text.
+    """
+    if path is None:
+        return []
+    file, taken = TomlFile.read(path), {one.partition("=")[0].strip() for one in others}
+    for name, value in file.data.items():
+        if not isinstance(value, bool | int | float | str):
+            file.wrong((name,), "is no value; write name = value, e.g. drive_torque = 0.002 or drive_torque = '2 N.mm'")
+    file.check()
+    return [f"{name}={as_text(value)}" for name, value in file.data.items() if name not in taken]
 
 
 def show_modes(path: Path, settings: Sequence[str], output: Path | None) -> int:

@@ -232,7 +232,7 @@ def _refuse_rigid(mechanism: Any, model: str) -> None:
     ready = ", ".join(build_fmu.models_that_bend())
     raise UsageError(
         f"The links of {model} are rigid: its mechanism has no members, so nothing bends. Linkages with members: "
-        f"{ready}. In a file of your own, give Mechanism(..., members=...); see docs/ked.md."
+        f"{ready}. In a file of your own, give Mechanism(..., members=...); see docs/how-to/ked.md."
     )
 
 

@@ -151,9 +151,9 @@ class BondEnergy:
     """Energies over a run [J].
 
     Attributes:
-        given: by the driving part.
-        taken: by the driven part.
-        most: largest size of the energy that had passed at any time, on either side: what to compare `made` with.
+        given: by the driving part [J].
+        taken: by the driven part [J].
+        most: largest size [J] of the energy that had passed at any time, on either side: what to compare `made` with.
     """
 
     given: float
@@ -183,11 +183,21 @@ class Bonds:
         self._most = dict.fromkeys(bonds, 0.0)
 
     def started(self, unit: Observable, time: float) -> None:
-        """Nothing has passed yet."""
+        """Nothing has passed yet.
+
+        Args:
+            unit: that is simulated.
+            time: of the start [s].
+        """
         self.stepped(unit, time)
 
     def stepped(self, unit: Observable, time: float) -> None:
-        """Look at how much has passed; the exchange at this communication point may have moved something."""
+        """Look at how much has passed; the exchange at this communication point may have moved something.
+
+        Args:
+            unit: that is simulated.
+            time: that is reached [s].
+        """
         for name, (driving, driven) in self._ends.items():
             driving.exchanged(time)
             driven.exchanged(time)

@@ -26,7 +26,7 @@ _COUNT, _TIME = "impacts_in_step", "impacts[1].time"
 
 
 def reports_impacts(description: Description) -> bool:
-    """Whether a component has the buffer of impacts that this project's FMUs have (docs/fmu.md)."""
+    """Whether a component has the buffer of impacts that this project's FMUs have (docs/reference/fmu.md)."""
     return {_COUNT, _TIME} <= description.variables.keys()
 
 
@@ -129,6 +129,9 @@ class Impacts:
     def __init__(self, machine: Machine) -> None:
         """Look on at each component that has a buffer of impacts, before the machine's first step.
 
+        Args:
+            machine: whose components they are.
+
         Raises:
             UsageError: two components report the same of an impact in different units.
         """
@@ -145,21 +148,39 @@ class Impacts:
         self._seen = 0
 
     def started(self, unit: Observable, time: float) -> None:
-        """Read what will be struck."""
+        """Read what will be struck.
+
+        Args:
+            unit: that is simulated.
+            time: of the start [s].
+        """
         for own in self._watches.values():
             own.read_sizes()
 
     def stepped(self, unit: Observable, time: float) -> None:
-        """Say whether there were impacts; they have been kept already."""
+        """Say whether there were impacts; they have been kept already.
+
+        Args:
+            unit: that is simulated.
+            time: that is reached [s].
+        """
         count = sum(len(own.rows) for own in self._watches.values())
         self.struck, self._seen = count > self._seen, count
 
     def by_component(self, card: MaterialCard = STEEL_CARD) -> dict[str, ComponentImpacts]:
-        """What struck each component that reports impacts; beams are of the material of `card`."""
+        """What struck each component that reports impacts.
+
+        Args:
+            card: material of the beams.
+        """
         return {name: own.result(card) for name, own in self._watches.items()}
 
     def table(self, by_component: Mapping[str, ComponentImpacts]) -> pd.DataFrame:
-        """All impacts in the order of time, with the component's name first; columns of `units`."""
+        """All impacts in the order of time, with the component's name first; columns of `units`.
+
+        Args:
+            by_component: what `by_component` returns.
+        """
         tables = [one.impacts.assign(component=name) for name, one in by_component.items() if len(one.impacts)]
         columns = [name for name in self.units if not tables or any(name in table for table in tables)]
         if not tables:

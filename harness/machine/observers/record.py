@@ -266,12 +266,21 @@ class Recorder:
         self._written = clock.monotonic()
 
     def started(self, unit: Observable, time: float) -> None:
-        """Keep the initial values."""
+        """Keep the initial values.
+
+        Args:
+            unit: that is simulated.
+            time: of the start [s].
+        """
         self._read(time)
         self._keep()
 
     def stepped(self, unit: Observable, time: float) -> None:
         """Keep the values at the end of a step, or pass them over.
+
+        Args:
+            unit: that is simulated.
+            time: that is reached [s].
 
         Raises:
             UsageError: the disk refuses.

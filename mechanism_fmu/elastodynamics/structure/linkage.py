@@ -179,7 +179,8 @@ def largest_stress(linkage: Linkage, forces: FloatArray) -> FloatArray:
         linkage: the structure.
         forces: those of `section_forces`, shape (times, elements, 3) [N, N m].
 
-    Source: textbook law of tension and bending superposed; docs/elastodynamics.md, section Inertia, torque and power.
+    Source: textbook law of tension and bending superposed; docs/explanation/elastodynamics.md, section Inertia, torque
+        and power.
     """
     sections = [element.member.section for element in linkage.elements]
     areas = np.array([section.area for section in sections])

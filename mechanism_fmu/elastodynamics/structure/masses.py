@@ -22,7 +22,7 @@ def lumps(linkage: Linkage) -> FloatArray:
         linkage: the structure.
 
     Source: Case 2 of Erdman, Sandor, Oakberg (1972), masses at the joints; half of each link at either end is this
-        project's: docs/elastodynamics-dynamics.md, Case 3.
+        project's: docs/explanation/elastodynamics-dynamics.md, Case 3.
     """
     mechanism, places = linkage.mechanism, linkage.freedoms.places
     found = np.zeros((len(places), 2))
@@ -47,7 +47,8 @@ def mass_matrix(configurations: Configurations) -> FloatArray:
     Args:
         configurations: the linkage along the motion.
 
-    Source: textbook: kinetic energy of the lumps, M = Z^T diag(m, J) Z; docs/elastodynamics-dynamics.md, Case 3.
+    Source: textbook: kinetic energy of the lumps, M = Z^T diag(m, J) Z; docs/explanation/elastodynamics-dynamics.md,
+        Case 3.
     """
     freedoms = configurations.linkage.freedoms
     diagonal = np.zeros(freedoms.ground + 1)
@@ -132,7 +133,7 @@ def consistent_mass(configurations: Configurations) -> FloatArray:
         configurations: the linkage along the motion.
 
     Source: J. S. Archer, Consistent mass matrix for distributed mass systems, J. Struct. Div. ASCE 89 (1963);
-        docs/elastodynamics-dynamics.md, eq (K2).
+        docs/explanation/elastodynamics-dynamics.md, eq (K2).
     """
     ends, more = configurations.ends, _more_than_lumped(configurations)
     members: FloatArray = np.einsum("teim,eij,tejn->tmn", ends, more, ends, optimize=True)
@@ -148,7 +149,7 @@ def consistent_load(configurations: Configurations) -> FloatArray:
         configurations: the linkage along the motion.
 
     Source: J. S. Archer, Consistent mass matrix for distributed mass systems, J. Struct. Div. ASCE 89 (1963);
-        docs/elastodynamics-dynamics.md, eq (K2).
+        docs/explanation/elastodynamics-dynamics.md, eq (K2).
     """
     ends, more = configurations.ends, _more_than_lumped(configurations)
     rigid = np.stack([_rigid(configurations, element) for element in configurations.linkage.elements], axis=1)

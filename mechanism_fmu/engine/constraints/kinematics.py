@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 from ...tables.declare import Array
 from ...tables.motion import Pose
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
+from ..elementary import sine_cosine
 
 
 @jit
@@ -30,8 +29,7 @@ def place_bodies(block: Array, y: Array) -> Pose:
         at.x[i] = y[k]
         at.y[i] = y[k + 1]
         at.phi[i] = y[k + 2]
-        at.cosine[i] = math.cos(y[k + 2])
-        at.sine[i] = math.sin(y[k + 2])
+        at.sine[i], at.cosine[i] = sine_cosine(y[k + 2])
         k += 3 * bodies
         at.x_rate[i] = y[k]
         at.y_rate[i] = y[k + 1]

@@ -10,8 +10,8 @@ procedure serves impulses and accelerations; only the two kinds of trial differ.
 
 Dry friction is part of the same problem: whatever touches and may slip either way (at zero slip; in an impact always)
 sticks, a row like a joint's within the cone |lambda_T| <= mu lambda_N, or slips, with a friction against the slip that
-comes of it (docs/friction.md). What violates its condition sticks instead, or slips to where it is pushed. Where that
-does not end soon, Lemke's algorithm proposes modes of all at once (`proposal`).
+comes of it (docs/explanation/friction.md). What violates its condition sticks instead, or slips to where it is pushed.
+Where that does not end soon, Lemke's algorithm proposes modes of all at once (`proposal`).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Where the laws leave the motion open: several modes agree, or friction depends on forces that nothing determines.
 
-Both are recorded as events, behind a choice that has been made all the same (docs/friction.md).
+Both are recorded as events, behind a choice that has been made all the same (docs/explanation/friction.md).
 """
 
 from __future__ import annotations

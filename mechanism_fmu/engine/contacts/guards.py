@@ -14,6 +14,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import friction_row, slips
 from ..constraints.point_line import point_line, spare_row, tangent_row
 from ..constraints.rows import contact_row
+from ..elementary import sine_cosine
 from ..profiles.nearest import find_nearest, is_searched
 
 # Where the contacts stand now: the present copy of a pattern, the present angle of a stop or lock.
@@ -64,8 +65,7 @@ def place_pattern(block: Array, at: Pose, pattern: int) -> None:
 def turn_line(source: Array, angle: float, target: Array) -> None:
     """A line (point, normal), turned by `angle` [rad] about the origin."""
     keep_small()
-    c = math.cos(angle)
-    s = math.sin(angle)
+    s, c = sine_cosine(angle)
     for k in range(0, 4, 2):
         target[k] = c * source[k] - s * source[k + 1]
         target[k + 1] = s * source[k] + c * source[k + 1]

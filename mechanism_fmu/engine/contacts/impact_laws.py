@@ -1,4 +1,4 @@
-"""Impulses of one round of impacts, by Newton's, Poisson's or Stronge's law of restitution (docs/friction.md).
+"""Impulses of one round of impacts, by Newton's, Poisson's or Stronge's law (docs/explanation/friction.md).
 
 Newton: every contact that approaches separates with e times its closing speed; with friction in one complementarity
 problem (Moreau, Glocker), which may have no answer, or add energy: then Poisson's law holds. Poisson: compression is

@@ -9,6 +9,7 @@ from ...tables.kinds import OPERATIONS
 from ...tables.parts import Forces, Operations
 from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
+from ..elementary import atan2, cos, exp, log, power, sin, tan, tanh
 from ..profiles.curves import curve
 
 _CONSTANT = OPERATIONS.number("constant")
@@ -66,44 +67,42 @@ def _sqrt(a: float, _b: float, _c: float) -> float:
 
 @jit
 def _sin(a: float, _b: float, _c: float) -> float:
-    return math.sin(a)
+    return sin(a)
 
 
 @jit
 def _cos(a: float, _b: float, _c: float) -> float:
-    return math.cos(a)
+    return cos(a)
 
 
 @jit
 def _tan(a: float, _b: float, _c: float) -> float:
-    return math.tan(a)
+    return tan(a)
 
 
 @jit
 def _atan2(a: float, b: float, _c: float) -> float:
-    return math.atan2(a, b)
+    return atan2(a, b)
 
 
 @jit
 def _exp(a: float, _b: float, _c: float) -> float:
-    return math.exp(a) if a < 709.0 else math.inf
+    return exp(a)
 
 
 @jit
 def _log(a: float, _b: float, _c: float) -> float:
-    return math.log(a) if a > 0.0 else math.nan
+    return log(a)
 
 
 @jit
 def _tanh(a: float, _b: float, _c: float) -> float:
-    return math.tanh(a)
+    return tanh(a)
 
 
 @jit
 def _power(a: float, b: float, _c: float) -> float:
-    if a > 0.0:
-        return math.pow(a, b)
-    return 0.0 if a == 0.0 and b > 0.0 else math.nan
+    return power(a, b)
 
 
 _result = by_kind(

@@ -14,7 +14,7 @@ from ..compiler.subset import jit, keep_small
 from ..dynamics.point_forces import weight
 from ..vectors import turned
 
-# A hinged bar that bends under the forces on its tip and its own inertia (docs/elastodynamics.md).
+# A hinged bar that bends under the forces on its tip and its own inertia (docs/explanation/elastodynamics.md).
 #
 # The bar is uniform with point masses at its ends, so that mass m, centre of mass (x_G from the hinge) and inertia J
 # are those of its body: its mass per length is mu = 6 (m x_G (l - x_G) - J) / l^3. The motion and the force Q of the

@@ -4,7 +4,7 @@ Unknown are the displacements u = (x, y, rotation) of all nodes: ends of members
 Compatibility d = C u says what they do to the members (three deformations each) and to what cannot give way (rows of
 joints, locked coordinates), for which d = 0. C is square: the linkage is statically determinate. With loads P at the
 nodes, virtual work gives f = C^-T P, the sections give d = F f, and u = C^-1 d; so B = C^-T and u = B^T F B P, the
-flexibility approach of Erdman, Sandor and Oakberg (docs/elastodynamics.md).
+flexibility approach of Erdman, Sandor and Oakberg (docs/explanation/elastodynamics.md).
 """
 
 from __future__ import annotations

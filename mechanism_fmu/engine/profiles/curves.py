@@ -8,6 +8,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.parts import Curves
 from ..compiler.subset import jit, keep_small
+from ..elementary import sine_cosine
 
 _DEGREE = codes.AMPLITUDE - codes.POLYNOMIAL - 1
 
@@ -47,8 +48,9 @@ def curve(block: Array, number: int, x: float) -> tuple[float, float, float, flo
         amplitude = term[codes.AMPLITUDE]
         if amplitude != 0.0:
             w = term[codes.FREQUENCY]
-            sine = amplitude * math.sin(w * x + term[codes.PHASE])
-            cosine = amplitude * math.cos(w * x + term[codes.PHASE])
+            sine, cosine = sine_cosine(w * x + term[codes.PHASE])
+            sine *= amplitude
+            cosine *= amplitude
             f0 += sine
             f1 += w * cosine
             f2 -= w * w * sine

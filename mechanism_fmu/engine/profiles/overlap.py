@@ -9,6 +9,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose
 from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
+from ..elementary import atan2
 from .curves import curve, sample
 from .touch import look
 
@@ -62,6 +63,6 @@ def _depth(block: Array, at: Pose, contact: int) -> float:
         s = at.sine[j]
         x = c * dx + s * dy - table.data[contact, 2]
         y = c * dy - s * dx - table.data[contact, 3]
-        rho, _, _, _ = curve(block, table.curve_j[contact], math.atan2(y, x))
+        rho, _, _, _ = curve(block, table.curve_j[contact], atan2(y, x))
         depth = rho - math.sqrt(x * x + y * y)
     return depth

@@ -16,6 +16,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose
 from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
+from ..elementary import sine_cosine
 from ..vectors import turned
 from .curves import curve
 
@@ -36,7 +37,7 @@ def profile_point(
     """
     keep_small()
     c, s = at.cosine[body], at.sine[body]
-    ex, ey = math.cos(alpha), math.sin(alpha)
+    ey, ex = sine_cosine(alpha)
     ex, ey = c * ex - s * ey, s * ex + c * ey  # A e
     rho, rho1, rho2, rho3 = profile
     px = c * centre_x - s * centre_y + rho * ex

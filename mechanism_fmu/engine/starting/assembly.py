@@ -9,7 +9,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Loads, Rows, Stages
 from ...tables.parts import Bodies, Contacts, Functions, Options, Patterns
 from ...tables.sizes import Sizes
-from ...tolerances import TOUCHES_WITHIN
+from ...tolerances import CLOSED_WITHIN, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
@@ -23,8 +23,6 @@ from ..vectors import copy
 
 # Assembly: the position nearest to the start guess at which no row is off, by Newton's method.
 
-#: Position rows are closed when none is off by more than this [m, rad, m^2].
-CLOSED_WITHIN = 1e-12
 _NEWTON_STEPS = 50
 _HALVINGS = 30
 

@@ -16,6 +16,7 @@ from ..constraints.rows import row_count
 from ..contacts.complementarity import hold_ratio, push_ratio
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
+from ..elementary import power
 from ..vectors import clear
 from .interpolation import write_dense
 from .singular import independence
@@ -170,5 +171,5 @@ def initial_step_size(block: Array) -> float:
     steepest = max(size_dy, bend)
     second = max(1e-6, first * 1e-3)
     if steepest > 1e-15:
-        second = math.pow(0.01 / steepest, 1.0 / _ERROR_EXPONENT)
+        second = power(0.01 / steepest, 1.0 / _ERROR_EXPONENT)
     return min(100.0 * first, second)

@@ -14,6 +14,7 @@ from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import slips
 from ..constraints.kinematics import place_bodies
+from ..elementary import power
 from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
 from .reach import is_out_of_reach
@@ -161,7 +162,9 @@ def _try(block: Array, start: float, step: float) -> float:
     first = Sizes(block).y_alpha
     for k in range(haste.shape[0]):
         turn = max(turn, abs(s.y_new[first + k] - s.y_start[first + k]) * haste[k])
-    too_far = math.pow(turn, float(_ERROR_EXPONENT))  # `_scale` takes the root
+    too_far = 1.0
+    for _ in range(_ERROR_EXPONENT):  # `_scale` takes the root
+        too_far *= turn
     if too_far > error:
         return too_far
     return error
@@ -180,7 +183,7 @@ def _scale(error: float, most: float) -> float:
         return most
     if not error < math.inf:
         return _SHRINK_MOST
-    return min(most, max(_SHRINK_MOST, _SAFETY * math.pow(error, -1.0 / _ERROR_EXPONENT)))
+    return min(most, max(_SHRINK_MOST, _SAFETY * power(error, -1.0 / _ERROR_EXPONENT)))
 
 
 @jit

@@ -100,11 +100,11 @@ _FORMS = {
     "multiply": "{} * {}",
     "divide": "{} / {}",
     "negate": "-{}",
-    "sin": "sin({})",
-    "cos": "cos({})",
-    "tan": "tan({})",
+    "sin": "mechanism_sin({})",
+    "cos": "mechanism_cos({})",
+    "tan": "mechanism_tan({})",
     "sqrt": "sqrt({})",
-    "atan2": "atan2({}, {})",
+    "atan2": "mechanism_atan2({}, {})",
     "where_positive": "{} > 0.0 ? {} : {}",
 }
 
@@ -118,8 +118,8 @@ class Formulas:
             double *findings)`. `p` holds the parameter values in the model's order; every word of `block`'s tables that
             depends on a parameter is written, no other; `findings` gets, for each objection, then each warning and each
             problem, how far it applies (it does where that is > 0) and the numbers of its text. Nothing fails: what
-            does not exist is not finite. Compile it with -ffp-contract=off, or its numbers differ from Python's in the
-            last bits.
+            does not exist is not finite. Sine and its kin are those of the engine's object (engine.h). Compile it with
+            -ffp-contract=off, or its numbers differ from Python's in the last bits.
         objections, warnings, problems: of each, its text for printf and the index of its `applies` in `findings`; its
             numbers follow there. Problems are to be said only where no objection applies.
         findings: length that the array `findings` must have. It is longer than what is written, so that
@@ -173,6 +173,7 @@ def _source(traced: Trace, written: Iterable[Entry], findings: Iterable[Number])
     names: dict[int, str] = {}
     yield f"/* The formulas of {traced.model.name}; written by mechanism_fmu. */"
     yield "#include <math.h>"
+    yield '#include "engine.h"'
     yield ""
     yield "void mechanism_formulas(const double *p, double *block, double *findings)"
     yield "{"

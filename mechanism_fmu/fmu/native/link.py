@@ -173,7 +173,7 @@ def _platform(target: Target) -> list[str]:
             "-nostdlib",
             "-lc",
             "-lm",
-            *(["-Wl,-z,defs"] if target.suffix == ".so" else []),
+            *(["-Wl,-z,defs", "-Wl,--hash-style=gnu"] if target.suffix == ".so" else []),
         ]
     libc = _zig_library() / "libc" / "include" / "any-windows-any"
     libraries = [f"-lapi-ms-win-crt-{name}-l1-1-0" for name in _WINDOWS_LIBRARIES]

@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Callable
 from ctypes import CDLL
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from ... import codes
@@ -35,6 +36,11 @@ int64_t mechanism_begin_step(double *block, int64_t words);
 int64_t mechanism_go_on(double *block, int64_t words, double target, int64_t rule);
 int mechanism_read_outputs(double *block, int64_t words); /* without a result, which only WebAssembly would notice */
 int mechanism_read_output_rates(double *block, int64_t words);
+/* const: a call may be moved to where its result is used, or the formulas' results would fill kilobytes of stack */
+__attribute__((const)) double mechanism_sin(double x);
+__attribute__((const)) double mechanism_cos(double x);
+__attribute__((const)) double mechanism_tan(double x);
+__attribute__((const)) double mechanism_atan2(double y, double x);
 """
 
 
@@ -86,14 +92,19 @@ _LIBRARY = Path(__file__).parents[2]
 _GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_DISABLE_INTEL_SVML": "1"}
 
 
-def _digest() -> str:
-    """Fingerprint of the engine's sources, of its header and targets, and of what compiles them."""
+def _of_sources() -> str:
+    """Fingerprint of the engine's sources, of its header and targets."""
     own = [Path(__file__).with_name(name) for name in ("emit.py", "link.py", "objects.py")]
-    folders = [path for name in ("engine", "tables") for path in (_LIBRARY / name).rglob("*.py")]
+    folders = [path for name in ("elementary", "engine", "tables") for path in (_LIBRARY / name).rglob("*.py")]
     sources = [*folders, _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
-    contents = {str(path.relative_to(_LIBRARY)): path.read_bytes() for path in sources}
+    contents = {path.relative_to(_LIBRARY).as_posix(): path.read_bytes() for path in sources}
+    return content_hash({**contents, "engine.h": engine_header().encode()})
+
+
+def _digest() -> str:
+    """Fingerprint of all that, and of what compiles it."""
     compilers = " ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "llvmlite"))
-    return content_hash({**contents, "engine.h": engine_header().encode(), "compilers": compilers.encode()})[:16]
+    return content_hash({"sources": _of_sources().encode(), "compilers": compilers.encode()})[:16]
 
 
 #: Takes what comes next, and which part of the whole is done (0..1).
@@ -163,7 +174,10 @@ def engine_folder() -> Path:
 
 
 def _engine() -> Engine:
-    folder = engine_folder()
+    return _engine_in(_BUNDLED if is_bundled() else engine_folder())
+
+
+def _engine_in(folder: Path) -> Engine:
     return Engine({target.name: folder / f"{target.name}.o" for target in TARGETS}, folder)
 
 
@@ -207,9 +221,62 @@ def _emit(folder: Path, report: Report, *what: str) -> None:
             raise MechanismError(f"The engine could not be compiled ahead of time:\n{complaints.read().strip()}")
 
 
+# What a wheel carries, so that nothing is compiled where it is installed: objects, libraries, and of which sources.
+
+#: A checkout has no such folder.
+_BUNDLED = Path(__file__).with_name("compiled")
+
+
+@cache
+def is_bundled() -> bool:
+    """Whether the compiled engine lies here whole, and is that of the sources that lie here."""
+    try:
+        of_these = (_BUNDLED / "sources").read_text(encoding="ascii").strip() == _of_bundle()
+    except OSError:
+        return False
+    files = (*(_bundled(target) for target in TARGETS), _BUNDLED / f"{WEB.name}.o")
+    return of_these and _engine_in(_BUNDLED).complete and all(map(is_whole, files))
+
+
+def write_engine(folder: Path) -> None:
+    """Write what a wheel carries, compiled now if need be.
+
+    Args:
+        folder: made if need be; `fmu/native/compiled` of the package that the wheel is made of.
+
+    Raises:
+        MechanismError: the engine cannot be compiled or linked.
+        OSError: the folder cannot be written.
+    """
+    engine = compiled_engine()
+    libraries = [_linked(engine, target) for target in TARGETS]
+    paths = [*engine.objects.values(), engine.headers / "engine.bc", web_object(), engine.headers / "engine.h"]
+    (folder / "libraries").mkdir(parents=True, exist_ok=True)
+    for path in libraries:
+        keep(folder / "libraries" / path.name, path.read_bytes(), program=True)
+    for path in paths:
+        keep(folder / path.name, path.read_bytes())
+    (folder / "sources").write_text(f"{_of_bundle()}\n", encoding="ascii")
+
+
+def _of_bundle() -> str:
+    """Fingerprint of what the bundled files are made from: the engine's sources, and the C files of its libraries."""
+    files = {path.name: path.read_bytes() for path in surface(*_SOURCES)}
+    return content_hash(files | {"engine": _of_sources().encode()})
+
+
+def _bundled(target: Target) -> Path:
+    return _BUNDLED / "libraries" / f"{target.name}{target.suffix}"
+
+
 # The engine alone as shared libraries: with them FMUs start without numba, and many designs run in one call.
 
 _SOURCES = ("library.c", "many.c")
+
+
+def has_libraries() -> bool:
+    """Whether `engine_libraries` has them, or can make them: a wheel carries them, or there is a linker."""
+    return is_bundled() or has_linker()
 
 
 def engine_libraries(report: Report = silently) -> dict[str, bytes]:
@@ -237,7 +304,7 @@ def library_here(report: Report = silently) -> Path | None:
     """
     place = library_path(Path())
     target = next((t for t in TARGETS if place is not None and f"{t.name}{t.suffix}" == place.name), None)
-    if target is None or not has_linker():
+    if target is None or not has_libraries():
         return None
     return _linked(compiled_engine(report), target)
 
@@ -257,6 +324,8 @@ def library_of(report: Report = silently) -> CDLL | None:
 
 def _linked(engine: Engine, target: Target) -> Path:
     """The library of a platform, linked now if there is none, or none that is as it was made."""
+    if engine.headers == _BUNDLED:
+        return _bundled(target)
     made_from = content_hash(linked_with(*_SOURCES))[:8]
     path = engine.headers / made_from / f"{target.name}{target.suffix}"
     if not is_whole(path):

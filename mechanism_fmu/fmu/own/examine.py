@@ -14,6 +14,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output, Parameter, compile_mechanism
 from ...model.attached import OldFormWarning
+from ...model.case_values import case_values
 from ...model.functions import is_plain
 from ...model.trace import trace
 from ..parts.contents import model_of
@@ -25,7 +26,7 @@ from .mistakes import explained
 
 # Whether the parts of a user's mechanism are of the right kind: a tuple, a text, a number, a point.
 #
-# The records of the model room do not ask, because type checkers do; a user's file comes without one.
+# The records of the package `model` do not ask, because type checkers do; a user's file comes without one.
 
 #: Longest value that is shown in full.
 _LONGEST = 60
@@ -39,6 +40,7 @@ def check_model(model: Model) -> None:
     """
     _refuse(_whole(model))
     _refuse(problem for parameter in model.parameters for problem in _part(parameter))
+    _refuse(problem for case in model.cases for problem in _part(case))
 
 
 def check_mechanism(mechanism: object) -> None:
@@ -172,6 +174,8 @@ def examine(module: ModuleType, path: Path, native: bool) -> list[str]:
             mechanism = model.build(model.values())
         check_mechanism(mechanism)
         compile_mechanism(mechanism)
+        for case in model.cases:
+            case_values(model, case)
         _check_variables(model)
         model_description(model, "")
         drawing(model)

@@ -19,8 +19,7 @@ from ...kinematics.mobility import Independence, free_directions, independence
 from ...model import Mechanism, MechanismError, Model, compile_mechanism
 from ...moving import MovingMechanism
 from ...tables.layout import pack
-from ..native.link import has_linker
-from ..native.objects import library_of
+from ..native.objects import has_libraries, library_of
 
 _Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -77,7 +76,7 @@ def report_freedoms(model: Model, path: Path, inform: Callable[[str], None], war
         inform: is called with the line that says them.
         warn: is called with what looks like a mistake.
     """
-    library = library_of() if has_linker() else None
+    library = library_of() if has_libraries() else None
     found = freedoms(model.build(model.values()), library)
     inform(f"{model.name}: {found}")
     for remark in found.remarks():

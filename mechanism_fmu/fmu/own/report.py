@@ -13,8 +13,7 @@ import numpy as np
 from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output, Parameter, compile_mechanism
 from ...moving import MovingMechanism
 from ..instance.self_check import start_explained
-from ..native.link import has_linker
-from ..native.objects import library_of
+from ..native.objects import has_libraries, library_of
 from .examine import examine
 from .find import find
 from .freedoms import freedoms
@@ -133,7 +132,7 @@ def _started(model: Model, path: Path) -> tuple[dict[str, Any], list[str]]:
     try:
         with explained(path), start_explained():
             moving = MovingMechanism(mechanism)
-            free = freedoms(mechanism, library_of() if has_linker() else None)
+            free = freedoms(mechanism, library_of() if has_libraries() else None)
     except MechanismError as error:
         return {}, [str(error)]
     q = moving.field("y_end")[: 3 * len(mechanism.bodies)].reshape(-1, 3)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from ..ports import Input, Parameter
+from ..ports import Input, Parameter, Range
 from ..quantities import quantity
 
 # Parameters by what they measure, with the limits that keep the numerics sound; `start` is in the SI unit, or a text
 # with a unit, such as "200 mm".
 
 
-def length_parameter(name: str, start: float | str, description: str, minimum: float = 1e-6) -> Parameter:
+def length_parameter(
+    name: str, start: float | str, description: str, minimum: float = 1e-6, *, usual: Range | None = None
+) -> Parameter:
     """A length [m], from `minimum` to 1 km; not zero if nothing else is said.
 
     Args:
@@ -17,12 +19,19 @@ def length_parameter(name: str, start: float | str, description: str, minimum: f
         description: as of `Parameter`.
         start: default value [m], or a text with a unit of its kind, e.g. "200 mm".
         minimum: least value [m].
+        usual: as of `Parameter`.
     """
-    return Parameter(name, quantity(start, "m", f"{name}: start"), description, "m", minimum, 1e3)
+    return Parameter(name, quantity(start, "m", f"{name}: start"), description, "m", minimum, 1e3, usual=usual)
 
 
 def angle_parameter(
-    name: str, start: float | str, description: str, minimum: float = -1e3, maximum: float = 1e3
+    name: str,
+    start: float | str,
+    description: str,
+    minimum: float = -1e3,
+    maximum: float = 1e3,
+    *,
+    usual: Range | None = None,
 ) -> Parameter:
     """An angle [rad], shown in degrees.
 
@@ -32,22 +41,38 @@ def angle_parameter(
         start: default value [rad], or a text with a unit of its kind, e.g. "30 deg".
         minimum: inclusive limits [rad].
         maximum: inclusive limits [rad].
+        usual: as of `Parameter`.
     """
     return Parameter(
-        name, quantity(start, "rad", f"{name}: start"), description, "rad", minimum, maximum, display_unit="deg"
+        name,
+        quantity(start, "rad", f"{name}: start"),
+        description,
+        "rad",
+        minimum,
+        maximum,
+        display_unit="deg",
+        usual=usual,
     )
 
 
-def speed_parameter(name: str, start: float | str, description: str) -> Parameter:
+def speed_parameter(name: str, start: float | str, description: str, *, usual: Range | None = None) -> Parameter:
     """An angular velocity [rad/s], shown in rpm.
 
     Args:
         name: as of `Parameter`.
         description: as of `Parameter`.
         start: default value [rad/s], or a text with a unit of its kind, e.g. "60 rpm".
+        usual: as of `Parameter`.
     """
     return Parameter(
-        name, quantity(start, "rad/s", f"{name}: start"), description, "rad/s", -1e6, 1e6, display_unit="rpm"
+        name,
+        quantity(start, "rad/s", f"{name}: start"),
+        description,
+        "rad/s",
+        -1e6,
+        1e6,
+        display_unit="rpm",
+        usual=usual,
     )
 
 
@@ -73,26 +98,28 @@ def inertia_parameter(name: str, start: float | str, description: str) -> Parame
     return Parameter(name, quantity(start, "kg.m2", f"{name}: start"), description, "kg.m2", 1e-12, 1e6)
 
 
-def stiffness_parameter(name: str, start: float | str, description: str) -> Parameter:
+def stiffness_parameter(name: str, start: float | str, description: str, *, usual: Range | None = None) -> Parameter:
     """Stiffness of a torsion spring [N.m/rad], which may be zero.
 
     Args:
         name: as of `Parameter`.
         description: as of `Parameter`.
         start: default value [N.m/rad], or a text with a unit of its kind, e.g. "2 N.mm/rad".
+        usual: as of `Parameter`.
     """
-    return Parameter(name, quantity(start, "N.m/rad", f"{name}: start"), description, "N.m/rad", 0.0, 1e6)
+    return Parameter(name, quantity(start, "N.m/rad", f"{name}: start"), description, "N.m/rad", 0.0, 1e6, usual=usual)
 
 
-def torque_parameter(name: str, start: float | str, description: str) -> Parameter:
+def torque_parameter(name: str, start: float | str, description: str, *, usual: Range | None = None) -> Parameter:
     """A torque [N.m].
 
     Args:
         name: as of `Parameter`.
         description: as of `Parameter`.
         start: default value [N.m], or a text with a unit of its kind, e.g. "5 N.mm".
+        usual: as of `Parameter`.
     """
-    return Parameter(name, quantity(start, "N.m", f"{name}: start"), description, "N.m", -1e6, 1e6)
+    return Parameter(name, quantity(start, "N.m", f"{name}: start"), description, "N.m", -1e6, 1e6, usual=usual)
 
 
 def fraction_parameter(name: str, start: float, description: str) -> Parameter:
@@ -149,7 +176,7 @@ def rotor_parameters(body: str, mass: float, inertia: float) -> tuple[Parameter,
 
 
 def link_parameters(
-    body: str, length: float, mass: float, inertia: float, centre: float, origin: str
+    body: str, length: float | str, mass: float, inertia: float, centre: float | str, origin: str
 ) -> tuple[Parameter, ...]:
     """<body>_length [m], _mass [kg], _inertia [kg.m2] and _centre [m] of a bar.
 
@@ -162,33 +189,39 @@ def link_parameters(
         origin: the pin from which it counts, e.g. "its hinge".
     """
     away = f"Distance of the {body}'s centre of mass from {origin}, along it"
+    size, place = (quantity(value, "m", f"{body}_length, {body}_centre") for value in (length, centre))
     return (
         length_parameter(f"{body}_length", length, f"Length of the {body}"),
         *body_parameters(body, mass, inertia),
-        length_parameter(f"{body}_centre", centre, away, minimum=-1e3),
+        length_parameter(f"{body}_centre", centre, away, -1e3, usual=(min(-size / 2, place), max(size, place))),
     )
 
 
-def damping_parameter(body: str, start: float = 0.0) -> Parameter:
+def damping_parameter(body: str, start: float = 0.0, *, usual: Range | None = None) -> Parameter:
     """<body>_damping [N.m.s/rad]: viscous, of the body's rotation.
 
     Args:
         body: its name.
         start: default value [N.m.s/rad].
+        usual: as of `Parameter`.
     """
-    return Parameter(f"{body}_damping", start, f"Damping of the {body}'s rotation", "N.m.s/rad", 0.0, 1e6)
+    return Parameter(f"{body}_damping", start, f"Damping of the {body}'s rotation", "N.m.s/rad", 0.0, 1e6, usual=usual)
 
 
-def shaft_parameters(damping: float) -> tuple[Parameter, Parameter]:
+def shaft_parameters(damping: float | str, stiffest: float = 100.0) -> tuple[Parameter, Parameter]:
     """drive_stiffness [N.m/rad], 0 at first, and drive_damping [N.m.s/rad] of the `CompliantShaft` "shaft".
 
     Args:
         damping: default value of drive_damping [N.m.s/rad].
+        stiffest: end of the usual range of drive_stiffness [N.m/rad].
     """
     lag = "Damping of the drive shaft: torque per lag of speed"
+    start = quantity(damping, "N.m.s/rad", "drive_damping")
+    most = min(2 * start or 0.02 * stiffest, 1e9)
+    stiff, damped = ((0.0, end) if end > 0.0 else None for end in (stiffest, most))
     return (
-        Parameter("drive_stiffness", 0.0, "Stiffness of the drive shaft", "N.m/rad", 0.0, 1e9),
-        Parameter("drive_damping", damping, lag, "N.m.s/rad", 0.0, 1e9),
+        Parameter("drive_stiffness", 0.0, "Stiffness of the drive shaft", "N.m/rad", 0.0, 1e9, usual=stiff),
+        Parameter("drive_damping", start, lag, "N.m.s/rad", 0.0, 1e9, usual=damped),
     )
 
 
@@ -199,7 +232,7 @@ def joint_friction_parameter(hinges: str = "all hinges") -> Parameter:
         hinges: which they are, for the description.
     """
     description = f"Coefficient of friction times pin radius, of {hinges}"
-    return Parameter("joint_friction_radius", 0.0, description, "m", 0.0, 1.0)
+    return Parameter("joint_friction_radius", 0.0, description, "m", 0.0, 1.0, usual=(0.0, 2e-3))
 
 
 def settings_parameters() -> tuple[Parameter, ...]:
@@ -238,27 +271,29 @@ def shaft_inputs(speed: float, angle: float = 0.0, shaft: str = "drive shaft") -
     )
 
 
-def torque_input(force: str, body: str, start: float = 0.0) -> Input:
+def torque_input(force: str, body: str, start: float = 0.0, *, usual: Range | None = None) -> Input:
     """The torque [N.m] of a `Torque` on a body: <force>_torque.
 
     Args:
         force: name of the `Torque`, e.g. "drive".
         body: on which it acts, for the description.
         start: before the first value arrives [N.m].
+        usual: as of `Parameter`.
     """
-    return _torque(force, f"Torque on the {body}", start)
+    return _torque(force, f"Torque on the {body}", start, usual)
 
 
-def load_torque_input(body: str, start: float = 0.0) -> Input:
+def load_torque_input(body: str, start: float = 0.0, *, usual: Range | None = None) -> Input:
     """The torque [N.m] of what a body drives, by the `Torque` "load": load_torque.
 
     Args:
         body: on which it acts, for the description.
         start: before the first value arrives [N.m].
+        usual: as of `Parameter`.
     """
-    return _torque("load", f"External torque on the {body}", start)
+    return _torque("load", f"External torque on the {body}", start, usual)
 
 
-def _torque(force: str, what: str, start: float) -> Input:
+def _torque(force: str, what: str, start: float, usual: Range | None) -> Input:
     description = f"{what}, counter-clockwise positive"
-    return Input(f"{force}_torque", f"{force}.torque", start, description, "N.m", -1e6, 1e6)
+    return Input(f"{force}_torque", f"{force}.torque", start, description, "N.m", -1e6, 1e6, usual=usual)

@@ -1,5 +1,5 @@
 // Runs a model's WebAssembly module as a page does. From standard input: {wasm, token, given: [[reference, type, value]],
-// start, spacing, steps, reals, flags}; to standard output: {imports, text, rows, width}.
+// start, spacing, steps, reals, flags, wholes}; to standard output: {imports, text, rows, width}.
 "use strict";
 const fs = require("fs");
 
@@ -28,10 +28,11 @@ async function main() {
     if (status) return answer([], 0);
   }
   if (x.page_begin(c, asked.start)) return answer([], 0);
-  const width = 2 + asked.reals.length + asked.flags.length, room = 4 * asked.steps + 100;
+  const width = 2 + asked.reals.length + asked.flags.length + asked.wholes.length, room = 4 * asked.steps + 100;
   const now = put(Float64Array.of(asked.start)), out = x.malloc(8 * room * width);
   const count = x.page_run(c, now, asked.spacing, asked.steps, room, put(Uint32Array.from(asked.reals)),
-    asked.reals.length, put(Uint32Array.from(asked.flags)), asked.flags.length, out);
+    asked.reals.length, put(Uint32Array.from(asked.flags)), asked.flags.length,
+    put(Uint32Array.from(asked.wholes)), asked.wholes.length, out);
   const rows = Array.from(new Float64Array(x.memory.buffer, out, count * width), String);
   x.fmi3FreeInstance(c);
   answer(rows, width);

@@ -165,7 +165,7 @@ class Wheel:
 
 
 class WheelReals:
-    """Bound variables of a `Wheel`; what is no number is refused, as by FMUs (docs/machines.md)."""
+    """Bound variables of a `Wheel`; what is no number is refused, as by FMUs (docs/how-to/machines.md)."""
 
     def __init__(self, component: Any, names: list[str]) -> None:
         self._component, self._names = component, names

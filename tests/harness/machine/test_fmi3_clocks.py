@@ -136,7 +136,7 @@ def at_the_impact(table: pd.DataFrame) -> "pd.Series[float]":
 
 
 def test_a_row_at_an_impact_shows_what_comes_after_it(fmu: Fmu, built: Callable[..., Path]) -> None:
-    """Right limits, in all forms; what was before is in the outputs that are named so (docs/machines.md)."""
+    """Right limits, in all forms; what was before is in the outputs that are named so (docs/how-to/machines.md)."""
     for path in (fmu.path, built("ratchet", build_native_fmu, fmi=3), built("ratchet", build_native_fmu)):
         with open_fmu(path) as one, one.instantiate("ratchet") as ratchet:
             machine = Machine({"ratchet": ratchet})

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from rotor import Stop, rotor
 
-from mechanism_fmu.engine.starting.assembly import CLOSED_WITHIN
 from mechanism_fmu.model import GROUND, Body, Mechanism, MechanismError, PointLineContact, Revolute, Translational
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tolerances import CLOSED_WITHIN
 
 GROUND_LENGTH, CRANK, COUPLER, ROCKER = 1.0, 0.3, 0.9, 0.7
 

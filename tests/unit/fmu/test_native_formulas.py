@@ -3,13 +3,16 @@ import math
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings, strategies as st
 
 import models
+from mechanism_fmu.engine.run import library_path
 from mechanism_fmu.fmu.native.formulas import c_number, formulas, printf_text
+from mechanism_fmu.fmu.native.objects import compiled_engine
 from mechanism_fmu.model import Body, Finding, Mechanism, MechanismError, Model, Parameter
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.model.functions import atan2, cos, sin, sqrt, tan, where_positive
@@ -91,9 +94,10 @@ def _library(source, path):
     # Warnings are errors: a variable that nothing uses is an operation that should have been dropped.
     options = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-O2", "-ffp-contract=off", "-shared", "-fPIC"]
     path.with_suffix(".c").write_text(source)
-    subprocess.run(
-        [str(COMPILER), *options, "-o", str(path.with_suffix(".so")), str(path.with_suffix(".c")), "-lm"], check=True
-    )
+    engine = compiled_engine()
+    files = [path.with_suffix(".c"), engine.objects[library_path(Path()).stem]]
+    command = [COMPILER, *options, f"-I{engine.headers}", "-o", path.with_suffix(".so"), *files, "-lm"]
+    subprocess.run([str(part) for part in command], check=True)
     return ctypes.CDLL(str(path.with_suffix(".so")))
 
 

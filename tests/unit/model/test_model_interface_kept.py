@@ -44,6 +44,6 @@ def test_kept_defaults_of_the_model() -> None:
 
 
 def _plain(port: Any) -> dict[str, Any]:
-    return {
-        key: value for key, value in dataclasses.asdict(port).items() if isinstance(value, str | int | float | None)
-    }
+    found = dataclasses.asdict(port)
+    found.pop("usual", None)  # of pages, no part of an FMU
+    return {key: value for key, value in found.items() if isinstance(value, str | int | float | None)}

@@ -204,6 +204,7 @@ def test_every_kind_of_part_is_there() -> None:
     # what is to be analysed is checked at the build: tests/unit/fmu/test_analysis_file.py
     # what makes parts: tests/unit/model/test_ends.py and test_solids.py
     others |= {"End", "Material"}
+    others |= {"Case", "SineSignal", "TableSignal"}  # tests/unit/model/test_cases.py
     others |= {"Arm", "ImpactStress", "SawtoothWheel", "SeriesCompliance", "Strut"}
     others |= {"RectangularTooth", "TableBeam", "TrapezoidTooth", "WedgeTooth"}
     assert {kind.__name__ for kind in frozen if isinstance(kind, type)} - {kind.__name__ for kind in parts} == others

@@ -1,7 +1,9 @@
 """Numbers with units in a description, and curves whose arguments are looked at where they are made."""
 
 import math
+import re
 import traceback
+from typing import Any
 
 import pytest
 
@@ -103,3 +105,31 @@ def test_an_argument_of_a_curve_is_refused_at_the_line_that_gives_it(said: str) 
 
 def test_lists_become_tuples() -> None:
     assert Curve([Piece(0.0, [Term([1.0, 2.0])])]) == Curve((Piece(0.0, (Term((1.0, 2.0)),)),))
+
+
+def test_a_usual_range_takes_texts() -> None:
+    parameter = Parameter("torque", "2 N.mm", "", "N.m", 0.0, 1.0, usual=("1 N.mm", 0.005))
+    assert parameter.usual == (0.001, 0.005)
+    assert Input("push", "push.x", 0.0, "", "N", usual=(0, 3)).usual == (0.0, 3.0)
+    assert length_parameter("reach", "1 m", "", usual=("10 cm", "2 m")).usual == (0.1, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("usual", "message"),
+    [
+        ((2.0, 1.0), "a: its usual range is 2 to 1 m; give two finite numbers, the lower one first"),
+        ((1.0, 1.0), "the lower one first"),
+        ((0.5, math.inf), "give two finite numbers"),
+        ((0.5, math.nan), "give two finite numbers"),
+        ((0.5, 4.0), "a: its usual range is 0.5 to 4 m, beyond the limits 0 to 3 m; give a part of them"),
+        ((-0.5, 2.0), "beyond the limits 0 to 3 m"),
+        ((1.5, 2.0), "a: its usual range is 1.5 to 2 m, without the start value 1 m; give one that holds it"),
+        (("1 s", "2 s"), "a: usual wants m, got '1 s'"),
+        ((1.0,), "a: usual = (1.0,), but it must be two numbers"),
+        (2.0, "a: usual = 2.0, but it must be two numbers"),
+        ((0.5, None), "but it must be two numbers"),
+    ],
+)
+def test_what_is_no_usual_range_is_refused(usual: Any, message: str) -> None:
+    with pytest.raises(MechanismError, match=re.escape(message)):
+        Parameter("a", 1.0, "", "m", 0.0, 3.0, usual=usual)

@@ -41,7 +41,7 @@ def _case1(at: AtAngle) -> Found:
         1e-10,
         "8 element coordinates, 3 system forces; B derived by the program = B by hand at φ = 60°; the document's own "
         "B is eq (52) of its appendix, beyond the pages at hand",
-        "by hand: docs/elastodynamics.md",
+        "by hand: docs/explanation/elastodynamics.md",
         *(", ".join(f"{value:.6f}" for value in row) for row in wanted),
         verdict=Verdict.HOLDS_IN_PART,
     )

@@ -108,7 +108,7 @@ ROWS = (
         "Case 3",
         "The third model.",
         "named",
-        ("docs/elastodynamics-dynamics.md",),
+        ("docs/explanation/elastodynamics-dynamics.md",),
         Found("named (“three cases”) and not described in the pages at hand", Verdict.NOT_DETERMINED),
     ),
     Row(
@@ -181,7 +181,7 @@ ROWS = (
 # The terms that Erdman, Sandor and Oakberg define, with what of them this project does; and their Figs 1 to 7.
 
 _CYCLE, _SYNTHESIS = "mechanism_fmu/elastodynamics/cycle.py", "mechanism_fmu/elastodynamics/synthesis.py"
-_SEARCH, _GLOSSARY = "harness/designs/search.py", "docs/glossary.md"
+_SEARCH, _GLOSSARY = "harness/designs/search.py", "docs/explanation/glossary.md"
 
 #: Term, short definition, where it lives, what this project does, verdict, command.
 _TERMS = (
@@ -283,7 +283,7 @@ _TERMS = (
         "Kineto-elastodynamics",
         "the study of the motion of mechanisms whose elements deflect",
         "mechanism_fmu/elastodynamics/__init__.py",
-        "the room `mechanism_fmu.elastodynamics`, and `ked`",
+        "the package `mechanism_fmu.elastodynamics`, and `ked`",
         Verdict.TAKEN_OVER,
         KED,
     ),

@@ -7,6 +7,7 @@ import math
 from ....tables.declare import Array
 from ....tables.motion import Pose, Rows
 from ...compiler.subset import jit, keep_small
+from ...elementary import sine_cosine
 from ...profiles.shape import along
 from ...vectors import turned
 
@@ -43,7 +44,7 @@ def _gears(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array, radius_j
     part_j = radius_j / (data[4] + radius_j)
     theta = part_i * (at.phi[i] + data[5]) + part_j * (at.phi[j] + data[7] - behind)
     turn = part_i * ui + part_j * uj
-    tx, ty = math.cos(theta), math.sin(theta)
+    ty, tx = sine_cosine(theta)
     nx, ny = -ty, tx
     dx = at.x[j] + bx - at.x[i] - ax
     dy = at.y[j] + by - at.y[i] - ay
@@ -78,7 +79,7 @@ def rack_and_pinion(at: Pose, rows: Rows, row: int, i: int, j: int, data: Array)
     `along`; the angle phi_j + theta_j - phi_i - theta_u + pi/2 adds [0, 0, -R_j, 0, 0, R_j] to Phi_q. nu = 0.
     """
     keep_small()
-    ux, uy = math.cos(data[4]), math.sin(data[4])
+    uy, ux = sine_cosine(data[4])
     radius = data[7]
     along(at, rows, row, i, j, data[0], data[1], data[5], data[6], -uy, ux)
     rows.residual[row] -= radius

@@ -6,7 +6,7 @@
 #define OF_PAGE(name) __attribute__((export_name(#name)))
 
 enum { REFUSED = -1, ON_GRID, AT_IMPACT };
-enum { MOST_FLAGS = 256 };
+enum { MOST_OF_A_KIND = 256 };
 
 static char text[8192];
 
@@ -53,26 +53,47 @@ static int step(void *c, double *now, double target) {
     return early ? AT_IMPACT : ON_GRID;
 }
 
-/* Rows (time, 1 behind an impact else 0, `reals`, `flags`): where it is, at each of the next `steps` points of a grid, and
-   behind each impact between them. `*now` goes on to where the last row is; fewer points than asked for: it was refused,
-   or `room` rows are full. Returns the number of rows. */
+/* Value references of variables of a kind. */
+typedef struct {
+    const fmi3ValueReference *of;
+    int count;
+} List;
+
+/* The values of reals, flags and whole numbers behind each other; a status. */
+static fmi3Status record(void *c, List reals, List flags, List wholes, double *here) {
+    fmi3Boolean seen[MOST_OF_A_KIND];
+    fmi3Int32 counted[MOST_OF_A_KIND];
+    fmi3Status status = fmi3GetFloat64(c, reals.of, (size_t)reals.count, here, (size_t)reals.count);
+    if (status == fmi3OK && flags.count)
+        status = fmi3GetBoolean(c, flags.of, (size_t)flags.count, seen, (size_t)flags.count);
+    if (status == fmi3OK && wholes.count)
+        status = fmi3GetInt32(c, wholes.of, (size_t)wholes.count, counted, (size_t)wholes.count);
+    if (status != fmi3OK) return status;
+    for (int k = 0; k < flags.count; k++) here[reals.count + k] = seen[k];
+    for (int k = 0; k < wholes.count; k++) here[reals.count + flags.count + k] = counted[k];
+    return fmi3OK;
+}
+
+/* Rows (time, 1 behind an impact else 0, `reals`, `flags`, `wholes`): where it is, at each of the next `steps` points of a
+   grid, and behind each impact between them. `*now` goes on to where the last row is; fewer points than asked for: it was
+   refused, or `room` rows are full. Returns the number of rows. */
 OF_PAGE(page_run)
 int page_run(void *c, double *now, double spacing, int steps, int room, const fmi3ValueReference *reals, int real_count,
-             const fmi3ValueReference *flags, int flag_count, double *rows) {
-    if (flag_count > MOST_FLAGS) {
-        keep_message(NULL, fmi3Error, "", "page_run: a page records at most 256 Boolean outputs; declare fewer.");
+             const fmi3ValueReference *flags, int flag_count, const fmi3ValueReference *wholes, int whole_count,
+             double *rows) {
+    if (flag_count > MOST_OF_A_KIND || whole_count > MOST_OF_A_KIND) {
+        keep_message(NULL, fmi3Error, "",
+                     "page_run: a page records at most 256 Boolean and 256 Integer outputs; declare fewer.");
         return 0;
     }
     double start = *now;
     int row = 0, what = ON_GRID;
     for (int point = 0; row < room;) {
-        double *here = rows + (size_t)row * (size_t)(2 + real_count + flag_count);
-        fmi3Boolean seen[MOST_FLAGS];
+        double *here = rows + (size_t)row * (size_t)(2 + real_count + flag_count + whole_count);
         here[0] = *now;
         here[1] = what == AT_IMPACT;
-        if (fmi3GetFloat64(c, reals, (size_t)real_count, here + 2, (size_t)real_count) != fmi3OK) break;
-        if (flag_count && fmi3GetBoolean(c, flags, (size_t)flag_count, seen, (size_t)flag_count) != fmi3OK) break;
-        for (int k = 0; k < flag_count; k++) here[2 + real_count + k] = seen[k];
+        if (record(c, (List){reals, real_count}, (List){flags, flag_count}, (List){wholes, whole_count}, here + 2) != fmi3OK)
+            break;
         row++;
         if (point >= steps) break;
         what = step(c, now, start + (point + 1) * spacing);

@@ -78,7 +78,7 @@ def test_numpy_may_be_imported(folder: Path) -> None:
         (
             "length / 12",
             "length / 12 + torque_input('motor', 'lever', 0.0, 1.0)",
-            "torque_input takes from 2 to 3 positional arguments but 4 were given. It takes force, body, start.",
+            "torque_input takes from 2 to 3 positional arguments but 4 were given. It takes force, body, start, usual.",
         ),
         ("-9.81 * mass", "-9.81 * mass / 0", "ZeroDivisionError: "),
         ("radians(30)", "exit()", "the file ends Python (exit); remove that."),
