@@ -12,7 +12,7 @@ from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
     Body,
-    Disk,
+    LumpedMass,
     Mechanism,
     Member,
     Revolute,
@@ -65,9 +65,9 @@ class PathGenerator:
         coupler = lumped_body(
             (self._member("arm", "coupler", path), self._member("coupler_bar", "coupler", pin)),
             (
-                Disk("path_disk", "coupler", path, *at_path),
-                Disk("crank_disk", "coupler", origin, *at_crank),
-                Disk("follower_disk", "coupler", pin, *at_follower),
+                LumpedMass("path_disk", "coupler", path, *at_path),
+                LumpedMass("crank_disk", "coupler", origin, *at_crank),
+                LumpedMass("follower_disk", "coupler", pin, *at_follower),
             ),
         )
         crank = lumped_body((self._member("crank_bar", "crank", (self.crank, 0.0)),))
@@ -102,7 +102,7 @@ class PathGenerator:
                 AngleDriver("drive", "crank", polynomial_motion(self.start, self.speed)),
             ),
             members=(coupler.members[0], *crank.members, coupler.members[1], *follower.members),
-            disks=coupler.disks,
+            lumped_masses=coupler.lumped_masses,
         )
 
     def _member(self, name: str, body: str, end: tuple[float, float]) -> Member:

@@ -16,7 +16,7 @@ from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
     Body,
-    Disk,
+    LumpedMass,
     Mechanism,
     Member,
     Model,
@@ -97,10 +97,10 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             AngleDriver("drive", "crank", polynomial_motion(start, values.speed)),
         ),
         members=members,
-        disks=(
-            Disk("P", "coupler", arm.end, 0.5 * pound, 0.25 * square * 0.75 * 0.75),
-            Disk("at_A", "coupler", link.start, 0.1 * pound, 0.05 * square * 0.5 * 0.5),
-            Disk("at_B", "coupler", link.end, 0.1 * pound),
+        lumped_masses=(
+            LumpedMass("P", "coupler", arm.end, 0.5 * pound, 0.25 * square * 0.75 * 0.75),
+            LumpedMass("at_A", "coupler", link.start, 0.1 * pound, 0.05 * square * 0.5 * 0.5),
+            LumpedMass("at_B", "coupler", link.end, 0.1 * pound),
         ),
         outputs=tuple(Output(source.replace(".", "_"), source, source) for source in _SOURCES),
         held=("crank.angle",),

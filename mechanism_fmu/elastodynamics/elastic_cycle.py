@@ -206,7 +206,7 @@ class MassModel(Enum):
 
     Attributes:
         LUMPED: half at each of its ends: the paper's Case 2 has masses at the joints, the halves are this project's. A
-            rotation without a disk has no inertia then.
+            rotation without a lumped mass has no inertia then.
         CONSISTENT: along it, swinging with the cubics in which it bends.
     """
 

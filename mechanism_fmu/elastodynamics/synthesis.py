@@ -28,7 +28,7 @@ class Judgement:
     """A design over a cycle.
 
     Attributes:
-        mass: of all members [kg]; disks and rigid bodies are not for the design to change.
+        mass: of all members [kg]; lumped masses and rigid bodies are not for the design to change.
         deviation: of the path point from the path that is wanted, shape (times,) [m].
         stress: the largest in each element, shape (times, elements) [Pa].
     """
@@ -89,7 +89,7 @@ def member_mass(linkage: Linkage) -> float:
     """Mass of all members [kg].
 
     Args:
-        linkage: whose members count; disks and rigid bodies do not.
+        linkage: whose members count; lumped masses and rigid bodies do not.
 
     Source: textbook: the sum of rho A l.
     """

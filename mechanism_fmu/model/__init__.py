@@ -87,8 +87,8 @@ from .laws import characteristic as characteristic
 from .logic import LogicalFunction as LogicalFunction
 from .mechanism import Mechanism as Mechanism, Settings as Settings
 from .members import (
-    Disk as Disk,
     LumpedBody as LumpedBody,
+    LumpedMass as LumpedMass,
     Member as Member,
     Section as Section,
     lumped_body as lumped_body,

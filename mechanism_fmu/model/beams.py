@@ -26,7 +26,8 @@ def hinge(member: Member, mechanism: Mechanism) -> tuple[int, int]:
     """First row of the revolute joint at the start of a member, and 1 where its body is body i of it, else -1.
 
     Raises:
-        MechanismError: there is none, the body has other joints or members, or contacts or disks beside its ends.
+        MechanismError: there is none, the body has other joints or members, or contacts or lumped
+            masses beside its ends.
     """
     row, found, joints = 0, None, 0
     for joint in mechanism.joints:
@@ -67,11 +68,11 @@ def _check_beside(member: Member, mechanism: Mechanism) -> None:
                 f"{type(force).__name__} {force.name!r} acts at a point of body {member.body!r}, where "
                 f"{' and '.join(OF_BEAM)} of member {member.name!r} would be wrong; attach it to another body."
             )
-    for disk in mechanism.disks:
-        if disk.body == member.body and not any(same_point(disk.point, end) for end in (member.start, member.end)):
+    for lump in mechanism.lumped_masses:
+        if lump.body == member.body and not any(same_point(lump.point, end) for end in (member.start, member.end)):
             raise MechanismError(
-                f"Disk {disk.name!r} stands beside the ends of member {member.name!r}, where {' and '.join(OF_BEAM)} "
-                f"would be wrong; give `member.start` or `member.end` to it."
+                f"LumpedMass {lump.name!r} stands beside the ends of member {member.name!r}, where "
+                f"{' and '.join(OF_BEAM)} would be wrong; give `member.start` or `member.end` to it."
             )
 
 

@@ -15,7 +15,7 @@ from .forces import Force, ForceElement, Marker
 from .functions import Number, is_plain
 from .joints import Joint
 from .logic import LogicalFunction
-from .members import Disk, Member
+from .members import LumpedMass, Member
 from .patterns import CircularPattern
 from .ports import Calculated, Input, Output
 from .quantities import pair
@@ -71,8 +71,8 @@ class Mechanism:
         settings: how the engine integrates; where none are given, a `Model` takes those among its parameters.
         gravity: acceleration (gx, gy) [m/s2], e.g. (0.0, -9.80665), or texts with units, that gives every body its
             weight, whose work counts as work done. None, and no weights, by default, as in Pennestri et al.
-        members, disks: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics` and outputs
-            that read them; the motion does without. The mechanism becomes a structure when its held and driven
+        members, lumped_masses: what bends and which lumps of mass it carries, for `mechanism_fmu.elastodynamics` and
+            outputs that read them; the motion does without. The mechanism becomes a structure when its held and driven
             coordinates stand still.
         markers: points whose place and velocity outputs read.
         impact_law: of impacts where there is friction: "newton" (Moreau and Glocker), "poisson", or "stronge" (of one
@@ -100,7 +100,7 @@ class Mechanism:
     settings: Settings = DEFAULT_SETTINGS
     gravity: tuple[Number, Number] | None = None
     members: tuple[Member, ...] = ()
-    disks: tuple[Disk, ...] = ()
+    lumped_masses: tuple[LumpedMass, ...] = ()
     markers: tuple[Marker, ...] = ()
     impact_law: Literal["newton", "poisson", "stronge"] = "newton"
     energy_guard: bool = True

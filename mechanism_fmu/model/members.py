@@ -50,8 +50,8 @@ class Section:
 class Member(Attached):
     """A straight elastic beam of constant section, a part of a body.
 
-    Members of one body that end in the same point are welded there; joints and disks of a body with members stand at
-    ends of members. A body without members is rigid.
+    Members of one body that end in the same point are welded there; joints and lumped masses of a body with members
+    stand at ends of members. A body without members is rigid.
 
     Attributes:
         name: unique within the mechanism.
@@ -75,7 +75,7 @@ class Member(Attached):
 
 
 @dataclass(frozen=True, init=False)
-class Disk(Attached):
+class LumpedMass(Attached):
     """A point mass with rotary inertia on a body, whose mass and inertia it is a part of.
 
     Attributes:
@@ -98,33 +98,33 @@ class Disk(Attached):
 
 @dataclass(frozen=True)
 class LumpedBody:
-    """A body that is made of members and disks, half of each member's mass at either end.
+    """A body that is made of members and lumped masses, half of each member's mass at either end.
 
     Attributes:
         mass: [kg].
         inertia: about the centre of mass [kg m2].
         centre: of mass, in the frame in which the parts were given [m].
-        members, disks: the parts in the body's own frame, from its centre of mass.
+        members, lumped_masses: the parts in the body's own frame, from its centre of mass.
     """
 
     mass: Number
     inertia: Number
     centre: Point
     members: tuple[Member, ...]
-    disks: tuple[Disk, ...]
+    lumped_masses: tuple[LumpedMass, ...]
 
 
-def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> LumpedBody:
-    """Mass, inertia and centre of mass of a body's members and disks, given in any one frame; their sum must be > 0.
+def lumped_body(members: tuple[Member, ...], lumped_masses: tuple[LumpedMass, ...] = ()) -> LumpedBody:
+    """Mass, inertia and centre of mass of a body's members and lumped masses, in one frame; their sum must be > 0.
 
     Args:
         members: those of the body.
-        disks: lumps of mass on it.
+        lumped_masses: lumps of mass on it.
 
     Source: half of each member at either end: docs/explanation/elastodynamics.md, section Inertia, torque and power;
         textbook: centre of mass, and Steiner's theorem.
     """
-    lumps: list[tuple[Number, Point]] = [(disk.mass, disk.point) for disk in disks]
+    lumps: list[tuple[Number, Point]] = [(lump.mass, lump.point) for lump in lumped_masses]
     for member in members:
         x, y = member.end[0] - member.start[0], member.end[1] - member.start[1]
         half = member.density * member.section.area * length((x, y)) / 2
@@ -142,7 +142,7 @@ def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> Lu
         places.append((point, (point[0] - centre[0], point[1] - centre[1])))
         return places[-1][1]
 
-    inertia: Number = sum(disk.inertia for disk in disks)
+    inertia: Number = sum(lump.inertia for lump in lumped_masses)
     for part, point in lumps:
         x, y = moved(point)
         inertia = inertia + part * (x * x + y * y)
@@ -151,5 +151,5 @@ def lumped_body(members: tuple[Member, ...], disks: tuple[Disk, ...] = ()) -> Lu
         inertia,
         (centre[0], centre[1]),
         tuple(replace(member, start=moved(member.start), end=moved(member.end)) for member in members),
-        tuple(replace(disk, point=moved(disk.point)) for disk in disks),
+        tuple(replace(lump, point=moved(lump.point)) for lump in lumped_masses),
     )

@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
+from importlib.metadata import entry_points
 from types import EllipsisType, SimpleNamespace
 from typing import Any, Protocol
 
@@ -254,6 +255,23 @@ class Model:
             values: of all parameters, as `values` gives them.
         """
         return messages(self.warnings(values))
+
+    def show(self, height: int = 720) -> Any:
+        """Show the model as a page in which its engine runs, for the last line of a cell of a notebook.
+
+        What shows it is the installed front end that has the entry point `show` of the group `mechanism_fmu.show`:
+        `harness.page.shown.show` of this project.
+
+        Args:
+            height: of its frame in a notebook [px].
+
+        Raises:
+            MechanismError: no front end is installed, or the model cannot be built or traced.
+            ValueError: the height is not positive.
+        """
+        for point in entry_points(group="mechanism_fmu.show", name="show"):
+            return point.load()(self, height)
+        raise MechanismError("Nothing that shows models is installed here; give: python -m pip install mechanism_fmu.")
 
 
 class Limited(Protocol):

@@ -64,8 +64,8 @@ def structure(mechanism: Mechanism) -> Structure:
     """The structure that a mechanism with members is while its held and driven coordinates stand still.
 
     Raises:
-        MechanismError: there are contacts, a joint or disk stands beside the ends of members, or the structure is not
-            determinate.
+        MechanismError: there are contacts, a joint or lumped mass stands beside the ends of members, or the structure
+            is not determinate.
     """
     if mechanism.contacts:
         raise MechanismError(
@@ -184,9 +184,9 @@ def _lumps(mechanism: Mechanism, nodes: Structure) -> Iterator[tuple[int, Number
         for point in (member.start, member.end):
             yield nodes.at(member.body, point, member), half, 0.0
     flexible = {member.body for member in mechanism.members}
-    for disk in mechanism.disks:
-        if disk.body in flexible:
-            yield nodes.at(disk.body, disk.point, disk), disk.mass, disk.inertia
+    for lump in mechanism.lumped_masses:
+        if lump.body in flexible:
+            yield nodes.at(lump.body, lump.point, lump), lump.mass, lump.inertia
     for body in mechanism.bodies:
         if body.name not in flexible:
             yield nodes.at(body.name, (0.0, 0.0), body), body.mass, body.inertia

@@ -16,8 +16,8 @@ from mechanism_fmu.model import (
     Calculated,
     CompliantShaft,
     Disc,
-    Disk,
     LumpedBody,
+    LumpedMass,
     Mechanism,
     Member,
     Model,
@@ -41,12 +41,12 @@ from mechanism_fmu.model.four_bar import (
 )
 from mechanism_fmu.model.functions import Number, cos, sin
 
-# The bodies of the path generator, made of elastic members and disks.
+# The bodies of the path generator, made of elastic members and lumped masses.
 
 
 @dataclass(frozen=True)
 class Link:
-    """A body at the start of the motion, and its members and disks in its own frame."""
+    """A body at the start of the motion, and its members and lumped masses in its own frame."""
 
     body: Body
     parts: LumpedBody
@@ -60,9 +60,9 @@ def links(values: SimpleNamespace) -> tuple[Link, Link, Link]:
     path = values.arm_length * cos(values.arm_angle), values.arm_length * sin(values.arm_angle)
     crank_pin, rocker_pin = (0.0, 0.0), (values.coupler_length, 0.0)
     disks = (
-        Disk("path_disk", "coupler", path, values.path_disk_mass, values.path_disk_inertia),
-        Disk("crank_pin_disk", "coupler", crank_pin, values.crank_pin_disk_mass, values.crank_pin_disk_inertia),
-        Disk("rocker_pin_disk", "coupler", rocker_pin, values.rocker_pin_disk_mass),
+        LumpedMass("path_disk", "coupler", path, values.path_disk_mass, values.path_disk_inertia),
+        LumpedMass("crank_pin_disk", "coupler", crank_pin, values.crank_pin_disk_mass, values.crank_pin_disk_inertia),
+        LumpedMass("rocker_pin_disk", "coupler", rocker_pin, values.rocker_pin_disk_mass),
     )
     coupler = _member(values, "arm", "coupler", path), _member(values, "coupler_bar", "coupler", rocker_pin)
     crank = _member(values, "crank_bar", "crank", (values.crank_length, 0.0))
@@ -203,7 +203,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
             CompliantShaft("shaft", "crank", stiffness=values.drive_stiffness, damping=values.drive_damping),
         ),
         members=(arm, crank_bar, bar, rocker_bar),
-        disks=coupler.parts.disks,
+        lumped_masses=coupler.parts.lumped_masses,
         held=("crank.angle",),
     )
 

@@ -12,8 +12,8 @@ from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
     Body,
-    Disk,
     Force,
+    LumpedMass,
     Mechanism,
     MechanismError,
     Member,
@@ -33,7 +33,7 @@ SECTION = Section.rectangle(0.01, 0.02)
 BAR_MASS = DENSITY * SECTION.area * LENGTH
 STIFFNESS = YOUNG * SECTION.second_moment
 MODULUS = 2 * SECTION.second_moment / SECTION.depth
-TIP = Disk("tip", "arm", (LENGTH / 2, 0.0), 0.5, 2e-3)
+TIP = LumpedMass("tip", "arm", (LENGTH / 2, 0.0), 0.5, 2e-3)
 MASS = TIP.mass + BAR_MASS / 2
 
 QUANTITIES = ("axial_force", "start_moment", "end_moment", "stress")
@@ -63,7 +63,7 @@ def arm(speed, acceleration, angle=0.0, **more):
                 AngleDriver("drive", "arm", polynomial_motion(angle, speed, acceleration / 2)),
             ),
             members=(Member("bar", "arm", (-half, 0.0), (half, 0.0), SECTION, YOUNG, DENSITY),),
-            disks=(TIP,),
+            lumped_masses=(TIP,),
             outputs=tuple(outputs),
             **more,
         )

@@ -11,8 +11,8 @@ import models
 from mechanism_fmu.model import (
     GROUND,
     Body,
-    Disk,
     Force,
+    LumpedMass,
     Mechanism,
     MechanismError,
     Member,
@@ -126,13 +126,13 @@ def test_what_pushes_or_weighs_beside_the_tip_is_refused():
     for contact, said in ((middle, "PointLineContact 'stop'"), (surface, "PointLineContact 'rest'")):
         with pytest.raises(MechanismError, match=f"{said} pushes body 'rod' beside the end of member 'beam'"):
             compile_mechanism(bar(contacts=(contact,)))
-    with pytest.raises(MechanismError, match=r"Disk 'lump' stands beside the ends of member 'beam'"):
-        compile_mechanism(bar(disks=(Disk("lump", "rod", (0.0, 0.0), 0.1),)))
+    with pytest.raises(MechanismError, match=r"LumpedMass 'lump' stands beside the ends of member 'beam'"):
+        compile_mechanism(bar(lumped_masses=(LumpedMass("lump", "rod", (0.0, 0.0), 0.1),)))
     strut = SpringDamper("strut", "rod", (0.0, 0.0), GROUND, (0.0, 1.0))
     with pytest.raises(MechanismError, match=r"SpringDamper 'strut' acts at a point of body 'rod'"):
         compile_mechanism(replace(bar(), forces=(strut,)))
-    at_tip = Disk("tip", "rod", (LENGTH / 2, 0.0), 0.1)
-    assert compile_mechanism(bar(disks=(at_tip,))).beam_body.tolist() == [0]
+    at_tip = LumpedMass("tip", "rod", (LENGTH / 2, 0.0), 0.1)
+    assert compile_mechanism(bar(lumped_masses=(at_tip,))).beam_body.tolist() == [0]
 
 
 def pawl_from_the_tip(values, parameters, rates):

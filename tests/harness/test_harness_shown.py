@@ -29,7 +29,15 @@ def test_a_page_shows_itself_in_a_frame_of_its_own(tmp_path: Path) -> None:
 @pytest.mark.skipif(not has_linker(), reason="ziglang is not installed")
 def test_it_is_the_page_of_the_command() -> None:
     module = models.load("ratchet")
-    assert show(module.MODEL).html == page(web_module(module))
+    shown = module.MODEL.show(height=400)
+    assert shown == show(module.MODEL, height=400)
+    assert (shown.html, shown.height) == (page(web_module(module)), 400)
+
+
+def test_without_a_front_end_a_model_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mechanism_fmu.model.model.entry_points", lambda **_: ())
+    with pytest.raises(MechanismError, match="Nothing that shows models is installed here; give: python -m pip"):
+        models.load("ratchet").MODEL.show()
 
 
 def test_what_is_no_model_and_no_height_is_refused() -> None:

@@ -12,7 +12,6 @@ from mechanism_fmu.stress import STEEL_CARD, Beam, MaterialCard, SequenceDamage
 
 from ...analysis.analyses import Analysis, Seen, analysed, analyses_of
 from ...analysis.impacts import Buffer
-from ...errors import UsageError
 from ...fmu.declared import Struck
 from ...fmu.description import Description, Value
 from ...fmu.interface import Component, Observable
@@ -131,11 +130,9 @@ class Impacts:
 
         Args:
             machine: whose components they are.
-
-        Raises:
-            UsageError: two components report the same of an impact in different units.
         """
         self._watches: dict[str, _Watch] = {}
+        self._columns: dict[str, dict[str, str]] = {}
         self.units: dict[str, str] = dict(_FIRST)
         for name, part in machine.parts.items():
             own = _Watch(part.component)
@@ -143,7 +140,7 @@ class Impacts:
                 own.component = watched(machine, name)
                 own.component.watchers.append(own)
                 self._watches[name] = own
-                self._join_units(name, own.units)
+                self._columns[name] = self._join_units(own.units)
         self.struck = False
         self._seen = 0
 
@@ -178,10 +175,17 @@ class Impacts:
     def table(self, by_component: Mapping[str, ComponentImpacts]) -> pd.DataFrame:
         """All impacts in the order of time, with the component's name first; columns of `units`.
 
+        What a component reports in another unit than one before it, as an angle stop its closing speed, has a column of
+        its own, which says its unit: "closing_speed [rad/s]".
+
         Args:
             by_component: what `by_component` returns.
         """
-        tables = [one.impacts.assign(component=name) for name, one in by_component.items() if len(one.impacts)]
+        tables = [
+            one.impacts.rename(columns=self._columns[name]).assign(component=name)
+            for name, one in by_component.items()
+            if len(one.impacts)
+        ]
         columns = [name for name in self.units if not tables or any(name in table for table in tables)]
         if not tables:
             return pd.DataFrame(columns=columns)
@@ -189,13 +193,14 @@ class Impacts:
         by_time = whole.sort_values("time", kind="stable") if "time" in whole else whole
         return by_time[columns].reset_index(drop=True)
 
-    def _join_units(self, name: str, units: Mapping[str, str]) -> None:
+    def _join_units(self, units: Mapping[str, str]) -> dict[str, str]:
+        """The column of each field of a component that is not named like the field."""
+        renamed = {}
         for field, unit in units.items():
             if self.units.setdefault(field, unit) != unit:
-                raise UsageError(
-                    f"The impacts of {name} have their {field} in {unit}, those of another component before it in "
-                    f"{self.units[field]}; one table cannot have both."
-                )
+                renamed[field] = f"{field} [{unit}]"
+                self.units[renamed[field]] = unit
+        return renamed
 
 
 class _Watch:

@@ -210,14 +210,14 @@ class Resized(NamedTuple):
 def resized_members(before: Mechanism, after: Mechanism) -> Resized | None:
     """Members that have other sections in the second design; None if anything else of the linkage differs, too.
 
-    Lengths and directions of members, their material, the disks and the joints must be the same. Where a body's frame
+    Lengths and directions of members, their material, lumped masses and joints must be the same. Where a body's frame
     stands, in its centre of mass, may differ: it moves with the masses, and the linkage does not.
 
     Args:
         before: the first design.
         after: the second one.
     """
-    parts = [[(type(part), part.name) for part in (*m.members, *m.disks, *m.joints)] for m in (before, after)]
+    parts = [[(type(part), part.name) for part in (*m.members, *m.lumped_masses, *m.joints)] for m in (before, after)]
     if parts[0] != parts[1] or not np.allclose(_layout(before), _layout(after), rtol=_SAME, atol=_SAME):
         return None
     pairs = list(zip(before.members, after.members, strict=True))
@@ -247,16 +247,16 @@ def _layout(mechanism: Mechanism) -> list[float]:
         add(member.body, member.start)
         add(member.body, member.end)
         found.extend([float(member.young), float(member.density)])
-    for disk in mechanism.disks:
-        add(disk.body, disk.point)
-        found.extend([float(disk.mass), float(disk.inertia)])
+    for lump in mechanism.lumped_masses:
+        add(lump.body, lump.point)
+        found.extend([float(lump.mass), float(lump.inertia)])
     for joint in mechanism.joints:
         for body, end in ((joint.body_i, "point_i"), (joint.body_j, "point_j")):
             add(body, getattr(joint, end, origin.get(body, (0.0, 0.0))))
     return found
 
 
-# Bodies whose mass is not that of their members and disks: then what bends a linkage is not what moves it.
+# Bodies whose mass is not that of their members and lumped masses: then what bends a linkage is not what moves it.
 
 #: Mass and inertia may differ by this part, centres by it of the radius of gyration: rounded numbers pass, but not the
 #: inertia of a bar whose mass is spread along it, a third of that of its lumps.
@@ -264,7 +264,7 @@ _WITHIN = 0.01
 
 
 def unlike_bodies(mechanism: Mechanism) -> tuple[str, ...]:
-    """A sentence for each body whose mass, centre or inertia is not that of its members and disks, to 1 %.
+    """A sentence for each body whose mass, centre or inertia is not that of its members and lumped masses, to 1 %.
 
     Deflections, stresses and vibration come from these lumps, half of each member's mass at either end; reactions and
     input torque, too. An FMU moves by the body's own numbers, and its inertia forces are those of the lumps.
@@ -277,22 +277,23 @@ def unlike_bodies(mechanism: Mechanism) -> tuple[str, ...]:
         members = [member for member in mechanism.members if member.body == body.name]
         if not members:
             continue
-        disks = [disk for disk in mechanism.disks if disk.body == body.name]
-        lumps = [(disk.mass, disk.point) for disk in disks]
+        own = [lump for lump in mechanism.lumped_masses if lump.body == body.name]
+        lumps = [(lump.mass, lump.point) for lump in own]
         for member in members:
             half = member.density * member.section.area * np.hypot(*np.subtract(member.end, member.start)) / 2
             lumps += [(half, member.start), (half, member.end)]
         masses, points = np.array([mass for mass, _ in lumps]), np.array([point for _, point in lumps], dtype=float)
         mass, moment = masses.sum(), masses @ points
-        inertia = masses @ (points**2).sum(axis=1) + sum(disk.inertia for disk in disks)
+        inertia = masses @ (points**2).sum(axis=1) + sum(lump.inertia for lump in own)
         gyration = np.sqrt(body.inertia / body.mass)
         away = np.hypot(*moment) > _WITHIN * body.mass * gyration
         off = abs(mass - body.mass) > _WITHIN * body.mass or abs(inertia - body.inertia) > _WITHIN * body.inertia
         if off or away:
             beside = f", with their centre {1e3 * np.hypot(*moment) / mass:.4g} mm beside the body's" if away else ""
             found.append(
-                f"Body {body.name!r} has {body.mass:.4g} kg and {body.inertia:.4g} kg.m2, its members and disks have "
-                f"{mass:.4g} kg and, about the body's centre of mass, {inertia:.4g} kg.m2{beside}: only these bend "
-                f"the linkage. Take mass, inertia and points from lumped_body, or add a Disk for what they lack."
+                f"Body {body.name!r} has {body.mass:.4g} kg and {body.inertia:.4g} kg.m2, its members and lumped "
+                f"masses have {mass:.4g} kg and, about the body's centre of mass, {inertia:.4g} kg.m2{beside}: only "
+                f"these bend the linkage. Take mass, inertia and points from lumped_body, or add a LumpedMass for what "
+                f"they lack."
             )
     return tuple(found)

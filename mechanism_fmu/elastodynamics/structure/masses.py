@@ -10,13 +10,13 @@ from .linkage import Element, Linkage
 from .places import RELEASED, place_of
 from .pose import dot, left
 
-# Lumped masses: half of each member at each of its ends, and the disks; and what their accelerations do.
+# Lumped masses: half of each member at each of its ends, and its own; and what their accelerations do.
 
 
 def lumps(linkage: Linkage) -> FloatArray:
     """Mass and inertia at every place, shape (places, 2) [kg, kg m2].
 
-    A rigid body has its own mass and inertia at its centre of mass; disks are a part of them.
+    A rigid body has its own mass and inertia at its centre of mass; lumped masses on it are a part of them.
 
     Args:
         linkage: the structure.
@@ -30,10 +30,10 @@ def lumps(linkage: Linkage) -> FloatArray:
         mass = element.member.density * element.member.section.area * element.length
         found[[element.start, element.end], 0] += mass / 2
     flexible = {member.body for member in mechanism.members}
-    for disk in mechanism.disks:
-        if disk.body in flexible:
-            place = place_of(places, mechanism, f"Disk {disk.name!r}", disk.body, disk.point)
-            found[place] += disk.mass, disk.inertia
+    for lump in mechanism.lumped_masses:
+        if lump.body in flexible:
+            place = place_of(places, mechanism, f"LumpedMass {lump.name!r}", lump.body, lump.point)
+            found[place] += lump.mass, lump.inertia
     for body in mechanism.bodies:
         if body.name not in flexible:
             place = place_of(places, mechanism, f"Body {body.name!r}", body.name, (0.0, 0.0))
@@ -123,7 +123,7 @@ def beam_mass(mass: float, length: float) -> FloatArray:
 
 
 def consistent_mass(configurations: Configurations) -> FloatArray:
-    """M, shape (times, m, m): sum of E^T m_e E of the members, and the lumps of disks and rigid bodies.
+    """M, shape (times, m, m): sum of E^T m_e E of the members, and the lumps of bodies, rigid or not.
 
     A released rotation follows from the other displacements of its member, as it does in E. The shapes turn with the
     links; what their turning adds to the acceleration, 2 Omega u' and Omega^2 u, is left out, and so is the stiffening

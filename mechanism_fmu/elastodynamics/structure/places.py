@@ -268,7 +268,7 @@ class Freedoms:
 def find_freedoms(mechanism: Mechanism, loaded: Iterable[str] = ()) -> Freedoms:
     """The unknowns of a mechanism whose driven, or else held, coordinates stand still.
 
-    A rotation is one where members are welded, at free ends, and where something can act on it: a disk with inertia,
+    A rotation is one where members are welded, at free ends, and where something can act on it: an inertia,
     a slider, a locked angle, friction, or a moment on one of the places `loaded`.
 
     Raises:
@@ -323,10 +323,10 @@ def _kept(
             kept.add(i)
     for pin, _, _ in rubbing_pins(mechanism):
         kept.update(attachments(mechanism, places, pin))
-    for disk in mechanism.disks:
-        if any(member.body == disk.body for member in mechanism.members):
-            number = place_of(places, mechanism, f"Disk {disk.name!r}", disk.body, disk.point)
-            if disk.inertia > 0.0:
+    for lump in mechanism.lumped_masses:
+        if any(member.body == lump.body for member in mechanism.members):
+            number = place_of(places, mechanism, f"LumpedMass {lump.name!r}", lump.body, lump.point)
+            if lump.inertia > 0.0:
                 kept.add(number)
     kept |= {n for n, place in enumerate(places) if len(place.names) > 1 or n not in jointed}
     return kept | {named_place(places, name) for name in loaded}

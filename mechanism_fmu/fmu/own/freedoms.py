@@ -139,7 +139,9 @@ def _near(mechanism: Mechanism, step: _Array, size: float, library: CDLL | None)
         replace(body, start=tuple(a + b for a, b in zip(body.start, way.tolist(), strict=True)), start_rate=(0, 0, 0))
         for body, way in zip(mechanism.bodies, steps, strict=True)
     )
-    alone = replace(mechanism, bodies=bodies, held=(), inputs=(), outputs=(), calculated=(), members=(), disks=())
+    alone = replace(
+        mechanism, bodies=bodies, held=(), inputs=(), outputs=(), calculated=(), members=(), lumped_masses=()
+    )
     undriven = replace(alone, joints=tuple(joint for joint in mechanism.joints if joint.motion is None))
     simulation = MovingMechanism.over(undriven, pack(compile_mechanism(undriven)), library)
     try:

@@ -117,7 +117,7 @@ def _names(mechanism: Mechanism) -> Iterator[str]:
         yield "The mechanism has no body; give at least one."
     seen: dict[str, str] = {GROUND: "the fixed frame"}
     parts = (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.markers, *mechanism.contacts)
-    for part in (*parts, *mechanism.patterns, *mechanism.functions, *mechanism.members, *mechanism.disks):
+    for part in (*parts, *mechanism.patterns, *mechanism.functions, *mechanism.members, *mechanism.lumped_masses):
         what = type(part).__name__
         if not part.name or "." in part.name or ":" in part.name:
             yield f"{what} {part.name!r}: a name must not be empty or hold '.' or ':'; choose another."

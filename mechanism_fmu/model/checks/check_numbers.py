@@ -24,10 +24,10 @@ from ..findings import (
 from ..forces import ForceElement
 from ..joints import Joint
 from ..mechanism import Mechanism, Settings, curve_owners
-from ..members import Disk, Member
+from ..members import LumpedMass, Member
 from ..patterns import CircularPattern
 
-# What cannot be right of elastic members and disks: of their numbers, as findings, and of what they are part of.
+# What cannot be right of elastic members and lumped masses: of their numbers, as findings; of what they are part of.
 
 
 def member_findings(member: Member) -> Iterator[Finding]:
@@ -49,20 +49,20 @@ def member_findings(member: Member) -> Iterator[Finding]:
     yield refuse_unless(finite_positive(length((x_end - x, y_end - y))), text, x, y, x_end, y_end)
 
 
-def disk_findings(disk: Disk) -> Iterator[Finding]:
-    """Every problem that the numbers of a disk can have."""
-    label = f"Disk {literal(repr(disk.name))}"
-    for what, value, unit in (("mass", disk.mass, "kg"), ("inertia", disk.inertia, "kg.m2")):
+def lumped_mass_findings(lump: LumpedMass) -> Iterator[Finding]:
+    """Every problem that the numbers of a lumped mass can have."""
+    label = f"LumpedMass {literal(repr(lump.name))}"
+    for what, value, unit in (("mass", lump.mass, "kg"), ("inertia", lump.inertia, "kg.m2")):
         text = f"{label}: {what} = {{:g}} {unit}, but it must be finite and not negative."
         yield refuse_unless(finite_not_negative(value), text, value)
     text = f"{label}: its point ({{:g}}, {{:g}}) m is not finite; give finite ones."
-    yield refuse_unless(finite(*disk.point), text, *disk.point)
+    yield refuse_unless(finite(*lump.point), text, *lump.point)
 
 
 def check_members(mechanism: Mechanism) -> Iterator[str]:
-    """Members and disks of no body, one sentence each."""
+    """Members and lumped masses of no body, one sentence each."""
     known = [body.name for body in mechanism.bodies]
-    parts: tuple[Member | Disk, ...] = (*mechanism.members, *mechanism.disks)
+    parts: tuple[Member | LumpedMass, ...] = (*mechanism.members, *mechanism.lumped_masses)
     for part in parts:
         label = f"{type(part).__name__} {part.name!r}"
         if part.body == GROUND:
@@ -108,8 +108,8 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         yield from curve_findings(owner, curve)
     for member in mechanism.members:
         yield from member_findings(member)
-    for disk in mechanism.disks:
-        yield from disk_findings(disk)
+    for lump in mechanism.lumped_masses:
+        yield from lumped_mass_findings(lump)
     yield from _settings(mechanism.settings)
 
 

@@ -6,7 +6,6 @@ from typing import Any
 import pytest
 
 from harness.analysis.stress import damage_of_impacts
-from harness.errors import UsageError
 from harness.fmu.interface import Observable
 from harness.machine.machine import Machine
 from harness.machine.observers.component_impacts import Impacts
@@ -128,10 +127,17 @@ def test_components_without_impacts_have_no_table() -> None:
     assert impacts.table({}).empty
 
 
-def test_one_column_has_one_unit() -> None:
-    other = Wheel("other")
+def test_what_has_another_unit_has_a_column_of_its_own() -> None:
+    """As the closing speeds of a contact and of an angle stop."""
+    other = Wheel("other", (0.22,))
     name = "impacts[1].velocity"
     changed = dict(other.description.variables) | {name: replace(other.description.variables[name], unit="rad/s")}
     other.description = replace(other.description, variables=changed)
-    with pytest.raises(UsageError, match=r"The impacts of other have their velocity in rad/s, .* before it in m/s"):
-        Impacts(Machine({"one": Wheel("one"), "other": other}))
+    machine = Machine({"one": Wheel("one", (0.11,)), "other": other})
+    impacts = Impacts(machine)
+    run_machine(machine, EventAware(machine), TimeGrid.of(0.5, 0.1), {}, [impacts])
+    assert (impacts.units["velocity"], impacts.units["velocity [rad/s]"]) == ("m/s", "rad/s")
+    table = impacts.table(impacts.by_component())
+    assert list(table["component"]) == ["one", "other"]
+    assert table["velocity"].tolist() == [-1.0, pytest.approx(float("nan"), nan_ok=True)]
+    assert table["velocity [rad/s]"].tolist() == [pytest.approx(float("nan"), nan_ok=True), -1.0]

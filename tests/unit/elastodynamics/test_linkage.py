@@ -21,8 +21,8 @@ from mechanism_fmu.model import (
     AngleDriver,
     Body,
     Damper,
-    Disk,
     Gears,
+    LumpedMass,
     Mechanism,
     Member,
     Revolute,
@@ -80,8 +80,8 @@ def test_friction_and_inertia_at_a_pin_make_rotations_known():
     assert len(coordinates(replace(MECHANISM, joints=joints))) == 10  # of follower and coupler
     damper = Damper("damper", "follower", damping=0.1)
     assert len(coordinates(replace(MECHANISM, forces=(damper,)))) == 9  # of the follower at its hinge
-    wheel = Disk("wheel", "follower", MECHANISM.members[3].end, 0.1, 1e-4)
-    assert len(coordinates(replace(MECHANISM, disks=(wheel,)))) == 9
+    wheel = LumpedMass("wheel", "follower", MECHANISM.members[3].end, 0.1, 1e-4)
+    assert len(coordinates(replace(MECHANISM, lumped_masses=(wheel,)))) == 9
 
 
 def test_drivers_hold_the_mechanism_and_without_them_its_held_coordinates():
@@ -167,7 +167,7 @@ REFUSALS = {
         arm(joints=(*arm().joints, XDriver("push", "arm", (0.5, 0.0), polynomial_motion(0.5)))),
         "XDriver 'push' is attached to 'arm' at (0.5, 0) m, where no member of it ends",
     ),
-    "a disk in the middle": (arm(disks=(Disk("disk", "arm", (0.5, 0.0), 1.0),)), "Disk 'disk'"),
+    "a disk in the middle": (arm(lumped_masses=(LumpedMass("disk", "arm", (0.5, 0.0), 1.0),)), "LumpedMass 'disk'"),
     "its centre of mass is held": (arm(held=("arm.x",)), "'arm.x' is the centre of mass of a body that bends"),
     "an unknown joint": (
         arm(
@@ -259,7 +259,10 @@ def test_rigid_bodies_that_are_held_twice_are_refused():
     [
         (Body("arm", 1.57, 0.3925, (0.5, 0.0, 0.0)), None),
         (Body("arm", 1.57 * 1.005, 0.3925, (0.5, 0.0, 0.0)), None),
-        (Body("arm", 1.6, 0.3925, (0.5, 0.0, 0.0)), "1.6 kg and 0.3925 kg.m2, its members and disks have 1.57 kg"),
+        (
+            Body("arm", 1.6, 0.3925, (0.5, 0.0, 0.0)),
+            "1.6 kg and 0.3925 kg.m2, its members and lumped masses have 1.57 kg",
+        ),
         (Body("arm", 1.57, 1.57 / 12, (0.5, 0.0, 0.0)), "0.3925 kg.m2"),  # mass spread along the bar
     ],
 )

@@ -30,7 +30,7 @@ from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
     Body,
-    Disk,
+    LumpedMass,
     Mechanism,
     Member,
     Revolute,
@@ -47,7 +47,8 @@ SPEED = 40.0
 def spinning(disk=0.3, friction=0.0, speed=SPEED):
     """One crank with a disk at its end, on a pin of the frame."""
     parts = lumped_body(
-        (Member("bar", "crank", (0.0, 0.0), (0.2, 0.0), SECTION, 2e11, 0.0),), (Disk("tip", "crank", (0.2, 0.0), disk),)
+        (Member("bar", "crank", (0.0, 0.0), (0.2, 0.0), SECTION, 2e11, 0.0),),
+        (LumpedMass("tip", "crank", (0.2, 0.0), disk),),
     )
     bar = parts.members[0]
     return Mechanism(
@@ -57,7 +58,7 @@ def spinning(disk=0.3, friction=0.0, speed=SPEED):
             AngleDriver("motor", "crank", polynomial_motion(0.1, speed)),
         ),
         members=parts.members,
-        disks=parts.disks,
+        lumped_masses=parts.lumped_masses,
     )
 
 
@@ -151,7 +152,7 @@ def test_a_linkage_without_one_hinge_of_its_crank_is_seen_from_the_origin():
 
 
 def test_nothing_shakes_where_nothing_moves_unevenly():
-    cycle = cycle_of(replace(spinning(), disks=()), 12)
+    cycle = cycle_of(replace(spinning(), lumped_masses=()), 12)
     assert shaking(cycle).gap(momentum_shaking(cycle)) == 0.0
     assert not shaking(cycle).force.any()
 
@@ -253,6 +254,6 @@ def test_a_linkage_of_other_lengths_or_parts_is_another_one():
         replace(mechanism, members=(replace(arm, end=(0.1, 0.1)), *others)),
         replace(mechanism, members=(replace(arm, density=1.0), *others)),
         replace(mechanism, members=tuple(others)),
-        replace(mechanism, disks=()),
+        replace(mechanism, lumped_masses=()),
     ):
         assert resized_members(mechanism, other) is None

@@ -68,8 +68,8 @@ def with_arm(mechanism, ratio):
     arm = mechanism.members[0]
     assert arm.name == "arm"
     tip = tuple(a + ratio * (b - a) for a, b in zip(arm.start, arm.end, strict=True))
-    disks = [replace(disk, point=tip if disk.name == "path_disk" else disk.point) for disk in mechanism.disks]
-    return replace(mechanism, members=(replace(arm, end=tip), *mechanism.members[1:]), disks=tuple(disks))
+    disks = [replace(disk, point=tip if disk.name == "path_disk" else disk.point) for disk in mechanism.lumped_masses]
+    return replace(mechanism, members=(replace(arm, end=tip), *mechanism.members[1:]), lumped_masses=tuple(disks))
 
 
 def test_a_length_that_makes_up_for_the_deflection_saves_mass(judge):

@@ -102,7 +102,7 @@ def test_rods_close_at_their_length():
     bodies = tuple(body for body in whole.bodies if body.name != "coupler")
     driver = AngleDriver("drive", "crank", polynomial_motion(0.0, 1.0))
     mechanism = replace(
-        whole, bodies=bodies, joints=(joints[0], joints[3], rod, driver), members=(), disks=(), outputs=()
+        whole, bodies=bodies, joints=(joints[0], joints[3], rod, driver), members=(), lumped_masses=(), outputs=()
     )
     angles = np.radians(np.arange(30.0, 391.0, 20.0))
     q, rate = closed_at(replace(mechanism, held=()), angles)

@@ -23,13 +23,13 @@ from mechanism_fmu.model import (
     CompliantShaft,
     Damper,
     DCMotor,
-    Disk,
     Distance,
     DistanceDriver,
     End,
     Force,
     Gears,
     InternalGears,
+    LumpedMass,
     Marker,
     MechanismError,
     Member,
@@ -144,7 +144,7 @@ PAIRS: list[tuple[Any, Any]] = [
         Member("x", ROD.at(0.0, 0.0), ROD.at(0.2, 0.0), section=SECTION, young=1e9, density=1e3),
         Member("x", "rod", (-0.1, 0.0), (0.1, 0.0), SECTION, 1e9, 1e3),
     ),
-    (Disk("x", ROD.at(0.0, 0.0), mass=1.0), Disk("x", "rod", (-0.1, 0.0), 1.0)),
+    (LumpedMass("x", ROD.at(0.0, 0.0), mass=1.0), LumpedMass("x", "rod", (-0.1, 0.0), 1.0)),
 ]
 
 

@@ -1,4 +1,4 @@
-"""Elastic members and disks: what is refused of them, and that the engine does without."""
+"""Elastic members and lumped masses: what is refused of them, and that the engine does without."""
 
 import math
 from dataclasses import replace
@@ -6,17 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mechanism_fmu.model import GROUND, Body, Disk, Mechanism, MechanismError, Member, Revolute, Section
+from mechanism_fmu.model import GROUND, Body, LumpedMass, Mechanism, MechanismError, Member, Revolute, Section
 from mechanism_fmu.model.compile import compile_mechanism
 
 BAR = Member("bar", "arm", (-0.5, 0.0), (0.5, 0.0), Section.rectangle(0.01, 0.02), 210e9, 7850.0)
-TIP = Disk("tip", "arm", (0.5, 0.0), 0.3, 1e-4)
+TIP = LumpedMass("tip", "arm", (0.5, 0.0), 0.3, 1e-4)
 ARM = Mechanism(
     bodies=(Body("arm", 1.0, 0.1),),
     joints=(Revolute("hinge", "arm", (-0.5, 0.0), GROUND, (-0.5, 0.0)),),
     held=("arm.angle",),
     members=(BAR,),
-    disks=(TIP,),
+    lumped_masses=(TIP,),
 )
 
 
@@ -26,7 +26,7 @@ def test_a_rectangle_has_the_area_and_second_moment_of_beam_theory():
 
 
 def test_the_engine_reads_nothing_of_members():
-    plain, elastic = compile_mechanism(replace(ARM, members=(), disks=())), compile_mechanism(ARM)
+    plain, elastic = compile_mechanism(replace(ARM, members=(), lumped_masses=())), compile_mechanism(ARM)
     assert plain.numbers == elastic.numbers
     for name in plain.columns:
         np.testing.assert_array_equal(getattr(plain, name), getattr(elastic, name))
@@ -50,11 +50,11 @@ def test_the_engine_reads_nothing_of_members():
         ({"members": (replace(BAR, body=GROUND),)}, ["'bar'", "'ground'", "part of a body"]),
         ({"members": (replace(BAR, name="arm"),)}, ["Member 'arm'", "name of its own"]),
         ({"members": (replace(BAR, name="a.b"),)}, ["'a.b'", "'.'"]),
-        ({"disks": (replace(TIP, mass=-1.0),)}, ["Disk 'tip'", "mass = -1 kg"]),
-        ({"disks": (replace(TIP, inertia=math.nan),)}, ["inertia = nan kg.m2"]),
-        ({"disks": (replace(TIP, point=(0.0, math.nan)),)}, ["(0, nan)", "not finite"]),
-        ({"disks": (replace(TIP, body="leg"),)}, ["Disk 'tip'", "unknown body 'leg'"]),
-        ({"disks": (replace(TIP, name="bar"),)}, ["Disk 'bar'", "name of another part"]),
+        ({"lumped_masses": (replace(TIP, mass=-1.0),)}, ["LumpedMass 'tip'", "mass = -1 kg"]),
+        ({"lumped_masses": (replace(TIP, inertia=math.nan),)}, ["inertia = nan kg.m2"]),
+        ({"lumped_masses": (replace(TIP, point=(0.0, math.nan)),)}, ["(0, nan)", "not finite"]),
+        ({"lumped_masses": (replace(TIP, body="leg"),)}, ["LumpedMass 'tip'", "unknown body 'leg'"]),
+        ({"lumped_masses": (replace(TIP, name="bar"),)}, ["LumpedMass 'bar'", "name of another part"]),
     ],
 )
 def test_what_cannot_be_right_is_refused_by_name(changed, said):

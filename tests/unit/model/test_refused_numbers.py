@@ -21,13 +21,13 @@ from mechanism_fmu.model import (
     Curve,
     Damper,
     DCMotor,
-    Disk,
     Distance,
     DistanceDriver,
     Force,
     Gears,
     InternalGears,
     LogicalFunction,
+    LumpedMass,
     Marker,
     Mechanism,
     MechanismError,
@@ -109,7 +109,7 @@ PARTS: list[tuple[Any, str]] = [
     (NonlinearSpring("x", "a", HERE, "b", HERE, law=lambda length, speed: length + speed), "forces"),
     (NonlinearTorsionSpring("x", "a", law=characteristic([(0.0, 0.0), (1.0, 2.0)])), "forces"),
     (Member("x", "a", HERE, EAST, **STEEL), "members"),
-    (Disk("x", "a", HERE, 1.0), "disks"),
+    (LumpedMass("x", "a", HERE, 1.0), "lumped_masses"),
     (CircularPattern("x", "a", HERE, "b", 0.5, HERE, EAST), "patterns"),
     (replace(LIMIT, name="x"), "functions"),
     (Settings(), "settings"),
@@ -130,7 +130,7 @@ def bad_values(part: Any, name: str) -> list[float]:
         return [*bad, 0.0] if isinstance(part, CircularPattern) else [*bad, 0.0, -0.1]
     if name in NOT_NEGATIVE or name in getattr(part, "not_negative", ()):
         return [*bad, -1e-300, -5.0]
-    if isinstance(part, Disk) and name in ("mass", "inertia"):
+    if isinstance(part, LumpedMass) and name in ("mass", "inertia"):
         return [*bad, -1.0]
     if isinstance(part, RevoluteTranslational) and name == "distance":
         return bad
@@ -168,7 +168,7 @@ def said(part: Any, place: str) -> str:
         around["contacts"] = (replace(LOCK, name="l", closed_while="x"),)
     if place == "patterns":
         around["contacts"] = (replace(LINE, pattern="x"),)
-    if place == "disks":
+    if place == "lumped_masses":
         around["members"] = (Member("m", "a", HERE, EAST, **STEEL),)
     around[place] = part if place == "settings" else (A, B, part) if place == "bodies" else (part,)
     try:

@@ -11,8 +11,8 @@ from mechanism_fmu.model import (
     AngleDriver,
     Body,
     Damper,
-    Disk,
     Force,
+    LumpedMass,
     Mechanism,
     MechanismError,
     Member,
@@ -42,7 +42,7 @@ MECHANISM = Mechanism(
     ),
     forces=(Force("weight", "rod", (0.0, -1.0)), Torque("drive", "crank"), Damper("oil", "rod", "crank", 0.1)),
     members=(CRANK, ROD, ARM),
-    disks=(Disk("knob", "rod", ARM.end, 0.4, 0.02), Disk("part", "slider", (0.0, 0.0), 1.0)),
+    lumped_masses=(LumpedMass("knob", "rod", ARM.end, 0.4, 0.02), LumpedMass("part", "slider", (0.0, 0.0), 1.0)),
     held=("crank.angle",),
     outputs=(Output("x", "arm.end.x_deflection", ""), Output("m", "link.start_moment", "")),
 )
@@ -81,7 +81,7 @@ def test_lumps_are_halves_of_members_disks_and_rigid_bodies_with_their_shares():
 
 
 def test_forces_on_massless_members_are_shared_evenly():
-    massless = replace(MECHANISM, members=(CRANK, ROD, replace(ARM, density=0.0)), disks=())
+    massless = replace(MECHANISM, members=(CRANK, ROD, replace(ARM, density=0.0)), lumped_masses=())
     assert [share for node, _, _, share in structure(massless).lumps if node in (ROD_PIN, ROD_HEAD, KNOB)] == [0.25] * 4
 
 
@@ -123,7 +123,10 @@ def test_without_outputs_that_read_members_there_are_no_tables_of_them():
             "SpringDamper 'strut' acts at points of its bodies, which loads no member yet",
         ),
         ({"held": ()}, "18 displacements, but 3 members, 8 rows of joints and 0 held coordinates give 17 conditions"),
-        ({"disks": (Disk("off", "rod", (0.0, 0.0), 1.0),)}, r"Disk 'off' stands at \(0.0, 0.0\) of body 'rod'"),
+        (
+            {"lumped_masses": (LumpedMass("off", "rod", (0.0, 0.0), 1.0),)},
+            r"LumpedMass 'off' stands at \(0.0, 0.0\) of body 'rod'",
+        ),
         ({"outputs": (Output("x", "arm.end.z", ""),)}, "'arm.end.z' is unknown; did you mean 'arm.end.[xy]'"),
         ({"outputs": (Output("x", "arm.middle.x", ""),)}, "'arm.middle.x' is unknown"),
     ],
