@@ -20,8 +20,8 @@ TRAVELS = ("mechanism_fmu", "harness", "models", "docs/examples", "docs/joints",
 FILES = ("pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE", "build_fmu.py")
 MINE = "WHO = 'mine'\n"
 #: What a wheel carries of the compiled engine, each file with its digest.
-LIBRARIES = {f"libraries/{target.name}{target.suffix}" for target in TARGETS}
-OBJECTS = {f"{target.name}.o" for target in (*TARGETS, WEB)}
+LIBRARIES = {f"libraries/{target.name}{target.suffix}" for target in (*TARGETS, WEB)}
+OBJECTS = {f"{target.name}.o" for target in TARGETS}
 DIGESTED = LIBRARIES | OBJECTS | {"engine.h", "engine.bc"}
 ENGINE = DIGESTED | {f"{path}.sha256" for path in DIGESTED} | {"sources"}
 #: As if numba, llvmlite and ziglang were not installed.
@@ -203,7 +203,8 @@ def test_the_command_builds_the_fmu_of_the_tree_and_runs_it(
 def test_nothing_is_compiled_where_it_is_installed(
     python: Callable[..., str], tmp_path: Path, ratchet_fmu: Path
 ) -> None:
-    """The demo, an FMU that carries the engine, a run without an FMU: with an empty cache, without any compiler."""
+    """The demo, an FMU that carries the engine, a run without an FMU, the page of an own file: with an empty cache,
+    without any compiler."""
     bare = f"import os\nos.environ[{CACHE_VARIABLE!r}] = {str(tmp_path / 'cache')!r}\n" + WITHOUT_COMPILERS
     program = bare + "from mechanism_fmu.harness.app.cli import main\nmain(sys.argv[1:])\n"
     python("-c", program, "demo", "-o", "demo")
@@ -217,6 +218,9 @@ simulation.advance(2.0)
 print(simulation.read()["impact_count"])
 """
     assert float(python("-c", bare + run)) >= 1
+    python("-c", program, "new", "lever")
+    python("-c", program, "page", "lever.py")
+    assert 100_000 < (tmp_path / "lever.html").stat().st_size < 1_000_000
     assert not list((tmp_path / "cache").rglob("native_*"))
 
 

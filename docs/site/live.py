@@ -23,7 +23,7 @@ from sphinx.util.docutils import SphinxDirective
 #: The one on the first page.
 FIRST = "ratchet"
 
-_MISSING = "Not live here: the site was built without this page, which needs the package ziglang."
+_MISSING = "Not live here: the site was built without this page, which in a clone needs the package ziglang."
 
 
 def write(root: Path, folder: Path, chosen: str) -> None:
@@ -37,10 +37,10 @@ def write(root: Path, folder: Path, chosen: str) -> None:
     import build_fmu
     import models
     from harness.page.page_file import page
-    from mechanism_fmu.fmu.native.link import has_linker
+    from mechanism_fmu.fmu.native.objects import has_libraries
 
     folder.mkdir(parents=True, exist_ok=True)
-    if chosen == "none" or not has_linker():
+    if chosen == "none" or not has_libraries():
         return
     examples = sorted((root / "docs" / "examples" / "gallery").glob("*.py"))
     wanted = [FIRST] if chosen == "first" else [*models.available(), *map(str, examples)]

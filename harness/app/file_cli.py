@@ -78,8 +78,8 @@ def page(
 
         mechanism-fmu page my_mechanism.py -o for_the_team.html
 
-    The first page compiles the engine, which takes a minute or two. Needs the package ziglang:
-    `python -m pip install ziglang==0.17.0`. See docs/how-to/page.md.
+    Nothing is compiled, but for the first page from a clone of the repository: it compiles the engine, in a minute or
+    two, with the package ziglang (`python -m pip install ziglang==0.17.0`). See docs/how-to/page.md.
 
     Exit code: 0 all well, 1 the model cannot be built, 2 wrong use.
     """
@@ -104,7 +104,7 @@ def watch(
 
         mechanism-fmu watch my_mechanism.py
 
-    Needs the package ziglang, as `page` does.
+    From a clone of the repository, the first page compiles the engine, as `page` does.
 
     Exit code: 0 ended by Ctrl-C, 2 wrong use.
     """

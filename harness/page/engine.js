@@ -1,14 +1,25 @@
 // The mechanism itself: the engine and FMI 3.0 for co-simulation, as WebAssembly that imports nothing.
-// One that is made from `bytes` runs instances one after the other; refusals are errors with the engine's own words.
+// One module serves all models, each an image that it loads once. It runs instances one after the other; refusals are
+// errors with the engine's own words.
 var ENGINE = (function () {
   "use strict";
 
   const ARRAYS = { Float64: Float64Array, Int32: Int32Array, Boolean: Uint8Array };
 
-  // `recorded`: {reals, flags, wholes}, the value references of what rows hold.
-  async function load(bytes, token, recorded) {
-    const { instance } = await WebAssembly.instantiate(bytes, {});
-    const x = instance.exports;
+  // The bytes of gzip in base64.
+  async function unpacked(text) {
+    if (typeof DecompressionStream === "undefined")
+      throw new Error("This browser is too old for the page; it needs Chrome or Edge 80, Firefox 113, Safari 16.4, or a later one.");
+    const letters = atob(text), packed = new Uint8Array(letters.length);
+    for (let k = 0; k < packed.length; k++) packed[k] = letters.charCodeAt(k);
+    return new Response(new Response(packed).body.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  }
+
+  // `wasm`, `image`: the module and the model, as gzip in base64; `recorded`: {reals, flags, wholes}, the value references
+  // of what rows hold.
+  async function load({ wasm, image, token, recorded }) {
+    const [module, model] = await Promise.all([unpacked(wasm).then((bytes) => WebAssembly.instantiate(bytes, {})), unpacked(image)]);
+    const x = module.instance.exports;
     x._initialize();
 
     // Arrays on the module's memory are void when it grows: each is made anew where it is used.
@@ -18,6 +29,7 @@ var ENGINE = (function () {
       view(Uint8Array, at, array.byteLength).set(new Uint8Array(array.buffer));
       return at;
     }
+    x.page_load(put(new Uint8Array(model)));
     const name = put(new TextEncoder().encode(token + "\0")), now = x.malloc(8), one = x.malloc(8), which = x.malloc(4);
     const lists = [recorded.reals, recorded.flags, recorded.wholes]
       .flatMap((references) => [put(Uint32Array.from(references)), references.length]);

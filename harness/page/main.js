@@ -64,7 +64,7 @@
   // --- the engine: in a worker, or here where there can be none -----------------------------------------------------
   const references = (list) => list.map((one) => one.reference);
   const engine = {
-    bytes: Uint8Array.from(atob(held("wasm").trim()), (letter) => letter.charCodeAt(0)), token: MODEL.token,
+    wasm: held("wasm"), image: held("image"), token: MODEL.token,
     recorded: { reals: references(MODEL.reals), flags: references(MODEL.flags), wholes: references(MODEL.wholes) },
     constants: MODEL.constants.map((one) => [one.reference, one.type]),
   };

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import json
 from collections.abc import Mapping
 from html import escape
 from pathlib import Path
@@ -15,7 +13,7 @@ from .. import report
 from ..report.animation import controls, legend, playing_speeds
 from ..report.motion import Contact
 from ..report.page import CSS
-from .page_data import page_data
+from .payload import ENGINE_SCRIPTS, payload, script
 
 #: What the page may do: run what stands in it, and nothing from elsewhere.
 POLICY = (
@@ -23,11 +21,9 @@ POLICY = (
     "img-src data:; worker-src blob:; base-uri 'none'; form-action 'none'"
 )
 
-#: The scripts in the order in which they need each other; those of the reports are their own. The engine's run in the
-#: worker, too.
-_ENGINE = ("signals.js", "engine.js", "stepper.js", "runner.js")
+#: The scripts in the order in which they need each other; those of the reports are their own.
 _SCRIPTS = (
-    *_ENGINE,
+    *ENGINE_SCRIPTS,
     *(
         "player.js",
         "animation.js",
@@ -53,11 +49,9 @@ def page(web: WebModule) -> str:
     Raises:
         MechanismError: its drawing names what it does not have.
     """
-    data = page_data(web)
+    held = payload(web)
+    data = held.model
     title, about = escape(web.model.name), escape(web.model.description)
-    wasm = base64.b64encode(web.binary).decode()
-    # "<" could close the script element
-    model = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     style = CSS + Path(__file__).with_name("page.css").read_text(encoding="utf-8")
     return "\n".join(
         [
@@ -71,8 +65,7 @@ def page(web: WebModule) -> str:
             _given(data),
             f'<div class="seen">{_stage(data)}{_results()}</div></main>',
             '<noscript><p class="banner">This page computes; it needs JavaScript.</p></noscript>',
-            f'<script type="application/json" id="model">{model}</script>',
-            f'<script type="application/wasm" id="wasm">{wasm}</script>',
+            held.elements,
             *map(_script, _SCRIPTS),
             "</body></html>\n",
         ]
@@ -125,7 +118,4 @@ def _results() -> str:
 
 
 def _script(name: str) -> str:
-    folder = Path(report.__file__).parent if name in _OF_REPORTS else Path(__file__).parent
-    code = (folder / name).read_text(encoding="utf-8").replace("</script", "<\\/script").replace("<!--", "<\\!--")
-    marked = ' class="engine"' if name in _ENGINE else ""
-    return f"<script{marked}>{code}</script>"
+    return script(name, Path(report.__file__).parent if name in _OF_REPORTS else Path(__file__).parent)

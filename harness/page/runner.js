@@ -78,9 +78,10 @@ var RUNNER = (function () {
   }
 
   // Answers questions: those with `live` go to the stepper, all others are runs.
-  async function answering({ bytes, token, recorded, constants }, post) {
-    const engine = await ENGINE.load(bytes, token, recorded);
-    const whole = runner(engine, constants, post), steps = STEPPER.stepper(engine, constants, post);
+  // `made`: what the engine is loaded from, and `constants`.
+  async function answering(made, post) {
+    const engine = await ENGINE.load(made);
+    const whole = runner(engine, made.constants, post), steps = STEPPER.stepper(engine, made.constants, post);
     return (asked) => {
       if (!asked.live) {
         steps.end();

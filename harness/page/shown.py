@@ -9,7 +9,7 @@ from types import ModuleType
 from typing import Any
 
 from mechanism_fmu.batch import MechanismError
-from mechanism_fmu.fmu.native.web import web_module
+from mechanism_fmu.fmu.native.web import web_model
 
 from .page_file import page
 
@@ -54,14 +54,14 @@ class Shown:
 def show(model: Any, height: int = _HEIGHT) -> Shown:
     """A model as a page in which its engine runs: sliders, motion, curves, impacts.
 
-    The first one compiles the engine, which takes a minute or two, and says nothing meanwhile.
+    The first one in a clone compiles the engine, which takes a minute or two, and says nothing meanwhile.
 
     Args:
         model: a `Model`, such as the `MODEL` of a notebook or of `models.load("ratchet")`.
         height: of its frame in a notebook [px].
 
     Raises:
-        MechanismError: it is no model, ziglang is not installed, or the model cannot be built or traced.
+        MechanismError: it is no model, it cannot be built or traced, or, in a clone, ziglang is not installed.
         ValueError: the height is not positive.
     """
     if not height > 0:
@@ -69,7 +69,4 @@ def show(model: Any, height: int = _HEIGHT) -> Shown:
     if isinstance(model, ModuleType) or not hasattr(model, "build"):
         what = f"the module {model.__name__}" if isinstance(model, ModuleType) else repr(model)[:60]
         raise MechanismError(f"{what} is no model; give the Model itself, such as models.load('ratchet').MODEL.")
-    holder = ModuleType("shown")
-    holder.__file__ = __file__  # a module has one; nothing beside it is looked at
-    holder.MODEL = model  # type: ignore[attr-defined]
-    return Shown(page(web_module(holder)), height)
+    return Shown(page(web_model(model)), height)

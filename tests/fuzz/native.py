@@ -25,9 +25,9 @@ import mechanism_fmu.fmu.native as native
 import models
 from mechanism_fmu.fmu.native.description3 import reports_impacts
 from mechanism_fmu.fmu.native.formulas import formulas
-from mechanism_fmu.fmu.native.model_data import model_source
+from mechanism_fmu.fmu.native.link import SURFACE
+from mechanism_fmu.fmu.native.model_source import model_source
 from mechanism_fmu.fmu.native.objects import compiled_engine
-from mechanism_fmu.fmu.native.package import SURFACE
 from mechanism_fmu.fmu.parts.variables import variables_of
 from mechanism_fmu.model import compile_mechanism
 from mechanism_fmu.model.trace import trace

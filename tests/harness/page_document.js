@@ -85,7 +85,7 @@ function opened(html, { hash = "", worker = true } = {}) {
   document.getElementById = (id) => document.querySelector("#" + id);
   document.body = document.querySelector("body");
   const guarded = (work) => (...given) => { try { work(...given); } catch (error) { errors.push(error.stack); } };
-  const standard = { WebAssembly, TextEncoder, TextDecoder, performance, URLSearchParams, console,
+  const standard = { WebAssembly, TextEncoder, TextDecoder, performance, URLSearchParams, console, atob, Response, DecompressionStream,
     setTimeout: (work, after) => setTimeout(guarded(work), after) };
   class Blob { constructor(parts) { this.text = parts.join(""); } }
   class Worker {
@@ -98,7 +98,7 @@ function opened(html, { hash = "", worker = true } = {}) {
       };
     }
   }
-  const context = vm.createContext({ ...standard, document, location, atob, Blob,
+  const context = vm.createContext({ ...standard, document, location, Blob,
     history: { pushState: (state, title, address) => { location.hash = address; steps.push(address); } },
     URL: { createObjectURL: (blob) => String(blobs.push(blob) - 1), revokeObjectURL() {} },
     matchMedia: () => ({ matches: true }), addEventListener: (type, listener) => document.addEventListener(type, listener),

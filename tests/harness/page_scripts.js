@@ -16,10 +16,10 @@ function worker() {
   const scope = { heard: [], postMessage: (found) => { scope.heard.push(structuredClone(found)); scope.wake && scope.wake(); } };
   const code = [...html.matchAll(/<script class="engine">([^]*?)<\/script>/g)].map((one) => one[1]).join("") + "RUNNER.serve(scope);";
   vm.runInNewContext(code, { scope, WebAssembly, TextEncoder, TextDecoder, performance, setTimeout,
-    Float64Array, Int32Array, Uint32Array, Uint8Array });
+    Float64Array, Int32Array, Uint32Array, Uint8Array, atob, Response, DecompressionStream });
   const data = model(), references = (list) => list.map((one) => one.reference);
   const recorded = { reals: references(data.reals), flags: references(data.flags), wholes: references(data.wholes) };
-  scope.onmessage({ data: { bytes: Buffer.from(held("wasm"), "base64"), token: asked.token || data.token, recorded,
+  scope.onmessage({ data: { wasm: held("wasm"), image: held("image"), token: asked.token || data.token, recorded,
     constants: data.constants.map((one) => [one.reference, one.type]) } });
   return scope;
 }

@@ -186,7 +186,7 @@ def test_a_variable_may_be_called_as_keys_of_the_address() -> None:
 
 
 def test_stress_follows_from_the_jump() -> None:
-    stress = page_data(WebModule(MODEL, "", b""))["stress"]
+    stress = page_data(WebModule(MODEL, "", b"", b""))["stress"]
     for length, apex in ((0.02, 0.3), (0.05, 1.0)):
         expected = maximum_stress(WedgeTooth(length, apex), STEEL, 0.003).stress
         assert stress["per"] * 0.003 == pytest.approx(expected, rel=1e-9)
@@ -203,7 +203,7 @@ def test_signals_are_those_of_python(page_of: Callable[[str], Path]) -> None:
             for signal in case.signals.values():
                 told = next(
                     one["signals"][name]
-                    for one in page_data(WebModule(model, "", b""))["cases"]
+                    for one in page_data(WebModule(model, "", b"", b""))["cases"]
                     for name in one["signals"]
                     if case.signals.get(name) == signal and one["name"] == case.name
                 )

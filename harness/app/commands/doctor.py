@@ -100,7 +100,7 @@ def _linker() -> Found:
 
     tested = INSTALL.split("==")[1]
     version, there = _version("ziglang")
-    purpose = "links native FMUs, pages, and the engine that starts at once"
+    purpose = "links native FMUs, and in a clone pages and the engine that starts at once"
     if not there or not has_linker():
         return Found("ziglang", "-", False, False, f"{purpose}; get it: {INSTALL}")
     if version != tested:

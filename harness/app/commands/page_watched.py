@@ -7,7 +7,7 @@ import webbrowser
 from threading import Thread
 
 from mechanism_fmu.batch import MechanismError
-from mechanism_fmu.fmu.native.link import need_linker
+from mechanism_fmu.fmu.native.objects import need_web_library
 from mechanism_fmu.fmu.native.web import web_module
 from mechanism_fmu.fmu.own.find import find
 from mechanism_fmu.fmu.own.prepare import prepare
@@ -25,7 +25,7 @@ def watch_file(text: str, port: int, opens: bool) -> int:
     """Show the page of a file until Ctrl-C; `opens` says whether in a browser."""
     try:
         file = find(text)
-        need_linker()
+        need_web_library()
     except MechanismError as error:
         raise UsageError(str(error)) from error
     watched = Watched(file, lambda: page(web_module(prepare(text, True, show_note)[0])))

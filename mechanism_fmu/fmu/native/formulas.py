@@ -1,9 +1,9 @@
-"""Generated C formulas of a model: from parameter values to tables in an instance's block, and to findings."""
+"""Formulas of a model, and their C: from parameter values to tables in an instance's block, and to findings."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -111,15 +111,13 @@ _FORMS = {
 
 @dataclass(frozen=True)
 class Formulas:
-    """C source of a model's formulas, and what C must know to use it.
+    """A model's formulas, and what C must know to use them.
 
     Attributes:
-        source: a file with the one function `void mechanism_formulas(const double *p, double *block,
-            double *findings)`. `p` holds the parameter values in the model's order; every word of `block`'s tables that
-            depends on a parameter is written, no other; `findings` gets, for each objection, then each warning and each
-            problem, how far it applies (it does where that is > 0) and the numbers of its text. Nothing fails: what
-            does not exist is not finite. Sine and its kin are those of the engine's object (engine.h). Compile it with
-            -ffp-contract=off, or its numbers differ from Python's in the last bits.
+        traced: what is calculated.
+        values: what `words` get.
+        numbers: of each objection, then of each warning and each problem, how far it applies (it does where that is
+            > 0), and the numbers of its text.
         objections, warnings, problems: of each, its text for printf and the index of its `applies` in `findings`; its
             numbers follow there. Problems are to be said only where no objection applies.
         findings: length that the array `findings` must have. It is longer than what is written, so that
@@ -127,16 +125,29 @@ class Formulas:
         words: of each word that is written, its index in `block` and its name for the user, e.g. "joint_data of pin".
     """
 
-    source: str
+    traced: Trace
+    values: tuple[Symbol, ...]
+    numbers: tuple[Number, ...]
     objections: tuple[tuple[str, int], ...]
     warnings: tuple[tuple[str, int], ...]
     problems: tuple[tuple[str, int], ...]
     findings: int
     words: tuple[tuple[int, str], ...]
 
+    @property
+    def source(self) -> str:
+        """C, with the one function `void mechanism_formulas(const double *p, double *block, double *findings)`.
+
+        `p` holds the parameter values in the model's order; every word of `block`'s tables that depends on a parameter
+        is written, no other; `findings` gets `numbers`. Nothing fails: what does not exist is not finite. Sine and its
+        kin are those of the engine's object (engine.h). Compile it with -ffp-contract=off, or its numbers differ from
+        Python's in the last bits.
+        """
+        return "\n".join(_source(self)) + "\n"
+
 
 def formulas(traced: Trace, block: Array) -> Formulas:
-    """The C formulas of a traced model for a block of its structure, e.g. that of the default values."""
+    """The formulas of a traced model for a block of its structure, e.g. that of the default values."""
     written = entries(traced, block)
     findings = (*traced.objections, *traced.warnings, *traced.problems)
     numbers = [x for finding in findings for x in (finding.applies, *finding.numbers)]
@@ -146,7 +157,9 @@ def formulas(traced: Trace, block: Array) -> Formulas:
     warnings = len(traced.objections)
     problems = warnings + len(traced.warnings)
     return Formulas(
-        source="\n".join(_source(traced, written, numbers)) + "\n",
+        traced=traced,
+        values=tuple(entry.value for entry in written),
+        numbers=tuple(numbers),
         objections=tuple(texts[:warnings]),
         warnings=tuple(texts[warnings:problems]),
         problems=tuple(texts[problems:]),
@@ -168,8 +181,8 @@ def c_number(x: float) -> str:
     return f"(-{text})" if math.copysign(1, x) < 0 else text
 
 
-def _source(traced: Trace, written: Iterable[Entry], findings: Iterable[Number]) -> Iterator[str]:
-    written, findings = list(written), list(findings)
+def _source(formulas: Formulas) -> Iterator[str]:
+    traced = formulas.traced
     names: dict[int, str] = {}
     yield f"/* The formulas of {traced.model.name}; written by mechanism_fmu. */"
     yield "#include <math.h>"
@@ -178,7 +191,7 @@ def _source(traced: Trace, written: Iterable[Entry], findings: Iterable[Number])
     yield "void mechanism_formulas(const double *p, double *block, double *findings)"
     yield "{"
     yield "    (void)p; (void)block; (void)findings;"
-    for number in traced.needed([*(entry.value for entry in written), *findings]):
+    for number in traced.needed([*formulas.values, *formulas.numbers]):
         operation = traced.operations[number]
         if operation.name in ("parameter", "constant"):
             names[number] = _given(operation)
@@ -186,9 +199,9 @@ def _source(traced: Trace, written: Iterable[Entry], findings: Iterable[Number])
             form = _FORMS[operation.name].format(*(names[i] for i in operation.operands))
             names[number] = f"t{number}"
             yield f"    const double {names[number]} = {form};"
-    for entry in written:
-        yield f"    block[{entry.word}] = {_name(entry.value, names)};"
-    for place, x in enumerate(findings):
+    for (word, _), value in zip(formulas.words, formulas.values, strict=True):
+        yield f"    block[{word}] = {_name(value, names)};"
+    for place, x in enumerate(formulas.numbers):
         yield f"    findings[{place}] = {_name(x, names)};"
     yield "}"
 

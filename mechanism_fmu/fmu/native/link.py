@@ -77,6 +77,19 @@ def universal(libraries: Sequence[bytes]) -> bytes:
 
 _SURFACE = Path(__file__).with_name("c")
 
+#: The files of the C surface, each using those before it; both versions of FMI stand in one library.
+SURFACE = ("log.c", "instance.c", "values.c", "saved_check.c", "saved.c", "fmi2.c", "fmi3.c")
+HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h", "saved.h")
+#: Those of the browser's module.
+WEB_SURFACE = (*(name for name in SURFACE if name != "fmi2.c"), "loaded.c", "page.c")
+
+
+def standard() -> Path:
+    """The folder of the headers of both standards, which the package fmpy brings."""
+    spec = importlib.util.find_spec("fmpy")
+    return Path(str(spec and spec.origin)).with_name("c-code")
+
+
 _FLAGS = (  # of all targets
     "-std=gnu11",  # c11 would take ??! in a text for a trigraph
     "-Os",  # what takes time is in the engine's object
@@ -90,8 +103,18 @@ _FLAGS = (  # of all targets
     "-s",
 )
 
-#: A module that a page calls, with 256 kB of stack in place of 16 MB.
-_WEB_FLAGS = ("-mexec-model=reactor", "-Wl,-z,stack-size=262144")
+#: Of FMI 3.0, and of the C library, what a page calls; other functions say so themselves.
+_WEB_EXPORTS = (
+    *("malloc", "free", "fmi3FreeInstance", "fmi3Terminate", "fmi3Reset", "fmi3FreeFMUState", "fmi3DoStep"),
+    *(f"fmi3{access}{kind}" for access in ("Get", "Set") for kind in ("Float64", "Int32", "Boolean", "FMUState")),
+    "fmi3GetOutputDerivatives",
+)
+
+#: A module that a page calls, with 256 kB of stack in place of 16 MB, and with the model as data.
+_WEB_FLAGS = (
+    *("-mexec-model=reactor", "-Wl,-z,stack-size=262144", "-DMODEL_IS_LOADED"),
+    *(f"-Wl,--export={name}" for name in _WEB_EXPORTS),
+)
 
 #: Nothing here throws, and the engine's object has no tables for it either: 9 kB of the FMU. Windows wants them.
 _NO_UNWINDING = ("-fno-unwind-tables", "-fno-asynchronous-unwind-tables")
@@ -110,21 +133,22 @@ def has_linker() -> bool:
     return importlib.util.find_spec("ziglang") is not None
 
 
-def need_linker() -> None:
+def need_linker(what: str = "A native FMU") -> None:
     """Refuse to go on without the `ziglang` wheel.
+
+    Args:
+        what: needs it, as the first words of the message.
 
     Raises:
         MechanismError: it is not installed.
     """
     if not has_linker():
         raise MechanismError(
-            f"A native FMU needs the linker of the package ziglang, which is not installed. Install it: {INSTALL}"
+            f"{what} needs the linker of the package ziglang, which is not installed. Install it: {INSTALL}"
         )
 
 
-def link(
-    target: Target, inputs: Sequence[Path], includes: Sequence[Path], path: Path, exports: Sequence[str] = ()
-) -> None:
+def link(target: Target, inputs: Sequence[Path], includes: Sequence[Path], path: Path) -> None:
     """Link C files and objects to a shared library for a platform, or to a module for the browser.
 
     Args:
@@ -132,7 +156,6 @@ def link(
         inputs: C files and objects.
         includes: folders of C headers, beside the surface's own.
         path: of the library; its name becomes part of the file on some platforms.
-        exports: functions that a module exports, beside those that say so themselves.
 
     Raises:
         MechanismError: there is no linker, or it has refused, with what it printed.
@@ -140,7 +163,7 @@ def link(
     need_linker()
     headers = [f"-I{folder}" for folder in (_SURFACE, *includes)]
     command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *_FLAGS, *headers]
-    command += [*map(str, inputs), *_platform(target), *(f"-Wl,--export={name}" for name in exports), "-o", path.name]
+    command += [*map(str, inputs), *_platform(target), "-o", path.name]
     environment = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(cache_directory() / "mechanism_fmu" / "zig")}
     done = subprocess.run(command, cwd=path.parent, env=environment, capture_output=True, text=True, check=False)
     if done.returncode != 0:

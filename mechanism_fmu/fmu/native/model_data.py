@@ -1,9 +1,10 @@
-"""Generated model.c: a model as constants for the C surface, and its formulas."""
+"""What the C surface knows of a model: the members of `Model` in model.h, and the tables they point to."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 from ...model import Mechanism, Model, compile_mechanism
 from ...model.compile import unknown_names
@@ -12,14 +13,42 @@ from ...tables.sizes import sizes_of
 from ..instance.saved_state import Rule, rules
 from ..parts.variables import FIRST_REFERENCE, Variable, variables_of
 from .description3 import Again, outputs_again
-from .formulas import Formulas, c_number
-from .objects import advice_table, c_text
+from .formulas import Formulas
 
-_CAUSALITIES = {"input": "INPUT", "output": "OUTPUT", "parameter": "PARAMETER", "calculatedParameter": "CALCULATED"}
+#: As in model.h, in the order of its enumerations.
+_TYPES = ("Real", "Integer", "Boolean")
+_CAUSALITIES = ("input", "output", "parameter", "calculatedParameter")
 
 
-def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes, clocks: bool = False) -> str:
-    """The text of model.c.
+class Bits(int):
+    """A word of a block: 64 bits, whatever they stand for."""
+
+
+#: Of a C structure: a text is a pointer to it, a whole number an `int` or `size_t`, any other a `double`.
+Cell = str | int | float
+
+
+@dataclass(frozen=True)
+class Table:
+    """A C array.
+
+    Attributes:
+        kind: C type of its elements.
+        name: of the array.
+        rows: the members of each element; of a plain type there is one.
+    """
+
+    kind: str
+    name: str
+    rows: tuple[tuple[Cell, ...], ...]
+
+
+#: The members of `Model` by name, in the order of model.h.
+ModelData = dict[str, Cell | bytes | Table]
+
+
+def model_data(model: Model, formulas: Formulas, guid: str, mark: bytes, clocks: bool = False) -> ModelData:
+    """All that the C surface gets to know.
 
     Args:
         model: the model.
@@ -36,109 +65,72 @@ def model_source(model: Model, formulas: Formulas, guid: str, mark: bytes, clock
     again = outputs_again(variables) if clocks else ()
     held = rules(sizes_of(block))
     counts = {c: sum(v.causality == c for v in variables) for c in _CAUSALITIES}
-    members = {
-        "name": c_text(model.name),
-        "guid": c_text(guid),
-        "mark": "{" + ", ".join(map(str, mark)) + "}",
-        "variables": "VARIABLES",
+    return {
+        "name": model.name,
+        "guid": guid,
+        "mark": mark,
+        "variables": Table("Variable", "VARIABLES", tuple(map(_variable, variables))),
         "variable_count": len(variables),
         "inputs": counts["input"],
         "outputs": counts["output"],
         "parameters": counts["parameter"],
         "has_clock": int(clocks),
-        "again": "AGAIN",
+        "again": Table("Again", "AGAIN", tuple(map(_again, again))),
         "again_count": len(again),
-        "block": "(const double *)BLOCK",
+        "block": Table("uint64_t", "BLOCK", tuple((Bits(word),) for word in block[:given].view("uint64").tolist())),
         "given": given,
         "words": len(block),
         "numbers": formulas.findings,
-        "objections": "OBJECTIONS",
-        "problems": "PROBLEMS",
-        "warnings": "WARNINGS",
+        "objections": Table("Finding", "OBJECTIONS", formulas.objections),
+        "problems": Table("Finding", "PROBLEMS", formulas.problems),
+        "warnings": Table("Finding", "WARNINGS", formulas.warnings),
         "objection_count": len(formulas.objections),
         "problem_count": len(formulas.problems),
         "warning_count": len(formulas.warnings),
-        "dependent": "DEPENDENT",
+        "dependent": Table("Word", "DEPENDENT", formulas.words),
         "dependent_count": len(formulas.words),
-        "bodies": "BODIES",
-        "joints": "JOINTS",
-        "contacts": "CONTACTS",
-        "patterns": "PATTERNS",
-        "functions": "FUNCTIONS",
-        "rubs": "RUBS",
-        "unknowns": "UNKNOWNS",
-        "rules": "RULES",
+        **_names(mechanism),
+        "rules": Table("Rule", "RULES", tuple(map(_rule, held))),
         "rule_count": len(held),
     }
-    return "\n".join(
-        [
-            f"/* {model.name}: written by model_data.py. */",
-            '#include "engine.h"',
-            '#include "model.h"',
-            "#include <math.h>",
-            advice_table(),
-            _array("Variable", "VARIABLES", map(_variable, variables)),
-            _array("Again", "AGAIN", map(_again, again)),
-            _array("uint64_t", "BLOCK", (f"{word:#x}" for word in block[:given].view("uint64").tolist())),
-            _array("Finding", "OBJECTIONS", (f"{{{c_text(text)}, {at}}}" for text, at in formulas.objections)),
-            _array("Finding", "PROBLEMS", (f"{{{c_text(text)}, {at}}}" for text, at in formulas.problems)),
-            _array("Finding", "WARNINGS", (f"{{{c_text(text)}, {at}}}" for text, at in formulas.warnings)),
-            _array("Word", "DEPENDENT", (f"{{{word}, {c_text(label)}}}" for word, label in formulas.words)),
-            *_names(mechanism),
-            _array("Rule", "RULES", map(_rule, held)),
-            "const Model model = {",
-            *(f"    .{name} = {value}," for name, value in members.items()),
-            "};",
-            formulas.source,
-        ]
-    )
 
 
-def _array(kind: str, name: str, entries: Iterable[str]) -> str:
-    """An array constant; one without entries gets an empty one, because C has no arrays of length 0."""
-    text = ",\n    ".join(entries)
-    return f"static const {kind} {name}[] = {{\n    {text or 0}\n}};"
+def _names(mechanism: Mechanism) -> ModelData:
+    joints = tuple((joint.name, joint.rows, joint.unit) for joint in mechanism.joints)
+    contacts = tuple((contact.name, *contact.too_deep()) for contact in mechanism.contacts)
+    return {
+        "bodies": _texts("BODIES", (body.name for body in mechanism.bodies)),
+        "joints": Table("Joint", "JOINTS", joints),
+        "contacts": Table("Contact", "CONTACTS", contacts),
+        "patterns": _texts("PATTERNS", (pattern.name for pattern in mechanism.patterns)),
+        "functions": _texts("FUNCTIONS", (function.name for function in mechanism.functions)),
+        "rubs": _texts("RUBS", (part.name for part in mechanism.rubbing)),
+        "unknowns": _texts("UNKNOWNS", unknown_names(mechanism)),
+    }
 
 
-def _names(mechanism: Mechanism) -> list[str]:
-    joints = (f"{{{c_text(joint.name)}, {joint.rows}, {c_text(joint.unit)}}}" for joint in mechanism.joints)
-    contacts = (f"{{{', '.join(map(c_text, (c.name, *c.too_deep())))}}}" for c in mechanism.contacts)
-    return [
-        _array("char *const", "BODIES", (c_text(body.name) for body in mechanism.bodies)),
-        _array("Joint", "JOINTS", joints),
-        _array("Contact", "CONTACTS", contacts),
-        _array("char *const", "PATTERNS", (c_text(pattern.name) for pattern in mechanism.patterns)),
-        _array("char *const", "FUNCTIONS", (c_text(function.name) for function in mechanism.functions)),
-        _array("char *const", "RUBS", (c_text(part.name) for part in mechanism.rubbing)),
-        _array("char *const", "UNKNOWNS", map(c_text, unknown_names(mechanism))),
-    ]
+def _texts(name: str, texts: Iterable[str]) -> Table:
+    return Table("char *const", name, tuple((text,) for text in texts))
 
 
-def _rule(rule: Rule) -> str:
+def _rule(rule: Rule) -> tuple[Cell, ...]:
     numbers = (rule.first, rule.rows, rule.columns, rule.stride, rule.integer, rule.holds.whole, rule.holds.nan)
-    limits = (c_number(float(rule.holds.low)), c_number(float(rule.holds.high)))
-    return f"{{{', '.join((c_text(rule.name), *(str(int(number)) for number in numbers), *limits))}}}"
+    return rule.name, *map(int, numbers), float(rule.holds.low), float(rule.holds.high)
 
 
-def _variable(variable: Variable) -> str:
-    unit = "" if variable.unit in (None, "1") else f" {variable.unit}"
-    numbers = (
+def _variable(variable: Variable) -> tuple[Cell, ...]:
+    return (
+        variable.name,
+        "" if variable.unit in (None, "1") else f" {variable.unit}",
+        _TYPES.index(variable.type),
+        _CAUSALITIES.index(variable.causality),
+        int(variable.variability == "continuous"),
         float(variable.start or 0.0),
-        -math.inf if variable.minimum is None else variable.minimum,
-        math.inf if variable.maximum is None else variable.maximum,
+        -math.inf if variable.minimum is None else float(variable.minimum),
+        math.inf if variable.maximum is None else float(variable.maximum),
     )
-    entries: Sequence[str] = (
-        c_text(variable.name),
-        c_text(unit),
-        variable.type.upper(),
-        _CAUSALITIES[variable.causality],
-        str(int(variable.variability == "continuous")),
-        *(c_number(float(number)) for number in numbers),
-    )
-    return f"{{{', '.join(entries)}}}"
 
 
-def _again(again: Again) -> str:
+def _again(again: Again) -> tuple[Cell, ...]:
     place = again.first.value_reference - FIRST_REFERENCE
-    numbers = (place, again.count or 1, again.stride, int(again.clocked))
-    return f"{{{', '.join((c_text(again.name), *map(str, numbers)))}}}"
+    return again.name, place, again.count or 1, again.stride, int(again.clocked)

@@ -13,76 +13,27 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from ... import codes
-from ...engine import status
 from ...engine.run import library_path, load
 from ...model import MechanismError
-from ...tables.layout import FIELDS, size_slot, slot
-from ...tables.sizes import SIZES
-from ...tolerances import RATES_WITHIN
 from ..disk.archive import content_hash
 from ..disk.folders import temporary_folder
 from ..disk.user_cache import alone, is_whole, keep
-from ..instance import protocol
-from ..parts.model_description import LOG_CATEGORIES
 from ..start import private_cache
-from .link import TARGETS, WEB, WRAPPED, Target, has_linker, link, linked_with, surface
-
-# engine.h: what the C surface knows of the engine and shares with the slave, written from the Python declarations.
-
-_PROTOTYPES = """\
-int64_t mechanism_begin(double *block, int64_t words, double time);
-int64_t mechanism_begin_step(double *block, int64_t words);
-int64_t mechanism_go_on(double *block, int64_t words, double target, int64_t rule);
-int mechanism_read_outputs(double *block, int64_t words); /* without a result, which only WebAssembly would notice */
-int mechanism_read_output_rates(double *block, int64_t words);
-/* const: a call may be moved to where its result is used, or the formulas' results would fill kilobytes of stack */
-__attribute__((const)) double mechanism_sin(double x);
-__attribute__((const)) double mechanism_cos(double x);
-__attribute__((const)) double mechanism_tan(double x);
-__attribute__((const)) double mechanism_atan2(double y, double x);
-"""
-
-
-def engine_header() -> str:
-    """The text of engine.h: codes, header words of a block, statuses, limits of the protocol, prototypes."""
-    sections = [field.section for field in FIELDS]
-    edges = {"FIRST_OF_STATE": sections.index("state"), "END_OF_STATE": sections.index("work")}
-    enums = {
-        "CODE": {name: value for name, value in vars(codes).items() if name.isupper()},
-        "SIZE": {name: size_slot(name) for name in SIZES},
-        "SLOT": {
-            **{field.name: slot(field.name) for field in FIELDS},
-            **{edge: slot(FIELDS[index].name) for edge, index in edges.items()},
-        },
-        "STATUS": {name: value for name, value in vars(status).items() if isinstance(value, int) and name.isupper()},
-    }
-    limits = ("LATEST_START", "SAME_TIME", "SAME_TIME_OF_STEP", "ROUNDINGS", "TIGHTEST")
-    lines = ["/* The engine for C: written by objects.py from the Python sources. */"]
-    lines += ["#ifndef ENGINE_H", "#define ENGINE_H", "#include <stdint.h>"]
-    for prefix, entries in enums.items():
-        lines += ["enum {", *(f"    {prefix}_{name} = {value}," for name, value in entries.items()), "};"]
-    lines += [f"#define {name} {getattr(protocol, name)!r} /* as in protocol.py */" for name in limits]
-    lines += [f"#define RATES_WITHIN {RATES_WITHIN!r} /* as in tolerances.py */"]
-    lines += [f"#define EVENT_FAILURES {{{', '.join(map(str, status.EVENT_FAILURES))}}}"]
-    lines += [f"#define LOG_CATEGORIES {{{', '.join(map(c_text, LOG_CATEGORIES))}}}"]
-    return "\n".join([*lines, _PROTOTYPES, "extern const char *const ADVICE[];", "#endif", ""])
-
-
-def advice_table() -> str:
-    """The definition of ADVICE: what each status means and what to do."""
-    entries = ", ".join(f"[{outcome}] = {c_text(advice)}" for outcome, advice in status.ADVICE.items())
-    return f"const char *const ADVICE[] = {{{entries}}};\n"
-
-
-def c_text(text: str) -> str:
-    """A C string literal of ASCII characters only."""
-    escaped = "".join(
-        f"\\{char}" if char in '"\\' else char if " " <= char <= "~" else "".join(f"\\{b:03o}" for b in char.encode())
-        for char in text
-    )
-    return f'"{escaped}"'
-
+from .engine_header import advice_table, engine_header
+from .link import (
+    HEADERS,
+    TARGETS,
+    WEB,
+    WEB_SURFACE,
+    WRAPPED,
+    Target,
+    has_linker,
+    link,
+    linked_with,
+    need_linker,
+    standard,
+    surface,
+)
 
 # The engine's object files: compiled once for each state of its sources, and kept in the user's cache directory.
 
@@ -94,7 +45,7 @@ _GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_DISABL
 
 def _of_sources() -> str:
     """Fingerprint of the engine's sources, of its header and targets."""
-    own = [Path(__file__).with_name(name) for name in ("emit.py", "link.py", "objects.py")]
+    own = [Path(__file__).with_name(name) for name in ("emit.py", "engine_header.py", "link.py", "objects.py")]
     folders = [path for name in ("elementary", "engine", "tables") for path in (_LIBRARY / name).rglob("*.py")]
     sources = [*folders, _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
     contents = {path.relative_to(_LIBRARY).as_posix(): path.read_bytes() for path in sources}
@@ -181,21 +132,13 @@ def _engine_in(folder: Path) -> Engine:
     return Engine({target.name: folder / f"{target.name}.o" for target in TARGETS}, folder)
 
 
-def web_object(report: Report = silently) -> Path:
-    """The engine's object file for the browser; made now if need be, in half a minute, from what `compiled_engine` has.
-
-    Args:
-        report: see `compiled_engine`.
-
-    Raises:
-        MechanismError: the compilation failed, with what it printed.
-    """
-    folder = compiled_engine(report).headers
-    path = folder / f"{WEB.name}.o"
+def _web_object(engine: Engine, report: Report) -> Path:
+    """The engine's object file for the browser; made now if need be, in half a minute, from its bitcode."""
+    path = engine.headers / f"{WEB.name}.o"
     if not is_whole(path):
-        with alone(folder, lambda: report("waiting for another process that does it", 0.0)):
+        with alone(engine.headers, lambda: report("waiting for another process that does it", 0.0)):
             if not is_whole(path):
-                _emit(folder, report, "web")
+                _emit(engine.headers, report, "web")
     return path
 
 
@@ -234,8 +177,7 @@ def is_bundled() -> bool:
         of_these = (_BUNDLED / "sources").read_text(encoding="ascii").strip() == _of_bundle()
     except OSError:
         return False
-    files = (*(_bundled(target) for target in TARGETS), _BUNDLED / f"{WEB.name}.o")
-    return of_these and _engine_in(_BUNDLED).complete and all(map(is_whole, files))
+    return of_these and _engine_in(_BUNDLED).complete and all(is_whole(_bundled(t)) for t in (*TARGETS, WEB))
 
 
 def write_engine(folder: Path) -> None:
@@ -249,8 +191,8 @@ def write_engine(folder: Path) -> None:
         OSError: the folder cannot be written.
     """
     engine = compiled_engine()
-    libraries = [_linked(engine, target) for target in TARGETS]
-    paths = [*engine.objects.values(), engine.headers / "engine.bc", web_object(), engine.headers / "engine.h"]
+    libraries = [_linked(engine, target) for target in (*TARGETS, WEB)]
+    paths = [*engine.objects.values(), engine.headers / "engine.bc", engine.headers / "engine.h"]
     (folder / "libraries").mkdir(parents=True, exist_ok=True)
     for path in libraries:
         keep(folder / "libraries" / path.name, path.read_bytes(), program=True)
@@ -261,7 +203,7 @@ def write_engine(folder: Path) -> None:
 
 def _of_bundle() -> str:
     """Fingerprint of what the bundled files are made from: the engine's sources, and the C files of its libraries."""
-    files = {path.name: path.read_bytes() for path in surface(*_SOURCES)}
+    files = {path.name: path.read_bytes() for path in surface(*_SOURCES, *WEB_SURFACE, *HEADERS)}
     return content_hash(files | {"engine": _of_sources().encode()})
 
 
@@ -322,16 +264,42 @@ def library_of(report: Report = silently) -> CDLL | None:
     return None if path is None else load(path)
 
 
-def _linked(engine: Engine, target: Target) -> Path:
+def need_web_library() -> None:
+    """Refuse to go on where there is no module of all pages, and none can be made.
+
+    Raises:
+        MechanismError: there is no linker.
+    """
+    if not is_bundled():
+        need_linker("A page from a clone")
+
+
+def web_library(report: Report = silently) -> bytes:
+    """The WebAssembly module of all pages, with the surface of FMI 3.0: models are data that it loads.
+
+    Args:
+        report: see `compiled_engine`.
+
+    Raises:
+        MechanismError: there is no linker, or the engine cannot be compiled.
+    """
+    need_web_library()
+    return _linked(compiled_engine(report), WEB, report).read_bytes()
+
+
+def _linked(engine: Engine, target: Target, report: Report = silently) -> Path:
     """The library of a platform, linked now if there is none, or none that is as it was made."""
     if engine.headers == _BUNDLED:
         return _bundled(target)
-    made_from = content_hash(linked_with(*_SOURCES))[:8]
+    sources, headers = (WEB_SURFACE, HEADERS) if target is WEB else (_SOURCES, ())
+    made_from = content_hash(linked_with(*sources, *headers))[:8]
     path = engine.headers / made_from / f"{target.name}{target.suffix}"
     if not is_whole(path):
         path.parent.mkdir(exist_ok=True)
         with temporary_folder(path.parent) as temporary:
-            made = temporary / path.name
-            link(target, [*surface(*_SOURCES), engine.objects[target.name]], [engine.headers], made)
+            made, advice = temporary / path.name, temporary / "advice.c"
+            advice.write_text(f'#include "engine.h"\n{advice_table()}', encoding="ascii")
+            with_model = [advice, _web_object(engine, report)] if target is WEB else [engine.objects[target.name]]
+            link(target, [*surface(*sources), *with_model], [engine.headers, standard()], made)
             keep(path, made.read_bytes(), program=True)
     return path

@@ -12,7 +12,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import fmpy
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
@@ -31,8 +30,8 @@ from ..parts.reference_results import reference_results
 from ..parts.variables import variables_of
 from .description3 import model_description3
 from .formulas import Formulas, formulas
-from .link import TARGETS, Target, link, linked_with, need_linker, surface, universal
-from .model_data import model_source
+from .link import HEADERS, SURFACE, TARGETS, Target, link, linked_with, need_linker, standard, surface, universal
+from .model_source import model_source
 from .objects import Engine, Report, compiled_engine, library_of, silently
 
 # A native FMU is started once where it is built, so that a mechanism that cannot start is found there.
@@ -95,12 +94,8 @@ def _instance(slave: Any) -> Iterator[None]:
 
 # From a model to a native FMU: no Python on the target.
 
-#: The files of the C surface, each using those before it; both versions of FMI stand in one library.
-SURFACE = ("log.c", "instance.c", "values.c", "saved_check.c", "saved.c", "fmi2.c", "fmi3.c")
-HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h", "saved.h")
-
-#: The headers of both standards, which the package fmpy brings.
-STANDARD = Path(fmpy.__file__).with_name("c-code")
+#: The headers of both standards.
+STANDARD = standard()
 
 #: Where FMI 3.0 wants what has another name in FMI 2.0 (sections 2.5.1.2 and 2.5.1.5).
 _PLACES3 = {

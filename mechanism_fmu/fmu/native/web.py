@@ -1,7 +1,4 @@
-"""A model as a WebAssembly module, for a page: the engine and the FMI 3.0 surface, which import nothing.
-
-The module exports the functions of FMI 3.0 that a page needs, and those of page.c.
-"""
+"""A model for a page: the engine and the FMI 3.0 surface as one WebAssembly module for all models, and its data."""
 
 from __future__ import annotations
 
@@ -14,28 +11,11 @@ from ...model.baked import NOTHING_BAKED, Baked
 from ...model.trace import trace
 from ...tables.layout import pack
 from ..disk.archive import content_hash
-from ..disk.folders import temporary_folder
 from ..parts.contents import model_of
 from .formulas import formulas
-from .link import WEB, link, linked_with, need_linker, surface
-from .model_data import model_source
-from .objects import Report, compiled_engine, silently, web_object
-from .package import HEADERS, STANDARD, SURFACE
-
-_SURFACE = (*(name for name in SURFACE if name != "fmi2.c"), "page.c")
-
-#: Of FMI 3.0, and of the C library, what a page calls.
-EXPORTS = (
-    "malloc",
-    "free",
-    "fmi3FreeInstance",
-    "fmi3Terminate",
-    "fmi3Reset",
-    *(f"fmi3{access}{kind}" for access in ("Get", "Set") for kind in ("Float64", "Int32", "Boolean", "FMUState")),
-    "fmi3FreeFMUState",
-    "fmi3DoStep",
-    "fmi3GetOutputDerivatives",
-)
+from .model_data import model_data
+from .model_image import model_image
+from .objects import Report, silently, web_library
 
 
 @dataclass(frozen=True)
@@ -45,16 +25,19 @@ class WebModule:
     Attributes:
         model: the model.
         token: FMI 3.0's instantiation token, which the module asks for.
-        binary: the WebAssembly module.
+        binary: the WebAssembly module, the same for all models. It imports nothing; it exports the functions of FMI 3.0
+            that a page needs, and those of page.c and loaded.c.
+        image: the model, which the module loads once, before anything else is called.
     """
 
     model: Model
     token: str
     binary: bytes
+    image: bytes
 
 
 def web_module(module: ModuleType, report: Report = silently, *, baked: Baked = NOTHING_BAKED) -> WebModule:
-    """The WebAssembly module of a model: the same bytes from the same sources and versions of the tools.
+    """As `web_model`, of what a Python module holds.
 
     Args:
         module: what holds `MODEL`, e.g. `models.ratchet.model`.
@@ -62,17 +45,24 @@ def web_module(module: ModuleType, report: Report = silently, *, baked: Baked = 
         baked: numbers that it has as its own.
 
     Raises:
-        MechanismError: there is no linker, the module has no model, or one that cannot be traced.
+        MechanismError: the module has no model, or as of `web_model`.
     """
-    need_linker()
-    model = model_of(module, baked).model
+    return web_model(model_of(module, baked).model, report)
+
+
+def web_model(model: Model, report: Report = silently) -> WebModule:
+    """A model for a page; without a compiler, where the module of all models is there.
+
+    Args:
+        model: the model.
+        report: see `compiled_engine`.
+
+    Raises:
+        MechanismError: the model cannot be traced; or the module of all models is to be made, and there is no linker.
+    """
     traced = formulas(trace(model), pack(compile_mechanism(model.build(model.values()))))
-    made_from = {"model.c": model_source(model, traced, "", bytes(16)).encode(), **linked_with(*_SURFACE, *HEADERS)}
-    engine = web_object(report)
-    guid = uuid.UUID(content_hash(made_from | {engine.name: engine.read_bytes()})[:32])
-    headers = compiled_engine(report).headers
-    with temporary_folder() as folder:
-        (folder / "model.c").write_text(model_source(model, traced, f"{{{guid}}}", guid.bytes), encoding="ascii")
-        made = folder / f"{model.name}{WEB.suffix}"
-        link(WEB, [*surface(*_SURFACE), folder / "model.c", engine], [headers, STANDARD], made, EXPORTS)
-        return WebModule(model, f"{{{guid}}}", made.read_bytes())
+    binary = web_library(report)
+    unnamed = model_image(model_data(model, traced, "", bytes(16)), traced)
+    guid = uuid.UUID(content_hash({"image": unnamed, "binary": binary})[:32])
+    image = model_image(model_data(model, traced, f"{{{guid}}}", guid.bytes), traced)
+    return WebModule(model, f"{{{guid}}}", binary, image)

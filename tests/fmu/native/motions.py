@@ -30,9 +30,13 @@ def continuous_outputs(model):
 
 
 def motion(name):
-    """Of a case, in Python: rows at the points of the grid and behind impacts, as `page_run` of page.c has them."""
+    """Of a case, in Python."""
     values, until, steps = CASES[name]
-    model = model_of(name).MODEL
+    return motion_of(model_of(name).MODEL, values, until, steps)
+
+
+def motion_of(model, values, until, steps):
+    """In Python: rows at the points of the grid and behind impacts, as `page_run` of page.c has them."""
     names = [v.name for v in continuous_outputs(model)]
     simulation = Simulation(model.build(model.values(**values)))
 

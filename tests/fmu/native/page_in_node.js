@@ -1,5 +1,5 @@
-// Runs a model's WebAssembly module as a page does. From standard input: {wasm, token, given: [[reference, type, value]],
-// start, spacing, steps, reals, flags, wholes}; to standard output: {imports, text, rows, width}.
+// Runs a model in the module of all pages, as a page does. From standard input: {wasm, image, token, given: [[reference,
+// type, value]], start, spacing, steps, reals, flags, wholes}; to standard output: {imports, text, rows, width}.
 "use strict";
 const fs = require("fs");
 
@@ -14,6 +14,7 @@ async function main() {
     new Uint8Array(x.memory.buffer).set(new Uint8Array(array.buffer), at);
     return at;
   };
+  x.page_load(put(new Uint8Array(fs.readFileSync(asked.image))));
   const text = () => {
     const bytes = new Uint8Array(x.memory.buffer, x.page_text());
     return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0))).trim();

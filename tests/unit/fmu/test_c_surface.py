@@ -2,26 +2,25 @@
 
 import re
 
-from mechanism_fmu.fmu.native import package
-from mechanism_fmu.fmu.native.link import surface
+from mechanism_fmu.fmu.native.link import HEADERS, SURFACE, surface
 
 FOLDER = surface("log.c")[0].parent
 #: What other libraries are made of, or what is linked on one system only; `linked_with` adds the latter by itself.
-ELSEWHERE = {"library.c", "many.c", "page.c", "windows.c"}
+ELSEWHERE = {"library.c", "loaded.c", "many.c", "page.c", "windows.c"}
 
 
 def test_every_file_of_the_surface_is_part_of_the_fingerprint():
-    named = {*package.SURFACE, *package.HEADERS, *ELSEWHERE}
+    named = {*SURFACE, *HEADERS, *ELSEWHERE}
     assert {path.name for path in FOLDER.iterdir()} == named
 
 
 def test_a_file_calls_only_what_those_before_it_define():
     """The two versions of FMI come last, and nothing that they define is called from below."""
-    texts = {name: (FOLDER / name).read_text(encoding="utf-8") for name in package.SURFACE}
+    texts = {name: (FOLDER / name).read_text(encoding="utf-8") for name in SURFACE}
     defined = {
         name: set(re.findall(r"^[A-Za-z][\w ]*\W\**(\w+)\([^;{]*\) \{", text, re.M)) for name, text in texts.items()
     }
     assert all(defined.values())
-    for place, name in enumerate(package.SURFACE):
-        later = set().union(*(defined[other] for other in package.SURFACE[place + 1 :])) - defined[name]
+    for place, name in enumerate(SURFACE):
+        later = set().union(*(defined[other] for other in SURFACE[place + 1 :])) - defined[name]
         assert not later & set(re.findall(r"\b(\w+)\(", texts[name])), name

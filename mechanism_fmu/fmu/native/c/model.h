@@ -1,4 +1,5 @@
-/* A model as constants: written by the build (model_data.py), the same for both versions of FMI. */
+/* A model as constants: written by the build (model_source.py), the same for both versions of FMI; or, for pages, as data
+   (model_image.py). */
 #ifndef MODEL_H
 #define MODEL_H
 
@@ -82,7 +83,11 @@ typedef struct {
     size_t rule_count;
 } Model;
 
+#ifdef MODEL_IS_LOADED
+extern Model model; /* before anything else is called: loaded.c */
+#else
 extern const Model model;
+#endif
 
 /* Parameters to tables: p of `model.parameters` values; writes words of the block, and `model.numbers` of findings. */
 void mechanism_formulas(const double *p, double *block, double *findings);
