@@ -8,7 +8,6 @@ numbers must be is said elsewhere. Numbers may differ in the last digits, as oth
 
 from __future__ import annotations
 
-import base64
 import inspect
 import json
 import math
@@ -19,8 +18,6 @@ from itertools import zip_longest
 from pathlib import Path
 from types import ModuleType
 from typing import Any
-
-import numpy as np
 
 from tests.public import listed_by
 from tests.report_page import opened
@@ -96,8 +93,6 @@ def _opened(found: re.Match[str]) -> str:
 def _lines(data: Any, indent: str = "") -> str:
     """JSON with a line for each key; lists of plain values, however long, stay in one."""
     if isinstance(data, dict):
-        if "bdata" in data:  # as plotly writes arrays
-            return _lines(_numbers(data), indent)
         inside = [f"{indent} {json.dumps(key)}: {_lines(value, indent + ' ')}" for key, value in data.items()]
         return "{\n" + ",\n".join(inside) + f"\n{indent}}}" if inside else "{}"
     if isinstance(data, list) and any(isinstance(one, dict | list) for one in data):
@@ -107,10 +102,6 @@ def _lines(data: Any, indent: str = "") -> str:
     if isinstance(data, float):
         return f"{data:.9g}"
     return json.dumps(data, ensure_ascii=False)
-
-
-def _numbers(array: dict[str, Any]) -> list[Any]:
-    return np.frombuffer(base64.b64decode(array["bdata"]), dtype=array["dtype"]).tolist()
 
 
 def _alike(old: str | None, new: str | None) -> bool:

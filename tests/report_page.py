@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-_PLACE = '<div class="plot"></div>'
+_PLACE = '<div class="chart"></div>'
 
 
 def packed(html: str, name: str) -> bytes:
@@ -20,7 +20,7 @@ def packed(html: str, name: str) -> bytes:
 
 
 def figures(html: str) -> list[dict[str, Any]]:
-    """{data, layout, narrow} of each chart; [] of a page without one."""
+    """The figure of each chart, as of `plot.interactive`; [] of a page without one."""
     if "packed-figures" not in html:
         return []
     held, stored = json.loads(packed(html, "figures")), packed(html, "arrays")
@@ -44,8 +44,9 @@ def opened(html: str) -> str:
     """The page with each figure where it is drawn, as JSON, and nothing compressed."""
     held = iter(figures(html))
     html = re.sub(r'<script type="text/plain" id="packed-.*?</script>', "", html)
-    parts = html.split(_PLACE)
-    for place in range(1, len(parts)):
+
+    def whole(_: re.Match[str]) -> str:
         text = json.dumps(next(held)).replace("<", "\\u003c")
-        parts[place] = f'<script type="application/json">{text}</script>{parts[place]}'
-    return _PLACE.join(parts)
+        return f'<div class="chart"><script type="application/json">{text}</script></div>'
+
+    return re.sub(re.escape(_PLACE), whole, html)

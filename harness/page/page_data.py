@@ -13,9 +13,9 @@ from mechanism_fmu.fmu.parts.fmi_units import display_factor
 from mechanism_fmu.fmu.parts.resources import DRAWING, drawing
 from mechanism_fmu.fmu.parts.variables import Variable, variables_of
 
-from ..report.animation import WHEEL, colours_of, decimals
+from ..report.animation import colours_of, decimals
 from ..report.motion import QUANTITIES, STICKS, SUFFIX, contacts_named
-from ..report.page import COLOURS
+from ..report.style import THEMED
 from .stress_data import stress_data
 
 _TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
@@ -29,9 +29,6 @@ _COUNTED = (*_OF_A_STEP, "impact.count", "impact.any", "impact.by_poisson")
 
 #: What a default drawing's numbers begin with: they are for no chart.
 _OF_DRAWING = "Drawing: "
-
-#: The page's own colours, which are others in the dark.
-_PALETTE = {colour: f"var(--c{k})" for k, colour in enumerate(COLOURS, start=1)} | {WHEEL: "var(--wheel)"}
 
 
 def page_data(web: WebModule) -> dict[str, Any]:
@@ -76,7 +73,7 @@ def page_data(web: WebModule) -> dict[str, Any]:
         "shapes": shapes,
         "moving": [v.name for v in reals if v.name in needed],
         "contacts": [
-            {"variable": c.variable, "name": c.name, "colour": _PALETTE[c.colour]}
+            {"variable": c.variable, "name": c.name, "colour": THEMED[c.colour]}
             for c in contacts_named([v.name for v in flags], lambda _: True)
         ],
         "parts": _parts([v.name for v in flags]),
@@ -180,7 +177,7 @@ def _shapes(files: Mapping[str, bytes], variables: Iterable[Variable]) -> list[d
         return []
     colours = colours_of([shape["kind"] for shape in shapes])
     return [
-        shape | ({"colour": _PALETTE[colour]} if shape.get("name") else {})
+        shape | ({"colour": THEMED[colour]} if shape.get("name") else {})
         for shape, colour in zip(shapes, colours, strict=True)
     ]
 

@@ -12,7 +12,7 @@ from mechanism_fmu.fmu.native.web import WebModule
 from .. import report
 from ..report.animation import controls, legend, playing_speeds
 from ..report.motion import Contact
-from ..report.page import CSS
+from ..report.style import CSS
 from .payload import ENGINE_SCRIPTS, payload, script
 
 #: What the page may do: run what stands in it, and nothing from elsewhere.

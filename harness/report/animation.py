@@ -14,9 +14,10 @@ import numpy as np
 from ..run.drawing import WITH_POINTS, Quantity, Shape
 from ..run.experiment import Run
 from .motion import Contact, contacts
-from .page import COLOURS, IMPACT_COLOUR, section
+from .page import section
 from .plot import FloatArray, frame_rows, strongest
 from .scene import Scene, bounds, hull, names_of, points_of
+from .style import COLOURS, IMPACT_COLOUR, WHEEL, themed
 
 # The player of mechanisms in motion: what `animation.js` brings to life, whatever the pictures are of.
 
@@ -33,9 +34,6 @@ _MOST_TEETH = 10_000
 
 #: A run plays within these times [s] by default; the speeds to choose from reach at least from 0.1 to 10.
 _SHORTEST, _LONGEST = 2.0, 20.0
-
-#: What has no colour of its own.
-WHEEL = "#c9d2dc"
 
 
 def picture_data(scene: Scene, angles: set[str]) -> dict[str, Any] | None:
@@ -123,7 +121,8 @@ def playing(kind: str, shown: str, data: Mapping[str, Any], script: Path) -> str
     # "<" could close the script element
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     code = "".join(file.read_text(encoding="utf-8") for file in (Path(__file__).with_name("player.js"), script))
-    return f'<div class="{kind}">{shown}<script type="application/json">{text}</script></div><script>{code}</script>'
+    held = f'{shown}<script type="application/json">{text}</script>'
+    return f'<div class="{kind}">{themed(held)}</div><script>{code}</script>'
 
 
 def legend(shapes: Sequence[Mapping[str, Any]], contacts: Sequence[Contact]) -> str:

@@ -2,45 +2,52 @@
 (function () {
   "use strict";
 
-  // A phone's screen. There a finger that moves over a chart moves the page, and the tool bar would cover the title.
-  const phone = matchMedia("(max-width: 640px)");
-  const NARROW = { dragmode: false, margin: { l: 52, r: 8 }, font: { size: 11 }, legend: { font: { size: 11 } } };
-
-  function merged(base, changes) {
-    const result = Object.assign({}, base);
-    for (const key in changes) {
-      const change = changes[key];
-      const deep = change && typeof change === "object" && !Array.isArray(change);
-      result[key] = deep ? merged(base && base[key], change) : change;
-    }
-    return result;
+  // Charts of one section that measure the same to the right share cursor and zoom.
+  const groups = new Map();
+  function groupOf(root, figure) {
+    const section = root.closest("section");
+    if (!groups.has(section)) groups.set(section, new Map());
+    const own = groups.get(section), key = figure.x + (figure.log_x ? " lg" : "");
+    if (figure.to_scale || figure.bars || !own.has(key)) own.set(key, CURVES.group());
+    return own.get(key);
   }
 
-  function chart(root, figure) {
-    const place = root.querySelector(".plot");
-    function draw() {
-      const layout = phone.matches ? merged(merged(figure.layout, NARROW), figure.narrow) : merged(figure.layout, {});
-      Plotly.newPlot(place, figure.data, layout,
-        { displaylogo: false, responsive: true, displayModeBar: phone.matches ? false : "hover" });
+  const quoted = (words) => /[",\n]/.test(words) ? '"' + words.replaceAll('"', '""') + '"' : words;
+
+  // The points of a chart's curves, with all digits; curves over the same places share a column for them.
+  function csv(figure) {
+    const columns = [];
+    let places = null;
+    for (const one of figure.curves) {
+      if (one.x !== places) columns.push([figure.x, places = one.x]);
+      columns.push([one.name + (one.about ? " (" + one.about + ")" : ""), one.y]);
     }
-    draw();
-    phone.addEventListener("change", draw);
+    for (const lane of figure.lanes || []) columns.push([lane.name + " from", lane.spans.map((span) => span[0])], [lane.name + " to", lane.spans.map((span) => span[1])]);
+    const lines = [columns.map(([heading]) => quoted(heading)).join(",")];
+    for (let row = 0; row < Math.max(...columns.map((column) => column[1].length)); row++)
+      lines.push(columns.map(([, values]) => values[row] ?? "").join(","));
+    return lines.join("\r\n") + "\r\n";
   }
 
-  // What is folded has no size: it gets one when it unfolds.
-  function fitWhenUnfolded(fold) {
-    fold.addEventListener("toggle", () => {
-      if (fold.open) fold.querySelectorAll(".js-plotly-plot").forEach((place) => Plotly.Plots.resize(place));
+  function saving(figure) {
+    const button = document.createElement("button");
+    Object.assign(button, { type: "button", textContent: "CSV", title: "Save the numbers of this chart" });
+    button.addEventListener("click", () => {
+      const address = URL.createObjectURL(new Blob([csv(figure)], { type: "text/csv" }));
+      const name = figure.title.toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_|_$/g, "") || "chart";
+      Object.assign(document.createElement("a"), { href: address, download: name + ".csv" }).click();
+      setTimeout(() => URL.revokeObjectURL(address), 10000);
     });
+    return button;
   }
 
   async function draw() {
     const figures = await PACKED.figures();
-    const library = document.createElement("script");
-    library.textContent = await PACKED.text("library");
-    document.head.append(library);
-    document.querySelectorAll(".chart").forEach((root, place) => chart(root, figures[place]));
-    document.querySelectorAll("details").forEach(fitWhenUnfolded);
+    document.querySelectorAll(".chart").forEach((root, place) => {
+      const figure = figures[place];
+      if (figure.axes) PARALLEL.plot(root, figure);
+      else CURVES.plot(root, figure, groupOf(root, figure), { buttons: [saving(figure)] });
+    });
   }
 
   // The page says from the beginning what to do if the charts do not come, as where no script runs at all.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import pandas as pd
 
@@ -26,8 +25,9 @@ from ..analysis.stress import (
 from ..fmu.declared import Chain, Struck
 from ..fmu.description import Value
 from ..fmu.values import engineering
-from .page import COLOURS, IMPACT_COLOUR, chart, charts, folded_if_long, layout, section, table
+from .page import chart, charts, folded_if_long, section, table
 from .plot import Curve, Plot, interactive, thin
+from .style import COLOURS, IMPACT_COLOUR
 
 # The table of impacts.
 
@@ -143,7 +143,7 @@ def severity_section(
     return section(
         f"Which impact stresses the {struck.name} most",
         table(headings, rows, numeric=range(1, len(headings))),
-        charts(*(chart(interactive(plot, height=320)) for plot in plots)),
+        charts(*(chart(interactive(plot, height=280)) for plot in plots)),
         note=f"{note} {UNITS_OF_STOPS}" if contacts else note,
     )
 
@@ -223,7 +223,7 @@ def stress_section(impacts: pd.DataFrame, struck: Struck, beam: Beam, card: Mate
     note += f" {beam_theory_note(beam)}"
     note += f" v_I is the length of the {struck.name} times the jump of the {struck.body}'s speed at that instant."
     plots = stress_plots(stress_field(beam, worst[struck.jump], card.material), struck.name)
-    return section(heading, charts(*(chart(interactive(plot, height=400)) for plot in plots)), note=note)
+    return section(heading, charts(*(chart(interactive(plot, height=300)) for plot in plots)), note=note)
 
 
 def stress_plots(field: StressField, name: str) -> tuple[Plot, Plot]:
@@ -255,6 +255,8 @@ def stress_plots(field: StressField, name: str) -> tuple[Plot, Plot]:
 
 #: The chart shows the stress after so many impacts at most.
 _MOST_IMPACTS = 1000
+#: Of that chart [px].
+_HEIGHT = 260
 
 
 def fatigue_section(
@@ -269,21 +271,17 @@ def fatigue_section(
     heading = heading or f"Fatigue of the {struck.name}"
     numbers = table(list(HEADINGS), [damage_row(damage, card)], numeric=range(1, len(HEADINGS)))
     sources = f"{card.text}. {'; '.join(card.sources)}."
-    history = chart(_history(impacts, struck, beam, card, damage.position))
+    history = chart(interactive(_history(impacts, struck, beam, card, damage.position), height=_HEIGHT))
     return section(heading, numbers, history, note=f"{damage_note(damage, struck, beam)} {sources}")
 
 
-def _history(impacts: pd.DataFrame, struck: Struck, beam: Beam, card: MaterialCard, position: float) -> dict[str, Any]:
-    """Stress at the critical section over the run: a line from extreme to extreme, as plotly takes it."""
+def _history(impacts: pd.DataFrame, struck: Struck, beam: Beam, card: MaterialCard, position: float) -> Plot:
+    """Stress at the critical section over the run: a line from extreme to extreme."""
     time, stress = thin(*stress_history(impacts.head(_MOST_IMPACTS), struck, beam, card, position))
     left_out = f" (the first {_MOST_IMPACTS} impacts)" if len(impacts) > _MOST_IMPACTS else ""
-    line = {"color": COLOURS[0], "width": 1}
-    trace = {"type": "scatter", "mode": "lines", "x": time.tolist(), "y": stress.tolist(), "line": line}
-    axes = {
-        "xaxis": {"title": {"text": f"time [s]{left_out}; zoom in to see a {struck.name} ring"}},
-        "yaxis": {"title": {"text": "bending stress [Pa]"}, "exponentformat": "SI"},
-    }
-    return {"data": [trace], "layout": layout(height=300, **axes)}
+    curve = Curve("bending stress", time, stress, COLOURS[0])
+    title = f"Stress at the critical section{left_out}; zoom in to see a {struck.name} ring"
+    return Plot(title, "time [s]", "bending stress [Pa]", [curve], legend=False)
 
 
 # How far links give way in a run, as a section of its report.

@@ -17,9 +17,10 @@ from ..run.master import Ending
 from ..run.results import software, write_text
 from .impact_sections import fatigue_section, impacts_section, severity_section, stress_section
 from .machine_signals import in_power_flow, machine_animation, signals_sections
-from .page import IMPACT_COLOUR, cards, chart, facts, page, points, section, table, versions_section
+from .page import cards, chart, facts, page, points, section, table, versions_section
 from .parameters import Origin, Row, inputs_section, parameters_section
 from .plot import Curve, Plot, interactive
+from .style import IMPACT_COLOUR
 
 # What a machine is made of, and how its parts fared, as tables.
 
@@ -211,12 +212,12 @@ def _stresses(name: str, struck: ComponentImpacts, what: str, end: float) -> str
     strong = struck.impacts.nlargest(_MOST_POINTS, "stress_max").sort_values("time", kind="stable")
     points = Curve("impacts", strong["time"], strong["stress_max"], IMPACT_COLOUR, line=False, dots=True)
     label = "largest bending stress after an impact [Pa]"
-    plot = Plot("", "time [s]", label, [points], from_zero=True, legend=False)
+    plot = Plot(
+        "Stress left by each impact", "time [s]", label, [points], from_zero=True, legend=False, range=(0.0, end)
+    )
     left_out = len(struck.impacts) - len(strong)
-    figure = interactive(plot, height=300)
-    figure["layout"]["xaxis"]["range"] = [0.0, end]
     note = f"Without the {left_out} weakest." if left_out else ""
-    return section(f"Impacts on the {what} of {name}", chart(figure), note=note)
+    return section(f"Impacts on the {what} of {name}", chart(interactive(plot, height=260)), note=note)
 
 
 def write_machine_report(run: MachineRun, path: Path) -> Path:

@@ -16,9 +16,10 @@ from ..machine.running import MachineRun
 from ..machine.structure import dependency_order
 from .animation import MOST_IMPACTS, flags, legend, picture_data, player, rounded, times_data
 from .motion import QUANTITIES, Contact, contacts_among, intervals, joined
-from .page import COLOURS, IMPACT_COLOUR, chart, charts, layout, section, table
-from .plot import Curve, FloatArray, Plot, interactive, strongest, thin
+from .page import HOW_TO_ZOOM, chart, charts, section, table
+from .plot import Curve, FloatArray, Lane, Plot, interactive, strongest, thin
 from .scene import Scene, names_of
+from .style import COLOURS, IMPACT_COLOUR
 
 # A whole machine in motion: the pictures of its components beside each other, with one player for all.
 
@@ -171,7 +172,7 @@ def signals_sections(run: MachineRun) -> list[str]:
 
 _NOTE = (
     "Signals as recorded, with every peak. Angles count from their start. Dotted red lines mark impacts of the "
-    "component. Drag to zoom, double-click to return."
+    f"component. {HOW_TO_ZOOM}"
 )
 
 
@@ -221,12 +222,12 @@ def _plots(
     for unit in sorted(units, key=lambda one: list(QUANTITIES).index(one) if one in QUANTITIES else len(QUANTITIES)):
         alike = [v for v in shown if v.unit == unit]
         for begin in range(0, len(alike), _CURVES):
-            figure = interactive(_plot(run, alike[begin : begin + _CURVES], curves), height=320)
-            figure["layout"]["shapes"] = _marks(run, name)
-            yield chart(figure)
+            yield chart(interactive(_plot(run, name, alike[begin : begin + _CURVES], curves), height=240))
 
 
-def _plot(run: MachineRun, group: Sequence[Variable], curves: dict[str, tuple[FloatArray, FloatArray]]) -> Plot:
+def _plot(
+    run: MachineRun, name: str, group: Sequence[Variable], curves: dict[str, tuple[FloatArray, FloatArray]]
+) -> Plot:
     """Curves of one unit, shown in the display unit of the first."""
     unit = group[0].unit
     known = run.machine.description.units.displayed.get(unit, {})
@@ -239,10 +240,11 @@ def _plot(run: MachineRun, group: Sequence[Variable], curves: dict[str, tuple[Fl
         values = factor * (values - values[0] if from_start else values) + (0.0 if from_start else offset)
         if not variable.continuous:
             times, values = times.repeat(2)[1:], values.repeat(2)[:-1]
-        drawn.append(Curve(_own_signals(variable), _short(times), _short(values), COLOURS[place]))
+        words = variable.description or _own_signals(variable)
+        drawn.append(Curve(words, _short(times), _short(values), COLOURS[place], about=variable.name))
     quantity = "Angles from their start" if from_start else QUANTITIES.get(unit, "Values")
     label = f"{'angle change' if from_start else quantity.lower()} [{display or unit or '1'}]"
-    return Plot(quantity, "time [s]", label, drawn)
+    return Plot(quantity, "time [s]", label, drawn, marks=_marks(run, name), range=(0.0, _end(run)))
 
 
 def _bands(
@@ -252,30 +254,23 @@ def _bands(
     lanes = contacts_among(variables, lambda whole: bool(curves[whole][1].any()))
     if not lanes:
         return
-    end = max(run.outcome.final_time, 1e-300)
-    data = []
+    end = _end(run)
+    drawn = []
     for lane in lanes:
         times, values = curves[lane.variable]
         spans = joined(intervals(times, values != 0.0), end * _INVISIBLE)
-        own = own_of(lane.name)
-        x = [edge for begin, close in spans.tolist() for edge in (begin, close, None)]
-        y = [own if edge is not None else None for edge in x]
-        line = {"color": lane.colour, "width": 14}
-        data.append({"type": "scatter", "mode": "lines", "name": own, "x": x, "y": y, "line": line})
-    names = [own_of(lane.name) for lane in lanes]
-    axis = {"type": "category", "categoryarray": names, "range": [len(names) - 0.5, -0.5], "fixedrange": True}
-    heading = {"title": {"text": "Active contacts", "font": {"size": 15}, "xref": "paper", "x": 0, "xanchor": "left"}}
-    axes: dict[str, Any] = {"xaxis": {"title": {"text": "time [s]"}, "range": [0.0, end]}, "yaxis": axis}
-    yield chart({"data": data, "layout": layout(height=110 + 26 * len(names), showlegend=False, **axes, **heading)})
+        drawn.append(Lane(own_of(lane.name), spans, lane.colour, lane.variable))
+    plot = Plot("Active contacts", "time [s]", "", [], lanes=drawn, range=(0.0, end))
+    yield chart(interactive(plot))
 
 
-def _marks(run: MachineRun, name: str) -> list[dict[str, Any]]:
+def _end(run: MachineRun) -> float:
+    return max(run.outcome.final_time, 1e-300)
+
+
+def _marks(run: MachineRun, name: str) -> FloatArray:
     struck = run.by_component.get(name)
-    if struck is None or "time" not in struck.impacts:
-        return []
-    line = {"color": IMPACT_COLOUR, "width": 1, "dash": "dot"}
-    place = {"type": "line", "xref": "x", "yref": "paper", "y0": 0, "y1": 1, "line": line}
-    return [place | {"x0": time, "x1": time} for time in strongest(struck.impacts, _MOST_MARKS).tolist()]
+    return np.empty(0) if struck is None or "time" not in struck.impacts else strongest(struck.impacts, _MOST_MARKS)
 
 
 def _short(values: FloatArray) -> FloatArray:

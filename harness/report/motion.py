@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from html import escape
-from textwrap import wrap
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
-import plotly.graph_objects as go
-from plotly.subplots import make_subplots
 
 from ..fmu.description import Variable
 from ..fmu.values import in_display_unit
 from ..run.checks import energy_residual
 from ..run.experiment import Run
-from .page import COLOURS, IMPACT_COLOUR, layout
-from .plot import FloatArray, frame_rows, strongest, thin
+from .plot import Curve, FloatArray, Lane, Plot, strongest, thin
+from .style import COLOURS
 
 # Which contacts are active, and what sticks: Boolean outputs named `<contact>_active` or `<part>_sticks`, as bands over
 # time.
@@ -28,9 +24,6 @@ SUFFIX, STICKS = "_active", "_sticks"
 
 #: Gaps shorter than this part of the run are narrower than a pixel, and are not drawn.
 _INVISIBLE = 1 / 2000
-
-#: Places along a lane that answer to the pointer.
-_HOVER_POINTS = 800
 
 
 @dataclass(frozen=True)
@@ -100,69 +93,22 @@ def joined(spans: FloatArray, shortest_gap: float) -> FloatArray:
     return np.column_stack((begins, ends))
 
 
-def add_lanes(figure: go.Figure, run: Run, row: int) -> None:
-    """Draw a lane for each contact into a row of the figure, the first one on top."""
-    lanes = contacts(run)
+def lanes_plot(run: Run) -> Plot | None:
+    """A lane for each contact of a run, the first one on top; None without contacts."""
+    found = [] if run.results.empty else contacts(run)
+    if not found:
+        return None
     time = run.results["time"].to_numpy(dtype=np.float64)
-    begin, end = float(time[0]), float(time[-1])
-    signals = [run.results[lane.variable].to_numpy(dtype=bool) for lane in lanes]
-    spans = [intervals(time, signal) for signal in signals]
-    for lane, own in zip(lanes, spans, strict=True):
-        figure.add_trace(_band(lane, joined(own, (end - begin) * _INVISIBLE)), row=row, col=1)
-    edges = np.concatenate([own.ravel() for own in spans])
-    shown = edges[np.linspace(0, len(edges) - 1, min(len(edges), _HOVER_POINTS // 4)).astype(int)]
-    rows = frame_rows(time, shown, _HOVER_POINTS)
-    for lane, own, signal in zip(lanes, spans, signals, strict=True):
-        figure.add_trace(_hover(lane, own, time[rows], signal[rows]), row=row, col=1)
-    if end > begin:
-        # Bars would widen the time axis that all rows share.
-        figure.update_xaxes(range=[begin, end])
-    # A lane that is never active keeps its place.
-    names = [lane.name for lane in lanes]
-    figure.update_yaxes(
-        type="category",
-        categoryorder="array",
-        categoryarray=names,
-        range=[len(names) - 0.5, -0.5],
-        tickmode="array",
-        tickvals=names,
-        showgrid=False,
-        fixedrange=True,
-        row=row,
-        col=1,
-    )
+    shortest = float(time[-1] - time[0]) * _INVISIBLE
+    lanes = []
+    for contact in found:
+        spans = intervals(time, run.results[contact.variable].to_numpy(dtype=bool))
+        lanes.append(Lane(contact.name, joined(spans, shortest), contact.colour, contact.variable))
+    return Plot("Active contacts", "time [s]", "", [], lanes=lanes, range=_range(time))
 
 
-def _band(lane: Contact, spans: FloatArray) -> go.Bar:
-    return go.Bar(
-        base=spans[:, 0],
-        x=spans[:, 1] - spans[:, 0],
-        y=[lane.name] * len(spans),
-        orientation="h",
-        width=0.72,
-        marker={"color": lane.colour, "line": {"width": 0}},
-        hoverinfo="skip",
-        showlegend=False,
-    )
-
-
-def _hover(lane: Contact, spans: FloatArray, time: FloatArray, active: npt.NDArray[np.bool_]) -> go.Scatter:
-    """What the pointer shows: bars answer for their end, wherever they are touched; unseen points for their time."""
-    number = np.searchsorted(spans[:, 0], time, side="right") - 1
-    texts = [
-        "active {:.7g} … {:.7g} s".format(*spans[n]) if on else "not active"
-        for n, on in zip(number, active, strict=True)
-    ]
-    return go.Scatter(
-        x=time,
-        y=[lane.name] * len(time),
-        text=texts,
-        name=lane.name,
-        mode="markers",
-        marker={"color": lane.colour, "opacity": 0},
-        hovertemplate="%{text}",
-        showlegend=False,
-    )
+def _range(time: FloatArray) -> tuple[float, float]:
+    return float(time[0]), float(time[-1])
 
 
 # Charts of a run over time: one row for each quantity, with a common time axis.
@@ -181,11 +127,8 @@ QUANTITIES = {
     "A": "Currents",
 }
 
-#: Heights [px]: a row of curves at least, a line of its legend, a lane of a contact, between two rows, around them all.
-_ROW, _LINE, _LANE, _GAP, _AROUND = 168, 19, 26, 47, 90
-_BALANCE = "kinetic + spring<br>− initial − work<br>+ lost"
-#: Letters in a line of a legend.
-_LETTERS = 32
+#: The balance, in the legend.
+_BALANCE = "kinetic + spring − initial − work + lost"
 #: More vertical lines than this hide the curves.
 _MOST_MARKS = 150
 
@@ -211,57 +154,43 @@ class _Row:
         """Whether any of its curves changes: else its chart would be empty but for level lines."""
         return any(curve.values.nunique() > 1 for curve in self.curves)
 
-    @property
-    def height(self) -> int:
-        """For its curves and for its legend beside them [px]."""
-        return max(_ROW, _LINE * sum(1 + curve.name.count("<br>") for curve in self.curves))
 
+def motion_plots(run: Run) -> list[Plot]:
+    """All continuous outputs, the energy balance, and the inputs that vary: a chart for each quantity, over time.
 
-def motion_chart(run: Run) -> go.Figure | None:
-    """All continuous outputs, the energy balance, and the inputs that vary, with every impact marked.
+    The last one has a lane for each contact, which shows when it is active. In each a line marks every impact.
 
-    Under them a band for each contact shows when it is active.
-
-    None when there is nothing of that kind.
+    [] when there is nothing of that kind.
     """
     rows = [row for row in _rows(run) if row.moves]
-    lanes = [] if run.results.empty else contacts(run)
-    heights = [row.height for row in rows] + ([_LANE * len(lanes)] if lanes else [])
-    if not heights:
-        return None
-    height = sum(heights) + _GAP * (len(heights) - 1)
-    spacing = _GAP / height if len(heights) > 1 else 0.0
-    figure = make_subplots(rows=len(heights), shared_xaxes=True, row_heights=heights, vertical_spacing=spacing)
-    time = run.results["time"].to_numpy()
-    for number, row in enumerate(rows, start=1):
-        legend = "legend" if number == 1 else f"legend{number}"
-        for i, curve in enumerate(row.curves):
-            x, y = thin(time, curve.values.to_numpy(dtype=np.float64))
-            line = {"width": 1.8, "color": COLOURS[i % len(COLOURS)]}
-            at = f"%{{y}} at %{{x}} s<extra>{curve.variable}</extra>"
-            shown = go.Scatter(x=x, y=y, name=curve.name, mode="lines", line=line, legend=legend, hovertemplate=at)
-            figure.add_trace(shown, row=number, col=1)
-        top = figure.layout[f"yaxis{number if number > 1 else ''}"].domain[1]
-        figure.update_layout({legend: {"x": 1.01, "y": top, "yanchor": "top", "xanchor": "left"}})
-        figure.update_yaxes(title_text=row.title, exponentformat="power", title_standoff=8, row=number, col=1)
-    if lanes:
-        add_lanes(figure, run, row=len(heights))
-    _mark_impacts(figure, run)
-    figure.update_xaxes(title_text="time [s]", row=len(heights), col=1)
-    named = {"namelength": -1}
-    figure.update_layout(layout(height=height + _AROUND, hovermode="x unified", barmode="overlay", hoverlabel=named))
-    return figure
+    marks = strongest(run.impacts, _MOST_MARKS)
+    plots = []
+    for row in rows:
+        time = run.results["time"].to_numpy(dtype=np.float64)
+        curves = [
+            Curve(
+                curve.name,
+                *thin(time, curve.values.to_numpy(dtype=np.float64)),
+                COLOURS[i % len(COLOURS)],
+                about=curve.variable,
+            )
+            for i, curve in enumerate(row.curves)
+        ]
+        plots.append(Plot(row.title, "time [s]", "", curves, marks=marks, range=_range(time)))
+    lanes = lanes_plot(run)
+    return plots if lanes is None else [*plots, replace(lanes, marks=marks)]
 
 
 def still(run: Run) -> str:
     """What has no chart because nothing of its kind changes, with values, as a sentence; "" when there is none."""
     names = [curve.variable for row in _rows(run) if not row.moves for curve in row.curves]
     values = [
-        " ".join((name, *in_display_unit(float(run.results[name].iloc[0]), name, run.description, digits=6)))
+        f"{run.description.variable(name).description or name}: "
+        + " ".join(in_display_unit(float(run.results[name].iloc[0]), name, run.description, digits=6))
         for name in names
         if name in run.results
     ]
-    return f"Not drawn, for it did not change: {', '.join(values)}." if values else ""
+    return f"Not drawn, for it did not change: {'; '.join(values)}." if values else ""
 
 
 def _rows(run: Run) -> list[_Row]:
@@ -301,24 +230,6 @@ def _quantity(unit: str, variables: list[Variable], run: Run) -> _Row:
         if from_start:
             name += f", from {values.iloc[0] + 0.0:.5g} {shown or unit}"
             values = values - values.iloc[0]
-        lines = wrap(name, _LETTERS, break_long_words=False, break_on_hyphens=False)
-        curves.append(_Curve(variable.name, escape("\n".join(lines), quote=False).replace("\n", "<br>"), values))
+        curves.append(_Curve(variable.name, name, values))
     title = "Angle change" if from_start else QUANTITIES.get(unit, "Values")
     return _Row(f"{title} [{shown or unit or '1'}]", curves)
-
-
-def _mark_impacts(figure: go.Figure, run: Run) -> None:
-    lines = [
-        {
-            "type": "line",
-            "x0": instant,
-            "x1": instant,
-            "xref": "x",
-            "y0": 0,
-            "y1": 1,
-            "yref": "paper",
-            "line": {"color": IMPACT_COLOUR, "width": 1, "dash": "dot"},
-        }
-        for instant in strongest(run.impacts, _MOST_MARKS)
-    ]
-    figure.update_layout(shapes=lines)

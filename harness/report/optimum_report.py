@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import plotly.graph_objects as go
 import pyarrow as pa
 
 from ..designs.by_fmu import InMotion
@@ -18,9 +17,21 @@ from ..fmu import Fmu
 from ..fmu.description import Description, Value
 from ..fmu.values import in_display_unit
 from ..run.results import versions, write_text
-from .page import COLOURS, cards, chart, facts, layout, page, section, table, versions_section
+from .page import cards, chart, facts, page, section, table, versions_section
 from .parameters import inputs_section, parameters_of_designs
-from .sweep_report import Column, animation_of_design, designs_table, limits, results_charts, run_rows, warnings_section
+from .plot import Curve, Plot, interactive
+from .style import COLOURS
+from .sweep_report import (
+    RESULTS_NOTE,
+    Column,
+    animation_of_design,
+    designs_table,
+    in_words,
+    limits,
+    results_charts,
+    run_rows,
+    warnings_section,
+)
 
 
 @dataclass(frozen=True)
@@ -69,7 +80,9 @@ def optimum_report(optimum: Optimum, found: Found, fmu: Fmu) -> str:
         section("Constraints", _constraints(optimum, best)),
         animation_of_design(found.seen),
         section(
-            "Search", chart(history_chart(optimum, history)), note="Dots are designs, the line is the best so far."
+            "Search",
+            chart(interactive(history_plot(optimum, history, description))),
+            note="Dots are designs, the line is the best so far.",
         ),
     ]
     if near_it is not None:
@@ -78,9 +91,9 @@ def optimum_report(optimum: Optimum, found: Found, fmu: Fmu) -> str:
             f"standard deviation {near_it.spread:.6g} {goal.objective.unit or '1'}. First order: the part of its "
             "variance that a variable explains by itself; total: together with others."
         )
-        body.append(section("Sensitivity", chart(sensitivity_chart(near_it)), note=note))
+        body.append(section("Sensitivity", chart(interactive(sensitivity_plot(near_it), height=260)), note=note))
     body += [
-        section("Designs", *results_charts(optimum.axes, optimum.task, description, results)),
+        section("Designs", *results_charts(optimum.axes, optimum.task, description, results), note=RESULTS_NOTE),
         section("All designs", designs_table(optimum.axes, optimum.task, description, results)),
         warnings_section(results),
         section("What was run", facts("value", _set_up(optimum, description, near_it))),
@@ -92,37 +105,46 @@ def optimum_report(optimum: Optimum, found: Found, fmu: Fmu) -> str:
     return page(optimum.title, subtitle, [part for part in body if part])
 
 
-def history_chart(optimum: Optimum, history: History) -> go.Figure:
+def history_plot(optimum: Optimum, history: History, description: Description) -> Plot:
     """The objective of each design, and the best so far."""
     goal, task = optimum.goal, optimum.task
-    numbers = np.array([design.number for design in history.designs])
+    numbers = np.array([design.number for design in history.designs], dtype=np.float64)
     values = np.array([_number(goal.value(result, task)) for result in history.results])
     kept = np.array([goal.violation(result, task) == 0.0 for result in history.results])
     good = np.where(kept, -values if goal.largest else values, np.inf)
     so_far = np.minimum.accumulate(good)
     so_far = np.where(np.isfinite(so_far), -so_far if goal.largest else so_far, np.nan)
-    figure = go.Figure()
-    for name, which, colour in (("keeps all constraints", kept, COLOURS[0]), ("misses some", ~kept, COLOURS[6])):
-        marker = {"size": 6, "color": colour, "opacity": 0.6}
-        figure.add_trace(go.Scatter(x=numbers[which], y=values[which], mode="markers", name=name, marker=marker))
-    line = {"color": COLOURS[1], "width": 2, "shape": "hv"}
-    figure.add_trace(go.Scatter(x=numbers, y=so_far, mode="lines", name="best so far", line=line))
-    figure.update_xaxes(title_text="design [1]")
-    figure.update_yaxes(title_text=f"{goal.objective.column} [{goal.objective.unit or '1'}]", exponentformat="SI")
-    if Column(goal.objective.column, "", values).is_wide:
-        figure.update_yaxes(type="log", exponentformat="power")
-    figure.update_layout(layout(height=420, legend={"orientation": "h", "y": -0.2}))
-    return figure
+    curves = [
+        Curve(
+            name,
+            numbers[which],
+            values[which],
+            colour,
+            line=False,
+            dots=True,
+            labels=[f"design {number:g}" for number in numbers[which]],
+        )
+        for name, which, colour in (("keeps all constraints", kept, COLOURS[0]), ("misses some", ~kept, COLOURS[6]))
+        if which.any()
+    ]
+    # level until the next design
+    curves.append(Curve("best so far", numbers.repeat(2)[1:], so_far.repeat(2)[:-1], COLOURS[1]))
+    return Plot(
+        f"{in_words(goal.objective, description)} [{goal.objective.unit or '1'}]",
+        "design [1]",
+        "",
+        curves,
+        log_y=Column(goal.objective.column, "", values).is_wide,
+    )
 
 
-def sensitivity_chart(near_it: Sensitivity) -> go.Figure:
+def sensitivity_plot(near_it: Sensitivity) -> Plot:
     """Sobol indices as bars."""
-    figure = go.Figure()
-    for name, indices, colour in (("first order", near_it.first, COLOURS[0]), ("total", near_it.total, COLOURS[4])):
-        figure.add_trace(go.Bar(x=list(near_it.names), y=indices, name=name, marker={"color": colour}))
-    figure.update_yaxes(title_text="Sobol index [1]", rangemode="tozero")
-    figure.update_layout(layout(height=340, barmode="group", legend={"orientation": "h", "y": -0.2}))
-    return figure
+    curves = [
+        Curve(name, (), indices, colour)
+        for name, indices, colour in (("first order", near_it.first, COLOURS[0]), ("total", near_it.total, COLOURS[4]))
+    ]
+    return Plot("Sobol index [1]", "", "", curves, bars=[name.replace("_", " ") for name in near_it.names])
 
 
 def _constraints(optimum: Optimum, best: Best) -> str:

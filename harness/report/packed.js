@@ -26,7 +26,7 @@ var PACKED = (function () {
     });
   }
 
-  // The figures of all charts, in their order: {data, layout, narrow}.
+  // The figures of all charts, in their order.
   async function figures() {
     const held = await text("figures");
     const kept = arrays(await bytes("arrays"), JSON.parse(held).lengths);
@@ -34,5 +34,5 @@ var PACKED = (function () {
     return JSON.parse(held, (key, value) => isReference(value) ? kept[value.shared] : value).figures;
   }
 
-  return { text, figures };
+  return { bytes, text, figures };
 })();

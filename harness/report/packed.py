@@ -1,13 +1,12 @@
-"""What a page holds compressed: the chart library, and the figures of its charts with every array once."""
+"""What a page holds compressed: the figures of its charts, with every array once."""
 
 from __future__ import annotations
 
 import base64
 import gzip
 import json
+import math
 from collections.abc import Sequence
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -19,27 +18,17 @@ FloatArray = npt.NDArray[np.floating]
 _LEAST = 16
 
 
-def packed_library() -> str:
-    """The element with plotly's JavaScript, after its licence."""
-    licence, packed = _library()
-    return f"<!-- {licence} -->{packed}"
-
-
 def packed_figures(figures: Sequence[dict[str, Any]]) -> str:
-    """The elements with {data, layout} of all charts, which `packed.js` opens to the same numbers, bit by bit."""
+    """The elements with the data of all charts, which `packed.js` opens to the same numbers, bit by bit.
+
+    What is no number in a shorter list is None there; in an array it stays what it is.
+    """
     arrays: dict[bytes, int] = {}
-    shared = [figure | {"data": _shared(figure["data"], arrays)} for figure in figures]
+    shared = [_shared(figure, arrays) for figure in figures]
     lengths = [len(array) // 8 for array in arrays]
     text = json.dumps({"figures": shared, "lengths": lengths}, separators=(",", ":"), ensure_ascii=False)
     numbers = b"".join(_differences(np.frombuffer(array, "<f8")) for array in arrays)
     return _element("figures", text.encode()) + _element("arrays", numbers)
-
-
-@cache
-def _library() -> tuple[str, str]:
-    text = files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
-    licence = text[: text.index("*/")].strip("/*\n ")
-    return licence.replace("\n* ", "; "), _element("library", text.encode())
 
 
 def _element(name: str, content: bytes) -> str:
@@ -50,16 +39,12 @@ def _element(name: str, content: bytes) -> str:
 def _shared(data: Any, arrays: dict[bytes, int]) -> Any:
     """The same data with {"shared": number} for each array of floats; `arrays` has their bytes and numbers."""
     if isinstance(data, dict):
-        if "bdata" not in data:
-            return {key: _shared(value, arrays) for key, value in data.items()}
-        # as plotly writes arrays of one dimension; others this project does not draw
-        values = np.frombuffer(base64.b64decode(data["bdata"]), data["dtype"])
-        return _reference(values, arrays) if values.dtype.kind == "f" else values.tolist()
+        return {key: _shared(value, arrays) for key, value in data.items()}
     if isinstance(data, list):
         if len(data) >= _LEAST and all(type(value) is float for value in data):
             return _reference(np.array(data), arrays)
         return [_shared(value, arrays) for value in data]
-    return data
+    return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
 def _reference(values: FloatArray, arrays: dict[bytes, int]) -> dict[str, int]:

@@ -11,8 +11,9 @@ from ..errors import UsageError
 from ..fmu.description import Description, Value, Variable
 from ..fmu.values import in_display_unit, parse_value
 from ..run.inputs import InputSignals
-from .page import COLOURS, chart, charts, section, table
+from .page import chart, charts, section, table
 from .plot import Curve, Plot, interactive
+from .style import COLOURS
 
 # The table of parameters and inputs: their values, and where these come from.
 
@@ -114,7 +115,7 @@ def inputs_section(signals: InputSignals | None, description: Description) -> st
     """A section with a chart for each input; "" without signals."""
     if signals is None:
         return ""
-    drawn = [chart(interactive(plot, height=280)) for plot in input_plots(signals, description)]
+    drawn = [chart(interactive(plot, height=220)) for plot in input_plots(signals, description)]
     return section("Inputs", charts(*drawn), note=table_note(signals))
 
 
@@ -136,6 +137,7 @@ def input_plots(signals: InputSignals, description: Description) -> list[Plot]:
         factor, offset = known.get(unit, (1.0, 0.0))
         if variable.type != "Real":
             x, y = x.repeat(2)[1:], y.repeat(2)[:-1]
-        curve = Curve(variable.name, x, factor * y + offset, COLOURS[place % len(COLOURS)])
-        plots.append(Plot(variable.name, "time [s]", f"{variable.name} [{unit or '1'}]", [curve], legend=False))
+        words = variable.description or variable.name
+        curve = Curve(words, x, factor * y + offset, COLOURS[place % len(COLOURS)], about=variable.name)
+        plots.append(Plot(words, "time [s]", f"{variable.name} [{unit or '1'}]", [curve], legend=False))
     return plots

@@ -1,10 +1,9 @@
-"""Chart data: thinned to the points that its curve needs, and written for plotly's JavaScript."""
+"""Chart data: thinned to the points that its curve needs, and written for the page's scripts."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import Any
 
@@ -12,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from .page import layout
+from .style import THEMED
 
 # Fewer points for the same curve, fewer frames for the same motion.
 
@@ -92,6 +91,8 @@ class Curve:
         line: whether its points are joined.
         dots: whether each point has a dot.
         filled: whether the area that it encloses is filled; it must be closed.
+        about: what else there is to know of it, such as the variable's name, for the pointer.
+        labels: of its points, for the pointer; () when they have none.
     """
 
     name: str
@@ -101,6 +102,25 @@ class Curve:
     line: bool = True
     dots: bool = False
     filled: bool = False
+    about: str = ""
+    labels: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Lane:
+    """A band over time that is full while something is on.
+
+    Attributes:
+        name: beside it.
+        spans: shape (times, 2): from when to when it is on.
+        colour: as "#rrggbb".
+        about: as of a curve.
+    """
+
+    name: str
+    spans: npt.ArrayLike
+    colour: str
+    about: str = ""
 
 
 @dataclass(frozen=True)
@@ -114,6 +134,11 @@ class Plot:
         to_scale: whether both axes have the same scale, as a shape needs it.
         from_zero: whether the y axis begins at 0.
         legend: whether names are shown.
+        log_x, log_y: whether an axis is logarithmic, on a page.
+        marks: places on the x axis where something happened, each a line across the chart, on a page.
+        lanes: in place of curves, on a page.
+        bars: names of groups of bars, on a page: a curve has a bar in each, and no x.
+        range: of the x axis; None for that of the curves.
     """
 
     title: str
@@ -123,51 +148,59 @@ class Plot:
     to_scale: bool = False
     from_zero: bool = False
     legend: bool = True
+    log_x: bool = False
+    log_y: bool = False
+    marks: npt.ArrayLike = ()
+    lanes: Sequence[Lane] = ()
+    bars: Sequence[str] = ()
+    range: tuple[float, float] | None = None
 
 
-# A plot in a report, as plotly's JavaScript takes it: plain data, without plotly's slow checks in Python.
+# A plot in a report, as `curves.js` takes it.
 
-_HEIGHT = 360
+_HEIGHT = 300
+#: What a curve or a plot holds that goes to the page where it is not the default.
+_OF_CURVE = ("line", "dots", "filled", "about", "labels")
+_OF_PLOT = ("to_scale", "from_zero", "legend", "log_x", "log_y", "bars", "range")
 
 
 def interactive(plot: Plot, height: int = _HEIGHT) -> dict[str, Any]:
-    """The figure {data, layout} of a plot, `height` pixels high."""
-    names = [curve.name for curve in plot.curves]
-    traces = [_trace(curve, first=curve.name not in names[:i]) for i, curve in enumerate(plot.curves)]
-    x_axis: dict[str, Any] = {"title": {"text": plot.x_label}}
-    y_axis: dict[str, Any] = {"title": {"text": plot.y_label}, "exponentformat": "SI"}
-    if plot.to_scale:
-        x_axis["constrain"] = y_axis["constrain"] = "domain"
-        y_axis["scaleanchor"] = "x"
-    if plot.from_zero:
-        y_axis["rangemode"] = "tozero"
-    # on the left: plotly's tool bar comes on the right
-    heading = {"title": {"text": plot.title, "font": {"size": 15}, "xref": "paper", "x": 0, "xanchor": "left"}}
-    legend = {"orientation": "h", "y": -0.22, "yanchor": "top"}
-    return {
-        "data": traces,
-        "layout": layout(height=height, xaxis=x_axis, yaxis=y_axis, showlegend=plot.legend, legend=legend, **heading),
-    }
+    """The figure of a plot for `page.chart`, `height` pixels high; with lanes, as high as these need."""
+    curves = [
+        {"name": curve.name, "x": _numbers(curve.x), "y": _numbers(curve.y), "colour": _colour(curve.colour)}
+        | _changed(curve, _OF_CURVE)
+        # the scripts take a line where it is said
+        | {"line": curve.line}
+        for curve in plot.curves
+    ]
+    figure: dict[str, Any] = {"title": plot.title, "x": plot.x_label, "y": plot.y_label, "curves": curves}
+    figure |= {"height": height} | _changed(plot, _OF_PLOT)
+    marks = _numbers(plot.marks)
+    if marks:
+        figure["marks"] = marks
+    if plot.lanes:
+        del figure["height"]
+        figure["lanes"] = [
+            {
+                "name": lane.name,
+                "spans": np.asarray(lane.spans).tolist(),
+                "colour": _colour(lane.colour),
+                "about": lane.about,
+            }
+            for lane in plot.lanes
+        ]
+    return figure
 
 
-def _trace(curve: Curve, first: bool) -> dict[str, Any]:
-    trace = {
-        "type": "scatter",
-        "mode": "+".join(["lines"] * curve.line + ["markers"] * curve.dots),
-        "name": curve.name,
-        "legendgroup": curve.name,
-        "showlegend": first,
-        "x": _numbers(curve.x),
-        "y": _numbers(curve.y),
-        # simplified by plotly, a smooth curve of few points has corners
-        "line": {"color": curve.colour, "width": 2, "simplify": False},
-        "marker": {"color": curve.colour, "size": 7},
-    }
-    if curve.filled:
-        trace |= {"fill": "toself", "fillcolor": f"{curve.colour}40", "hoveron": "points"}
-    return trace
+def _changed(one: Curve | Plot, names: Sequence[str]) -> dict[str, Any]:
+    defaults = {field.name: field.default for field in fields(one)}
+    return {name: getattr(one, name) for name in names if getattr(one, name) != defaults[name]}
 
 
-def _numbers(values: npt.ArrayLike) -> list[float | None]:
-    """What JSON can hold: a point that is not finite is a gap in the curve."""
-    return [value if math.isfinite(value) else None for value in np.asarray(values, dtype=np.float64).tolist()]
+def _colour(colour: str) -> str:
+    return THEMED.get(colour, colour)
+
+
+def _numbers(values: npt.ArrayLike) -> list[float]:
+    numbers: list[float] = np.asarray(values, dtype=np.float64).tolist()
+    return numbers

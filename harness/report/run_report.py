@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
-
-import plotly.graph_objects as go
 
 from ..fmu.declared import NO_BEAM
 from ..fmu.description import Variable
@@ -19,59 +15,13 @@ from ..run.results import settings, versions, write_text
 from .animation import animation
 from .impact_sections import compliance_section, fatigue_section, impacts_section, severity_section, stress_section
 from .modes_and_events import events_section, modes_section
-from .motion import contacts, motion_chart, still
-from .page import cards, chart, checks_list, page, section, table, versions_section
+from .motion import contacts, motion_plots, still
+from .page import HOW_TO_ZOOM, cards, chart, charts, checks_list, page, section, table, versions_section
 from .parameters import Origin, Row, parameters_section, table_note
+from .plot import interactive
 
-# Charts above each other on a phone's screen, where there is no space for legends beside them.
-
-#: Of a line of a legend, between two charts, and around them all [px].
-_LINE, _GAP, _TOP, _BOTTOM = 17, 34, 10, 46
-#: Two names that are no longer stand beside each other in a legend.
-_SHORT = 11
-
-
-def stacked(figure: go.Figure) -> dict[str, Any]:
-    """The layout of a stack of charts with a common x axis for `page.chart`: each legend stands above its chart.
-
-    The charts keep their heights. Each is on a y axis of its own, the first at the top, and its legend, if it has
-    one, has the number of the axis.
-    """
-    layout = figure.layout
-    inner = layout.height - layout.margin.t - layout.margin.b
-    numbers = range(1, len({trace.yaxis for trace in figure.data}) + 1)
-    heights = [inner * (axis.domain[1] - axis.domain[0]) for axis in (layout[_name("yaxis", n)] for n in numbers)]
-    legends = [_LINE * _lines(figure, n) for n in numbers]
-    total = sum(heights) + sum(legends) + _GAP * (len(heights) - 1)
-    changed: dict[str, Any] = {"height": total + _TOP + _BOTTOM, "margin": {"t": _TOP, "b": _BOTTOM}}
-    bottom = total
-    for number, height, legend in zip(numbers, heights, legends, strict=True):
-        top = bottom - legend
-        bottom = top - height
-        changed[_name("yaxis", number)] = {"domain": [max(bottom, 0.0) / total, top / total]}
-        if legend:
-            place = {"x": 0, "xanchor": "left", "y": top / total, "yanchor": "bottom"}
-            changed[_name("legend", number)] = {"orientation": "h", "font": {"size": 11}} | place
-        bottom -= _GAP
-    return changed
-
-
-def _name(kind: str, number: int) -> str:
-    return kind if number == 1 else f"{kind}{number}"
-
-
-def _lines(figure: go.Figure, number: int) -> int:
-    names = [
-        trace.name
-        for trace in figure.data
-        if (trace.yaxis or "y") == _name("y", number) and trace.showlegend is not False
-    ]
-    if all(len(name) <= _SHORT for name in names):
-        return math.ceil(len(names) / 2)
-    return sum(1 + name.count("<br>") for name in names)
-
-
-# report.html of one run.
+#: Of a chart of one quantity [px].
+_HEIGHT = 220
 
 
 def write_report(run: Run, path: Path, more_checks: Sequence[Check] = ()) -> Path:
@@ -125,12 +75,13 @@ def _key_figures(run: Run) -> list[tuple[str, str]]:
 
 
 def _motion(run: Run) -> str:
-    figure, level = motion_chart(run), still(run)
-    if figure is None:
+    plots, level = motion_plots(run), still(run)
+    if not plots:
         return section("Motion", note=level) if level else ""
     bands = "Bands below the curves show which contacts are active. " if contacts(run) else ""
-    note = f"Dotted red lines mark impacts. {bands}Drag to zoom, double-click to return. {level}".strip()
-    return section("Motion", chart(figure, stacked(figure)), note=note)
+    note = f"Dotted red lines mark impacts. {bands}{HOW_TO_ZOOM} {level}".strip()
+    drawn = (chart(interactive(plot, height=_HEIGHT)) for plot in plots)
+    return section("Motion", charts(*drawn, kind="stacked"), note=note)
 
 
 def _stress(run: Run) -> str:

@@ -5,21 +5,20 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import plotly.graph_objects as go
 import pyarrow as pa
-from plotly.subplots import make_subplots
 
 from mechanism_fmu.stress import beam_theory_note
 
 from ..designs.by_fmu import InMotion
 from ..designs.store import failures, numbers_of
 from ..designs.sweep import Sweep, range_cells
-from ..designs.task import Quantity, Task
+from ..designs.task import Quantity, Task, When
 from ..designs.variation import Axis
 from ..fmu import Fmu
 from ..fmu.description import Description
@@ -27,8 +26,10 @@ from ..fmu.values import in_display_unit
 from ..run.master import seconds
 from ..run.results import versions, write_text
 from .animation import HEADING, animation
-from .page import COLOURS, WIDE_TOP, cards, chart, facts, layout, page, section, table, versions_section, wide
+from .page import cards, chart, charts, facts, page, section, table, versions_section
 from .parameters import Origin, inputs_section, parameters_of_designs
+from .plot import Curve, Plot, interactive
+from .style import COLOURS
 
 # The section of a sweep's or an optimum's report that shows one design in motion.
 
@@ -50,10 +51,8 @@ _MOST_ROWS = 500
 _NUMBER = re.compile(r"-?\d+(\.\d+)?(e[-+]?\d+)?")
 #: Kinds of warnings.
 _MOST_KINDS = 20
-#: Height of one row of charts [px].
-_ROW_HEIGHT = 260
-#: Beyond so many dots, SVG is slow.
-_MANY_DOTS = 10_000
+#: Of a chart of one quantity over another [px].
+_HEIGHT = 210
 
 
 @dataclass(frozen=True)
@@ -64,11 +63,13 @@ class Column:
         name: in the results.
         heading: with its unit.
         values: in that unit; NaN where there is none, shape (designs,).
+        words: what it is, with its unit, in charts.
     """
 
     name: str
     heading: str
     values: npt.NDArray[np.float64]
+    words: str = ""
 
     @property
     def is_wide(self) -> bool:
@@ -76,9 +77,12 @@ class Column:
         finite = self.values[np.isfinite(self.values)]
         return bool(finite.size and finite.min() > 0.0 and finite.max() > 1e3 * finite.min())
 
-    def in_decades(self) -> Column:
-        """What is wide as its logarithm, anything else as it is."""
-        return Column(self.name, f"lg {self.heading}", np.log10(self.values)) if self.is_wide else self
+
+#: Of charts of many designs.
+RESULTS_NOTE = (
+    "Each dot is one design, and each line across the upright axes: drag along an axis to see only the designs in this "
+    "range, click on it to see all. Drag over another chart to zoom, double-click to return."
+)
 
 
 def write_sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | None, path: Path) -> Path:
@@ -99,14 +103,14 @@ def sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | Non
         ("failed", str(len(failed))),
         ("way", ", ".join(sorted(set(results["way"].to_pylist())))),
     ]
-    charts = results_charts(sweep.axes, sweep.task, description, results)
+    drawn = results_charts(sweep.axes, sweep.task, description, results)
     body = [cards(figures)]
     if failed:
         rows = [[str(number), message] for number, message in failed[:_MOST_ROWS]]
         body.append(section("Failed designs", table(["design", "message"], rows, numeric=[0]), banner=True))
     body += [
         section("Ranges", ranges_table(sweep.task, description, results)),
-        section("Results", *charts, note="Each dot is one design. Drag over an axis to zoom."),
+        section("Results", *drawn, note=RESULTS_NOTE),
         animation_of_design(seen),
         section("Designs", designs_table(sweep.axes, sweep.task, description, results), note=_rows_note(results)),
     ]
@@ -126,7 +130,7 @@ def sweep_report(sweep: Sweep, fmu: Fmu, results: pa.Table, seen: InMotion | Non
 def results_charts(axes: Sequence[Axis], task: Task, description: Description, results: pa.Table) -> list[str]:
     """What was found over what was varied."""
     varied, found = _columns(axes, task, description, results)
-    return _charts(varied, found)
+    return _charts(varied, found, results["design"].to_pylist())
 
 
 def designs_table(axes: Sequence[Axis], task: Task, description: Description, results: pa.Table) -> str:
@@ -162,59 +166,48 @@ def _columns(
     return varied, [_found(quantity, description, results) for quantity in task.quantities]
 
 
-def parallel_chart(columns: Sequence[Column], colour: Column) -> go.Figure:
-    """Each design a line across all columns, coloured by one of them."""
-    # below, and a line further down; above, their lines would hide the ends of the ranges
-    columns, colour = [column.in_decades() for column in columns], colour.in_decades()
-    dimensions = [
-        {"label": f"<br>{_broken(column.heading)}", "values": column.values, "tickformat": ".3~g"} for column in columns
+def parallel_chart(columns: Sequence[Column], colour: int, designs: Sequence[int]) -> dict[str, Any]:
+    """Each design a line across all columns, coloured by that with number `colour`."""
+    axes = [
+        {"name": column.words or column.heading, "about": column.name, "values": column.values.tolist()}
+        | ({"log": True} if column.is_wide else {})
+        for column in columns
     ]
-    title = {"text": _broken(colour.heading), "font": {"size": 12}}
-    line = {"color": colour.values, "colorscale": "Viridis", "colorbar": {"title": title}}
-    labels = {"labelside": "bottom", "labelfont": {"size": 12}}
-    figure = go.Figure(go.Parcoords(dimensions=dimensions, line=line, rangefont={"size": 10}, **labels))
-    figure.update_layout(layout(height=460, margin={"l": 80, "r": 60, "t": 60, "b": 100}))
-    return figure
+    return {"title": "Designs across all axes", "axes": axes, "colour": colour, "designs": list(designs)}
 
 
-def scatter_chart(varied: Sequence[Column], found: Sequence[Column]) -> go.Figure:
-    """What was found over what was varied: a row for each quantity, a column for each variable."""
-    rows = len(found)
-    figure = make_subplots(
-        rows=rows,
-        cols=len(varied),
-        shared_xaxes="columns",
-        shared_yaxes="rows",
-        vertical_spacing=min(0.06, 0.5 / rows),
-        horizontal_spacing=0.04,
-    )
-    # WebGL draws many dots at once, but not in every browser
-    kind = go.Scatter if len(varied[0].values) * rows * len(varied) <= _MANY_DOTS else go.Scattergl
-    for i, y in enumerate(found, start=1):
-        for k, x in enumerate(varied, start=1):
-            marker = {"size": 6, "color": COLOURS[(i - 1) % len(COLOURS)], "opacity": 0.75}
-            dots = {"x": x.values, "y": y.values, "mode": "markers", "marker": marker, "name": y.name}
-            figure.add_trace(kind(**dots, showlegend=False), row=i, col=k)
-        exponents = {"type": "log", "exponentformat": "power"} if y.is_wide else {"exponentformat": "SI"}
-        figure.update_yaxes(title_text=_broken(y.heading), **exponents, row=i, col=1)
-        if y.is_wide:
-            figure.update_yaxes(type="log", row=i)
-    for k, x in enumerate(varied, start=1):
-        figure.update_xaxes(title_text=x.heading, row=rows, col=k)
-    figure.update_layout(layout(height=_ROW_HEIGHT * rows + 90, margin=WIDE_TOP))
-    return figure
+def scatter_charts(varied: Sequence[Column], found: Sequence[Column], designs: Sequence[int]) -> list[list[Plot]]:
+    """For each quantity that was found a chart of it over each that was varied."""
+    labels = [f"design {number}" for number in designs]
+    return [
+        [
+            Plot(
+                y.words or y.heading,
+                x.words or x.heading,
+                "",
+                [Curve(y.name, x.values, y.values, COLOURS[i % len(COLOURS)], line=False, dots=True, labels=labels)],
+                legend=False,
+                log_y=y.is_wide,
+            )
+            for x in varied
+        ]
+        for i, y in enumerate(found)
+    ]
 
 
-def _charts(varied: Sequence[Column], found: Sequence[Column]) -> list[str]:
+def _charts(varied: Sequence[Column], found: Sequence[Column], designs: Sequence[int]) -> list[str]:
     """Those of columns that have numbers at all."""
     some = [column for column in found if np.isfinite(column.values).any()]
     if not varied or not some:
         return ["<p>There is nothing to draw: no design gave a number.</p>"]
     whole = np.isfinite(np.column_stack([column.values for column in (*varied, *some)])).all(axis=1)
-    drawn = [wide(chart(scatter_chart(varied, some)))]
+    drawn = [
+        charts(*(chart(interactive(plot, _HEIGHT)) for plot in plots), kind="small")
+        for plots in scatter_charts(varied, some, designs)
+    ]
     if whole.any():
-        kept = [Column(column.name, column.heading, column.values[whole]) for column in (*varied, *some)]
-        drawn.append(wide(chart(parallel_chart(kept, kept[len(varied)]))))
+        kept = [replace(column, values=column.values[whole]) for column in (*varied, *some)]
+        drawn.append(chart(parallel_chart(kept, len(varied), np.array(designs)[whole].tolist())))
     return drawn
 
 
@@ -224,24 +217,29 @@ def _varied(axis: Axis, results: pa.Table) -> Column:
     if axis.unit != variable.unit:
         zero, one = (units.convert(x, axis.unit, variable.unit) for x in (0.0, 1.0))
         values = (values - zero) / (one - zero)
-    return Column(axis.name, _heading(axis.name, axis.unit), values)
+    words = _heading(variable.description or axis.name.replace("_", " "), axis.unit)
+    return Column(axis.name, _heading(axis.name, axis.unit), values, words)
 
 
 def _found(quantity: Quantity, description: Description, results: pa.Table) -> Column:
     values = numbers_of(results, quantity.column)
     zero, one = (description.units.to_display(x, quantity.unit, quantity.display_unit) for x in (0.0, 1.0))
-    if zero is None or one is None:
-        return Column(quantity.column, _heading(quantity.column, quantity.unit), values)
-    return Column(quantity.column, _heading(quantity.column, quantity.display_unit), zero + (one - zero) * values)
+    unit = quantity.unit
+    if zero is not None and one is not None:
+        unit, values = quantity.display_unit, zero + (one - zero) * values
+    words = _heading(in_words(quantity, description), unit)
+    return Column(quantity.column, _heading(quantity.column, unit), values, words)
+
+
+def in_words(quantity: Quantity, description: Description) -> str:
+    """What a quantity is: when it is taken, and the description of its variable, if this has one."""
+    known = description.variables.get(quantity.name)
+    words = known.description if known is not None and known.description else quantity.name.replace("_", " ")
+    return words if quantity.when is When.PARAMETER else f"{quantity.when.replace('_', ' ')}: {words}"
 
 
 def _heading(name: str, unit: str) -> str:
     return f"{name} [{unit or '1'}]"
-
-
-def _broken(heading: str) -> str:
-    """A heading in lines that are short enough for an axis."""
-    return heading.replace(".", ".<br>", 1).replace(" [", "<br>[")
 
 
 def _table(varied: Sequence[Column], found: Sequence[Column], results: pa.Table) -> str:

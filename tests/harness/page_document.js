@@ -14,6 +14,7 @@ class Element {
     this.classList = {
       toggle: (name, on) => { this.attributes.class = [...names().filter((one) => one !== name), ...(on ? [name] : [])].join(" "); },
       contains: (name) => names().includes(name),
+      add: (name) => this.classList.toggle(name, true),
     };
   }
   setAttribute(name, value) {
@@ -28,6 +29,14 @@ class Element {
   set className(value) { this.attributes.class = value; }
   get textContent() { return this.words + this.children.map((one) => one.textContent).join(""); }
   set textContent(words) { this.children = []; this.words = String(words); }
+  remove() {
+    if (this.parentNode) this.parentNode.children = this.parentNode.children.filter((one) => one !== this);
+    this.parentNode = null;
+  }
+  closest(selector) { return this.matches(selector) ? this : this.parentNode ? this.parentNode.closest(selector) : null; }
+  // A canvas takes every line and shows none.
+  getContext() { return new Proxy({}, { get: () => () => {}, set: () => true }); }
+  get dataset() { return { advice: this.attributes["data-advice"] }; }
   get lastChild() { return this.children.at(-1); }
   get tHead() { return this.querySelector("thead"); }
   get tBodies() { return this.querySelectorAll("tbody"); }
@@ -58,8 +67,8 @@ class Element {
 // The tree of a file as this project writes it: attributes in double quotes, all elements closed.
 function parsed(html) {
   const root = new Element("#document"), open = [root];
-  const pattern = /<(script|style)([^>]*)>([^]*?)<\/\1>|<(\/?)(\w+)([^>]*)>|([^<]+)/g;
-  for (const [, raw, rawAttributes, code, close, tag, attributes, words] of html.matchAll(pattern)) {
+  const pattern = /<(script|style)([^>]*)>([^]*?)<\/\1>|<(\/?)(\w+)([^>]*?)(\/?)>|<!--[^]*?-->|([^<]+)/g;
+  for (const [, raw, rawAttributes, code, close, tag, attributes, ended, words] of html.matchAll(pattern)) {
     const parent = open.at(-1);
     if (words !== undefined) { parent.append(words); continue; }
     if (close) {
@@ -67,23 +76,26 @@ function parsed(html) {
       open.pop();
       continue;
     }
+    if (!raw && !tag) continue;
     const made = new Element(raw || tag);
     for (const [, name, , value] of (raw ? rawAttributes : attributes).matchAll(/([\w-]+)(="([^"]*)")?/g)) made.setAttribute(name, value ?? "");
     if (raw) made.words = code;
     parent.append(made);
     if ("selected" in made.attributes) parent.value = made.value;
-    if (!raw && !VOID.has(tag)) open.push(made);
+    if (!raw && !ended && !VOID.has(tag)) open.push(made);
   }
   return root;
 }
 
+// `unpacks`: of a report, whether the browser can.
 // Opens a page: {document, location, errors, asked: what the worker is asked of what lives, when(condition)}; `worker` says whether there can be one.
-function opened(html, { hash = "", worker = true } = {}) {
+function opened(html, { hash = "", worker = true, unpacks = null } = {}) {
   const document = parsed(html), location = { hash, pathname: "/page.html", search: "" }, errors = [], blobs = [], steps = [], asked = [];
   document.createElement = (tag) => new Element(tag);
   document.createElementNS = (_, tag) => new Element(tag);
-  document.getElementById = (id) => document.querySelector("#" + id);
+  document.getElementById = (id) => document.all().find((one) => id && one.id === id) || null;
   document.body = document.querySelector("body");
+  document.documentElement = document.querySelector("html");
   const guarded = (work) => (...given) => { try { work(...given); } catch (error) { errors.push(error.stack); } };
   const standard = { WebAssembly, TextEncoder, TextDecoder, performance, URLSearchParams, console, atob, Response, DecompressionStream,
     setTimeout: (work, after) => setTimeout(guarded(work), after) };
@@ -100,6 +112,7 @@ function opened(html, { hash = "", worker = true } = {}) {
   }
   const context = vm.createContext({ ...standard, document, location, Blob,
     history: { pushState: (state, title, address) => { location.hash = address; steps.push(address); } },
+    ...(unpacks === null ? {} : { Blob: globalThis.Blob, Response }), ...(unpacks ? { DecompressionStream } : {}),
     URL: { createObjectURL: (blob) => String(blobs.push(blob) - 1), revokeObjectURL() {} },
     matchMedia: () => ({ matches: true }), addEventListener: (type, listener) => document.addEventListener(type, listener),
     requestAnimationFrame: (work) => setTimeout(guarded(() => work(performance.now()))), ...(worker ? { Worker } : {}) });

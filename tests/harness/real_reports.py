@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from harness.app.commands.designs_run import run_optimise, run_sweep
 from harness.app.commands.designs_shared import Runners
@@ -41,10 +42,18 @@ class Report:
     charts: int
     pictures: int = 1
 
-    def traces(self) -> list[int]:
-        """The number of curves and bands in each of its charts, without those that hold no point."""
-        held = figures(self.path.read_text(encoding="utf-8"))
-        return [sum(bool(trace.get("x", ["parallel axes"])) for trace in figure["data"]) for figure in held]
+    def drawn(self) -> list[int]:
+        """The number of lines, sets of dots, bands and axes in each of its charts."""
+        return [_drawn(figure) for figure in figures(self.path.read_text(encoding="utf-8"))]
+
+
+def _drawn(figure: dict[str, Any]) -> int:
+    if "axes" in figure:
+        return len(figure["axes"])
+    bands = sum(len(lane["spans"]) for lane in figure.get("lanes", ()))
+    return bands + sum(
+        curve["line"] + curve.get("dots", False) + curve.get("filled", False) for curve in figure["curves"]
+    )
 
 
 def written_reports(ratchet_fmu: Path, folder: Path) -> dict[str, Report]:
@@ -53,12 +62,12 @@ def written_reports(ratchet_fmu: Path, folder: Path) -> dict[str, Report]:
         run, demo = (perform(fmu, Experiment(*asked)) for asked in ((1.2, 1e-2), (6.0, 1e-3)))
         study = ratchet_study(fmu, lambda *_: None)
     return {
-        "run": Report(write_report(run, folder / "report.html"), charts=4),
-        "demo": Report(write_report(demo, folder / "demo.html"), charts=4),
+        "run": Report(write_report(run, folder / "report.html"), charts=12),
+        "demo": Report(write_report(demo, folder / "demo.html"), charts=12),
         "study": Report(write_study_report(study, paper_figures(study), folder / "study.html"), charts=14),
-        "sweep": Report(_designs(run_sweep, SWEEP, ratchet_fmu, folder / "sweep"), charts=2),
+        "sweep": Report(_designs(run_sweep, SWEEP, ratchet_fmu, folder / "sweep"), charts=7),
         "machine": Report(_machine(ratchet_fmu, folder / "machine"), charts=24, pictures=2),
-        "optimum": Report(_designs(run_optimise, OPTIMUM, ratchet_fmu, folder / "optimum"), charts=3),
+        "optimum": Report(_designs(run_optimise, OPTIMUM, ratchet_fmu, folder / "optimum"), charts=6),
     }
 
 

@@ -59,7 +59,7 @@ def test_contacts_are_flagged_in_every_frame() -> None:
     data = animation_data(run)
     assert data is not None
     assert [(c["name"], c["active"]) for c in data["contacts"]] == [("face", "00000111111")]
-    assert '<li class="lamp" style="--lamp:#0072B2">face</li>' in animation(run)
+    assert '<li class="lamp" style="--lamp:var(--c1)">face</li>' in animation(run)
 
 
 def test_the_section_needs_no_network_and_no_mouse() -> None:

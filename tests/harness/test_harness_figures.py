@@ -7,7 +7,6 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import numpy as np
-import plotly.graph_objects as go
 import pytest
 from hypothesis import given, strategies as st
 from PIL import Image
@@ -147,22 +146,34 @@ def test_texts_in_an_svg_are_escaped() -> None:
     assert next(ElementTree.fromstring(canvas.file()).iter(f"{NAMESPACE}text")).text == "<b> & co"
 
 
-def test_a_plot_in_a_report_has_its_units_curves_and_one_legend_entry_each() -> None:
-    twin = Curve("one < two", [1.0], [float("nan")], BLUE, line=False, dots=True)
-    figure = interactive(plot(DIAGONAL, twin, to_scale=True, from_zero=True))
-    go.Figure({"data": figure["data"], "layout": figure["layout"]})  # plotly knows all that it is told
-    assert [trace["showlegend"] for trace in figure["data"]] == [True, False]
-    assert [trace["mode"] for trace in figure["data"]] == ["lines", "markers"]
-    assert figure["data"][1]["y"] == [None]
-    layout = figure["layout"]
-    assert layout["yaxis"]["title"]["text"] == "stress [kPa]"
-    assert (layout["yaxis"]["scaleanchor"], layout["yaxis"]["rangemode"]) == ("x", "tozero")
+def test_a_plot_in_a_report_has_its_units_curves_and_colours_of_the_page() -> None:
+    twin = Curve("one < two", [1.0], [float("nan")], "#123456", line=False, dots=True, about="x_y", labels=["first"])
+    figure = interactive(plot(DIAGONAL, twin, to_scale=True, from_zero=True), height=90)
+    assert {name: figure[name] for name in ("title", "x", "y", "height", "to_scale", "from_zero")} == {
+        "title": "Stress & strain",
+        "x": "slope angle β₀ [deg]",
+        "y": "stress [kPa]",
+        "height": 90,
+        "to_scale": True,
+        "from_zero": True,
+    }
+    assert figure["curves"][0] == {
+        "name": "one < two",
+        "x": [0.0, 10.0],
+        "y": [0.0, 5.0],
+        "colour": "var(--c1)",
+        "line": True,
+    }
+    assert [figure["curves"][1][name] for name in ("colour", "line", "dots", "about", "labels")] == [
+        "#123456",
+        False,
+        True,
+        "x_y",
+        ["first"],
+    ]
 
 
-@pytest.mark.parametrize("figure", [interactive(plot(DIAGONAL)), go.Figure(go.Scatter(x=[1], y=[2], name="</script>"))])
-def test_a_chart_holds_its_figure_as_json_that_cannot_close_its_script(figure: object) -> None:
-    html = chart(figure, {"height": 90})
-    [text] = re.findall(r'<script type="application/json">(.*?)</script>', html)
-    held = json.loads(text)
-    assert held["narrow"] == {"height": 90}
-    assert held["data"][0]["name"] in ("one < two", "</script>")
+def test_a_chart_holds_its_figure_as_json_that_cannot_close_its_script() -> None:
+    figure = interactive(plot(Curve("</script>", [1.0], [2.0], BLUE)))
+    [text] = re.findall(r'<script type="application/json">(.*?)</script>', chart(figure))
+    assert json.loads(text) == figure

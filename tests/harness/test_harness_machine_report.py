@@ -106,8 +106,8 @@ def player(html: str) -> dict[str, Any]:
 
 
 def curves(html: str) -> dict[str, tuple[list[float], list[float]]]:
-    traces = [trace for data in held(html) if "data" in data for trace in data["data"]]
-    return {trace["name"]: (trace["x"], trace["y"]) for trace in traces if "name" in trace}
+    drawn = [curve for data in held(html) for curve in data.get("curves", ())]
+    return {curve["name"]: (curve["x"], curve["y"]) for curve in drawn}
 
 
 def test_all_components_move_beside_each_other_with_one_player(run: Any) -> None:

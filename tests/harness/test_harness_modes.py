@@ -7,7 +7,9 @@ from fake_slave import FakeFmu, FakeSlave
 from hypothesis import given, strategies as st
 
 from harness.fmu.description import Variable
-from harness.report.motion import contacts, intervals, joined, motion_chart
+from harness.report.motion import contacts, intervals, joined, lanes_plot, motion_plots
+from harness.report.packed import packed_figures
+from harness.report.plot import interactive
 from harness.run.experiment import Experiment, Run, perform
 
 TIME = np.arange(6.0)
@@ -77,37 +79,21 @@ def test_contacts_are_the_boolean_outputs_with_the_ending() -> None:
 
 
 def test_without_contacts_there_is_no_lane() -> None:
-    figure = motion_chart(run_with())
-    assert figure is not None
-    assert {trace.type for trace in figure.data} == {"scatter"}
-    assert "yaxis2" not in figure.layout
+    run = run_with()
+    assert lanes_plot(run) is None
+    assert [plot.title for plot in motion_plots(run)] == ["Angle change [deg]"]
 
 
 def test_a_lane_for_each_contact_shares_the_time_axis() -> None:
     face = [False] * 3 + [True] * 4 + [False] * 4
-    figure = motion_chart(run_with(slope_active=[True] * 11, face_active=face, stop_active=[False] * 11))
-    assert figure is not None
-    bars = [trace for trace in figure.data if trace.type == "bar"]
-    assert [(list(b.base), list(b.x)) for b in bars] == [
-        ([0.0], [1.0]),
-        ([pytest.approx(0.3)], [pytest.approx(0.4)]),
-        ([], []),
+    plots = motion_plots(run_with(slope_active=[True] * 11, face_active=face, stop_active=[False] * 11))
+    figure = interactive(plots[-1])
+    assert [(lane["name"], lane["about"], lane["spans"]) for lane in figure["lanes"]] == [
+        ("slope", "slope_active", [[0.0, 1.0]]),
+        ("face", "face_active", [[pytest.approx(0.3), pytest.approx(0.7)]]),
+        ("stop", "stop_active", []),
     ]
-    assert list(figure.layout.yaxis2.tickvals) == ["slope", "face", "stop"]
-    assert {bar.yaxis for bar in bars} == {"y2"}
-    assert figure.layout.xaxis.matches == "x2"
-    assert figure.layout.xaxis2.range == (0.0, 1.0)
-
-
-def test_the_pointer_learns_the_interval() -> None:
-    face = [False] * 3 + [True] * 4 + [False] * 4
-    figure = motion_chart(run_with(face_active=face))
-    assert figure is not None
-    told = figure.data[-1]
-    assert told.name == "face"
-    assert dict(zip(np.round(told.x, 9).tolist(), told.text, strict=True)) == {
-        k / 10: "active 0.3 … 0.7 s" if flag else "not active" for k, flag in enumerate(face)
-    }
+    assert {(plot.x_label, plot.range) for plot in plots} == {("time [s]", (0.0, 1.0))}
 
 
 def test_long_runs_with_chatter_stay_quick_and_small() -> None:
@@ -117,7 +103,6 @@ def test_long_runs_with_chatter_stay_quick_and_small() -> None:
     times = np.linspace(0, 1, samples)
     long = replace(run, results=run.results.iloc[[0] * samples].assign(time=times, slope_active=chatter))
     began = clock.perf_counter()
-    figure = motion_chart(long)
+    html = packed_figures([interactive(plot) for plot in motion_plots(long)])
     assert clock.perf_counter() - began < 5.0
-    assert figure is not None
-    assert len(figure.to_json()) < 500_000
+    assert len(html) < 500_000

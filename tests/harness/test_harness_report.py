@@ -2,11 +2,12 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from fake_slave import FakeFmu, FakeSlave
 
 from harness.errors import FmuError, LogMessage, Status
-from harness.report.motion import motion_chart
+from harness.report.motion import motion_plots
 from harness.report.run_report import run_report, write_report
 from harness.run.checks import Check
 from harness.run.experiment import Experiment, Run, perform
@@ -44,7 +45,7 @@ def test_a_run_that_never_began_still_has_a_report() -> None:
             raise FmuError("cannot be assembled")
 
     run = run_of(Broken())
-    assert motion_chart(run) is None
+    assert motion_plots(run) == []
     assert "cannot be assembled" in run_report(run)
 
 
@@ -60,21 +61,25 @@ def test_more_verdicts_join_those_of_the_run() -> None:
 
 
 def test_every_impact_is_a_line_across_all_charts() -> None:
-    figure = motion_chart(run_of(FakeSlave(impacts=[0.25, 0.5])))
-    assert figure is not None
-    assert [(line.x0, line.x1, line.yref) for line in figure.layout.shapes] == [
-        (0.25, 0.25, "paper"),
-        (0.5, 0.5, "paper"),
-    ]
+    plots = motion_plots(run_of(FakeSlave(impacts=[0.25, 0.5])))
+    assert plots
+    assert all(np.asarray(plot.marks).tolist() == [0.25, 0.5] for plot in plots)
 
 
 def test_angles_are_shown_in_degrees_from_their_start() -> None:
-    figure = motion_chart(run_of(FakeSlave()))
-    assert figure is not None
-    angle = figure.data[0]
-    assert angle.name == "wheel_angle, from 0 deg"
-    assert angle.y[-1] == pytest.approx(57.29577951308232)
-    assert figure.layout.yaxis.title.text == "Angle change [deg]"
+    plot = motion_plots(run_of(FakeSlave()))[0]
+    angle = plot.curves[0]
+    assert (angle.name, angle.about) == ("wheel_angle, from 0 deg", "wheel_angle")
+    assert np.asarray(angle.y)[-1] == pytest.approx(57.29577951308232)
+    assert plot.title == "Angle change [deg]"
+
+
+def test_curves_have_the_descriptions_of_their_variables() -> None:
+    run = run_of(FakeSlave())
+    known = run.description.variables
+    said = {**known, "wheel_angle": replace(known["wheel_angle"], description="How far the wheel has turned")}
+    plots = motion_plots(replace(run, description=replace(run.description, variables=said)))
+    assert plots[0].curves[0].name == "How far the wheel has turned, from 0 deg"
 
 
 def test_the_heading_says_which_model_and_the_title_too() -> None:

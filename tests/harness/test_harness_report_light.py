@@ -7,12 +7,10 @@ import shutil
 import struct
 import subprocess
 from html.parser import HTMLParser
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import plotly.graph_objects as go
 import pytest
 from hypothesis import given, strategies as st
 from real_reports import Report
@@ -24,8 +22,8 @@ from tests.report_page import figures, packed
 NODE = shutil.which("node")
 with_node = pytest.mark.skipif(NODE is None, reason="no node is installed (on Debian: apt install nodejs)")
 
-#: Of each kind [MB]; 1.96 of them are plotly.
-MOST = {"demo": 2.6, "run": 2.1, "study": 2.1, "sweep": 2.1, "machine": 2.15, "optimum": 2.1}
+#: Of each kind [MB].
+MOST = {"demo": 0.65, "run": 0.15, "study": 0.15, "sweep": 0.12, "machine": 0.15, "optimum": 0.12}
 
 
 class Asked(HTMLParser):
@@ -43,7 +41,7 @@ class Asked(HTMLParser):
 
 
 def drawn_by_node(path: Path, *how: str) -> dict[str, Any]:
-    """What plotly would have drawn of a page."""
+    """What stands in the charts of a page, and what the page says."""
     assert NODE is not None
     script = Path(__file__).with_name("page_in_node.js")
     ended = subprocess.run([NODE, script, path, *how], capture_output=True, text=True, check=True)
@@ -75,35 +73,26 @@ def test_a_report_goes_nowhere_but_to_its_own_sections(reports: dict[str, Report
     assert not re.search(r"@import|url\((?!#)|\bfetch\(|XMLHttpRequest|import\(", html)
 
 
-def test_the_library_is_that_of_the_package(reports: dict[str, Report]) -> None:
-    html = reports["run"].path.read_text(encoding="utf-8")
-    assert packed(html, "library") == files("plotly").joinpath("package_data", "plotly.min.js").read_bytes()
-    assert "Licensed under the MIT license -->" in html
-
-
-def test_a_page_without_a_chart_has_no_library() -> None:
+def test_a_page_without_a_chart_has_no_scripts_for_them() -> None:
     html = page("Words", "only", [section("One", "<p>two</p>")])
     assert "packed-" not in html
     assert "unpacked" not in html
-    assert len(html) < 20_000
+    assert "CURVES" not in html
 
 
 def test_equal_arrays_are_held_once() -> None:
-    time, height = [0.1 * k for k in range(100)], np.linspace(0.0, 1.0, 100)
-    plain = {"data": [{"x": time, "y": [0.5 * one for one in time]}, {"x": list(time), "y": [1, 2, None]}]}
-    of_plotly = json.loads(go.Figure([go.Scatter(x=np.array(time), y=height), go.Scatter(y=height)]).to_json())
-    html = packed_figures([plain | {"layout": {}}, of_plotly])
+    time, height = [0.1 * k for k in range(100)], np.linspace(0.0, 1.0, 100).tolist()
+    one = {"curves": [{"x": time, "y": [0.5 * t for t in time]}, {"x": list(time), "y": [1, 2, None]}], "title": "a"}
+    other = {"curves": [{"x": time, "y": height}, {"x": [0.25, 0.5], "y": list(height)}], "title": "b"}
+    html = packed_figures([one, other])
     assert json.loads(packed(html, "figures"))["lengths"] == [100, 100, 100]
-    first, second = figures(html)
-    assert first["data"] == plain["data"]
-    assert [trace["y"] for trace in second["data"]] == [height.tolist()] * 2
-    assert second["data"][0]["x"] == time
+    assert figures(html) == [one, other]
 
 
 @given(st.lists(st.floats(allow_nan=True, allow_infinity=True, width=64), min_size=16, max_size=60))
 def test_numbers_come_back_to_the_bit(values: list[float]) -> None:
-    [figure] = opened({"data": [{"y": values}], "layout": {}})
-    assert bits(figure["data"][0]["y"]) == bits(values)
+    [figure] = opened({"curves": [{"y": values}]})
+    assert bits(figure["curves"][0]["y"]) == bits(values)
 
 
 @given(
@@ -112,50 +101,39 @@ def test_numbers_come_back_to_the_bit(values: list[float]) -> None:
     )
 )
 def test_other_lists_come_back_as_they_are(values: list[Any]) -> None:
-    [figure] = opened({"data": [{"y": values, "line": {"width": 2}}], "layout": {"xaxis": {"range": [0.0, 1.0]}}})
-    assert figure == {"data": [{"y": values, "line": {"width": 2}}], "layout": {"xaxis": {"range": [0.0, 1.0]}}}
+    given_figure = {"curves": [{"y": values, "line": True}], "range": [0.0, 1.0]}
+    assert opened(given_figure) == [given_figure]
 
 
-def test_what_is_no_number_in_a_list_is_a_gap() -> None:
-    drawn = chart({"data": [{"y": [1.0, math.nan, -math.inf]}], "layout": {}})
-    assert figures(page("A", "b", [drawn]))[0]["data"] == [{"y": [1.0, None, None]}]
-
-
-def test_arrays_of_whole_numbers_stay_whole() -> None:
-    figure = json.loads(go.Figure(go.Scatter(x=np.arange(300), y=np.arange(300) % 2)).to_json())
-    x, y = (opened(figure)[0]["data"][0][name] for name in "xy")
-    assert x == list(range(300))
-    assert all(type(number) is int for number in x + y)
+@pytest.mark.parametrize("count", [3, 30])
+def test_what_is_no_number_is_a_gap_in_a_page(count: int) -> None:
+    drawn = chart({"curves": [{"y": [1.0, math.nan, -math.inf] * count}]})
+    [curve] = figures(page("A", "b", [drawn]))[0]["curves"]
+    assert curve["y"][0] == 1.0
+    assert all(value is None or not math.isfinite(value) for value in curve["y"][1:3])
 
 
 @with_node
 @pytest.mark.parametrize("kind", MOST)
 def test_the_script_draws_what_the_page_holds(reports: dict[str, Report], kind: str) -> None:
-    path = reports[kind].path
-    held = figures(path.read_text(encoding="utf-8"))
-    told = drawn_by_node(path)
-    assert [one["place"] for one in told["drawn"]] == list(range(reports[kind].charts)) == list(range(len(held)))
-    # as JSON has it: what is no number is nothing
-    expected = json.loads(json.dumps([one["data"] for one in held]), parse_constant=lambda _: None)
-    assert [one["data"] for one in told["drawn"]] == expected
-    assert told["library"] > 1_000_000
-    assert (told["notice"], told["classes"]) == (None, ["drawn"])
-
-
-@with_node
-def test_on_a_phone_a_chart_has_its_narrow_layout(reports: dict[str, Report]) -> None:
-    path = reports["run"].path
-    narrow = figures(path.read_text(encoding="utf-8"))[0]["narrow"]
-    layout = drawn_by_node(path, "phone")["drawn"][0]["layout"]
-    assert layout["height"] == pytest.approx(narrow["height"])
-    assert (layout["dragmode"], layout["margin"]["l"]) == (False, 52)
+    report = reports[kind]
+    held = figures(report.path.read_text(encoding="utf-8"))
+    told = drawn_by_node(report.path)
+    assert [one["drawn"] for one in told["charts"]] == report.drawn()
+    assert len(held) == report.charts
+    for one, figure in zip(told["charts"], held, strict=True):
+        assert one["label"].startswith(figure["title"])
+        assert one["names"] == list(dict.fromkeys(curve["name"] for curve in figure.get("curves", ())))
+        assert not any("NaN" in path or "undefined" in path for path in one["paths"])
+    assert (told["notice"], told["drawn"], told["errors"]) == (None, True, [])
 
 
 @with_node
 @pytest.mark.parametrize(("how", "said"), [("old", "This browser cannot unpack"), ("torn", "cannot be drawn: ")])
 def test_a_page_whose_charts_cannot_be_unpacked_says_so(reports: dict[str, Report], how: str, said: str) -> None:
     told = drawn_by_node(reports["run"].path, how)
-    assert told["drawn"] == []
+    assert not told["drawn"]
+    assert all(one["drawn"] == 0 for one in told["charts"])
     assert said in told["notice"]
     assert "Firefox 113" in told["notice"]
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ...report.animation import decimals, playing, rounded
-from ...report.page import COLOURS
 from ...report.plot import Curve, Plot
+from ...report.style import COLOURS
 from .solution import Bent, FloatArray, Solution
 from .synthesis import Synthesised
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from ...fmu.values import engineering, in_display_unit
-from ...report.page import COLOURS, cards, chart, charts, checks_list, page, points, section, table, versions_section
+from ...report.page import cards, chart, charts, checks_list, page, points, section, table, versions_section
 from ...report.plot import Curve, Plot, interactive
+from ...report.style import COLOURS
 from ...run.results import versions, write_text
 from .files import Result
 from .ked_charts import deflected, flywheel_plot, frame_plots, friction_plots, round_turn, synthesis_plots
@@ -187,10 +188,10 @@ def _over_the_turn(found: Solution) -> list[Plot]:
 def _frequencies(found: Solution) -> Plot:
     angle = round_turn(found.degrees, 360.0)
     curves = [
-        Curve(f"mode {mode + 1}", angle, np.log10(round_turn(found.frequencies[:, mode])), COLOURS[mode])
+        Curve(f"mode {mode + 1}", angle, round_turn(found.frequencies[:, mode]), COLOURS[mode])
         for mode in range(min(_MODES, found.modes))
     ]
-    return Plot("Natural frequencies", _ANGLE, "lg frequency [Hz]", curves)
+    return Plot("Natural frequencies", _ANGLE, "frequency [Hz]", curves, log_y=True)
 
 
 def _sweep(result: Result) -> Plot:

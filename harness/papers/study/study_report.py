@@ -10,9 +10,10 @@ from pathlib import Path
 from ...analysis.stress import stress_along
 from ...fmu.values import engineering
 from ...report.animation import animation
-from ...report.page import COLOURS, cards, chart, charts, checks_list, page, section, table, versions_section
+from ...report.page import cards, chart, charts, checks_list, page, section, table, versions_section
 from ...report.parameters import Origin, Row, parameters_section, range_shown
 from ...report.plot import Curve, Plot, interactive
+from ...report.style import COLOURS
 from ...run.checks import Finding
 from ...run.results import versions, write_text
 from .accuracy import ACCURACY
