@@ -30,7 +30,7 @@ from .experiment import Run
 _PACKAGES = (
     *("numpy", "numba", "llvmlite", "pythonfmu", "fmpy"),
     *("scipy", "rainflow", "optuna", "distributed", "dask"),
-    *("pandas", "pyarrow", "plotly", "pillow"),
+    *("pandas", "pyarrow", "pillow"),
 )
 
 

@@ -146,7 +146,7 @@ def test_run_writes_everything_and_says_so(ratchet_fmu: Path, tmp_path: Path) ->
 def test_the_report_works_offline(ratchet_fmu: Path, tmp_path: Path) -> None:
     assert invoke("run", ratchet_fmu, "--stop-time", "1.2", "-o", tmp_path)[0] == 0
     html = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "plotly" not in html.replace("<td>plotly</td>", "")
+    assert "plotly" not in html
     assert "<script src=" not in html
     assert "<link" not in html
     for heading in (

@@ -11,7 +11,7 @@ def test_a_result_says_what_made_it() -> None:
     found = versions(Path("build/Fake.fmu"), fake_description())
     assert (found["FMU"], found["GUID of the FMU"]) == ("Fake.fmu", "{guid}")
     assert found["mechanism_fmu"] == __version__
-    assert {"numpy", "scipy", "pandas", "fmpy", "plotly", "pillow", "pyarrow", "rainflow", "optuna"} <= set(found)
+    assert {"numpy", "scipy", "pandas", "fmpy", "pillow", "pyarrow", "rainflow", "optuna"} <= set(found)
     assert all(found.values())
 
 

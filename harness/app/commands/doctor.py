@@ -59,7 +59,7 @@ _PURPOSES = {
     "pythonfmu": "builds the FMU that runs in Python",
     "numba": "compiles the engine",
     "pandas": "result tables",
-    "plotly": "charts of reports",
+    "plotly": "charts of `simulate`",
     "distributed": "sweeps on a cluster (extra 'cluster')",
     "optuna": "optimum design by the method 'tpe' (extra 'optimise')",
     "libcosimpy": "checks against another master (extra 'importers')",
