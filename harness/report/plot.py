@@ -18,7 +18,7 @@ from .style import THEMED
 FloatArray = npt.NDArray[np.floating]
 
 
-def thin(time: FloatArray, values: FloatArray, limit: int = 8000) -> tuple[FloatArray, FloatArray]:
+def thin(time: FloatArray, values: FloatArray, limit: int = 4000) -> tuple[FloatArray, FloatArray]:
     """At most about `limit` points of a curve, with every peak kept.
 
     Each of `limit / 2` equal stretches of the curve keeps its smallest and its largest value, in their order.
