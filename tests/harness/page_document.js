@@ -112,7 +112,7 @@ function opened(html, { hash = "", worker = true, unpacks = null } = {}) {
   }
   const context = vm.createContext({ ...standard, document, location, Blob,
     history: { pushState: (state, title, address) => { location.hash = address; steps.push(address); } },
-    ...(unpacks === null ? {} : { Blob: globalThis.Blob, Response }), ...(unpacks ? { DecompressionStream } : {}),
+    ...(unpacks === null ? {} : { Blob: globalThis.Blob }), ...(unpacks === false ? { DecompressionStream: undefined } : {}),
     URL: { createObjectURL: (blob) => String(blobs.push(blob) - 1), revokeObjectURL() {} },
     matchMedia: () => ({ matches: true }), addEventListener: (type, listener) => document.addEventListener(type, listener),
     requestAnimationFrame: (work) => setTimeout(guarded(() => work(performance.now()))), ...(worker ? { Worker } : {}) });
