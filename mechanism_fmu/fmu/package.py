@@ -21,6 +21,7 @@ from .disk.user_cache import record_build
 from .instance.self_check import StartError
 from .native.link import WRAPPED
 from .native.objects import Report, engine_libraries, has_libraries, library_of, silently
+from .parts.bytecode import bytecode
 from .parts.contents import Closure, Home, closure, common_entries, file_in, model_of
 from .parts.documentation import dependencies
 from .parts.reference_results import reference_results
@@ -105,7 +106,7 @@ def build_fmu(
     digest = content_hash({**code, "start": start.encode(), "slave": starting})[:12]
     package, starter = f"mechanism_fmu_{digest}", f"start_{digest}"
     slave = _SLAVE.format(start=starter, model=model.name, package=package, module=main, baked=given)
-    entries = _built_by_pythonfmu(
+    entries, imported = _built_by_pythonfmu(
         f"{model.name}_{digest}",
         {
             f"{model.name}_{digest}.py": slave.encode(),
@@ -115,8 +116,11 @@ def build_fmu(
         },
     )
     entries |= common_entries(origin, _WRAPPER, ("mechanism_fmu", "pythonfmu"))
-    # Results follow from all that the fingerprint is of; last digits may be those of this machine.
-    write_archive(with_guid(entries) | reference_results(model, library_of(report)), path)
+    # These follow from all that the fingerprint is of: last digits of results may be those of this machine, and what a
+    # start imports is compiled for this Python.
+    follows = reference_results(model, library_of(report))
+    follows |= bytecode({name: text for name, text in entries.items() if name in imported})
+    write_archive(with_guid(entries) | follows, path)
     return record_build(path)
 
 
@@ -129,8 +133,8 @@ def _as_arguments(baked: Baked) -> str:
     return f", {starts!r}, {inputs!r}"
 
 
-def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Entries of the FMU that pythonfmu makes of a slave module and other files beside it.
+def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> tuple[dict[str, bytes], set[str]]:
+    """Entries of the FMU that pythonfmu makes of a slave module and other files beside it; and which a start imports.
 
     Raises:
         MechanismError: the model cannot start, or the clock is wrong.
@@ -149,13 +153,22 @@ def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> dict[str,
         script = staged / f"{slave}.py"
         others = set(staged.iterdir()) - {script}
         try:
-            return read_entries(FmuBuilder.build_FMU(script, dest=temporary / "built", project_files=others))
+            built = FmuBuilder.build_FMU(script, dest=temporary / "built", project_files=others)
+            return read_entries(built), _imported(slave)
         except ValueError as error:
             # pythonfmu makes an instance; the copy of the library in it has error classes of its own.
             for known in (MechanismError, StartError):
                 if type(error).__name__ == known.__name__:
                     raise known(str(error)) from error
             raise
+
+
+def _imported(slave: str) -> set[str]:
+    """The entries that have been imported to start an FMU: its modules and pythonfmu's."""
+    digest = slave.rpartition("_")[2]
+    own = {name.replace(".", "/") for name in sys.modules if name.partition(".")[0].endswith(digest)}
+    wrapper = {name.replace(".", "/") for name in sys.modules if name.partition(".")[0] == "pythonfmu"}
+    return {f"resources/{name}{end}" for name in own | wrapper for end in (".py", "/__init__.py")}
 
 
 @contextmanager

@@ -31,6 +31,9 @@ _RESOURCES = Path(__file__).parent
 #: Sources, and the engine's library for each platform.
 _COPIED = {".py", ".so", ".dll", ".dylib"}
 
+#: By the folder in the cache: where the FMU has the same files, and beside them what was compiled when it was built.
+_shipped: dict[str, Path] = {}
+
 #: Bytes of a SHA-256.
 _DIGEST_SIZE = 32
 
@@ -88,7 +91,9 @@ def _made(
     inputs: tuple[tuple[str, tuple[object, ...]], ...],
 ) -> type:
     """As `slave_class`, from the package in the cache."""
-    _import_package(package, _cached(_RESOURCES / package))
+    folder = _cached(_RESOURCES / package)
+    _shipped[str(folder)] = _RESOURCES / package
+    _import_package(package, folder)
     slave = importlib.import_module(f"{package}.fmu.instance.slave")
     described = importlib.import_module(f"{package}.{model}").MODEL
     if starts or inputs:
@@ -263,17 +268,27 @@ class CheckedLoader(SourceFileLoader):
         Raises:
             OSError: there are none that fit; Python then compiles the source.
         """
-        data = super().get_data(path)
         if path.endswith(tuple(SOURCE_SUFFIXES)):
-            return data
-        code, digest = data[:-_DIGEST_SIZE], data[-_DIGEST_SIZE:]
-        if hashlib.sha256(code).digest() != digest:
-            raise OSError(f"{path} is not as it was written")
-        return code
+            return super().get_data(path)
+        try:
+            return _whole(super().get_data(path), path)
+        except OSError:
+            for folder, origin in _shipped.items():
+                if Path(path).is_relative_to(folder):
+                    return _whole(super().get_data(str(origin / Path(path).relative_to(folder))), path)
+            raise
 
     def set_data(self, path: str, data: bytes, *, _mode: int = 0o666) -> None:  # type: ignore[override]
         """Keep compiled code."""
         super().set_data(path, bytes(data) + hashlib.sha256(data).digest(), _mode=_mode)
+
+
+def _whole(data: bytes, path: str) -> bytes:
+    """Compiled code without its digest, which must fit."""
+    code, digest = data[:-_DIGEST_SIZE], data[-_DIGEST_SIZE:]
+    if hashlib.sha256(code).digest() != digest:
+        raise OSError(f"{path} is not as it was written")
+    return code
 
 
 def import_checked(folder: Path) -> None:

@@ -1,3 +1,4 @@
+import importlib.util
 import os
 import re
 import subprocess
@@ -45,7 +46,10 @@ def test_fmpy_finds_no_problem(ratchet_fmu: Path) -> None:
 def test_nothing_is_inside_that_does_not_belong_there(entries: dict[str, bytes], digest: str) -> None:
     assert re.fullmatch("[0-9a-f]{12}", digest)
     others = {
-        name for name in entries if not name.startswith((f"resources/mechanism_fmu_{digest}/", "resources/pythonfmu/"))
+        name
+        for name in entries
+        if not name.startswith((f"resources/mechanism_fmu_{digest}/", "resources/pythonfmu/"))
+        and not name.endswith(".pyc")
     }
     assert others == {
         "binaries/linux64/Ratchet.so",
@@ -66,14 +70,16 @@ def test_nothing_is_inside_that_does_not_belong_there(entries: dict[str, bytes],
     }
     libraries = {name for name in set(entries) - others if "/engine/compiled/" in name}
     assert {Path(name).name for name in libraries} == {"x86_64-linux.so", "x86_64-windows.dll"}
-    sources = set(entries) - others - libraries
+    sources = {name for name in set(entries) - others - libraries if not name.endswith(".pyc")}
     assert {Path(name).suffix for name in sources} == {".py"}
-    assert not [name for name in sources if "__pycache__" in name]
+    compiled = {name for name in entries if name.endswith(".pyc")}
+    assert {importlib.util.source_from_cache(name) for name in compiled} < {n for n in entries if n.endswith(".py")}
+    assert all(name.endswith(f".{sys.implementation.cache_tag}.pyc") for name in compiled)
 
 
 def test_the_package_holds_what_runs_and_no_more(entries: dict[str, bytes], digest: str) -> None:
     prefix = f"resources/mechanism_fmu_{digest}/"
-    package = {name.removeprefix(prefix) for name in entries if name.startswith(prefix)}
+    package = {n.removeprefix(prefix) for n in entries if n.startswith(prefix) and not n.endswith(".pyc")}
     assert {name.partition("/")[0] for name in package} == {
         *("__init__.py", "codes.py", "advice.py", "moving.py", "tolerances.py", "units.py"),
         *("elementary", "engine", "fmu", "model", "models", "tables"),
@@ -114,8 +120,11 @@ def test_the_icon_is_the_models_own(entries: dict[str, bytes]) -> None:
 
 
 def test_the_guid_is_a_fingerprint_of_the_contents(entries: dict[str, bytes]) -> None:
-    # Reference results follow from the rest.
-    contents = {name: data for name, data in entries.items() if not name.startswith("extra/")}
+    # Reference results and compiled sources follow from the rest.
+    follows = ("extra/", ".pyc")
+    contents = {
+        name: data for name, data in entries.items() if not (name.startswith(follows) or name.endswith(follows))
+    }
     assert with_guid(contents) == contents
     changed = with_guid(contents | {"model.png": b"another"})
     assert changed["modelDescription.xml"] != entries["modelDescription.xml"]

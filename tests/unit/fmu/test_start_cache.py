@@ -3,6 +3,7 @@
 import marshal
 import os
 import shutil
+import subprocess
 import sys
 from collections.abc import Callable
 from importlib.machinery import EXTENSION_SUFFIXES, SourceFileLoader
@@ -11,9 +12,12 @@ from pathlib import Path
 import pytest
 from start_resources import SOURCES, Load, contents, write_resources
 
+from mechanism_fmu.fmu.parts.bytecode import bytecode
+
 #: Deletes the package that it stands in, the first time that it is imported.
 VANISHING = """
 import shutil
+import subprocess
 from pathlib import Path
 
 package = Path(__file__).parents[1]
@@ -107,6 +111,64 @@ def test_whole_compiled_code_is_used(tmp_path: Path, cache: Path, load: Load, mo
         )
         start.slave_class("mechanism_fmu_aaa", "models.tiny")
     assert compilations == []
+
+
+def with_bytecode(resources: Path) -> None:
+    """As the FMU is built: compiled code beside the sources."""
+    package = resources / "mechanism_fmu_aaa"
+    sources = {path.relative_to(package).as_posix(): path.read_bytes() for path in package.rglob("*.py")}
+    for name, code in bytecode(sources).items():
+        (package / name).parent.mkdir(exist_ok=True)
+        (package / name).write_bytes(code)
+
+
+@pytest.mark.parametrize("change", ["none", "source", "digest", "python"])
+def test_the_first_start_takes_what_was_compiled_for_this_python_and_these_sources(
+    change: str, tmp_path: Path, cache: Path, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    resources = write_resources(tmp_path / "unzipped", "aaa")
+    with_bytecode(resources)
+    tiny = resources / "mechanism_fmu_aaa" / "models" / "tiny.py"
+    kept = tiny.parent / "__pycache__" / f"tiny.{sys.implementation.cache_tag}.pyc"
+    if change == "source":
+        tiny.write_text(tiny.read_text(encoding="utf-8") + "\n# another line\n", encoding="utf-8")
+    elif change == "digest":
+        kept.write_bytes(other_code(kept))
+    elif change == "python":
+        kept.rename(kept.with_name("tiny.cpython-310.pyc"))
+    start = load(resources, "aaa")
+    compilations: list[str] = []
+    monkeypatch.setattr(
+        start.CheckedLoader,
+        "source_to_code",
+        lambda self, data, path, **k: (
+            compilations.append(path),
+            SourceFileLoader.source_to_code(self, data, path, **k),
+        )[1],
+    )
+    assert start.slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
+    assert [Path(path).name for path in compilations] == ([] if change == "none" else ["tiny.py"])
+    assert not list(cache.rglob("was_here"))
+    assert {path.suffix for path in cache.rglob("*") if path.is_file()} <= {".py", ".pyc"}
+
+
+def test_compiled_sources_are_the_same_bytes_whatever_else_is_loaded() -> None:
+    program = (
+        "import sys; names = [sys.intern(f'name_{k}') for k in range(3)]; from mechanism_fmu.fmu.parts.bytecode import "
+        'bytecode; sys.stdout.buffer.write(b\'\'.join(bytecode({\'a.py\': b\'name_1 = {"x", "y", "z"}; '
+        'print(name_1 in (1, 2)) if name_1 in {"p", "q"} else 0\'}).values()))'
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", f"{more}{program}"],
+            env={**environment, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed, more in (("1", ""), ("2", ""), ("3", "import numpy, decimal; "))
+    }
+    assert len(found) == 1
 
 
 @pytest.mark.parametrize("name", [f"tiny{EXTENSION_SUFFIXES[0]}", f"tiny{EXTENSION_SUFFIXES[-1]}"])
