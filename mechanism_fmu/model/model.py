@@ -7,7 +7,6 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from importlib.metadata import entry_points
 from types import EllipsisType, SimpleNamespace
 from typing import Any, Protocol
 
@@ -269,6 +268,8 @@ class Model:
             MechanismError: no front end is installed, or the model cannot be built or traced.
             ValueError: the height is not positive.
         """
+        from importlib.metadata import entry_points  # takes 20 ms, and travels in every FMU
+
         for point in entry_points(group="mechanism_fmu.show", name="show"):
             return point.load()(self, height)
         raise MechanismError("Nothing that shows models is installed here; give: python -m pip install mechanism_fmu.")

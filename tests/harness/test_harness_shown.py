@@ -35,7 +35,7 @@ def test_it_is_the_page_of_the_command() -> None:
 
 
 def test_without_a_front_end_a_model_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mechanism_fmu.model.model.entry_points", lambda **_: ())
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda **_: ())
     with pytest.raises(MechanismError, match="Nothing that shows models is installed here; give: python -m pip"):
         models.load("ratchet").MODEL.show()
 
