@@ -25,18 +25,23 @@ var CONTROLS = (function () {
     const slider = make("input", { type: "range", min: 0, max: GIVEN.places(variable), step: 1 });
     const unit = make("span", { className: "unit", textContent: variable.shown });
     const withUnit = words + (variable.shown ? " in " + variable.shown : "");
-    let compared = variable.start;
+    let compared = variable.start, put = "";
     slider.setAttribute("aria-label", withUnit + ", slider");
     field.setAttribute("aria-label", withUnit);
     field.step = variable.type === "Int32" ? "1" : "any";
     slider.addEventListener("input", () => changed(GIVEN.valueAt(variable, Number(slider.value)), true));
     slider.addEventListener("change", () => changed(GIVEN.valueAt(variable, Number(slider.value))));
     field.addEventListener("change", () => {
+      put = "";
       const shown = GIVEN.read(variable, field.value);
       changed(shown === undefined ? compared : variable.type === "Int32" ? shown : GIVEN.si(variable, shown));
     });
     row.append(label, field, unit, slider, about);
     return (value, start, over) => {
+      // what stands there already: of many controls one has moved
+      const asked = [value, start, over].join();
+      if (asked === put) return;
+      put = asked;
       compared = start;
       field.value = over ? "" : GIVEN.shown(variable, value);
       field.placeholder = over ? "varies" : "";

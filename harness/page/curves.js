@@ -34,26 +34,31 @@ var CURVES = (function () {
   function frame(host, title, about, height, go) {
     const { element } = PLAYER, figure = document.createElement("figure"), caption = document.createElement("figcaption");
     const svg = element("svg", { viewBox: `0 0 ${WIDTH} ${height}`, role: "img" });
-    let from = 0, to = 1, line = null;
+    const axis = element("g", {}, svg), drawn = element("g", {}, svg);
+    let from = NaN, to = NaN, line = null;
     caption.textContent = title + (about ? " [" + about + "]" : "");
     figure.append(caption, svg);
     host.append(figure);
     const place = (time) => LEFT + (WIDTH - LEFT - RIGHT) * (time - from) / (to - from), across = (time) => place(time).toFixed(1);
-    const add = (name, attributes) => element(name, attributes, svg);
-    const text = (words, attributes) => { add("text", attributes).textContent = words; };
+    const places = (times) => Array.from(times, (time) => tenth(Math.round(10 * place(time))));
+    const add = (name, attributes, to = drawn) => element(name, attributes, to);
+    const text = (words, attributes, to) => { add("text", attributes, to).textContent = words; };
     svg.addEventListener("click", (event) => {
       const box = svg.getBoundingClientRect(), x = (event.clientX - box.left) * WIDTH / box.width;
       go(Math.min(to, Math.max(from, from + (x - LEFT) / (WIDTH - LEFT - RIGHT) * (to - from))));
     });
 
-    // An empty chart of a run's times, with its impacts.
+    // An empty chart of a run's times, with its impacts; the axis stays where its times do.
     function begin(run) {
-      [from, to] = [run.from, run.to];
-      svg.replaceChildren();
-      for (const time of ticks(from, to, 6)) {
-        add("path", { d: `M${across(time)} ${TOP}V${height - BOTTOM}`, "class": "grid" });
-        text(time + " s", { x: across(time), y: height - 8, "text-anchor": "middle" });
+      if (from !== run.from || to !== run.to) {
+        [from, to] = [run.from, run.to];
+        axis.replaceChildren();
+        for (const time of ticks(from, to, 6)) {
+          add("path", { d: `M${across(time)} ${TOP}V${height - BOTTOM}`, "class": "grid" }, axis);
+          text(time + " s", { x: across(time), y: height - 8, "text-anchor": "middle" }, axis);
+        }
       }
+      drawn.replaceChildren();
       for (const row of run.struck.slice(0, MOST_MARKS))
         add("path", { d: `M${across(run.time[row])} ${TOP}V${height - BOTTOM}`, "class": "struck" });
     }
@@ -61,16 +66,21 @@ var CURVES = (function () {
     const cursor = (time) => {
       if (line) line.setAttribute("d", `M${across(Math.min(to, Math.max(from, time)))} ${TOP}V${height - BOTTOM}`);
     };
-    return { figure, svg, begin, add, text, place, across, cursor, end: () => { line = add("path", { "class": "cursor" }); } };
+    return { figure, svg, begin, add, text, places, across, cursor, end: () => { line = add("path", { "class": "cursor" }); } };
   }
 
-  // The points of a line in tenths of a pixel; of those that lie on one level only the ends.
-  function polyline(time, column, across, down) {
+  // Tenths of a pixel as texts: a number is written once, and not for each point anew.
+  const TENTHS = Array.from({ length: 10 * WIDTH + 1 }, (_, k) => k / 10 + "");
+  const tenth = (k) => TENTHS[k] || k / 10 + "";
+
+  // The points of a line in tenths of a pixel, at `places`, the texts of where its times stand; of those that lie on one
+  // level only the ends.
+  function polyline(places, column, down) {
     let points = "", level = NaN, last = "";
     for (let row = 0; row < column.length; row++) {
       const y = Math.round(10 * down(column[row]));
       if (y !== y) continue;
-      const point = Math.round(10 * across(time[row])) / 10 + "," + y / 10 + " ";
+      const point = places[row] + "," + tenth(y) + " ";
       if (y === level) last = point;
       else {
         points += last + point;
@@ -109,12 +119,14 @@ var CURVES = (function () {
         within.text(String(Number(value.toPrecision(Math.min(digits, 15)))),
           { x: LEFT - 6, y: up(value), dy: "0.35em", "text-anchor": "end" });
       }
-      const line = (time, column, k, more) => {
-        const points = polyline(time, column, within.place, (value) => TOP + (HEIGHT - TOP - BOTTOM) * (high - value) / (high - low));
-        within.add("polyline", { points, fill: "none", stroke: colour(k), "stroke-linejoin": "round", ...more });
+      const down = (value) => TOP + (HEIGHT - TOP - BOTTOM) * (high - value) / (high - low);
+      const lines = (time, columns, more) => {
+        const places = within.places(time);
+        columns.forEach((column, k) =>
+          within.add("polyline", { points: polyline(places, column, down), fill: "none", stroke: colour(k), "stroke-linejoin": "round", ...more }));
       };
-      behind.forEach((column, k) => line(kept.time, column, k, { "class": "kept", "stroke-width": 1.5 }));
-      columns.forEach((column, k) => line(run.time, column, k, { "stroke-width": 2 }));
+      if (kept) lines(kept.time, behind, { "class": "kept", "stroke-width": 1.5 });
+      lines(run.time, columns, { "stroke-width": 2 });
       within.end();
     }
 

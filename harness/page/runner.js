@@ -97,7 +97,8 @@ var RUNNER = (function () {
     let ready;
     scope.onmessage = ({ data }) => {
       if (!ready) {
-        ready = answering(data, (found) => scope.postMessage(found));
+        // rows are handed over, not copied
+        ready = answering(data, (found) => scope.postMessage(found, (found.parts || [found.rows]).map((rows) => rows.buffer)));
         return;
       }
       ready.then((answer) => answer(data)).catch((error) =>

@@ -17,7 +17,6 @@ var SCENE = (function () {
     const at = (quantity, frame) => typeof quantity === "number" ? quantity :
       sign(quantity) * (moves(quantity) ? columns[plain(quantity)][frame] : constants[plain(quantity)]);
     const pairs = (points) => points.map((point) => point.map((quantity) => at(quantity, 0)));
-    const frames = names.length ? columns[names[0]].length : 1;
 
     // For the player: a number, or [column, sign].
     const number = (quantity) =>
@@ -41,20 +40,27 @@ var SCENE = (function () {
       return record;
     }
 
+    // In all frames: of what stands still, one value.
+    const values = (quantity) => !moves(quantity) ? [at(quantity, 0)] :
+      sign(quantity) > 0 ? columns[plain(quantity)] : columns[plain(quantity)].map((value) => -value);
+    // From the least to the greatest; NaN where there is one.
+    function extent(values) {
+      let low = Infinity, high = -Infinity;
+      for (const value of values) [low, high] = [Math.min(low, value), Math.max(high, value)];
+      return [low, high];
+    }
+
     // The box [m] that holds everything in all frames and on the way between them: left, bottom, right, top.
     function bounds() {
       const box = [Infinity, Infinity, -Infinity, -Infinity], ends = {};
       const hold = (spot, radius) => {
-        for (let frame = 0; frame < frames; frame++) {
-          const x = spot.x(frame), y = spot.y(frame), around = spot.slack + radius;
-          if (!(x - around > box[0])) box[0] = x - around;
-          if (!(y - around > box[1])) box[1] = y - around;
-          if (!(x + around < box[2])) box[2] = x + around;
-          if (!(y + around < box[3])) box[3] = y + around;
-        }
+        const [left, right] = extent(spot.x), [bottom, top] = extent(spot.y), around = spot.slack + radius;
+        if (!(left - around > box[0])) box[0] = left - around;
+        if (!(bottom - around > box[1])) box[1] = bottom - around;
+        if (!(right + around < box[2])) box[2] = right + around;
+        if (!(top + around < box[3])) box[3] = top + around;
       };
-      const spotOf = (where) => typeof where === "string" ? ends[where] :
-        { x: (frame) => at(where[0], frame), y: (frame) => at(where[1], frame), slack: 0 };
+      const spotOf = (where) => typeof where === "string" ? ends[where] : { x: values(where[0]), y: values(where[1]), slack: 0 };
       for (const shape of shapes) {
         const spot = spotOf(shape.at);
         hold(spot, radiusOf(shape));
@@ -71,25 +77,20 @@ var SCENE = (function () {
     }
 
     function farEnd(bar, from) {
-      let turn = 0, longest = 0;
-      for (let frame = 0; frame < frames; frame++) {
-        longest = Math.max(longest, Math.abs(at(bar.length, frame)));
-        if (frame) turn = Math.max(turn, Math.abs(at(bar.angle, frame) - at(bar.angle, frame - 1)));
-      }
-      if (turn > SURE_TURN) return { ...from, slack: from.slack + longest };
-      return {
-        x: (frame) => from.x(frame) + at(bar.length, frame) * Math.cos(at(bar.angle, frame)),
-        y: (frame) => from.y(frame) + at(bar.length, frame) * Math.sin(at(bar.angle, frame)),
-        slack: from.slack,
-      };
+      const lengths = values(bar.length), angles = values(bar.angle);
+      let turn = 0;
+      for (let frame = 1; frame < angles.length; frame++) turn = Math.max(turn, Math.abs(angles[frame] - angles[frame - 1]));
+      if (turn > SURE_TURN) return { ...from, slack: from.slack + largest(lengths) };
+      const of = (values, frame) => values.length > 1 ? values[frame] : values[0];
+      const far = (from, part) => Array.from({ length: Math.max(from.length, lengths.length, angles.length) }, (_, frame) =>
+        of(from, frame) + of(lengths, frame) * part(of(angles, frame)));
+      return { x: far(from.x, Math.cos), y: far(from.y, Math.sin), slack: from.slack };
     }
 
+    const largest = (values) => Math.max(...extent(values).map(Math.abs));
+
     function radiusOf(shape) {
-      if (shape.kind === "disc") {
-        let most = 0;
-        for (let frame = 0; frame < frames; frame++) most = Math.max(most, Math.abs(at(shape.radius, frame)));
-        return most;
-      }
+      if (shape.kind === "disc") return largest(values(shape.radius));
       if (shape.points) return Math.max(...pairs(shape.points).map(([x, y]) => Math.hypot(x, y)));
       return shape.outline ? Math.max(...pairs(shape.outline).map(([radius]) => Math.abs(radius))) : 0;
     }

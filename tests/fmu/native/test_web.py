@@ -22,6 +22,7 @@ from mechanism_fmu.model.trace import trace
 from mechanism_fmu.tables.layout import pack
 from tests.fmu.native.motions import CASES, continuous_outputs, motion_of
 from tests.once import once
+from tests.unit.fmu.test_native_formulas import SMALL
 
 NODE = shutil.which("node")
 pytestmark = [
@@ -37,6 +38,8 @@ TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
 
 
 def model_of(name):
+    if name == SMALL.name:
+        return SMALL
     return (load(GALLERY / name) if name.endswith(".py") else models.load(name)).MODEL
 
 
@@ -96,6 +99,13 @@ def test_the_default_experiment_is_that_of_python_to_the_bit(name, web):
     np.testing.assert_array_equal(of_web, of_python)
 
 
+@pytest.mark.parametrize("values", [{}, {"a": 1.7, "b": -3.1}, {"a": 0.0, "b": 2.0}])
+def test_every_operation_is_that_of_python_to_the_bit(values, web):
+    of_web, of_python = in_both(SMALL.name, web, values, 0.1, 10)
+    assert np.unique(of_web[0]).size > 3
+    np.testing.assert_array_equal(of_web, of_python)
+
+
 def test_it_imports_nothing_and_is_small(web):
     folder, token = web("ratchet")
     assert in_node(folder, token)["imports"] == 0
@@ -132,6 +142,10 @@ def test_it_refuses_in_words(web):
     too_short = in_node(folder, token, given=given(model, {"crank_length": 0.02}))
     assert "crank_length = 0.02 m is 0.046394 m too short: give more than 0.066394 m" in too_short["text"]
     assert len(too_short["rows"]) == 0
+    folder, token = web(SMALL.name)
+    much = in_node(folder, token, given=given(SMALL, {"a": 8.5}))
+    assert "8.5 % is {much}: 2" in much["text"]
+    folder, token = web("ratchet")
     none = in_node(folder, token, given=given(model, {"wheel_inertia": -1.0}))
     assert "wheel_inertia" in none["text"]
     assert "-1" in none["text"]
