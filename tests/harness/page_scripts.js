@@ -16,7 +16,7 @@ function worker() {
   const scope = { heard: [], postMessage: (found) => { scope.heard.push(structuredClone(found)); scope.wake && scope.wake(); } };
   const code = [...html.matchAll(/<script class="engine">([^]*?)<\/script>/g)].map((one) => one[1]).join("") + "RUNNER.serve(scope);";
   vm.runInNewContext(code, { scope, WebAssembly, TextEncoder, TextDecoder, performance, setTimeout,
-    Float64Array, Int32Array, Uint32Array, Uint8Array, atob, Response, DecompressionStream });
+    Float64Array, Int32Array, Uint32Array, Uint8Array, atob, Response, DecompressionStream: asked.old ? undefined : DecompressionStream });
   const data = model(), references = (list) => list.map((one) => one.reference);
   const recorded = { reals: references(data.reals), flags: references(data.flags), wholes: references(data.wholes) };
   scope.onmessage({ data: { wasm: held("wasm"), image: held("image"), token: asked.token || data.token, recorded,

@@ -156,6 +156,9 @@ def test_an_engine_that_does_not_start_says_why(page_of: Callable[[str], Path]) 
     (run,) = in_node(["run", {}], of=page_of("ratchet"), token="another")
     assert run["refused"]
     assert "is not this FMU's" in run["text"]
+    (run,) = in_node(["run", {}], of=page_of("ratchet"), old=True)
+    assert run["refused"]
+    assert "This browser is too old for the page; it needs Chrome or Edge 80" in run["text"]
 
 
 @needs_linker
