@@ -11,6 +11,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 import os
+import runpy
 import shutil
 import subprocess
 import sys
@@ -97,7 +98,10 @@ class BuildPy(build_py):
             after = relocated(before, str(path))
             if after != before:
                 path.write_text(after, encoding="utf-8", newline="\n")
-        _write_engine(built, package / "fmu" / "native" / "compiled")
+        tree = runpy.run_path(str(_ROOT / NAME / "fmu" / "native" / "sources.py"))
+        if tree["is_of_these_sources"](_ROOT / NAME):  # compiled by an editable install
+            shutil.copytree(_ROOT / NAME / tree["COMPILED"], package / tree["COMPILED"], dirs_exist_ok=True)
+        write_engine(built, package)
 
 
 class BdistWheel(bdist_wheel):
@@ -111,23 +115,33 @@ class BdistWheel(bdist_wheel):
             (folder / "top_level.txt").write_text(f"{NAME}\n", encoding="utf-8")
 
 
-def _write_engine(built: Path, folder: Path) -> None:
-    """Put the compiled engine of what has been collected beside it: minutes, unless the user's cache has it."""
+def write_engine(packages: Path, library: Path) -> None:
+    """Put the compiled engine of a library into it: minutes, unless it is there, or the user's cache has it.
+
+    Args:
+        packages: the folder that `library` is imported from.
+        library: the folder `mechanism_fmu`.
+
+    Raises:
+        SetupError: what compiles it is not installed, or refuses.
+    """
+    sources = runpy.run_path(str(library / "fmu" / "native" / "sources.py"))
+    if sources["is_of_these_sources"](library):
+        return
     missing = [name for name in COMPILERS if importlib.util.find_spec(name) is None]
     if missing:
         raise SetupError(
-            f"The engine of a wheel is compiled with {' and '.join(missing)}, not installed here: build the wheel "
-            "without --no-build-isolation, or install them first: python -m pip install -e '.[native]'"
+            f"The engine is compiled with {' and '.join(missing)}, not installed here: build the wheel without "
+            "--no-build-isolation, or install them first: python -m pip install -e '.[dev]'"
         )
     print("compiling the engine for all platforms; without an earlier one in the cache, minutes")
     program = (
         "import sys; from pathlib import Path; from mechanism_fmu.fmu.native.objects import write_engine; "
         "write_engine(Path(sys.argv[1]))"
     )
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(built), os.environ.get("PYTHONPATH", "")])}
-    done = subprocess.run(
-        [sys.executable, "-P", "-c", program, str(folder)], env=environment, capture_output=True, text=True, check=False
-    )
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(packages), os.environ.get("PYTHONPATH", "")])}
+    command = [sys.executable, "-P", "-c", program, str(library / sources["COMPILED"])]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise SetupError(f"The engine could not be compiled:\n{done.stderr.strip()}")
 

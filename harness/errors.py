@@ -1,4 +1,4 @@
-"""Errors for the user, log messages of an FMU, and exhausted resources (memory, disk, file handles)."""
+"""Errors for the user, log messages of an FMU, packages that are missing, exhausted resources (memory, disk)."""
 
 from __future__ import annotations
 
@@ -86,20 +86,31 @@ class FmuError(HarnessError):
         self.messages = tuple(messages)
 
 
+# Packages that only some commands need.
+
+#: The extra that brings each, by the name that is imported.
+EXTRAS = {"pyarrow": "designs", "plotly": "designs", "PIL": "designs"}
+
+
+def way_to_get(extra: str) -> str:
+    """The command that installs an extra, in a clone as beside a wheel."""
+    return f'python -m pip install "mechanism_fmu[{extra}]"'
+
+
 # What a machine runs out of at any place: memory, and space where something is printed.
 
 #: What systems call a full disk, a file that may not become longer, and a full share of a disk.
 NO_ROOM = frozenset(getattr(errno, name) for name in ("ENOSPC", "EFBIG", "EDQUOT") if hasattr(errno, name))
 #: How the system says in the loading of a library that it has no memory for it.
 _NOT_LOADED = ("failed to map segment", "cannot allocate memory")
-_FAILED = 1
+_FAILED, _WRONG_USE = 1, 2
 
 
 @contextmanager
 def exhaustion_reported() -> Iterator[None]:
-    """Say in a line that memory or a disk is full, and end with an exit code that says so; nothing of it is imported.
+    """Say in a line that memory or a disk is full, or a package of an extra is missing, and end with an exit code.
 
-    Files that are written say so themselves (`results`).
+    Nothing for it is imported. Files that are written say so themselves (`results`).
 
     Raises:
         SystemExit: it is.
@@ -109,9 +120,17 @@ def exhaustion_reported() -> Iterator[None]:
     except MemoryError:
         _end("The memory is full.")
     except ImportError as error:
-        if not _has_no_memory(error):
+        if _has_no_memory(error):
+            _end(f"The memory is full: {error}.")
+        package = (error.name or "").partition(".")[0]
+        if not isinstance(error, ModuleNotFoundError) or package not in EXTRAS:
             raise
-        _end(f"The memory is full: {error}.")
+        print(
+            f"Error: This needs the package {package.replace('PIL', 'pillow')}, which is not installed. Install it: "
+            f"{way_to_get(EXTRAS[package])}",
+            file=sys.stderr,
+        )
+        raise SystemExit(_WRONG_USE) from None
     except OSError as error:
         if error.errno == errno.ENOMEM or _has_no_memory(error):
             _end(f"The memory is full: {error}.")

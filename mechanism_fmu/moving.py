@@ -12,7 +12,7 @@ import numpy as np
 from . import codes
 from .advice import failure_details, start_details
 from .engine import status
-from .engine.run import engine_for
+from .engine.run import NotCompiledError, engine_for
 from .model import Input, Mechanism, MechanismError, compile_mechanism
 from .model.event_names import event_name
 from .model.model import check_value
@@ -146,7 +146,10 @@ class MovingMechanism:
     def _take(self, mechanism: Mechanism, block: Array, library: CDLL | None = None) -> None:
         self._mechanism = mechanism
         self._block = block
-        self._engine = engine_for(self._block, library)
+        try:
+            self._engine = engine_for(self._block, library)
+        except NotCompiledError as error:
+            raise MechanismError(str(error)) from error
         self._output_names = [o.name for o in mechanism.outputs] + [c.name for c in mechanism.calculated]
         self.inputs: Array = field_of(self._block, "inputs")
         self.outputs: Array = field_of(self._block, "outputs")

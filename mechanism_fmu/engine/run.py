@@ -1,7 +1,7 @@
-"""The way into the engine: compiled ahead of time where a library for this platform lies here, else just in time.
+"""The way into the engine: compiled ahead of time where there is a library for this platform, else just in time.
 
-The libraries (`compiled/<processor>-<system>.*`) exist in FMUs only; in a checkout the engine is always what its
-sources say. Numbers are the same either way.
+Libraries that lie here (`compiled/<processor>-<system>.*`) exist in FMUs only; elsewhere `mechanism_fmu.fmu.native`
+knows where one is. Numbers are the same either way.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..tables.declare import Array
+from .compiler import subset
 
 _SYSTEMS = {"linux": ("linux", ".so"), "win32": ("windows", ".dll"), "darwin": ("darwin", ".dylib")}
 _PROCESSORS = {"amd64": "x86_64", "arm64": "aarch64"}
@@ -29,6 +30,10 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "read_outputs": (None, ()),
     "read_output_rates": (None, ()),
 }
+
+
+class NotCompiledError(RuntimeError):
+    """There is neither a compiled engine here nor what compiles one."""
 
 
 class Engine(NamedTuple):
@@ -48,12 +53,20 @@ def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
     Args:
         block: of the instance.
         library: what `load` has given; None for the library that lies here, if one does.
+
+    Raises:
+        NotCompiledError: there is no library, and numba is not installed.
     """
     library = library or compiled_library()
     if library is not None:
         address, words = block.ctypes.data, len(block)
         functions: list[Any] = [getattr(library, f"engine_{name}") for name in Engine._fields]
         return Engine(*(partial(function, address, words) for function in functions))
+    if not (subset.COMPILES or subset.AS_PYTHON):
+        raise NotCompiledError(
+            "There is no compiled engine for this platform, and the package numba, which compiles one, is not "
+            "installed. Install it: python -m pip install numba; in a clone: python -m pip install -e '.[dev]'"
+        )
     from .outputs import read_output_rates, read_outputs
     from .starting.begin import begin
     from .stepping.stepper import advance, begin_step, go_on

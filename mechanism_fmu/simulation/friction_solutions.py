@@ -15,6 +15,7 @@ from ..model import Mechanism, MechanismError, Output, compile_mechanism
 from ..model.mechanism import may_rub
 from ..tables.layout import field_of, pack
 from ..tolerances import SLIPS_ABOVE
+from .simulation import engine_here
 
 #: A force may be missing this share of the largest one, an acceleration of the largest one.
 _SHARE = 1e-9
@@ -93,7 +94,7 @@ class _Search:
     def __init__(self, mechanism: Mechanism, start_time: float) -> None:
         self._mechanism = mechanism
         self._block = pack(compile_mechanism(mechanism))
-        self._engine = engine_for(self._block)
+        self._engine = engine_for(self._block, engine_here())
         if self._engine.begin(start_time) != 0:
             raise MechanismError("friction_solutions: the mechanism cannot be assembled; a Simulation says why.")
         self._names = [output.name for output in mechanism.outputs]

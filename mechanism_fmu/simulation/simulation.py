@@ -10,7 +10,7 @@ from functools import cache
 from threading import Timer
 
 from ..engine import run
-from ..fmu.native.objects import library_of
+from ..fmu.native.objects import has_compiler, library_of
 from ..model import Mechanism, MechanismError, compile_mechanism
 from ..moving import MovingMechanism
 from ..tables.layout import pack
@@ -43,12 +43,16 @@ class Simulation(MovingMechanism):
     def __init__(
         self, mechanism: Mechanism, start_time: float = 0.0, inputs: Sequence[float | str] | None = None
     ) -> None:
-        self._take(mechanism, pack(compile_mechanism(mechanism)), _library())
+        self._take(mechanism, pack(compile_mechanism(mechanism)), engine_here())
         self._begin_with(start_time, inputs)
 
 
-def _library() -> CDLL | None:
-    """The compiled engine; None: just in time."""
+def engine_here() -> CDLL | None:
+    """The compiled engine; None: just in time.
+
+    Raises:
+        MechanismError: it is not there, and numba is not installed.
+    """
     return run.compiled_library() or _made()
 
 
@@ -60,6 +64,8 @@ def _made() -> CDLL | None:
     try:
         library = library_of(progress.report)
     except MechanismError as error:
+        if not has_compiler():
+            raise
         _say(f"The engine is compiled just in time, which takes half a minute or more, as {error}")
         return None
     finally:

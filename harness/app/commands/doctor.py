@@ -57,35 +57,44 @@ _PURPOSES = {
     "scipy": "assembly of linkages, optimum design, stress",
     "fmpy": "runs FMUs",
     "pythonfmu": "builds the FMU that runs in Python",
-    "numba": "compiles the engine",
     "pandas": "result tables",
-    "plotly": "charts of `simulate`",
-    "distributed": "sweeps on a cluster (extra 'cluster')",
-    "optuna": "optimum design by the method 'tpe' (extra 'optimise')",
-    "libcosimpy": "checks against another master (extra 'importers')",
 }
-_OPTIONAL = ("distributed", "optuna", "libcosimpy")
+#: What extras bring: what for, and the extra.
+_EXTRAS = {
+    "pyarrow": ("sweeps, optimum design, the study; tables as Parquet", "designs"),
+    "pillow": ("figures as pictures", "designs"),
+    "plotly": ("charts by `plot` of a result of `simulate`", "plot"),
+    "distributed": ("sweeps on a cluster", "cluster"),
+    "optuna": ("optimum design by the method 'tpe'", "optimise"),
+    "libcosimpy": ("checks against another master", "importers"),
+    "numba": ("compiles the engine after a change of its sources", "dev"),
+}
 #: Modules whose name is not that of their package.
 _MODULES = {"pillow": "PIL", "markdown-it-py": "markdown_it"}
 
 
 def _packages() -> list[Found]:
-    """What the package itself says that it needs, and what extras bring."""
+    """What the package itself says that it needs, and what of extras is here and what is not."""
     required = [
         re.split(r"[^\w-]", text)[0]
         for text in importlib.metadata.requires("mechanism_fmu") or ()
         if "extra ==" not in text
     ]
     found = []
-    for name in (*required, *_OPTIONAL):
+    for name in dict.fromkeys((*required, *_EXTRAS)):
         version, there = _version(name)
         there = there and importlib.util.find_spec(_MODULES.get(name, name)) is not None
-        purpose = _PURPOSES.get(name, "")
         needed = name in required
-        if needed and not there:
-            purpose = f"{purpose}; get it: python -m pip install {name}".removeprefix("; ")
+        purpose, extra = (_PURPOSES.get(name, ""), "") if needed else _EXTRAS[name]
+        if not there:
+            command = f"python -m pip install {name}" if needed else _way_to_get(extra)
+            purpose = f"{purpose}; get it: {command}".removeprefix("; ")
         found.append(Found(name, version, there, needed, purpose))
     return found
+
+
+def _way_to_get(extra: str) -> str:
+    return f'python -m pip install "mechanism_fmu[{extra}]"'
 
 
 def _version(package: str) -> tuple[str, bool]:
@@ -126,9 +135,20 @@ def _cache() -> list[Found]:
             "compiled for all platforms" if compiled else "not compiled yet",
             compiled,
             False,
-            "builds need seconds" if compiled else "the first build compiles it, in one or two minutes",
+            _of_engine(compiled),
         ),
     ]
+
+
+def _of_engine(compiled: bool) -> str:
+    """What follows from whether the engine is compiled."""
+    from mechanism_fmu.fmu.native.objects import INSTALL, has_compiler
+
+    if compiled:
+        return "nothing is compiled in a run; a build needs seconds"
+    if has_compiler():
+        return "the first run or build compiles it, in one or two minutes"
+    return f"nothing can run; compile it: {INSTALL}"
 
 
 def _wrapper() -> Found:

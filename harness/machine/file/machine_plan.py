@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
+from importlib.util import find_spec
 from pathlib import Path
 
 from mechanism_fmu.fmu.disk.user_cache import was_built_here
@@ -112,6 +113,11 @@ class Policy:
     reads_once: bool = False
 
 
+def usual_format() -> str:
+    """What is written where nothing is said: Parquet; CSV where pyarrow, of the extra `designs`, is not installed."""
+    return "parquet" if find_spec("pyarrow") is not None else "csv"
+
+
 @dataclass(frozen=True)
 class Recording:
     """What is kept of a run.
@@ -124,7 +130,7 @@ class Recording:
 
     signals: tuple[str, ...] = ("*",)
     every: int = 1
-    format: str = "parquet"
+    format: str = field(default_factory=usual_format)
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from ..observers.record import chosen
 from ..part import Extrapolation
 from ..structure import structure_of
 from .connect_tables import bonds, connections
-from .machine_plan import ComponentPlan, Plan, Policy, Recording, Scheme, Source
+from .machine_plan import ComponentPlan, Plan, Policy, Recording, Scheme, Source, usual_format
 
 # The tables [component.<name>].
 
@@ -185,7 +185,7 @@ def read_recording(file: TomlFile, description: Description, complete: bool) -> 
     section = file.section("record", needed=False)
     signals = section.texts("signals") or ["*"]
     every = section.whole("every", least=1) or 1
-    kind = section.choice("format", ("parquet", "csv")) or "parquet"
+    kind = section.choice("format", ("parquet", "csv")) or usual_format()
     section.done()
     if complete:
         for signal in signals:

@@ -10,12 +10,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
-import pyarrow as pa
-import pyarrow.parquet as pq
 
 from mechanism_fmu import __version__
 
@@ -140,6 +139,8 @@ class GrowingTable:
         self.path = path
         self.parts = path.with_suffix(".parts")
         self._columns = tuple(columns)
+        if path.suffix == ".parquet":
+            self._schema()  # what is missing is said before the run
         shutil.rmtree(self.parts, ignore_errors=True)
         prepare_folder(self.parts)
         self._count = 0
@@ -165,6 +166,9 @@ class GrowingTable:
                 headings = [f"{c.name} [{c.unit}]" if c.unit else c.name for c in self._columns]
                 write_text(part, lambda file: frame.to_csv(file, index=False, header=headings, lineterminator="\n"))
             else:
+                import pyarrow as pa
+                import pyarrow.parquet as pq
+
                 table = pa.Table.from_pandas(frame, self._schema(), preserve_index=False)
                 write_binary(part, lambda file: pq.write_table(table, file))
         except UsageError as error:
@@ -198,11 +202,15 @@ class GrowingTable:
                 yield from islice(file, 1 if number else 0, None)
 
     def _join(self, file: object) -> None:
+        import pyarrow.parquet as pq
+
         with pq.ParquetWriter(file, self._schema()) as writer:
             for part in self._written():
                 writer.write_table(pq.read_table(part))
 
-    def _schema(self) -> pa.Schema:
+    def _schema(self) -> Any:
+        import pyarrow as pa
+
         types = {"Real": pa.float64(), "Integer": pa.int64(), "Boolean": pa.bool_()}
         fields = [pa.field(c.name, types[c.type], metadata={"unit": c.unit or "1"}) for c in self._columns]
         return pa.schema(fields, metadata={"mechanism_fmu": __version__})

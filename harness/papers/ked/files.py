@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -154,16 +155,18 @@ class Result:
 def write_result(result: Result, folder: Path) -> list[Path]:
     """Write cycle.csv (units in its headings), cycle.parquet (the same, plain names) and summary.json, in SI units.
 
-    Beside them speeds.csv, when there were speeds to be looked at.
+    cycle.parquet is left out where pyarrow, of the extra `designs`, is not installed. Beside them
+    speeds.csv, when there were speeds to be looked at.
 
     Raises:
         UsageError: the disk refuses.
     """
     table, units = cycle_table(result.solution)
+    parquet = folder / "cycle.parquet"
     speeds = [write_with_units(*speeds_table(result.sweep), folder / "speeds.csv")] if result.speeds_asked else []
     return [
         write_with_units(table, units, folder / "cycle.csv"),
-        write_binary(folder / "cycle.parquet", lambda file: table.to_parquet(file, index=False)),
+        *([write_binary(parquet, lambda file: table.to_parquet(file, index=False))] if find_spec("pyarrow") else ()),
         *speeds,
         write_json(folder / "summary.json", summary(result, units)),
     ]

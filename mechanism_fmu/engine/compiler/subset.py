@@ -1,88 +1,40 @@
 """The part of Python the engine is written in, and the decorator that compiles it.
 
 Engine functions use scalars, `math`, loops, and views of one block of memory: no allocation, no exceptions, no Python
-objects (see `docs/decisions/001-one-block.md`). Compiled or not, they give the same numbers; with the environment
-variable NUMBA_DISABLE_JIT=1 they run as plain Python.
+objects (see `docs/decisions/001-one-block.md`). Compiled or not, they give the same numbers; without numba, or with the
+environment variable NUMBA_DISABLE_JIT=1, they run as plain Python.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
-from typing import Any, TypeVar, cast
+from importlib.util import find_spec
+from typing import Any, TypeVar
 
-import numba
-from numba import types
-from numba.extending import lower_builtin, type_callable
+from .marks import keep_apart as keep_apart, keep_small as keep_small
 
-from . import views as views  # teaches the compiler the tables
-from .machine_code import InnerCompiler, check_files, refuse_python_calls
-
-#: Numba does not notice a change in a callee, so a compilation is kept on disk only for the copy of the library that
-#: an FMU unpacks into a folder named after its contents; that copy has another package name.
-KEEP_COMPILED = __name__.partition(".")[0] != "mechanism_fmu"
-
-_OPTIONS: dict[str, Any] = {
-    "error_model": "numpy",
-    "boundscheck": False,
-    "fastmath": False,
-    "nogil": True,
-    # no counting of references: the caller holds the block, and two atomic operations a call cost a tenth of the time
-    "_nrt": False,
-    "cache": KEEP_COMPILED,
-}
-
-_INNER_OPTIONS = _OPTIONS | {
-    "cache": False,  # what is kept is the entry point, with all of its parts
-    "no_cpython_wrapper": True,
-    "no_cfunc_wrapper": True,
-    "pipeline_class": InnerCompiler,
-}
+#: Whether compilation is switched off, as for debugging.
+AS_PYTHON = os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
+#: Whether functions are compiled when Python calls them.
+COMPILES = not AS_PYTHON and find_spec("numba") is not None
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def entry(function: _Function) -> _Function:
     """Compile a function that Python calls."""
-    compiled = numba.njit(**_OPTIONS)(function)
-    if KEEP_COMPILED and compiled is not function:  # which it is when NUMBA_DISABLE_JIT=1
-        check_files(compiled)
-    return cast(_Function, compiled)
+    if not COMPILES:
+        return function
+    from .just_in_time import compiled_entry
+
+    return compiled_entry(function)
 
 
 def jit(function: _Function) -> _Function:
     """Compile a function that only compiled functions call."""
-    inner = numba.njit(**_INNER_OPTIONS)(function)
-    if inner is not function:  # which it is when NUMBA_DISABLE_JIT=1
-        refuse_python_calls(inner)
-    return cast(_Function, inner)
+    if not COMPILES:
+        return function
+    from .just_in_time import compiled_inner
 
-
-def keep_small() -> None:
-    """Compile the calling function for size.
-
-    The compiler would otherwise unroll loops over a handful of entries, which costs compilation time. Functions without
-    this mark are those that each acceleration and each stage of a step call: there it gains a tenth of the time.
-    """
-
-
-def _mark_small(context: Any, builder: Any, _signature: Any, _args: Any) -> Any:
-    builder.function.attributes.add("optsize")
-    return context.get_dummy_value()
-
-
-def keep_apart() -> None:
-    """Compile the calling function for size and never into its callers.
-
-    For what runs once or twice a step and has few arguments: compiled into functions that are made for speed, its loops
-    became copies for two and four entries at a time, which were kilobytes and gained nothing.
-    """
-
-
-def _mark_apart(context: Any, builder: Any, _signature: Any, _args: Any) -> Any:
-    builder.function.attributes.add("noinline")
-    return _mark_small(context, builder, _signature, _args)
-
-
-for _mark, _lowering in ((keep_small, _mark_small), (keep_apart, _mark_apart)):
-    type_callable(_mark)(lambda _context: lambda: types.none)
-    lower_builtin(_mark)(_lowering)
+    return compiled_inner(function)

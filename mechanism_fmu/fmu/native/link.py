@@ -8,6 +8,7 @@ import os
 import struct
 import subprocess
 import sys
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -164,10 +165,28 @@ def link(target: Target, inputs: Sequence[Path], includes: Sequence[Path], path:
     headers = [f"-I{folder}" for folder in (_SURFACE, *includes)]
     command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *_FLAGS, *headers]
     command += [*map(str, inputs), *_platform(target), "-o", path.name]
-    environment = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(cache_directory() / "mechanism_fmu" / "zig")}
-    done = subprocess.run(command, cwd=path.parent, env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, cwd=path.parent, env=_environment(), capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise MechanismError(f"Linking for {target.name} failed:\n{done.stderr.strip()}")
+
+
+def warm_up(target: Target) -> None:
+    """Let the linker compile what it needs of the system's C library, which it keeps, while the engine is compiled.
+
+    Whether it succeeds does not matter: then the link itself takes longer, or says what is wrong.
+
+    Args:
+        target: the platform, or `WEB`.
+    """
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        (Path(folder) / "nothing.c").write_text("int nothing;\n", encoding="ascii")
+        flags = ["-mexec-model=reactor"] if target is WEB else _platform(target)
+        command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *_FLAGS, "nothing.c", *flags]
+        subprocess.run([*command, "-o", "nothing"], cwd=folder, env=_environment(), capture_output=True, check=False)
+
+
+def _environment() -> dict[str, str]:
+    return {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(cache_directory() / "mechanism_fmu" / "zig")}
 
 
 def linked_with(*names: str) -> dict[str, bytes]:

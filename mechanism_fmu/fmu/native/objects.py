@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import importlib.metadata
+import importlib.util
 import os
 import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from ctypes import CDLL
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 from ...engine.run import library_path, load
@@ -33,7 +35,9 @@ from .link import (
     need_linker,
     standard,
     surface,
+    warm_up,
 )
+from .sources import COMPILED, fingerprint, is_of_these_sources
 
 # The engine's object files: compiled once for each state of its sources, and kept in the user's cache directory.
 
@@ -43,19 +47,36 @@ _LIBRARY = Path(__file__).parents[2]
 _GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_DISABLE_INTEL_SVML": "1"}
 
 
-def _of_sources() -> str:
-    """Fingerprint of the engine's sources, of its header and targets."""
-    own = [Path(__file__).with_name(name) for name in ("emit.py", "engine_header.py", "link.py", "objects.py")]
-    folders = [path for name in ("elementary", "engine", "tables") for path in (_LIBRARY / name).rglob("*.py")]
-    sources = [*folders, _LIBRARY / "codes.py", _LIBRARY / "tolerances.py", *own]
-    contents = {path.relative_to(_LIBRARY).as_posix(): path.read_bytes() for path in sources}
-    return content_hash({**contents, "engine.h": engine_header().encode()})
+#: What compiles the engine, beside the linker.
+_COMPILERS = ("numba", "llvmlite")
+
+#: How to get what compiles and links it.
+INSTALL = 'python -m pip install -e ".[dev]"'
+
+
+def has_compiler() -> bool:
+    """Whether numba is installed."""
+    return importlib.util.find_spec("numba") is not None
+
+
+def need_compiler() -> None:
+    """Refuse to go on without numba.
+
+    Raises:
+        MechanismError: it is not installed.
+    """
+    if not has_compiler():
+        raise MechanismError(
+            "The engine is not there in compiled form, or its sources have changed since, and the package numba, which "
+            f"compiles it, is not installed. In a clone of the repository: {INSTALL}"
+        )
 
 
 def _digest() -> str:
-    """Fingerprint of all that, and of what compiles it."""
-    compilers = " ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "llvmlite"))
-    return content_hash({"sources": _of_sources().encode(), "compilers": compilers.encode()})[:16]
+    """Fingerprint of the sources, and of what compiles them."""
+    need_compiler()
+    compilers = " ".join(f"{name} {importlib.metadata.version(name)}" for name in _COMPILERS)
+    return content_hash({"sources": fingerprint(_LIBRARY).encode(), "compilers": compilers.encode()})[:16]
 
 
 #: Takes what comes next, and which part of the whole is done (0..1).
@@ -109,14 +130,14 @@ def compiled_engine(report: Report = silently) -> Engine:
 
 def engine_is_compiled() -> bool:
     """Whether `compiled_engine` has its files already."""
-    return _engine().complete
+    return is_bundled() or (has_compiler() and _engine().complete)
 
 
 def engine_folder() -> Path:
     """Where the files of this state of the sources are kept.
 
     Raises:
-        MechanismError: the user's cache directory cannot be used.
+        MechanismError: the user's cache directory cannot be used, or numba is not installed.
     """
     try:
         return private_cache() / f"native_{_digest()}"
@@ -164,47 +185,39 @@ def _emit(folder: Path, report: Report, *what: str) -> None:
             raise MechanismError(f"The engine could not be compiled ahead of time:\n{complaints.read().strip()}")
 
 
-# What a wheel carries, so that nothing is compiled where it is installed: objects, libraries, and of which sources.
+# What is compiled when it is installed, so that nothing is later: objects, libraries, and of which sources.
 
-#: A checkout has no such folder.
-_BUNDLED = Path(__file__).with_name("compiled")
+_BUNDLED = _LIBRARY / COMPILED
 
 
 @cache
 def is_bundled() -> bool:
     """Whether the compiled engine lies here whole, and is that of the sources that lie here."""
-    try:
-        of_these = (_BUNDLED / "sources").read_text(encoding="ascii").strip() == _of_bundle()
-    except OSError:
-        return False
-    return of_these and _engine_in(_BUNDLED).complete and all(is_whole(_bundled(t)) for t in (*TARGETS, WEB))
+    libraries = map(_bundled, (*TARGETS, WEB))
+    return is_of_these_sources(_LIBRARY) and _engine_in(_BUNDLED).complete and all(map(is_whole, libraries))
 
 
 def write_engine(folder: Path) -> None:
-    """Write what a wheel carries, compiled now if need be.
+    """Write what a wheel and a clone carry, compiled now if need be.
 
     Args:
-        folder: made if need be; `fmu/native/compiled` of the package that the wheel is made of.
+        folder: made if need be; `sources.COMPILED` of the package that it is for.
 
     Raises:
         MechanismError: the engine cannot be compiled or linked.
         OSError: the folder cannot be written.
     """
-    engine = compiled_engine()
-    libraries = [_linked(engine, target) for target in (*TARGETS, WEB)]
+    with ThreadPoolExecutor() as pool:  # each a process of its own
+        pool.map(warm_up, (WEB, *TARGETS))
+        engine = compiled_engine()
+        libraries = list(pool.map(partial(_linked, engine), (WEB, *TARGETS)))
     paths = [*engine.objects.values(), engine.headers / "engine.bc", engine.headers / "engine.h"]
     (folder / "libraries").mkdir(parents=True, exist_ok=True)
     for path in libraries:
         keep(folder / "libraries" / path.name, path.read_bytes(), program=True)
     for path in paths:
         keep(folder / path.name, path.read_bytes())
-    (folder / "sources").write_text(f"{_of_bundle()}\n", encoding="ascii")
-
-
-def _of_bundle() -> str:
-    """Fingerprint of what the bundled files are made from: the engine's sources, and the C files of its libraries."""
-    files = {path.name: path.read_bytes() for path in surface(*_SOURCES, *WEB_SURFACE, *HEADERS)}
-    return content_hash(files | {"engine": _of_sources().encode()})
+    (folder / "sources").write_text(f"{fingerprint(_LIBRARY)}\n", encoding="ascii")
 
 
 def _bundled(target: Target) -> Path:
@@ -217,8 +230,8 @@ _SOURCES = ("library.c", "many.c")
 
 
 def has_libraries() -> bool:
-    """Whether `engine_libraries` has them, or can make them: a wheel carries them, or there is a linker."""
-    return is_bundled() or has_linker()
+    """Whether `engine_libraries` has them, or can make them."""
+    return is_bundled() or (has_linker() and has_compiler())
 
 
 def engine_libraries(report: Report = silently) -> dict[str, bytes]:
@@ -236,14 +249,16 @@ def engine_libraries(report: Report = silently) -> dict[str, bytes]:
 
 
 def library_here(report: Report = silently) -> Path | None:
-    """The library for this platform, in the user's cache; None where there is no linker, or no such platform.
+    """The library for this platform; None where there is no linker, or no such platform.
 
     Args:
         report: see `compiled_engine`.
 
     Raises:
-        MechanismError: the engine cannot be compiled.
+        MechanismError: the engine cannot be compiled, neither ahead of time nor just in time.
     """
+    if not is_bundled():
+        need_compiler()
     place = library_path(Path())
     target = next((t for t in TARGETS if place is not None and f"{t.name}{t.suffix}" == place.name), None)
     if target is None or not has_libraries():

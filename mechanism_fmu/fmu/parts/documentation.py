@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import mimetypes
+import re
 import tomllib
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -28,11 +29,17 @@ _PROJECT = _CHECKOUT / "pyproject.toml"
 
 
 def dependencies() -> list[str]:
-    """Requirements of the library, with their pins, e.g. "numpy>=2.0"; the same from a checkout and when installed."""
+    """What the library needs, and what compiles its engine, with pins, e.g. "numpy>=2.0".
+
+    The same from a checkout and when installed.
+    """
     if _PROJECT.is_file():
-        pins: list[str] = tomllib.loads(_PROJECT.read_text(encoding="utf-8"))["project"]["dependencies"]
+        project = tomllib.loads(_PROJECT.read_text(encoding="utf-8"))["project"]
+        pins: list[str] = [*project["dependencies"], *project.get("optional-dependencies", {}).get("dev", ())]
     else:
-        pins = [pin for pin in metadata.requires("mechanism_fmu") or [] if "extra ==" not in pin]
+        stated = [pin.partition(";") for pin in metadata.requires("mechanism_fmu") or []]
+        extra = re.compile(r"""extra == ['"]dev['"]""")
+        pins = [pin.strip() for pin, _, marker in stated if "extra ==" not in marker or extra.search(marker)]
     return [_in_order(pin) for pin in pins]
 
 

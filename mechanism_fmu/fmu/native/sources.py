@@ -1,0 +1,47 @@
+"""Of which sources the compiled engine is made; the standard library is enough, as a build backend asks this, too."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+#: Below the library: what the engine is, what its C header is written from, and what compiles and links it.
+FOLDERS = ("elementary", "engine", "tables")
+FILES = (
+    "codes.py",
+    "tolerances.py",
+    "fmu/instance/protocol.py",
+    "fmu/parts/model_description.py",
+    *(f"fmu/native/{name}.py" for name in ("emit", "engine_header", "link", "objects", "sources")),
+)
+SURFACE = "fmu/native/c"
+
+#: Where the compiled engine lies in a wheel and, after an editable install, in a clone.
+COMPILED = "fmu/native/compiled"
+
+
+def fingerprint(library: Path) -> str:
+    """SHA-256 of the engine's sources, as 64 hexadecimal digits.
+
+    Args:
+        library: the folder `mechanism_fmu`.
+
+    Raises:
+        OSError: it is not whole.
+    """
+    digest = hashlib.sha256()
+    paths = [path for folder in FOLDERS for path in (library / folder).rglob("*.py")] + [*(library / SURFACE).iterdir()]
+    found = [path.relative_to(library).as_posix() for path in paths]
+    for name in sorted({*found, *FILES}):
+        contents = (library / name).read_bytes()
+        digest.update(f"{name}\0{len(contents)}\0".encode())
+        digest.update(contents)
+    return digest.hexdigest()
+
+
+def is_of_these_sources(library: Path) -> bool:
+    """Whether a compiled engine lies in the library that was made of the sources that lie there."""
+    try:
+        return (library / COMPILED / "sources").read_text(encoding="ascii").strip() == fingerprint(library)
+    except (OSError, UnicodeError):
+        return False
