@@ -65,8 +65,7 @@ def build(
     run `mechanism-fmu new my_mechanism`; see docs/tutorials/your-first-mechanism.md).
     With `--flavour native` it needs no Python: binaries for Linux, Windows and macOS; add `--fmi 3` for FMI
     3.0 with event mode and early return at impacts. Where it is built, the native flavour needs the package ziglang
-    (`python -m pip install ziglang==0.17.0`). The first build compiles the engine, which takes a minute or two;
-    the same sources always give the same GUID.
+    (`python -m pip install ziglang==0.17.0`). The same sources always give the same GUID.
     \f
 
     Args:

@@ -56,5 +56,6 @@ def _compilers() -> list[str]:
     if is_of_these_sources(_LIBRARY):
         return []
     project = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]
+    # numpy and pythonfmu are imported with the library, and fmpy brings the headers of FMI
     needed = [text for text in project["dependencies"] if text.startswith(("numpy", "pythonfmu", "fmpy"))]
     return [*needed, *project["optional-dependencies"]["dev"]]

@@ -1,6 +1,7 @@
 """A wheel puts one name at the root of site-packages, and works beside a user's own `models` and `harness`."""
 
 import os
+import re
 import runpy
 import shutil
 import subprocess
@@ -24,18 +25,21 @@ LIBRARIES = {f"libraries/{target.name}{target.suffix}" for target in (*TARGETS, 
 OBJECTS = {f"{target.name}.o" for target in TARGETS}
 DIGESTED = LIBRARIES | OBJECTS | {"engine.h", "engine.bc"}
 ENGINE = DIGESTED | {f"{path}.sha256" for path in DIGESTED} | {"sources"}
-#: As if numba, llvmlite and ziglang were not installed.
-WITHOUT_COMPILERS = """
-import importlib.abc, runpy, sys
+#: As if nothing were installed of what only extras bring.
+WITHOUT_EXTRAS = """
+import importlib.abc, importlib.util, sys
+EXTRAS = ("numba", "llvmlite", "ziglang", "pyarrow", "PIL", "optuna", "distributed", "dask")
 class Refuse(importlib.abc.MetaPathFinder):
     def find_spec(self, name, path=None, target=None):
-        if name.partition(".")[0] in ("numba", "llvmlite", "ziglang"):
+        if name.partition(".")[0] in EXTRAS:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 sys.meta_path.insert(0, Refuse())
-import importlib.util
 real = importlib.util.find_spec
-importlib.util.find_spec = lambda name, *rest: None if name == "ziglang" else real(name, *rest)
+importlib.util.find_spec = lambda name, *rest: None if name in EXTRAS else real(name, *rest)
 """
+#: What everybody gets.
+CORE = {"numpy", "scipy", "fmpy", "pythonfmu", "rainflow", "typer", "rich", "plotly", "markdown-it-py", "pandas"}
+COMMAND = "from mechanism_fmu.harness.app.cli import main\nmain(sys.argv[1:])\n"
 
 #: Prints every module below a folder that is loaded under two names, or under a name that its path does not have.
 ONE_NAME = """
@@ -203,13 +207,28 @@ def test_the_command_builds_the_fmu_of_the_tree_and_runs_it(
 def test_nothing_is_compiled_where_it_is_installed(
     python: Callable[..., str], tmp_path: Path, ratchet_fmu: Path
 ) -> None:
-    """The demo, an FMU that carries the engine, a run without an FMU, the page of an own file: with an empty cache,
-    without any compiler."""
-    bare = f"import os\nos.environ[{CACHE_VARIABLE!r}] = {str(tmp_path / 'cache')!r}\n" + WITHOUT_COMPILERS
-    program = bare + "from mechanism_fmu.harness.app.cli import main\nmain(sys.argv[1:])\n"
-    python("-c", program, "demo", "-o", "demo")
+    """Commands, an FMU that carries the engine, a run without an FMU: with an empty cache, without any extra."""
+    bare = f"import os\nos.environ[{CACHE_VARIABLE!r}] = {str(tmp_path / 'cache')!r}\n" + WITHOUT_EXTRAS
+
+    def command(*words: str) -> str:
+        return python("-c", bare + COMMAND, *words)
+
+    command("demo", "-o", "demo")
     assert (tmp_path / "demo" / "Ratchet.fmu").read_bytes() == ratchet_fmu.read_bytes()
     assert (tmp_path / "demo" / "report.html").is_file()
+    command("new", "linkage", "--like", "four_bar")
+    assert "No mistakes" in command("check", "linkage.py")
+    command("build", "linkage.py", "-o", "own")
+    command("run", next((tmp_path / "own").glob("*.fmu")).as_posix(), "-o", "own")
+    assert (tmp_path / "own" / "results.csv").is_file()
+    command("validate", "demo/Ratchet.fmu")
+    assert "tooth" in command("modes", "demo/Ratchet.fmu")
+    command("ked", "four_bar_path_generator", "-o", "ked")
+    assert {"cycle.csv", "report.html"} <= tree(tmp_path / "ked")
+    assert "cycle.parquet" not in tree(tmp_path / "ked")
+    command("machine", "run", "geared_cam", "-o", "machine")
+    assert {"results.csv", "report.html"} <= tree(tmp_path / "machine")
+    command("doctor")
     run = """
 from mechanism_fmu.models.ratchet.model import MODEL
 from mechanism_fmu.simulation import Simulation
@@ -218,10 +237,38 @@ simulation.advance(2.0)
 print(simulation.read()["impact_count"])
 """
     assert float(python("-c", bare + run)) >= 1
-    python("-c", program, "new", "lever")
-    python("-c", program, "page", "lever.py")
+    command("new", "lever")
+    command("page", "lever.py")
     assert 100_000 < (tmp_path / "lever.html").stat().st_size < 1_000_000
     assert not list((tmp_path / "cache").rglob("native_*"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "extra"),
+    [(["sweep", "examples/teeth.toml"], "designs"), (["optimise", "examples/best_tooth.toml"], "designs")],
+    ids=["sweep", "optimise"],
+)
+def test_a_command_that_needs_an_extra_says_which(
+    words: list[str], extra: str, python: Callable[..., str], tmp_path: Path
+) -> None:
+    python("-m", "mechanism_fmu", "examples", "--copy")
+    code = "try:\n    main(sys.argv[1:])\nexcept SystemExit as end:\n    print('exit', end.code)\n"
+    program = WITHOUT_EXTRAS + COMMAND.replace("main(sys.argv[1:])\n", code)
+    said = python("-c", program, *words).splitlines()
+    assert f'Install it: python -m pip install "mechanism_fmu[{extra}]"' in said[0]
+    assert said[1:] == ["exit 2"]
+
+
+@pytest.mark.slow
+def test_what_is_installed_without_extras_is_little(wheel: Path) -> None:
+    """What weighs much and few need is in extras only (docs/install.md has the sizes)."""
+    with zipfile.ZipFile(wheel) as archive:
+        name = next(name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
+        lines = archive.read(name).decode().partition("\n\n")[0].splitlines()
+    stated = [line.removeprefix("Requires-Dist: ") for line in lines if line.startswith("Requires-Dist: ")]
+    core = {re.split(r"[^\w-]", text)[0] for text in stated if "extra ==" not in text}
+    assert core == CORE
 
 
 @pytest.mark.slow

@@ -73,8 +73,7 @@ def demo(
     """Build the ratchet of the paper, run its base case, and write results and a report.
 
     The closing lines compare the first impact with reference values. With --full, the pawl is free on all teeth and the
-    wheel indexes one tooth a stroke; the closing lines say whether it did. The first run compiles the engine and takes
-    some seconds longer.
+    wheel indexes one tooth a stroke; the closing lines say whether it did.
     """
     from .commands.one_run import run_cycle, run_demo
     from .terminal import user_errors

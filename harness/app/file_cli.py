@@ -78,8 +78,7 @@ def page(
 
         mechanism-fmu page my_mechanism.py -o for_the_team.html
 
-    Nothing is compiled, but for the first page from a clone of the repository: it compiles the engine, in a minute or
-    two, with the package ziglang (`python -m pip install ziglang==0.17.0`). See docs/how-to/page.md.
+    Nothing is compiled for it. See docs/how-to/page.md.
 
     Exit code: 0 all well, 1 the model cannot be built, 2 wrong use.
     """

@@ -95,6 +95,8 @@ def run_machine(
 ) -> None:
     """Run a machine and write results.parquet, impacts.csv, summary.json and report.html.
 
+    Without pyarrow (extra `designs`), results.csv takes the place of results.parquet, unless the file asks for one.
+
     Try:
 
         mechanism-fmu machine run indexing_table

@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from mechanism_fmu.fmu.native.objects import compiled_engine, engine_folder
+from mechanism_fmu.fmu.native.objects import compiled_engine, engine_folder, is_bundled
 from tests.faults.limits import NOBODY, become_nobody
 from tests.faults.running import ROOT, Place
 from tests.faults.trials import Trial
@@ -31,7 +31,8 @@ def engine_cache(folder: Path) -> Path:
     """A new cache with the compiled engine, which takes a minute to compile where it is not in the user's own."""
     compiled_engine()
     (folder / "mechanism_fmu").mkdir(parents=True, mode=0o700)
-    shutil.copytree(engine_folder(), folder / "mechanism_fmu" / engine_folder().name)
+    if not is_bundled():
+        shutil.copytree(engine_folder(), folder / "mechanism_fmu" / engine_folder().name)
     return folder
 
 

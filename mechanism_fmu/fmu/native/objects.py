@@ -76,7 +76,7 @@ def _digest() -> str:
     """Fingerprint of the sources, and of what compiles them."""
     need_compiler()
     compilers = " ".join(f"{name} {importlib.metadata.version(name)}" for name in _COMPILERS)
-    return content_hash({"sources": fingerprint(_LIBRARY).encode(), "compilers": compilers.encode()})[:16]
+    return content_hash({"sources": fingerprint(_LIBRARY, linked=False).encode(), "compilers": compilers.encode()})[:16]
 
 
 #: Takes what comes next, and which part of the whole is done (0..1).
@@ -286,7 +286,7 @@ def need_web_library() -> None:
         MechanismError: there is no linker.
     """
     if not is_bundled():
-        need_linker("A page from a clone")
+        need_linker("A page without the compiled engine")
 
 
 def web_library(report: Report = silently) -> bytes:

@@ -14,26 +14,30 @@ FILES = (
     "fmu/parts/model_description.py",
     *(f"fmu/native/{name}.py" for name in ("emit", "engine_header", "link", "objects", "sources")),
 )
+#: The C files that are linked to it.
 SURFACE = "fmu/native/c"
 
 #: Where the compiled engine lies in a wheel and, after an editable install, in a clone.
 COMPILED = "fmu/native/compiled"
 
 
-def fingerprint(library: Path) -> str:
+def fingerprint(library: Path, *, linked: bool = True) -> str:
     """SHA-256 of the engine's sources, as 64 hexadecimal digits.
 
     Args:
         library: the folder `mechanism_fmu`.
+        linked: with the C files.
 
     Raises:
         OSError: it is not whole.
     """
+    paths = [path for folder in FOLDERS for path in (library / folder).rglob("*.py")]
+    paths += (library / name for name in FILES)
+    if linked:
+        paths += (library / SURFACE).glob("*.[ch]")
     digest = hashlib.sha256()
-    paths = [path for folder in FOLDERS for path in (library / folder).rglob("*.py")] + [*(library / SURFACE).iterdir()]
-    found = [path.relative_to(library).as_posix() for path in paths]
-    for name in sorted({*found, *FILES}):
-        contents = (library / name).read_bytes()
+    for name, path in sorted((path.relative_to(library).as_posix(), path) for path in paths):
+        contents = path.read_bytes()
         digest.update(f"{name}\0{len(contents)}\0".encode())
         digest.update(contents)
     return digest.hexdigest()

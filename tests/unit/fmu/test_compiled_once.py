@@ -77,6 +77,7 @@ def test_two_that_need_the_engine_compile_it_once(tmp_path: Path, monkeypatch: p
         keep(folder / "engine.bc", b"object")
 
     monkeypatch.setenv("MECHANISM_FMU_CACHE", str(tmp_path))
+    monkeypatch.setattr(objects, "is_bundled", lambda: False)
     monkeypatch.setattr(objects, "_emit", emit)
     told: list[str] = []
 

@@ -32,6 +32,7 @@ DAMAGES: dict[str, Callable[[Path], object]] = {
 @pytest.fixture
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("MECHANISM_FMU_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(objects, "is_bundled", lambda: False)
     return start.private_cache()
 
 
