@@ -28,7 +28,7 @@ ENGINE = DIGESTED | {f"{path}.sha256" for path in DIGESTED} | {"sources"}
 #: As if nothing were installed of what only extras bring.
 WITHOUT_EXTRAS = """
 import importlib.abc, importlib.util, sys
-EXTRAS = ("numba", "llvmlite", "ziglang", "pyarrow", "PIL", "optuna", "distributed", "dask")
+EXTRAS = ("numba", "llvmlite", "ziglang", "pyarrow", "PIL", "plotly", "optuna", "distributed", "dask")
 class Refuse(importlib.abc.MetaPathFinder):
     def find_spec(self, name, path=None, target=None):
         if name.partition(".")[0] in EXTRAS:
@@ -38,7 +38,7 @@ real = importlib.util.find_spec
 importlib.util.find_spec = lambda name, *rest: None if name in EXTRAS else real(name, *rest)
 """
 #: What everybody gets.
-CORE = {"numpy", "scipy", "fmpy", "pythonfmu", "rainflow", "typer", "rich", "plotly", "markdown-it-py", "pandas"}
+CORE = {"numpy", "scipy", "fmpy", "pythonfmu", "rainflow", "typer", "rich", "markdown-it-py", "pandas"}
 COMMAND = "from mechanism_fmu.harness.app.cli import main\nmain(sys.argv[1:])\n"
 
 #: Prints every module below a folder that is loaded under two names, or under a name that its path does not have.

@@ -176,8 +176,15 @@ class Result:
 
         Raises:
             KeyError: there is no such column.
+            ModuleNotFoundError: plotly, of the extra `plot`, is not installed.
         """
-        from .plot import Curve, figure
+        try:
+            from .plot import Curve, figure
+        except ModuleNotFoundError as error:
+            raise ModuleNotFoundError(
+                'plot draws with plotly, which is not installed: python -m pip install "mechanism_fmu[plot]"',
+                name=error.name,
+            ) from None
 
         chosen = names or [name for name in self.names[1:] if self._type(name) == "float64" and np.ptp(self[name]) > 0]
         curves = [Curve(name, self[name], self.units[name], self.descriptions[name]) for name in chosen]
