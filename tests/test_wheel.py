@@ -226,7 +226,10 @@ def test_nothing_is_compiled_where_it_is_installed(
     command("ked", "four_bar_path_generator", "-o", "ked")
     assert {"cycle.csv", "report.html"} <= tree(tmp_path / "ked")
     assert "cycle.parquet" not in tree(tmp_path / "ked")
-    command("machine", "run", "geared_cam", "-o", "machine")
+    command("examples", "--copy")
+    machine = (tmp_path / "examples" / "geared_cam.toml").read_text()
+    (tmp_path / "geared_cam.toml").write_text(re.sub("(model = .*)", r'\1\nflavour = "pythonfmu"', machine))
+    command("machine", "run", "geared_cam.toml", "-o", "machine")
     assert {"results.csv", "report.html"} <= tree(tmp_path / "machine")
     command("doctor")
     run = """
