@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -118,6 +119,7 @@ def built(
     Raises:
         typer.Exit: it cannot be built; the reason has been said.
     """
+    from mechanism_fmu.fmu.disk.user_cache import record_source
     from mechanism_fmu.fmu.native.package import build_native_fmu
     from mechanism_fmu.fmu.own.freedoms import report_freedoms
     from mechanism_fmu.fmu.package import build_fmu
@@ -134,6 +136,8 @@ def built(
             path = build_native_fmu(module, output, fmi, report, clocks=clocks, baked=own)
         else:
             path = build_fmu(module, output, report, baked=own)
+        if not own.starts and not own.inputs:
+            record_source(path, model if file is None else _with_digest(file))
         if inform is not None and file is not None:
             report_freedoms(module.MODEL, file, inform, warn)
     return path
@@ -153,6 +157,42 @@ def web(model: str) -> WebModule:
     _require(model)
     with _loaded(model, "the page", True) as (module, _, report, _):
         return web_module(module, report)
+
+
+def web_of(path: Path) -> WebModule:
+    """The model of an FMU for a page, if the FMU was built here from a model that is as it was; nothing is compiled.
+
+    Args:
+        path: of the FMU.
+
+    Raises:
+        LookupError: it cannot be had; the message says why.
+    """
+    from mechanism_fmu.fmu.disk.user_cache import source_of
+    from mechanism_fmu.fmu.native.objects import web_library_is_made
+    from mechanism_fmu.model import MechanismError
+
+    model = source_of(path).partition("\n")[0]
+    if not model:
+        raise LookupError(
+            "the model of an FMU is known where `mechanism-fmu build` has made it, and this file is not from here"
+        )
+    try:
+        if "\n" in source_of(path) and source_of(path) != _with_digest(Path(model)):
+            raise LookupError(f"{model} has changed since the FMU was built; build it again")
+        if not web_library_is_made():
+            raise LookupError(
+                f"the engine for browsers is not compiled here yet; `mechanism-fmu page {model}` does it, once"
+            )
+        return web(model)
+    except (MechanismError, OSError) as error:
+        raise LookupError(str(error)) from error
+    except typer.Exit as error:
+        raise LookupError(f"{model} cannot be traced for a page; `mechanism-fmu page {model}` says why") from error
+
+
+def _with_digest(file: Path) -> str:
+    return f"{file.resolve()}\n{hashlib.sha256(file.read_bytes()).hexdigest()}"
 
 
 def _require(model: str) -> None:

@@ -57,13 +57,10 @@ def page_data(web: WebModule) -> dict[str, Any]:
     wholes = [v for v in outputs if v.type == "Integer" and v.source not in _OF_A_STEP]
     of_impact = [v for v in (*reals, *wholes) if v.source.startswith("impact.") and v.source not in _COUNTED]
     constants = [v for v in variables if v.causality == "calculatedParameter" and v.name in needed]
-    cases = [_with_steps(case) for case in more.cases]
     return {
         "name": model.name,
         "token": web.token,
-        "stop": cases[0]["stop"],
-        "decimals": decimals(cases[0]["stop"] / 1000),
-        "cases": cases,
+        **beginning_with(more.cases[0], [_with_steps(case) for case in more.cases[1:]]),
         "given": [_given(v, more) for v in variables if v.causality in ("input", "parameter")],
         "reals": [_known(v) for v in reals],
         "flags": [_known(v) for v in flags],
@@ -83,6 +80,12 @@ def page_data(web: WebModule) -> dict[str, Any]:
         "struck": _struck(of_impact, more.contacts),
         "stress": stress_data(more.struck, of_impact),
     }
+
+
+def beginning_with(first: Mapping[str, Any], others: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """What the page holds of its cases: `cases`, and of the first one `stop` and `decimals`."""
+    stop = first["stop"]
+    return {"stop": stop, "decimals": decimals(stop / 1000), "cases": [_with_steps(first), *others]}
 
 
 #: Of a start of zero, by unit: half a turn each way, and what is slow for people; else 1.

@@ -13,6 +13,7 @@ from .. import report
 from ..report.animation import controls, legend, playing_speeds
 from ..report.motion import Contact
 from ..report.style import CSS
+from .page_data import beginning_with
 from .payload import ENGINE_SCRIPTS, payload, script
 
 #: What the page may do: run what stands in it, and nothing from elsewhere.
@@ -40,17 +41,20 @@ _SCRIPTS = (
 _OF_REPORTS = ("player.js", "animation.js")
 
 
-def page(web: WebModule) -> str:
+def page(web: WebModule, first: Mapping[str, Any] | None = None) -> str:
     """The HTML file of a model.
 
     Args:
         web: the model for a page.
+        first: the case that it begins with, as those of `web_data.WebData`; None for the model's first one.
 
     Raises:
         MechanismError: its drawing names what it does not have.
     """
     held = payload(web)
     data = held.model
+    if first is not None:
+        data |= beginning_with(first, data["cases"])
     title, about = escape(web.model.name), escape(web.model.description)
     style = CSS + Path(__file__).with_name("page.css").read_text(encoding="utf-8")
     return "\n".join(

@@ -8,7 +8,12 @@
     if (fold) fold.open = true;
   }
 
+  // A link that is clicked again, when its section was folded meanwhile, changes no address.
+  document.querySelectorAll("nav a").forEach((link) => link.addEventListener("click", () => setTimeout(unfoldLinked)));
   addEventListener("hashchange", unfoldLinked);
-  addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((fold) => { fold.open = true; }));
+  addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((fold) => {
+    // what computes is not printed
+    if (!fold.querySelector(".live-page")) fold.open = true;
+  }));
   unfoldLinked();
 })();

@@ -31,6 +31,11 @@ def packed_figures(figures: Sequence[dict[str, Any]]) -> str:
     return _element("figures", text.encode()) + _element("arrays", numbers)
 
 
+def packed_text(name: str, text: str) -> str:
+    """An element with a text, which `PACKED.text(name)` of `packed.js` opens."""
+    return _element(name, text.encode())
+
+
 def _element(name: str, content: bytes) -> str:
     text = base64.b64encode(gzip.compress(content, mtime=0)).decode("ascii")
     return f'<script type="text/plain" id="packed-{name}">{text}</script>'

@@ -30,8 +30,8 @@ HOW_TO_ZOOM = "Drag over a chart to zoom, double-click to return; a click on a n
 _UNPACKS = "Chrome or Edge 80, Firefox 113, Safari 16.4, or a later one"
 _FIGURE = re.compile(r'<div class="chart"><script type="application/json">(.*?)</script></div>')
 #: What draws charts, in the order in which they need each other.
-_DRAWING = ("player.js", "axes.js", "curves.js", "parallel.js", "packed.js", "charts.js")
-_HEADING = re.compile(r'<section id="([^"]*)"><details open><summary><h2>(.*?)</h2>')
+_DRAWING = ("player.js", "axes.js", "curves.js", "parallel.js", "charts.js")
+_HEADING = re.compile(r'<section id="([^"]*)"><details(?: open)?><summary><h2>(.*?)</h2>')
 _NOT_IN_ANCHOR = re.compile(r"[^0-9a-z]+")
 
 
@@ -51,9 +51,14 @@ def page(title: str, subtitle: str, body: Iterable[str]) -> str:
             f"<body><main><header><h1>{escape(title)}</h1><p>{escape(subtitle)}</p></header>",
             f"{unpacking}{_contents(content)}",
             content,
-            f"</main><script>{_script('folds.js')}</script>{drawing}</body></html>\n",
+            f"</main><script>{_script('folds.js')}</script>{_unpacks(content, drawing)}{drawing}</body></html>\n",
         ]
     )
+
+
+def _unpacks(*parts: str) -> str:
+    """What opens what is compressed, if anything is."""
+    return f"<script>{_script('packed.js')}</script>" if any('id="packed-' in part for part in parts) else ""
 
 
 def _unpacked(figures: Sequence[dict[str, Any]]) -> tuple[str, str]:
@@ -80,14 +85,15 @@ def _contents(content: str) -> str:
     return f"<nav><details open><summary>Contents</summary><ul>{links}</ul></details></nav>"
 
 
-def section(heading: str, *parts: str, note: str = "", banner: bool = False) -> str:
-    """A framed part of the page that folds, but for a banner."""
+def section(heading: str, *parts: str, note: str = "", banner: bool = False, folded: bool = False) -> str:
+    """A framed part of the page that folds, and may be `folded` at first; a banner does not fold."""
     explanation = f"<p>{escape(note)}</p>" if note else ""
     title, inside = f"<h2>{escape(heading)}</h2>", f"{explanation}{''.join(parts)}"
     if banner:
         return f'<section class="banner">{title}{inside}</section>'
     anchor = _NOT_IN_ANCHOR.sub("-", f"section {heading}".lower()).strip("-")
-    return f'<section id="{anchor}"><details open><summary>{title}</summary>{inside}</details></section>'
+    opened = "" if folded else " open"
+    return f'<section id="{anchor}"><details{opened}><summary>{title}</summary>{inside}</details></section>'
 
 
 def folded_if_long(drawn: str, count: int, what: str) -> str:

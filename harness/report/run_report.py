@@ -24,22 +24,29 @@ from .plot import interactive
 _HEIGHT = 220
 
 
-def write_report(run: Run, path: Path, more_checks: Sequence[Check] = ()) -> Path:
-    """Write the report of a run as one file that works offline.
+def write_report(run: Run, path: Path, more_checks: Sequence[Check] = (), live: str = "") -> Path:
+    """Write the report of a run as one file that works offline; arguments as of `run_report`.
 
     Raises:
         UsageError: the disk refuses.
     """
-    return write_text(path, lambda file: file.write(run_report(run, more_checks)))
+    return write_text(path, lambda file: file.write(run_report(run, more_checks, live)))
 
 
-def run_report(run: Run, more_checks: Sequence[Check] = ()) -> str:
-    """The report as HTML; `more_checks` join those of the run."""
+def run_report(run: Run, more_checks: Sequence[Check] = (), live: str = "") -> str:
+    """The report as HTML.
+
+    Args:
+        run: it is of.
+        more_checks: join those of the run.
+        live: the section in which the engine runs, as of `page.live_section`; "" for none.
+    """
     description, experiment = run.description, run.experiment
     subtitle = f"{description.text}  ·  {run.fmu.name}  ·  {experiment.stop_time:g} s in steps of {experiment.step:g} s"
     body = [_banner(run), cards(_key_figures(run)), section("Verdicts", checks_list([*run.checks, *more_checks]))]
     body += [
         animation(run),
+        live,
         _motion(run),
         _stress(run),
         _severity(run),

@@ -101,6 +101,10 @@ ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
 .parallel .stack {{ position: relative; }}
 .parallel canvas {{ display: block; }}
 .parallel .stack svg {{ position: absolute; left: 0; top: 0; width: auto; }}
+.live-page iframe {{ display: block; width: 100%; height: min(88vh, 940px); border: 1px solid var(--line);
+  border-radius: 8px; background: var(--ground); margin-bottom: 8px; }}
+.live-page button {{ font: inherit; padding: 4px 12px; border: 1px solid var(--soft); border-radius: 6px;
+  background: var(--card); color: inherit; cursor: pointer; }}
 .scroll > .statechart {{ background: #fff; border-radius: 8px; color-scheme: light; }}
 :focus-visible {{ outline: 3px solid var(--c1); outline-offset: 1px; }}
 table {{ border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }}

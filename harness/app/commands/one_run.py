@@ -279,6 +279,19 @@ def _performed(fmu: Instances, experiment: Experiment, then: Callable[[Run], int
         return then(run)
 
 
+def _live(run: Run) -> str:
+    """The section of the report in which the engine runs, or that says why it does not."""
+    import build_fmu
+    from mechanism_fmu.batch import MechanismError
+
+    from ...page.live_section import live_section, no_live_section
+
+    try:
+        return live_section(run, build_fmu.web_of(run.fmu))
+    except (LookupError, MechanismError) as error:
+        return no_live_section(str(error).rstrip("."))
+
+
 def _written(run: Run, folder: Path, more_checks: Sequence[Check] = (), units_row: bool = False) -> int:
     """Write the files of a run, unless it never began, and show in the terminal how it ended."""
     from ...report.run_report import write_report
@@ -290,5 +303,5 @@ def _written(run: Run, folder: Path, more_checks: Sequence[Check] = (), units_ro
     if run.inputs is not None and run.inputs.note:
         show_note(run.inputs.note)
     give(summary(run))
-    files = [*write_run(run, folder, units_row), write_report(run, folder / "report.html", more_checks)]
+    files = [*write_run(run, folder, units_row), write_report(run, folder / "report.html", more_checks, _live(run))]
     return show_ending(run, files, more_checks)

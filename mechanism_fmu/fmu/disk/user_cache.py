@@ -132,6 +132,25 @@ def was_built_here(path: Path) -> bool:
         return False
 
 
+def record_source(path: Path, source: str) -> None:
+    """Remember what an FMU file that `record_build` knows was built from.
+
+    Args:
+        path: of the FMU.
+        source: name of a ready-made model, or file of the user's own and, in a second line, its digest.
+    """
+    with suppress(OSError):
+        (private_cache() / _FOLDER / _digest(path)).write_text(source, encoding="utf-8")
+
+
+def source_of(path: Path) -> str:
+    """What `record_source` was given; "" where nothing is known, as of a file of somebody else."""
+    try:
+        return (private_cache() / _FOLDER / _digest(path)).read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return ""
+
+
 def _digest(path: Path) -> str:
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

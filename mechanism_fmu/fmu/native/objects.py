@@ -302,14 +302,25 @@ def web_library(report: Report = silently) -> bytes:
     return _linked(compiled_engine(report), WEB, report).read_bytes()
 
 
-def _linked(engine: Engine, target: Target, report: Report = silently) -> Path:
-    """The library of a platform, linked now if there is none, or none that is as it was made."""
+def web_library_is_made() -> bool:
+    """Whether `web_library` has it already, so that nothing is compiled for it now."""
+    engine = _engine()
+    return engine.complete and is_whole(_path_of(engine, WEB, WEB_SURFACE, HEADERS))
+
+
+def _path_of(engine: Engine, target: Target, sources: tuple[str, ...], headers: tuple[str, ...]) -> Path:
+    """Where the library of a platform is, or will be."""
     if engine.headers == _BUNDLED:
         return _bundled(target)
-    sources, headers = (WEB_SURFACE, HEADERS) if target is WEB else (_SOURCES, ())
     made_from = content_hash(linked_with(*sources, *headers))[:8]
-    path = engine.headers / made_from / f"{target.name}{target.suffix}"
-    if not is_whole(path):
+    return engine.headers / made_from / f"{target.name}{target.suffix}"
+
+
+def _linked(engine: Engine, target: Target, report: Report = silently) -> Path:
+    """The library of a platform, linked now if there is none, or none that is as it was made."""
+    sources, headers = (WEB_SURFACE, HEADERS) if target is WEB else (_SOURCES, ())
+    path = _path_of(engine, target, sources, headers)
+    if engine.headers != _BUNDLED and not is_whole(path):
         path.parent.mkdir(exist_ok=True)
         with temporary_folder(path.parent) as temporary:
             made, advice = temporary / path.name, temporary / "advice.c"
