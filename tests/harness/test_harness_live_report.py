@@ -138,7 +138,7 @@ def refusal(path: Path) -> str:
 
 def test_why_a_model_cannot_be_had(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     fmu, own = tmp_path / "Own.fmu", tmp_path / "own.py"
-    fmu.write_bytes(b"an FMU")
+    fmu.write_bytes(f"an FMU in {tmp_path}".encode())
     own.write_text("MODEL = None\n")
     assert "this file is not from here" in refusal(fmu)
     record_build(fmu)
