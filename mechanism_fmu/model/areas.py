@@ -41,6 +41,11 @@ class Area(NamedTuple):
         (x, y), (x_hole, y_hole) = self.first, hole.first
         return Area(self.area - hole.area, (x - x_hole, y - y_hole), self.polar - hole.polar)
 
+    def with_more(self, part: Area) -> Area:
+        """Both together."""
+        (x, y), (x_part, y_part) = self.first, part.first
+        return Area(self.area + part.area, (x + x_part, y + y_part), self.polar + part.polar)
+
 
 def polygon(corners: Sequence[Point]) -> Area:
     """The area inside a polygon whose edges do not cross, with its corners [m] in either sense.

@@ -1,0 +1,119 @@
+"""Outlines as SVG paths: from drawing programs, and to them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+
+from ..errors import MechanismError
+from ..functions import is_plain
+from .outline import Outline
+
+#: What stands in a path: a letter, or a number.
+_TOKEN = re.compile(r"([A-Za-z])|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
+
+#: How many numbers belong to a command.
+_NUMBERS = {"M": 2, "L": 2, "H": 1, "V": 1, "A": 7, "Z": 0}
+
+
+def svg_path(outline: Outline, scale: float = 1e3) -> str:
+    """The `d` of an SVG path: lines and circular arcs, y downwards as on a screen.
+
+    Args:
+        outline: of plain numbers.
+        scale: units of the drawing per metre; 1000 for millimetres.
+
+    Raises:
+        MechanismError: its numbers are symbolic.
+    """
+    if not all(is_plain(number) for vertex in outline.vertices for number in vertex):
+        raise MechanismError("An outline whose numbers follow from parameters has no path; give values first.")
+
+    def said(point: tuple[float, float]) -> str:
+        return f"{point[0] * scale:.17g},{-point[1] * scale:.17g}"
+
+    parts = [f"M {said(outline.points[0])}"]
+    for element in outline.elements:
+        if element.is_straight:
+            parts.append(f"L {said(element.end)}")
+            continue
+        r = f"{abs(element.radius) * scale:.17g}"
+        parts.append(f"A {r} {r} 0 {int(abs(element.bulge) > 1)} {int(element.bulge < 0)} {said(element.end)}")
+    return " ".join(parts) + (" Z" if outline.closed else "")
+
+
+def from_svg_path(path: str, scale: float = 1e3, *, hole: bool = False) -> Outline:
+    """An outline from the `d` of an SVG path of one chain: M, L, H, V, A with equal radii, Z; also in small letters.
+
+    Args:
+        path: y downwards, as on a screen.
+        scale: units of the drawing per metre; 1000 for millimetres.
+        hole: as of `Outline`.
+
+    Raises:
+        MechanismError: another command (curves are to be approximated by arcs first), an ellipse, or a number missing.
+    """
+    vertices: list[tuple[float, float, float]] = []
+    x = y = 0.0
+    closed = False
+    for command, numbers in _commands(path):
+        bulge = 0.0
+        if command in "Zz":
+            closed = True
+            break
+        if command in "Mm" and vertices:
+            raise MechanismError("The path has a second M: it is more than one chain; give one outline for each.")
+        base = (x, y) if command.islower() else (0.0, 0.0)
+        if command in "Hh":
+            x = base[0] + numbers[0]
+        elif command in "Vv":
+            y = base[1] + numbers[0]
+        else:
+            end = base[0] + numbers[-2], base[1] + numbers[-1]
+            if command in "Aa":
+                bulge = _bulge(numbers, math.dist((x, y), end))
+            x, y = end
+        if bulge and vertices:
+            vertices[-1] = (*vertices[-1][:2], bulge)
+        vertices.append((x / scale, -y / scale, 0.0))
+    if closed and len(vertices) > 1 and math.dist(vertices[0][:2], vertices[-1][:2]) <= 1e-9:
+        vertices.pop()
+    return Outline(tuple(vertices), closed, hole)
+
+
+def _commands(path: str) -> Iterator[tuple[str, list[float]]]:
+    """Each command of a path with its numbers; what follows M without a letter is L."""
+    tokens = _TOKEN.findall(path)
+    rest = _TOKEN.sub("", path).strip(" ,\t\r\n")
+    if rest:
+        raise MechanismError(f"The path has {rest[:20]!r}, which is neither a letter nor a number.")
+    k, command = 0, ""
+    while k < len(tokens):
+        if tokens[k][0]:
+            command = tokens[k][0]
+            k += 1
+        count = _NUMBERS.get(command.upper())
+        if count is None:
+            what = repr(command) if command else "a number before its first letter"
+            raise MechanismError(f"The path has {what}; it may have M, L, H, V, A and Z: make arcs of its curves first.")
+        numbers = [float(number) for _, number in tokens[k : k + count] if number]
+        if len(numbers) < count:
+            raise MechanismError(f"The path's command {command} needs {count} numbers, but has {len(numbers)}.")
+        yield command, numbers
+        k += count
+        command = {"M": "L", "m": "l"}.get(command, command)
+        if count == 0 and k < len(tokens) and not tokens[k][0]:
+            raise MechanismError("The path goes on with numbers behind Z; begin another one.")
+
+
+def _bulge(numbers: list[float], chord: float) -> float:
+    """Of an SVG arc: radii, rotation, large, sweep; a radius that is too small is the least that reaches."""
+    rx, ry, _, large, sweep = numbers[:5]
+    if not math.isclose(rx, ry, rel_tol=1e-9):
+        raise MechanismError(f"The path has an arc of an ellipse, with radii {rx:g} and {ry:g}; give a circle's.")
+    radius = max(abs(rx), chord / 2)
+    half = math.asin(min(chord / (2 * radius), 1.0))  # of the sweep, for the small arc
+    tangent = math.tan(half / 2)
+    bulge = 1.0 / tangent if large else tangent
+    return -bulge if sweep else bulge
