@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from itertools import cycle
 from pathlib import Path
 
-from mechanism_fmu.model import Disc, Hinge, Link, Model, Outline, Rod, Spring, Striker, Trace, Wheel
+from mechanism_fmu.model import Disc, Hinge, Link, Model, Polyline, Rod, Spring, Striker, Trace, Wheel
 from mechanism_fmu.model.drawing import Place, Quantity, Shape
 from mechanism_fmu.simulation import Simulation
 
@@ -47,7 +47,7 @@ class Moment:
         self.values = values
         self.known: dict[str, complex] = {}
         for shape in shapes:
-            if isinstance(shape, Link | Outline):
+            if isinstance(shape, Link | Polyline):
                 for k, point in enumerate(self.points(shape)):
                     self.known[f"{shape.name}.{k}"] = point
 
@@ -62,7 +62,7 @@ class Moment:
         """A point x + i y [m]."""
         return self.known[place] if isinstance(place, str) else complex(*map(self.number, place))
 
-    def points(self, shape: Link | Outline) -> list[complex]:
+    def points(self, shape: Link | Polyline) -> list[complex]:
         """The points of a body, x + i y [m]."""
         turn = cmath.exp(1j * self.number(shape.angle))
         return [self.place(shape.at) + turn * complex(*map(self.number, point)) for point in shape.points]
@@ -155,7 +155,7 @@ def _drawn(shape: Shape, now: Moment, view: View, colours: cycle[str]) -> str:
             if len(corners) == 1:
                 return view.circle(_pair(corners[0]), 5, f'fill="{colour}"')
             return view.path([*map(_pair, corners)], style, closed=len(corners) > 2)
-        case Outline():
+        case Polyline():
             closed = len(shape.points) > 2
             style = f'fill="{"#e2e8f0" if closed else "none"}" stroke="#718096" stroke-width="1.5"'
             return view.path([*map(_pair, now.points(shape))], style, closed)

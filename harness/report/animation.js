@@ -70,7 +70,7 @@ var ANIMATION = (function () {
         element("line", { x2: 7, y2: 0, stroke: INK, "stroke-width": 1.5 }, group); // one sees it turn
       return (place, value) => group.setAttribute("transform", place + turn(value(shape.angle)));
     },
-    outline(shape, layer, scale) {
+    polyline(shape, layer, scale) {
       const closed = shape.points.length > 2;
       const line = element(closed ? "polygon" : "polyline", { points: pixels(shape.points, scale),
         fill: closed ? shape.colour : "none", "fill-opacity": 0.6, stroke: INK, "stroke-width": closed ? 1.5 : 2,

@@ -26,7 +26,7 @@ _QUANTITIES = {
     "hinge": (),
     "striker": (),
     "link": ("angle",),
-    "outline": ("angle",),
+    "polyline": ("angle",),
     "spring": (),
     "rod": (),
     "trace": (),
@@ -34,7 +34,7 @@ _QUANTITIES = {
 
 _UNNAMED = ("hinge", "striker")
 #: Kinds that are rigid bodies with points, and kinds that reach from one place to another.
-WITH_POINTS = ("link", "outline")
+WITH_POINTS = ("link", "polyline")
 BETWEEN = ("spring", "rod")
 
 
@@ -44,7 +44,7 @@ class Shape:
 
     Attributes:
         kind: "bar", "wheel", "disc", "hinge" (fixed to the ground at a point, else moving), "striker" (the
-            point where an impact shows), "link" (a body by its points), "outline" (a line through points of a body),
+            point where an impact shows), "link" (a body by its points), "polyline" (a line through points of a body),
             "spring", "rod" or "trace" (the path of a point).
         at: where it starts, or its centre.
         name: "" of hinges and strikers.

@@ -55,7 +55,7 @@ from .drawing import (
     Disc as Disc,
     Hinge as Hinge,
     Link as Link,
-    Outline as Outline,
+    Polyline as Polyline,
     Rod as Rod,
     Shape as Shape,
     Spring as Spring,
@@ -94,6 +94,7 @@ from .members import (
     lumped_body as lumped_body,
 )
 from .model import Model as Model
+from .outlines import Outline as Outline, from_svg_path as from_svg_path, svg_path as svg_path
 from .patterns import CircularPattern as CircularPattern
 from .port_builders import *  # noqa: F403
 from .ports import Calculated as Calculated, Input as Input, Output as Output, Parameter as Parameter

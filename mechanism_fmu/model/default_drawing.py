@@ -13,7 +13,7 @@ from .body import GROUND
 from .contacts import PointLineContact
 from .curves import Curve
 from .curves.check_curves import value_and_slope
-from .drawing import Disc, Hinge, Link, Outline, Quantity, Rod, Shape, Spring, Striker, Trace, Wheel
+from .drawing import Disc, Hinge, Link, Polyline, Quantity, Rod, Shape, Spring, Striker, Trace, Wheel
 from .findings import length
 from .functions import Number, is_plain, where_positive
 from .mechanism import Mechanism
@@ -236,7 +236,7 @@ def _outlines(drawn: Drawn) -> Iterator[Shape]:
             yield Disc(f"{body.name} (disc)", at, drawn.number(body.radius, f"{body.name}_radius"))
         elif len(corners) > 2:
             at, angle = drawn.pose(body.name)
-            yield Outline(f"{body.name} (plate)", at, angle, tuple(_points(drawn, corners, f"{body.name}_outline")))
+            yield Polyline(f"{body.name} (plate)", at, angle, tuple(_points(drawn, corners, f"{body.name}_outline")))
     for contact in drawn.mechanism.contacts:
         if isinstance(contact, PointLineContact):
             nx, ny = contact.normal
@@ -249,12 +249,12 @@ def _outlines(drawn: Drawn) -> Iterator[Shape]:
                 break
 
 
-def _line(drawn: Drawn, name: str, body: str, point: tuple[Number, Number], along: tuple[Number, Number]) -> Outline:
+def _line(drawn: Drawn, name: str, body: str, point: tuple[Number, Number], along: tuple[Number, Number]) -> Polyline:
     long = length(along)  # a direction is given in any length; of one without, its joint says so
     reach = _REACH * drawn.size / where_positive(long, long, 1.0)
     ends = [(point[0] + k * reach * along[0], point[1] + k * reach * along[1]) for k in (-1.0, 1.0)]
     at, angle = drawn.pose(body)
-    return Outline(name, at, angle, tuple(_points(drawn, ends, name)))
+    return Polyline(name, at, angle, tuple(_points(drawn, ends, name)))
 
 
 def _points(drawn: Drawn, points: Sequence[tuple[Number, Number]], name: str) -> Iterator[tuple[Quantity, Quantity]]:

@@ -120,7 +120,7 @@ class Link(_Points):
 
 
 @dataclass(frozen=True)
-class Outline(_Points):
+class Polyline(_Points):
     """A line through points of a rigid body, closed where there are three or more: a plate, a wall, a guide.
 
     Attributes:
@@ -171,7 +171,7 @@ class Trace:
 
 
 #: Any shape of a drawing.
-Shape = Bar | Wheel | Disc | Hinge | Striker | Link | Outline | Spring | Rod | Trace
+Shape = Bar | Wheel | Disc | Hinge | Striker | Link | Polyline | Spring | Rod | Trace
 
 
 def square_tooth(gap: float, tooth: float, share: float, count: int) -> tuple[tuple[float, float], ...]:
@@ -215,7 +215,7 @@ def check_drawing(drawing: Collection[Shape], variables: Collection[str]) -> Non
         names |= {name} - {""}
         if isinstance(shape, Bar):
             bars.add(name)
-        if isinstance(shape, Link | Outline):
+        if isinstance(shape, Link | Polyline):
             bars |= {f"{name}.{k}" for k in range(len(shape.points))}
 
 

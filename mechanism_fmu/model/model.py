@@ -255,7 +255,7 @@ class Model:
         """
         return messages(self.warnings(values))
 
-    def show(self, height: int = 720) -> Any:
+    def show(self, height: int = 720) -> object:
         """Show the model as a page in which its engine runs, for the last line of a cell of a notebook.
 
         What shows it is the installed front end that has the entry point `show` of the group `mechanism_fmu.show`:
@@ -271,7 +271,8 @@ class Model:
         from importlib.metadata import entry_points  # takes 20 ms, and travels in every FMU
 
         for point in entry_points(group="mechanism_fmu.show", name="show"):
-            return point.load()(self, height)
+            shown: object = point.load()(self, height)
+            return shown
         raise MechanismError("Nothing that shows models is installed here; give: python -m pip install mechanism_fmu.")
 
 

@@ -20,7 +20,7 @@ SHAPES = (
     Shape("wheel", (1.0, 0.0), "wheel", {"angle": "turn", "count": "teeth"}, (("size", 0.0), (0.3, "-y")), True),
     Shape("hinge", (0.0, 0.0)),
     Shape("link", ("x", 0.5), "plate", {"angle": "turn"}, ((0.0, 0.0), ("size", 0.1), (0.2, "y"), (0.1, 0.1))),
-    Shape("outline", (0.0, 0.0), "wall", {"angle": 0.3}, ((0.0, -1.0), (0.0, "size"))),
+    Shape("polyline", (0.0, 0.0), "wall", {"angle": 0.3}, ((0.0, -1.0), (0.0, "size"))),
     Shape("spring", "plate.1", "coil", to="wall.1"),
     Shape("rod", (0.0, "y"), "rod", to=("x", 3.0)),
     Shape("trace", "plate.2", "path"),

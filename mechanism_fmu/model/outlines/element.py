@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from ..areas import Area
 from ..body import Point
 from ..findings import length
-from ..functions import Number, atan2, is_plain
+from ..functions import Number, atan2, cos, is_plain, sin
+
+#: So many straight lines show an arc in a drawing, whatever its sweep, which may follow from parameters.
+_DRAWN = 12
 
 
 class Element(NamedTuple):
@@ -63,13 +65,19 @@ class Element(NamedTuple):
         return (c * x + s * y, c * y - s * x), (c * x - s * y, c * y + s * x)
 
     def point(self, part: float) -> Point:
-        """The point at a part of its way, 0 at its start, 1 at its end [m]; numbers only."""
+        """The point at a part of its way, 0 at its start, 1 at its end [m]."""
         (x, y), (dx, dy) = self.start, self.chord
         if self.is_straight:
             return x + part * dx, y + part * dy
         (cx, cy), angle = self.centre, part * self.sweep
-        c, s = math.cos(angle), math.sin(angle)
+        c, s = cos(angle), sin(angle)
         return cx + c * (x - cx) - s * (y - cy), cy + s * (x - cx) + c * (y - cy)
+
+    def points(self) -> list[Point]:
+        """Its start, and of an arc also points between its ends, near enough for a drawing [m]."""
+        if self.is_straight:
+            return [self.start]
+        return [self.start, *(self.point(k / _DRAWN) for k in range(1, _DRAWN))]
 
     def area(self) -> Area:
         """What it adds to the area that the outline encloses, seen from the origin.

@@ -6,7 +6,6 @@ a circle, positive where the arc lies to the right of the way from its start to 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -14,7 +13,7 @@ from itertools import pairwise
 from ..areas import Area
 from ..body import Point
 from ..errors import MechanismError
-from ..findings import Finding, length, literal, positive, refuse_unless, unless
+from ..findings import Finding, length, literal, positive, refuse_unless
 from ..functions import Number, cos, is_plain, sin, sqrt, where_positive
 from ..quantities import pair, quantity
 from .element import Element
@@ -35,6 +34,9 @@ class Outline:
             Of an open chain the last bulge is not used.
         closed: whether the last vertex is joined to the first.
         hole: whether it is the edge of a hole, which runs clockwise.
+
+    Raises:
+        MechanismError: there are too few vertices, or a hole is open.
 
     Source: definition: bulge, tan of a quarter of the arc's sweep, as in DXF polylines.
     """
@@ -70,7 +72,8 @@ class Outline:
 
         Args:
             points: counter-clockwise, of a hole clockwise [m].
-            corner_radius: of all corners, or one for each point [m]; 0 leaves a corner sharp.
+            corner_radius: of all corners, or one for each point [m]; 0 leaves a corner sharp. Whether one is sharp
+                belongs to the structure: a parameter must be greater than 0.
             hole: as of `Outline`.
 
         Raises:
@@ -117,7 +120,8 @@ class Outline:
         """The same outline elsewhere: turned about the origin of its frame, then displaced.
 
         Args:
-            x, y: displacement [m].
+            x: displacement [m].
+            y: likewise [m].
             angle: counter-clockwise [rad].
         """
         c, s = cos(angle), sin(angle)

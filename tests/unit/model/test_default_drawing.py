@@ -22,10 +22,10 @@ from mechanism_fmu.model import (
     Model,
     Move,
     NonlinearSpring,
-    Outline,
     Output,
     Parameter,
     PointLineContact,
+    Polyline,
     Revolute,
     RevoluteTranslational,
     Rod,
@@ -122,7 +122,7 @@ def test_other_parts_and_names_that_are_taken() -> None:
     )
     model = Model("Parts", "", (), lambda _: mechanism)
     shapes = model.shapes
-    assert {type(shape) for shape in shapes} >= {Outline, Link, Spring, Rod, Striker}
+    assert {type(shape) for shape in shapes} >= {Polyline, Link, Spring, Rod, Striker}
     by_name = {getattr(shape, "name", ""): shape for shape in shapes}
     assert by_name["guide"].points == ((-1.0, 0.5), (1.0, 0.5))
     assert by_name["stop"].points == ((1.0, 0.2), (-1.0, 0.2))  # through its point, across its normal

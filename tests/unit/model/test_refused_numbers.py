@@ -200,10 +200,11 @@ def test_every_kind_of_part_is_there() -> None:
         "Term",
         "Wheel",
     }
-    others |= {"Link", "Outline", "Rod", "Spring", "Trace"}
+    others |= {"Link", "Polyline", "Rod", "Spring", "Trace"}
     # what is to be analysed is checked at the build: tests/unit/fmu/test_analysis_file.py
     # what makes parts: tests/unit/model/test_ends.py and test_solids.py
     others |= {"End", "Material"}
+    others |= {"Outline"}  # tests/unit/model/test_outlines.py
     others |= {"Case", "SineSignal", "TableSignal"}  # tests/unit/model/test_cases.py
     others |= {"Arm", "ImpactStress", "SawtoothWheel", "SeriesCompliance", "Strut"}
     others |= {"RectangularTooth", "TableBeam", "TrapezoidTooth", "WedgeTooth"}

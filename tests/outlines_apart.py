@@ -1,4 +1,4 @@
-"""How far two outlines are from each other: for checks before a motion begins, in plain numbers.
+"""How far two outlines are from each other, independently of the engine: candidates of all pairs of elements.
 
 Points are complex numbers x + i y here. The distance of two elements is that of an end of one from the other, or is
 taken where both have the same normal: at the foot of an arc's centre on a segment, or on the line of two centres.
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple
 
-from .outline import Outline
+from mechanism_fmu.model import Outline
 
 
 class Pose(NamedTuple):
@@ -84,7 +84,7 @@ def placed(outline: Outline, pose: Pose) -> list[_Placed]:
             found.append(_Placed(start, end, 0j, 0.0, 0.0, 0.0))
             continue
         centre = seen(element.centre)
-        middle = cmath.phase((seen(element.point(0.5)) - centre))
+        middle = cmath.phase(seen(element.point(0.5)) - centre)
         found.append(_Placed(start, end, centre, abs(element.radius), middle, abs(element.sweep) / 2))
     return found
 
@@ -168,7 +168,7 @@ def crossings(first: _Placed, second: _Placed) -> Iterator[complex]:
 def is_inside(outline: Outline, pose: Pose, point: complex) -> bool:
     """Whether a point lies within the material of a closed outline; of a hole, outside of the hole.
 
-    By how often the outline turns around it: what a chord turns, and once more where the point is between chord and arc.
+    By how often the outline turns around it: what its chords turn, and once more between a chord and its arc.
     """
     turns = 0.0
     for element in placed(outline, pose):

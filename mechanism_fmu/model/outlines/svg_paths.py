@@ -31,7 +31,7 @@ def svg_path(outline: Outline, scale: float = 1e3) -> str:
         raise MechanismError("An outline whose numbers follow from parameters has no path; give values first.")
 
     def said(point: tuple[float, float]) -> str:
-        return f"{point[0] * scale:.17g},{-point[1] * scale:.17g}"
+        return f"{point[0] * scale:.17g},{0.0 - point[1] * scale:.17g}"
 
     parts = [f"M {said(outline.points[0])}"]
     for element in outline.elements:
@@ -53,15 +53,20 @@ def from_svg_path(path: str, scale: float = 1e3, *, hole: bool = False) -> Outli
 
     Raises:
         MechanismError: another command (curves are to be approximated by arcs first), an ellipse, or a number missing.
+
+    Source: definition: W3C, Scalable Vector Graphics (SVG) 2, Paths; the bulge of an arc with a given radius, chord and
+        flags: tan(sweep/4).
     """
     vertices: list[tuple[float, float, float]] = []
     x = y = 0.0
     closed = False
     for command, numbers in _commands(path):
+        if closed:
+            raise MechanismError("The path goes on behind Z: it is more than one chain; give one outline for each.")
         bulge = 0.0
         if command in "Zz":
             closed = True
-            break
+            continue
         if command in "Mm" and vertices:
             raise MechanismError("The path has a second M: it is more than one chain; give one outline for each.")
         base = (x, y) if command.islower() else (0.0, 0.0)
@@ -96,15 +101,15 @@ def _commands(path: str) -> Iterator[tuple[str, list[float]]]:
         count = _NUMBERS.get(command.upper())
         if count is None:
             what = repr(command) if command else "a number before its first letter"
-            raise MechanismError(f"The path has {what}; it may have M, L, H, V, A and Z: make arcs of its curves first.")
+            raise MechanismError(f"The path has {what}; it may have M, L, H, V, A, Z: make arcs of curves first.")
         numbers = [float(number) for _, number in tokens[k : k + count] if number]
         if len(numbers) < count:
             raise MechanismError(f"The path's command {command} needs {count} numbers, but has {len(numbers)}.")
         yield command, numbers
         k += count
         command = {"M": "L", "m": "l"}.get(command, command)
-        if count == 0 and k < len(tokens) and not tokens[k][0]:
-            raise MechanismError("The path goes on with numbers behind Z; begin another one.")
+        if count == 0:
+            command = "M"  # what numbers behind Z are taken for
 
 
 def _bulge(numbers: list[float], chord: float) -> float:
