@@ -20,6 +20,7 @@ var PARALLEL = (function () {
     const canvas = make("canvas"), svg = element("svg", { role: "group" }), all = make("button");
     caption.append(Object.assign(make("b"), { textContent: title }), told, all);
     Object.assign(all, { type: "button", textContent: "All designs", hidden: true });
+    stack.tabIndex = 0;
     stack.append(canvas, svg);
     figure.append(caption, stack);
     host.append(figure);

@@ -234,7 +234,7 @@ def test_the_reader_exaggerates_the_deflection_in_the_report(result, tmp_path):
         page.wait_until("document.documentElement.classList.contains('drawn')")
         assert page.errors == []
         assert page.requests == [path.resolve().as_uri()]
-        assert page.value("document.querySelectorAll('.plot .main-svg').length") >= 6
+        assert page.value("document.querySelectorAll('.plot > svg').length") >= 6
         once, twice = (
             (page.value(_exaggerate(factor)), page.value(tip), page.value(RIGID_TIP))[1:] for factor in (50, 100)
         )
