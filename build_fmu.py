@@ -144,7 +144,7 @@ def built(
 
 
 def web(model: str) -> WebModule:
-    """The WebAssembly module of a model, for a page; what is to be said goes to stderr.
+    """A model for a page, with the WebAssembly module that it runs in; what is to be said goes to stderr.
 
     Args:
         model: name of a ready-made model, or file of your own mechanism.

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import models
+from mechanism_fmu.fmu.native import objects
 from mechanism_fmu.fmu.native.formulas import formulas
 from mechanism_fmu.fmu.native.link import has_linker, surface
 from mechanism_fmu.fmu.native.model_data import model_data
@@ -116,6 +117,18 @@ def test_it_imports_nothing_and_is_small(web):
 def test_one_module_serves_all_models(web):
     one, another = (web(name)[0] / "module.wasm" for name in ("ratchet", "gear_train"))
     assert one.read_bytes() == another.read_bytes()
+
+
+def test_nothing_is_compiled_for_a_model(web, monkeypatch):
+    def refuse(*_):
+        raise AssertionError("something is compiled")
+
+    folder, _ = web("ratchet")
+    for name in ("link", "_emit"):
+        monkeypatch.setattr(objects, name, refuse)
+    made = web_model(model_of("geneva"))
+    assert made.binary == (folder / "module.wasm").read_bytes()
+    assert b"wheel" in made.image
 
 
 def test_its_operations_are_numbered_as_in_c():
