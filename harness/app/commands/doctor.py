@@ -62,7 +62,7 @@ _PURPOSES = {
 #: What extras bring: what for, and the extra.
 _EXTRAS = {
     "pyarrow": ("sweeps, optimum design, the study; tables as Parquet", "designs"),
-    "pillow": ("figures as pictures", "designs"),
+    "pillow": ("the study, whose figures are pictures, too", "designs"),
     "plotly": ("charts by `plot` of a result of `simulate`", "plot"),
     "distributed": ("sweeps on a cluster", "cluster"),
     "optuna": ("optimum design by the method 'tpe'", "optimise"),

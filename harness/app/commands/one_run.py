@@ -194,6 +194,8 @@ def validate_fmu(path: Path, in_process: bool = False) -> int:
 
 def run_study(folder: Path, path: Path | None, in_process: bool = False) -> int:
     """Run the paper's study and write it, wherever an FMU moves the working folder."""
+    import PIL  # noqa: F401  (its figures are pictures, too: to be missed before the work, and not after it)
+
     folder = folder.absolute()
     with alone_in(folder, waits=False):
         path = _built_ratchet(folder, "run the paper's study with it") if path is None else path
