@@ -23,7 +23,7 @@ from sphinx.util.docutils import SphinxDirective
 #: The one on the first page.
 FIRST = "ratchet"
 
-_MISSING = "Not live here: the site was built without this page, which in a clone needs the package ziglang."
+_MISSING = "Not live here: the site was built without this page, where the engine was not compiled."
 
 
 def write(root: Path, folder: Path, chosen: str) -> None:

@@ -103,8 +103,6 @@ def watch(
 
         mechanism-fmu watch my_mechanism.py
 
-    From a clone of the repository, the first page compiles the engine, as `page` does.
-
     Exit code: 0 ended by Ctrl-C, 2 wrong use.
     """
     from .commands.page_watched import watch_file

@@ -54,14 +54,15 @@ class Shown:
 def show(model: Any, height: int = _HEIGHT) -> Shown:
     """A model as a page in which its engine runs: sliders, motion, curves, impacts.
 
-    The first one in a clone compiles the engine, which takes a minute or two, and says nothing meanwhile.
+    Where the engine's sources have changed since it was installed, the first one compiles it, in a minute or two, and
+    says nothing meanwhile.
 
     Args:
         model: a `Model`, such as the `MODEL` of a notebook or of `models.load("ratchet")`.
         height: of its frame in a notebook [px].
 
     Raises:
-        MechanismError: it is no model, it cannot be built or traced, or, in a clone, ziglang is not installed.
+        MechanismError: it is no model, it cannot be built or traced, or the engine is to be compiled and cannot be.
         ValueError: the height is not positive.
     """
     if not height > 0:
