@@ -126,8 +126,9 @@
 
   // --- what is shown ---------------------------------------------------------------------------------------------
   const go = (time) => player && player.go(time);
-  const charts = MODEL.charts.map(({ title, names }) => CURVES.chart(find("#charts"), title, names.map((name) => byName.get(name)), go));
-  if (MODEL.parts.length) charts.push(STRIPS.chart(find("#charts"), MODEL.parts, go));
+  const together = CURVES.group(), byNames = (names) => names.map((name) => byName.get(name));
+  const charts = MODEL.charts.map(({ title, names }) => RUN_CHARTS.quantity(find("#charts"), title, byNames(names), together, go));
+  if (MODEL.parts.length) charts.push(RUN_CHARTS.contacts(find("#charts"), MODEL.parts, together, go));
   const table = IMPACTS.table(MODEL, find("#impacts"), find("#impact-count"), go);
 
   function say(selector, text) {
@@ -177,7 +178,7 @@
       const middle = (low + high) >> 1;
       if (run.time[middle] <= time) low = middle; else high = middle;
     }
-    charts.forEach((chart) => chart.show(time, low));
+    together.point(time);
   }
 
   // --- live ----------------------------------------------------------------------------------------------------------

@@ -33,12 +33,13 @@ _SCRIPTS = (
         "record.js",
         "files.js",
         "controls.js",
+        "axes.js",
         "curves.js",
-        "strips.js",
+        "run_charts.js",
     ),
     *("impacts.js", "live.js", "main.js"),
 )
-_OF_REPORTS = ("player.js", "animation.js")
+_OF_REPORTS = ("player.js", "animation.js", "axes.js", "curves.js")
 
 
 def page(web: WebModule, first: Mapping[str, Any] | None = None) -> str:

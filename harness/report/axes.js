@@ -65,7 +65,9 @@ var AXES = (function () {
   function valueAt(x, y, at) {
     const last = x.length - 1;
     if (!(at >= x[0] && at <= x[last])) return null;
-    const after = Math.min(before(x, at), last), [x1, y1] = [x[after], y[after]];
+    let after = Math.min(before(x, at), last);
+    while (after < last && x[after + 1] === at) after += 1;
+    const [x1, y1] = [x[after], y[after]];
     if (after === 0 || x1 === at) return y1;
     const [x0, y0] = [x[after - 1], y[after - 1]];
     return isNumber(y0) && isNumber(y1) ? y0 + (y1 - y0) * (at - x0) / (x1 - x0) : null;
@@ -74,38 +76,43 @@ var AXES = (function () {
   // The path through points `from` to `to`, in tenths of a pixel. Of points beside each other in one column of pixels
   // the first, the least, the greatest and the last are drawn: no peak is lost. What is no number is a gap.
   function path(x, y, from, to, across, down) {
-    const parts = [];
-    let open = false, column = NaN, kept = null;
-    const say = ([a, b]) => {
-      parts.push((open ? "L" : "M") + Math.round(10 * a) / 10 + " " + Math.round(10 * b) / 10);
+    let text = "", open = false, column = NaN, kept = false;
+    // of this column: places across and down, and at which point the least and the greatest stand
+    let firstX, firstY, lastX, lastY, leastX, least, leastAt, greatestX, greatest, greatestAt;
+    function say(a, b) {
+      text += (open ? "L" : "M") + Math.round(10 * a) / 10 + " " + Math.round(10 * b) / 10;
       open = true;
-    };
+    }
     function flush() {
       if (!kept) return;
-      const { first, least, greatest, last } = kept;
-      const between = least[2] < greatest[2] ? [least, greatest] : [greatest, least];
-      for (const point of new Set([first, ...between, last])) say(point);
-      kept = null;
+      kept = false;
+      say(firstX, firstY);
+      const low = () => { if (least !== firstY && least !== lastY) say(leastX, least); };
+      const high = () => { if (greatest !== firstY && greatest !== lastY) say(greatestX, greatest); };
+      if (leastAt < greatestAt) { low(); high(); } else { high(); low(); }
+      if (lastX !== firstX || lastY !== firstY) say(lastX, lastY);
     }
     for (let k = from; k < to; k++) {
-      const point = isNumber(x[k]) && isNumber(y[k]) ? [across(x[k]), down(y[k]), k] : null;
-      if (!point || Number.isNaN(point[0] + point[1])) {
+      const a = isNumber(x[k]) && isNumber(y[k]) ? across(x[k]) : NaN, b = down(y[k]);
+      if (!(Number.isFinite(a) && Number.isFinite(b))) {
         flush();
         open = false;
         column = NaN;
-        continue;
-      }
-      if (Math.floor(point[0]) !== column) {
+      } else if (Math.floor(a) !== column) {
         flush();
-        column = Math.floor(point[0]);
-        kept = { first: point, least: point, greatest: point, last: point };
+        kept = true;
+        column = Math.floor(a);
+        firstX = lastX = leastX = greatestX = a;
+        firstY = lastY = least = greatest = b;
+        leastAt = greatestAt = k;
+      } else {
+        if (b < least) [leastX, least, leastAt] = [a, b, k];
+        if (b > greatest) [greatestX, greatest, greatestAt] = [a, b, k];
+        [lastX, lastY] = [a, b];
       }
-      if (point[1] < kept.least[1]) kept.least = point;
-      if (point[1] > kept.greatest[1]) kept.greatest = point;
-      kept.last = point;
     }
     flush();
-    return parts.join("");
+    return text;
   }
 
   // The path of dots, of which two in one place are one.
@@ -116,6 +123,35 @@ var AXES = (function () {
     return [...places].join("");
   }
 
-  return { ticks, decades, exponentOf, power, number, labels, before, isNumber, isOver, valueAt, path, dots };
+  // From the least to the greatest of lists of numbers.
+  function extent(lists, within = (list) => [0, list.length]) {
+    let low = Infinity, high = -Infinity;
+    lists.forEach((list, number) => {
+      const [from, to] = within(list, number);
+      for (let k = from; k < to; k++) {
+        const value = list[k];
+        if (value === null || !Number.isFinite(value)) continue;
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
+    });
+    return low <= high ? [low, high] : null;
+  }
+
+  // With some room; what is constant stands in the middle.
+  function roomy([low, high], part) {
+    const size = high - low;
+    const room = size > 1e-12 * Math.max(Math.abs(low), Math.abs(high)) ? part * size : Math.abs(high) * 0.1 || 1;
+    return [low - room, high + room];
+  }
+
+  // An axis from `low` to `high` on the pixels from `begin` to `end`.
+  function axis([low, high], begin, end, log) {
+    const to = log ? Math.log10 : (value) => value, back = log ? (value) => 10 ** value : (value) => value;
+    const [a, b] = [to(low), to(high)], scale = (end - begin) / (b - a || 1);
+    return { low, high, log, place: (value) => begin + scale * (to(value) - a), value: (place) => back(a + (place - begin) / scale) };
+  }
+
+  return { extent, roomy, axis, ticks, decades, exponentOf, power, number, labels, before, isNumber, isOver, valueAt, path, dots };
 })();
 if (typeof module === "object") module.exports = AXES;

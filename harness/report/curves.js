@@ -27,30 +27,6 @@ var CURVES = (function () {
     return own;
   }
 
-  // From the least to the greatest of lists of numbers.
-  function extent(lists) {
-    let low = Infinity, high = -Infinity;
-    for (const list of lists) for (const value of list) if (AXES.isNumber(value)) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-    return low <= high ? [low, high] : null;
-  }
-
-  // With some room; what is constant stands in the middle.
-  function roomy([low, high], part) {
-    const size = high - low;
-    const room = size > 1e-12 * Math.max(Math.abs(low), Math.abs(high)) ? part * size : Math.abs(high) * 0.1 || 1;
-    return [low - room, high + room];
-  }
-
-  // An axis from `low` to `high` on the pixels from `begin` to `end`.
-  function axis([low, high], begin, end, log) {
-    const to = log ? Math.log10 : (value) => value, back = log ? (value) => 10 ** value : (value) => value;
-    const [a, b] = [to(low), to(high)], scale = (end - begin) / (b - a || 1);
-    return { low, high, log, place: (value) => begin + scale * (to(value) - a), value: (place) => back(a + (place - begin) / scale) };
-  }
-
   // A chart in `host` of {title, x, y: labels with units, curves, marks, lanes, ...} (see plot.py); `hooks.go(x)` is
   // called when the reader clicks at a place, `hooks.buttons` stand beside the title.
   function plot(host, spec, share = group(), hooks = {}) {
@@ -59,10 +35,12 @@ var CURVES = (function () {
     const caption = make("figcaption", {}, make("b", { textContent: spec.title }),
       make("span", { textContent: spec.y && spec.y !== spec.title ? spec.y : "" }), told, reset, ...(hooks.buttons || []));
     const svg = element("svg", { role: "img", tabindex: 0, "aria-description": KEYS });
+    // the inner one is a picture of its own, that cuts off what lies beyond
+    const layerX = element("g", {}, svg), layerY = element("g", {}, svg), inner = element("svg", {}, svg);
     const legend = make("ul", { className: "curves" }), figure = make("figure", { className: "plot" }, caption, svg, legend);
     host.append(figure);
     const unitOfX = /^(.*?) ?(?:\[(.*)\])?$/.exec((spec.x || "").split(";")[0]), hidden = new Set(), values = new Map(), states = [];
-    let width = WIDTH, x = null, y = null, cursor = null, bottom = 0, at = null, drag = null;
+    let width = WIDTH, x = null, y = null, cursor = null, bottom = 0, at = null, drag = null, dragged = false;
 
     const shown = () => spec.curves.filter((one) => !hidden.has(one.name));
     // A cursor serves curves that go from left to right; among other points the nearest one is named.
@@ -71,7 +49,12 @@ var CURVES = (function () {
 
     function take(next) {
       spec = next;
-      for (const one of spec.curves) one.over = AXES.isOver(one.x);
+      // curves of one run share their places
+      const known = new Map();
+      for (const one of spec.curves) {
+        if (!known.has(one.x)) known.set(one.x, AXES.isOver(one.x));
+        one.over = known.get(one.x);
+      }
       entries();
       draw();
     }
@@ -106,22 +89,31 @@ var CURVES = (function () {
     function whole() {
       if (spec.range) return spec.range;
       if (spec.bars) return [-0.5, spec.bars.length - 0.5];
-      const found = extent(shown().map((one) => one.x)) || [0, 1];
+      const found = AXES.extent(shown().map((one) => one.x)) || [0, 1];
       // a curve over time fills the width, dots need room
       if (hasCursor() && !shown().some((one) => one.dots) && found[1] > found[0]) return found;
-      return spec.log_x ? [found[0] / 1.2, found[1] * 1.2] : roomy(found, 0.04);
+      return spec.log_x ? [found[0] / 1.2, found[1] * 1.2] : AXES.roomy(found, 0.04);
+    }
+
+    const drawn = new Map();
+    function anew(layer, parts, work) {
+      const key = parts.join();
+      if (drawn.get(layer) === key) return;
+      drawn.set(layer, key);
+      layer.replaceChildren();
+      work();
     }
 
     // Of the points of a curve, those between two places and one on each side.
     function within(one, [low, high]) {
-      return one.over ? [Math.max(0, AXES.before(one.x, low) - 1), Math.min(one.x.length, AXES.before(one.x, high) + 2)] : [0, one.x.length];
+      return one.over && (one.x[0] < low || one.x[one.x.length - 1] > high) ? [Math.max(0, AXES.before(one.x, low) - 1), Math.min(one.x.length, AXES.before(one.x, high) + 2)] : [0, one.x.length];
     }
 
     function rangeOfY(range) {
-      const found = extent(shown().map((one) => one.y.slice(...within(one, range)))) || [spec.log_y ? 1 : 0, 10];
+      const all = shown(), found = AXES.extent(all.map((one) => one.y), (_, k) => within(all[k], range)) || [spec.log_y ? 1 : 0, 10];
       if (spec.log_y) return [found[0] / 1.3, found[1] * 1.3];
       if (spec.from_zero || spec.bars) return [Math.min(0, found[0] * 1.05), Math.max(found[1] * 1.05, 0) || 1];
-      return roomy(found, 0.05);
+      return AXES.roomy(found, 0.05);
     }
 
     // Both axes with one scale, as a shape needs it.
@@ -136,40 +128,43 @@ var CURVES = (function () {
       // a long name of the axis has a line of its own
       const isLong = (spec.x || "").length * LETTER > 0.45 * (width - LEFT), height = own + (isLong ? LINE : 0);
       bottom = own - BOTTOM;
-      svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-      svg.replaceChildren();
+      const size = `0 0 ${width} ${height}`;
+      if (svg.getAttribute("viewBox") !== size) svg.setAttribute("viewBox", size);
+      inner.replaceChildren();
       let rangeX = rangeOfX(), rangeY = lanes.length ? [0, 1] : rangeOfY(rangeX);
       if (spec.to_scale) [rangeX, rangeY] = toScale(rangeX, rangeY, width - LEFT - RIGHT, bottom - TOP);
-      x = axis(rangeX, LEFT, width - RIGHT, spec.log_x);
-      y = axis(rangeY, bottom, TOP, spec.log_y);
+      x = AXES.axis(rangeX, LEFT, width - RIGHT, spec.log_x);
+      y = AXES.axis(rangeY, bottom, TOP, spec.log_y);
       reset.hidden = !(share.range && zooms());
-      ticksOfX(isLong);
-      if (!lanes.length) ticksOfY();
-      // its own picture, that cuts off what lies beyond
-      const inner = element("svg", { x: LEFT, y: 0, width: width - LEFT - RIGHT, height, viewBox: `${LEFT} 0 ${width - LEFT - RIGHT} ${height}` }, svg);
+      // axes stay where nothing of them has changed
+      anew(layerX, [size, x.low, x.high, spec.x], () => ticksOfX(isLong));
+      anew(layerY, [size, y.low, y.high, lanes.length], () => lanes.length || ticksOfY());
+      const inside = width - LEFT - RIGHT;
+      anew(inner, [size], () => Object.entries({ x: LEFT, y: 0, width: inside, height, viewBox: `${LEFT} 0 ${inside} ${height}` })
+        .forEach(([name, value]) => inner.setAttribute(name, value)));
       for (const mark of spec.marks || []) if (mark >= x.low && mark <= x.high)
         element("path", { d: `M${x.place(mark).toFixed(1)} ${TOP}V${bottom}`, "class": "struck" }, inner);
-      lanes.forEach((lane, k) => drawLane(inner, lane, k));
-      if (spec.bars) shown().forEach((one, k, all) => drawBars(inner, one, k, all.length));
-      else for (const one of shown()) drawCurve(inner, one);
+      lanes.forEach((lane, k) => drawLane(lane, k));
+      if (spec.bars) shown().forEach((one, k, all) => drawBars(one, k, all.length));
+      else for (const one of shown()) drawCurve(one);
       cursor = element("path", { "class": "cursor" }, inner);
-      svg.setAttribute("aria-label", described());
+      svg.setAttribute("aria-label", spec.label || described());
       point(at);
     }
 
     function ticksOfX(isLong) {
-      if (spec.bars) return spec.bars.forEach((name, k) => text(name, { x: x.place(k), y: bottom + 17, "text-anchor": "middle" }));
+      if (spec.bars) return spec.bars.forEach((name, k) => text(name, { x: x.place(k), y: bottom + 17, "text-anchor": "middle" }, layerX));
       const room = (width - LEFT - RIGHT) / 75, exponent = spec.log_x ? 0 : AXES.exponentOf(Math.max(Math.abs(x.low), Math.abs(x.high)));
       const found = spec.log_x ? AXES.decades(x.low, x.high, room) : AXES.ticks(x.low, x.high, Math.max(2, Math.min(8, room)));
       const texts = spec.log_x ? found.map((one) => AXES.number(one)) : AXES.labels(found, exponent);
       const words = (exponent ? "×" + AXES.power(exponent) + " " : "") + (spec.x || ""), end = isLong ? 0 : words.length * LETTER + 14;
       found.forEach((value, k) => {
         const place = x.place(value).toFixed(1);
-        element("path", { d: `M${place} ${TOP}V${bottom}`, "class": "grid" }, svg);
-        if (place < width - end) text(texts[k], { x: place, y: bottom + 17, "text-anchor": "middle" });
+        element("path", { d: `M${place} ${TOP}V${bottom}`, "class": "grid" }, layerX);
+        if (place < width - end) text(texts[k], { x: place, y: bottom + 17, "text-anchor": "middle" }, layerX);
       });
       const most = Math.floor((width - 8) / LETTER), shortened = words.length > most ? words.slice(0, most - 1) + "…" : words;
-      const name = text(shortened, { x: width - RIGHT, y: bottom + 17 + (isLong ? LINE : 0), "text-anchor": "end", "class": "name" });
+      const name = text(shortened, { x: width - RIGHT, y: bottom + 17 + (isLong ? LINE : 0), "text-anchor": "end", "class": "name" }, layerX);
       if (shortened !== words) element("title", {}, name).textContent = words;
     }
 
@@ -179,19 +174,19 @@ var CURVES = (function () {
       const texts = spec.log_y ? found.map((one) => AXES.number(one)) : AXES.labels(found, exponent);
       found.forEach((value, k) => {
         const place = y.place(value).toFixed(1);
-        element("path", { d: `M${LEFT} ${place}H${width - RIGHT}`, "class": "grid" }, svg);
-        text(texts[k], { x: LEFT - 6, y: place, dy: "0.35em", "text-anchor": "end" });
+        element("path", { d: `M${LEFT} ${place}H${width - RIGHT}`, "class": "grid" }, layerY);
+        text(texts[k], { x: LEFT - 6, y: place, dy: "0.35em", "text-anchor": "end" }, layerY);
       });
-      if (exponent) text("×" + AXES.power(exponent), { x: LEFT - 6, y: 9, "text-anchor": "end", "class": "name" });
+      if (exponent) text("×" + AXES.power(exponent), { x: LEFT - 6, y: 9, "text-anchor": "end", "class": "name" }, layerY);
     }
 
-    function text(words, attributes) {
-      const made = element("text", attributes, svg);
+    function text(words, attributes, layer) {
+      const made = element("text", attributes, layer);
       made.textContent = words;
       return made;
     }
 
-    function drawCurve(inner, one) {
+    function drawCurve(one) {
       const paint = colour(one.colour);
       if (one.filled) element("path", { d: AXES.path(one.x, one.y, 0, one.x.length, x.place, y.place) + "Z", fill: paint, "class": "area" }, inner);
       if (one.line) element("path", { d: AXES.path(one.x, one.y, ...within(one, [x.low, x.high]), x.place, y.place), stroke: paint,
@@ -199,7 +194,7 @@ var CURVES = (function () {
       if (one.dots) element("path", { d: AXES.dots(one.x, one.y, x.place, y.place), stroke: paint, "class": "dots" }, inner);
     }
 
-    function drawBars(inner, one, place, count) {
+    function drawBars(one, place, count) {
       const wide = 0.7 * (x.place(1) - x.place(0)) / count;
       one.y.forEach((value, k) => {
         if (!AXES.isNumber(value)) return;
@@ -210,7 +205,7 @@ var CURVES = (function () {
     }
 
     // A lane: its name, and under it a bar for each time that it is on; empty it keeps its place.
-    function drawLane(inner, lane, k) {
+    function drawLane(lane, k) {
       const top = TOP + k * LANE + LANE - BAR - 4;
       element("path", { d: `M${LEFT} ${top + BAR / 2}H${width - RIGHT}`, "class": "grid" }, inner);
       const bars = (spans, draw) => {
@@ -229,7 +224,7 @@ var CURVES = (function () {
     function described() {
       const over = spec.bars ? "for " + spec.bars.join(", ") : `over ${spec.x}, from ${AXES.number(x.low)} to ${AXES.number(x.high)}`;
       const ranges = [...values.keys()].slice(0, 8).map((name) => {
-        const found = extent(spec.curves.filter((one) => one.name === name).map((one) => one.y));
+        const found = AXES.extent(spec.curves.filter((one) => one.name === name).map((one) => one.y));
         return name + (found ? `, ${AXES.number(found[0])} to ${AXES.number(found[1])}` : "");
       });
       const lanes = (spec.lanes || []).map((lane) => `${lane.name}, ${lane.spans.length} times`);
@@ -274,6 +269,7 @@ var CURVES = (function () {
     svg.addEventListener("pointerdown", (event) => {
       // a finger moves the page
       if (event.button !== 0 || event.pointerType === "touch") return;
+      dragged = false;
       drag = { from: where(event)[0], box: null };
       svg.setPointerCapture(event.pointerId);
     });
@@ -290,6 +286,7 @@ var CURVES = (function () {
       const begun = drag, left = where(event)[0];
       drag = null;
       if (!begun || !begun.box) return;
+      dragged = true;
       begun.box.remove();
       const [low, high] = [limited(begun.from), limited(left)].sort((one, other) => one - other);
       if (high > low) share.zoom([low, high]);
@@ -300,7 +297,7 @@ var CURVES = (function () {
       cursor.setAttribute("d", "");
       told.textContent = "";
     });
-    svg.addEventListener("click", (event) => hooks.go && hooks.go(limited(where(event)[0])));
+    svg.addEventListener("click", (event) => hooks.go && !dragged && hooks.go(limited(where(event)[0])));
     svg.addEventListener("dblclick", () => share.zoom(null));
     reset.addEventListener("click", () => share.zoom(null));
     svg.addEventListener("keydown", (event) => {

@@ -61,8 +61,8 @@ const calls = {
     const find = (selector) => document.querySelector(selector), text = (selector) => find(selector)?.textContent ?? null;
     const seen = () => ({ alert: find("#refusal").hidden ? "" : text("#refusal"), note: find("#note").hidden ? "" : text("#note"),
       count: text("#impact-count"), first: text("#impacts tbody td"), time: text(".time"), struck: text(".struck"),
-      shapes: find(".animation svg").children.length, curves: document.querySelectorAll("#charts polyline").length,
-      values: document.querySelectorAll("#charts b").filter((one) => one.textContent).length, hash: location.hash,
+      shapes: find(".animation svg").children.length, curves: document.querySelectorAll("#charts path.curve").length,
+      values: document.querySelectorAll("#charts li b").filter((one) => one.textContent).length, hash: location.hash,
       kept: document.querySelectorAll("#charts .kept").length, texts: blobs.splice(0).map((one) => one.text),
       impacts: document.querySelectorAll("#impacts tbody tr").map((row) => row.children.map((one) => one.textContent)),
       heads: document.querySelectorAll("#impacts th").map((one) => one.textContent), steps: steps.splice(0), playing: text(".play"), asked: asked.splice(0), errors });
@@ -98,7 +98,6 @@ const calls = {
   },
   scene: (...given) => script("scene.js").scene(...given),
   signal: (signal, time) => SIGNALS.at(signal, time),
-  ticks: (...given) => script("curves.js").ticks(...given),
   hash(hash, data = model()) {
     const { setting, kept } = GIVEN.fromHash(data, hash);
     return [setting.name, Object.fromEntries(setting.values), GIVEN.toHash(data, setting, kept)];

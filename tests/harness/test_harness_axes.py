@@ -43,8 +43,14 @@ def points(path: str) -> list[tuple[float, float]]:
 
 
 def test_ticks_are_round_and_few() -> None:
-    found = answers(["ticks", 0, 6, 6], ["ticks", -0.031, 0.02, 5], ["ticks", 0, 1e-5, 4])
-    assert found == [[0, 1, 2, 3, 4, 5, 6], [-0.02, 0, 0.02], [0, 5e-6, 1e-5]]
+    calls = [[0, 6, 6], [-0.031, 0.02, 5], [0, 1e-5, 4], [-0.11, 0.31, 5], [1e6, 1.00003e6, 5]]
+    assert answers(*(["ticks", *call] for call in calls)) == [
+        [0, 1, 2, 3, 4, 5, 6],
+        [-0.02, 0, 0.02],
+        [0, 5e-6, 1e-5],
+        [-0.1, 0, 0.1, 0.2, 0.3],
+        [1000000, 1000010, 1000020, 1000030],
+    ]
 
 
 def test_logarithmic_ticks_are_powers_of_ten_and_more_where_these_are_few() -> None:
@@ -76,10 +82,10 @@ def test_labels_leave_out_a_power_of_ten_and_are_apart() -> None:
     ]
 
 
-def test_the_value_of_a_curve_lies_between_its_points() -> None:
+def test_the_value_of_a_curve_lies_between_its_points_or_is_what_it_steps_to() -> None:
     x, y = [0, 1, 1, 2], [0, 10, 20, 30]
     found = answers(*(["valueAt", x, y, at] for at in (0, 0.25, 1, 1.5, 2, 2.5)))
-    assert found == [0, 2.5, 10, 25, 30, None]
+    assert found == [0, 2.5, 20, 25, 30, None]
 
 
 def test_only_what_goes_from_left_to_right_has_a_cursor() -> None:

@@ -142,7 +142,7 @@ def test_the_eyes_of_these_tests_are_open(browser: Browser, tmp_path: Path) -> N
 
 #: Of the first two charts: the texts under their time axes, and where their cursor is.
 TICKS = """[...document.querySelectorAll(".chart")].slice(0, 2).map(
-    (c) => [...c.querySelectorAll("svg > text[text-anchor=middle]")].map((t) => t.textContent).join())"""
+    (c) => [...c.querySelectorAll("svg > g > text[text-anchor=middle]")].map((t) => t.textContent).join())"""
 CURSORS = '[...document.querySelectorAll(".chart .cursor")].slice(0, 2).map((c) => c.getAttribute("d"))'
 #: The middle of the first chart's picture, and its width.
 PLACE = """(() => { const s = document.querySelector(".chart svg"); s.scrollIntoView({block: "center"});

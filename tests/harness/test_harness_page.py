@@ -45,7 +45,7 @@ def test_a_page_is_small_and_whole(name: str, page_of: Callable[[str], Path]) ->
     assert "default-src 'none'" in html
     assert gzip.decompress(base64.b64decode(held(html, "wasm"))).startswith(b"\0asm")
     # scripts end where they should: as many as there are, and no text of them is seen
-    assert html.count("<script") == html.count("</script>") == 19
+    assert html.count("<script") == html.count("</script>") == 20
     data = json.loads(held(html, "model"))
     model = models.load(name).MODEL
     assert (data["name"], data["stop"]) == (model.name, model.stop_time)
@@ -240,7 +240,7 @@ def test_the_command_writes_the_page_of_a_file(tmp_path: Path, monkeypatch: pyte
     assert "lever.html" in done.output
     html = Path("lever.html").read_text(encoding="utf-8")
     assert "A &lt;/script&gt;&lt;b&gt;lever &amp; co" in html
-    assert html.count("<script") == html.count("</script>") == 19
+    assert html.count("<script") == html.count("</script>") == 20
     if NODE is not None:
         run, seen = in_node(["run", {}], ["session", {}, []], of=tmp_path / "lever.html")
         assert run["finished"]

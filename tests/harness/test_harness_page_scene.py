@@ -65,13 +65,3 @@ def test_what_is_not_finite_or_has_no_extent_is_no_picture() -> None:
     disc = {"kind": "disc", "at": [0.0, 0.0], "name": "d", "radius": "r"}
     calls = [["scene", [disc], {}, {"r": radius}] for radius in (1e-10, 0.4e-12, None)]
     assert [one is None for one in in_node(*calls, ["scene", [], {}, {}])] == [False, True, True, True]
-
-
-@needs_node
-def test_ticks_are_round_numbers() -> None:
-    calls = [["ticks", 0, 6, 6], ["ticks", -0.11, 0.31, 5], ["ticks", 1e6, 1.00003e6, 5]]
-    assert in_node(*calls) == [
-        [0, 1, 2, 3, 4, 5, 6],
-        [-0.1, 0, 0.1, 0.2, 0.3],
-        [1000000, 1000010, 1000020, 1000030],
-    ]
