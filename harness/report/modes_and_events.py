@@ -6,7 +6,7 @@ from mechanism_fmu.statechart import diagram
 
 from ..run.experiment import Run
 from ..run.logic import UNITS, counts_of
-from .page import folded_if_long, section, table
+from .page import section, table
 
 #: A longer table is in events.csv.
 _MOST_EVENTS = 100
@@ -38,7 +38,7 @@ def modes_section(run: Run) -> str:
 
 
 def events_section(run: Run) -> str:
-    """The first events, a row each; "" when there were none."""
+    """The first events, a row each, folded at first; "" when there were none."""
     if run.events.empty:
         return ""
     headings = [f"{name.replace('_', ' ')} [{unit}]".removesuffix(" [1]") for name, unit in UNITS.items()]
@@ -54,4 +54,4 @@ def events_section(run: Run) -> str:
     if run.events_lost:
         notes.append(f"{run.events_lost} more did not fit into the FMU's buffer; use a shorter communication step.")
     drawn = table(["#", *headings], rows, numeric=(0, 1, 5))
-    return section("Events", folded_if_long(drawn, len(rows), "events"), note=" ".join(notes))
+    return section("Events", drawn, note=" ".join(notes), folded=True)
