@@ -54,6 +54,18 @@ def test_what_everything_needs_and_is_missing_is_a_failure(said, monkeypatch, ca
     assert "missing" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(("package", "extra"), [("pyarrow", "designs"), ("plotly", "plot"), ("numba", "dev")])
+def test_what_an_extra_brings_is_not_needed_and_named_with_the_extra(said, monkeypatch, package, extra):
+    real = importlib.metadata.requires
+    monkeypatch.setattr(
+        importlib.metadata, "requires", lambda name: [text for text in real(name) if not text.startswith(package)]
+    )
+    without(monkeypatch, package)
+    assert doctor.examine() == 0
+    assert not said[package]["well"]
+    assert said[package]["follows"].endswith(f'python -m pip install "mechanism_fmu[{extra}]"')
+
+
 def test_a_cache_that_cannot_be_used_is_a_failure(said, monkeypatch, tmp_path):
     (tmp_path / "mechanism_fmu").mkdir(mode=0o777)
     (tmp_path / "mechanism_fmu").chmod(0o777)
