@@ -127,7 +127,7 @@
   // --- what is shown ---------------------------------------------------------------------------------------------
   const go = (time) => player && player.go(time);
   const together = CURVES.group(), byNames = (names) => names.map((name) => byName.get(name));
-  const charts = MODEL.charts.map(({ title, names }) => RUN_CHARTS.quantity(find("#charts"), title, byNames(names), together, go));
+  const charts = MODEL.charts.map(({ title, names, ladder }) => RUN_CHARTS.quantity(find("#charts"), title, byNames(names), ladder, together, go));
   if (MODEL.parts.length) charts.push(RUN_CHARTS.contacts(find("#charts"), MODEL.parts, together, go));
   const table = IMPACTS.table(MODEL, find("#impacts"), find("#impact-count"), go);
 

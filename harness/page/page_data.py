@@ -16,6 +16,7 @@ from mechanism_fmu.fmu.parts.variables import Variable, variables_of
 from ..report.animation import colours_of, decimals
 from ..report.motion import QUANTITIES, STICKS, SUFFIX, contacts_named
 from ..report.style import THEMED
+from .shown_units import LADDERS, shown_unit
 from .stress_data import stress_data
 
 _TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
@@ -38,8 +39,9 @@ def page_data(web: WebModule) -> dict[str, Any]:
     first; `given`, the parameters and inputs; `reals`, `flags` and `wholes`, the outputs that a run records, in this
     order behind time and impact, in rows of `width` numbers; `constants`, the calculated parameters that the drawing
     needs; `shapes`, those of drawing.json with colours, and `moving`, the reals that move them; `contacts`, the flags
-    that have a lamp, and `parts`, the contacts that have a strip; `charts`, titles with names of outputs; `impact`,
-    what is recorded of the last impact, `struck`, which of it numbers a contact, and `stress`, what it leaves.
+    that have a lamp, and `parts`, the contacts that have a strip; `charts`, titles with
+    names of outputs and other units for them; `impact`, what is recorded of the last impact, `struck`, which of it
+    numbers a contact, and `stress`, what it leaves.
 
     Args:
         web: the model for a page.
@@ -127,9 +129,11 @@ def _given(v: Variable, more: WebData) -> dict[str, Any]:
     group = "setting" if v.name in more.settings else v.causality
     known = _known(v) | {"causality": v.causality, "group": group, "start": v.start}
     if v.type != "Boolean":
-        known["range"] = more.usual.get(v.name) or slider_range(
-            float(v.start or 0.0), v.minimum, v.maximum, v.unit or "1"
-        )
+        start = float(v.start or 0.0)
+        low, high = more.usual.get(v.name) or slider_range(start, v.minimum, v.maximum, v.unit or "1")
+        known["range"] = (low, high)
+        if v.display_unit is None and v.unit in LADDERS:
+            known["shown"], known["factor"] = shown_unit(v.unit, start or max(abs(low), abs(high)))
     return known
 
 
@@ -137,14 +141,18 @@ def _charts(variables: Sequence[Variable]) -> list[dict[str, Any]]:
     """A chart for each unit, in the order in which they come."""
     units = dict.fromkeys(v.unit or "1" for v in variables)
     return [
-        {"title": QUANTITIES.get(unit, "Values"), "names": [v.name for v in variables if (v.unit or "1") == unit]}
+        {
+            "title": QUANTITIES.get(unit, "Values"),
+            "names": [v.name for v in variables if (v.unit or "1") == unit],
+            "ladder": () if any(v.display_unit for v in variables if v.unit == unit) else LADDERS.get(unit, ()),
+        }
         for unit in units
     ]
 
 
 def _counts(variables: Sequence[Variable]) -> list[dict[str, Any]]:
     """A chart of whole numbers, where there are any."""
-    return [{"title": "Counts", "names": [v.name for v in variables]}] if variables else []
+    return [{"title": "Counts", "names": [v.name for v in variables], "ladder": ()}] if variables else []
 
 
 def _parts(flags: Sequence[str]) -> list[dict[str, str]]:

@@ -7,19 +7,32 @@ var RUN_CHARTS = (function () {
 
   const common = (run) => ({ x: TIME, y: "", range: [run.from, run.to], marks: run.struck.slice(0, MOST_MARKS).map((row) => run.time[row]) });
 
-  // A chart in `host` of variables with one unit: {draw(run, another one behind it or null), show(time)}.
-  function quantity(host, title, variables, share, go) {
-    const heading = title + (variables[0].shown ? " [" + variables[0].shown + "]" : "");
-    const fixed = { title: heading, height: HEIGHT, label: title + " over time: " + variables.map((one) => one.name).join(", ") };
+  // Of units, [[unit, how many are one SI unit], ...], that in which a magnitude is nearest to ten, in orders of magnitude.
+  function unitOf(units, most) {
+    const away = ([, factor]) => Math.abs(Math.log10(most * factor) - 1);
+    return most > 0 && most < Infinity ? units.reduce((best, next) => away(next) < away(best) ? next : best) : units[0];
+  }
+
+  // A chart in `host` of variables with one unit, or another one of its `ladder`, [[unit, how many are one], ...]:
+  // {draw(run, another one behind it or null)}.
+  function quantity(host, title, variables, ladder, share, go) {
+    const fixed = { height: HEIGHT, label: title + " over time: " + variables.map((one) => one.name).join(", ") };
+    const units = [[variables[0].shown, variables[0].factor], ...ladder];
     let plot = null;
 
-    const curves = (run, more) => variables.map((one, k) => ({
+    const curves = (run, factor, more) => variables.map((one, k) => ({
       name: one.name.replaceAll("_", " "), about: one.description, colour: k, line: true, x: run.time, ...more,
-      y: one.factor === 1 ? run.of(one.name) : run.of(one.name).map((value) => value * one.factor),
+      y: factor === 1 ? run.of(one.name) : run.of(one.name).map((value) => value * factor),
     }));
 
     function draw(run, kept) {
-      const spec = { ...fixed, ...common(run), curves: [...(kept ? curves(kept, { kept: true }) : []), ...curves(run)] };
+      const columns = [run, ...(kept ? [kept] : [])].flatMap((each) => variables.map((one) => each.of(one.name)));
+      const most = Math.max(...(AXES.extent(columns) || [NaN]).map(Math.abs)), [unit, factor] = unitOf(units, most);
+      const spec = {
+        ...fixed, ...common(run), still: most === 0,
+        title: title + (unit ? " [" + unit + "]" : "") + (most === 0 ? ": 0 all the time" : ""),
+        curves: [...(kept ? curves(kept, factor, { kept: true }) : []), ...curves(run, factor)],
+      };
       if (plot) plot.take(spec); else plot = CURVES.plot(host, spec, share, { go });
     }
 
@@ -55,6 +68,6 @@ var RUN_CHARTS = (function () {
     return { draw };
   }
 
-  return { quantity, contacts, intervals };
+  return { quantity, contacts, intervals, unitOf };
 })();
 if (typeof module === "object") module.exports = RUN_CHARTS;

@@ -32,7 +32,7 @@ var CURVES = (function () {
   function plot(host, spec, share = group(), hooks = {}) {
     const reset = make("button", { type: "button", textContent: "Whole range", hidden: true });
     const told = make("output", { className: "at" });
-    const caption = make("figcaption", {}, make("b", { textContent: spec.title }),
+    const heading = make("b"), caption = make("figcaption", {}, heading,
       make("span", { textContent: spec.y && spec.y !== spec.title ? spec.y : "" }), told, reset, ...(hooks.buttons || []));
     const svg = element("svg", { role: "img", tabindex: 0, "aria-description": KEYS });
     // the inner one is a picture of its own, that cuts off what lies beyond
@@ -49,6 +49,8 @@ var CURVES = (function () {
 
     function take(next) {
       spec = next;
+      heading.textContent = spec.title;
+      figure.classList.toggle("still", Boolean(spec.still));
       // curves of one run share their places
       const known = new Map();
       for (const one of spec.curves) {

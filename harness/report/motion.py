@@ -123,6 +123,7 @@ QUANTITIES = {
     "N.m": "Torques",
     "J": "Energies",
     "W": "Powers",
+    "Pa": "Stresses",
     "V": "Voltages",
     "A": "Currents",
 }

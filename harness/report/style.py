@@ -77,6 +77,7 @@ ul.checks small {{ color: var(--soft); font-size: 13px; margin-left: 6px; }}
   background: none; color: var(--soft); cursor: pointer; }}
 .plot figcaption button {{ border-color: var(--line); }}
 .plot > svg {{ display: block; width: 100%; touch-action: pan-y; cursor: crosshair; }}
+.plot.still > svg {{ display: none; }}
 .plot text {{ font-size: 12px; fill: var(--soft); }}
 .plot text.own {{ font-weight: 650; }}
 .plot path:not(.area) {{ fill: none; }}

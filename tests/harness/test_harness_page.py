@@ -99,8 +99,8 @@ def test_the_base_case_of_the_ratchet_and_an_impossible_crank(page_of: Callable[
 @pytest.mark.parametrize("worker", [True, False])
 def test_a_reader_changes_values(worker: bool, page_of: Callable[[str], Path]) -> None:
     steps: list[dict[str, Any]] = [
-        {"set": ["crank_length", "0.02"]},
-        {"set": ["crank_length", "0.11"]},
+        {"set": ["crank_length", "20"]},
+        {"set": ["crank_length", "110"]},
         {"slide": ["drive_torque", 120]},
         {"click": ".next"},
         {"set": ["guided", False]},
@@ -264,7 +264,7 @@ def test_in_a_browser(width: int, page_of: Callable[[str], Path], tmp_path: Path
         shown.wait_until(f"{first} === '{IMPACT}'")
         assert shown.value("document.documentElement.scrollWidth") <= width
         shown.value(
-            "(() => { const field = document.querySelector('#of_drive_torque'); field.value = '0.002';"
+            "(() => { const field = document.querySelector('#of_drive_torque'); field.value = '2';"
             " field.dispatchEvent(new Event('change')); })()"
         )
         shown.wait_until(f"{first} !== '{IMPACT}'")

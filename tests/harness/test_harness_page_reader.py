@@ -56,7 +56,7 @@ def test_a_case_is_that_of_python(name: str, clicks: int, page_of: Callable[[str
 
 def test_cases_are_kept_compared_and_taken_along(page_of: Callable[[str], Path]) -> None:
     steps: list[dict[str, Any]] = [
-        {"set": ["drive_torque", "0.002"]},
+        {"set": ["drive_torque", "2"]},
         {"click": "#keep"},
         {"click": "#reset"},
         {"click": "#toml"},
@@ -104,8 +104,8 @@ def test_it_lives_and_an_input_acts_at_once(page_of: Callable[[str], Path]) -> N
         {"click": ".play"},
         {"click": ".next", "until": [".struck", "impact 1 of 1"]},
         {"click": ".next", "until": ["#note", "No impact"]},
-        {"set": ["crank_length", "0.02"], "until": ["#refusal", "too short"]},
-        {"set": ["crank_length", "0.11"], "until": [".time", r"t = 0\.000"]},
+        {"set": ["crank_length", "20"], "until": ["#refusal", "too short"]},
+        {"set": ["crank_length", "110"], "until": [".time", r"t = 0\.000"]},
         {"click": "#live"},
     ]
     (seen,) = in_node(["session", {}, steps], of=page_of("ratchet"))
@@ -145,9 +145,9 @@ def test_an_input_that_had_a_signal_is_given_its_start_value(page_of: Callable[[
 def test_what_is_refused_while_it_lives_stands_still(page_of: Callable[[str], Path]) -> None:
     steps: list[dict[str, Any]] = [
         {"click": "#live"},
-        {"set": ["crank_length", "0.02"], "until": ["#refusal", "too short"]},
+        {"set": ["crank_length", "20"], "until": ["#refusal", "too short"]},
         {"click": ".play", "until": [".play", "Play"]},
-        {"set": ["crank_length", "0.11"], "until": [".time", r"t = 0\.000"]},
+        {"set": ["crank_length", "110"], "until": [".time", r"t = 0\.000"]},
     ]
     (seen,) = in_node(["session", {}, steps], of=page_of("ratchet"))
     assert seen[-1]["errors"] == []
@@ -157,7 +157,7 @@ def test_what_is_refused_while_it_lives_stands_still(page_of: Callable[[str], Pa
 
 
 def test_a_page_whose_first_run_is_refused_lives_and_ends(page_of: Callable[[str], Path]) -> None:
-    steps: list[dict[str, Any]] = [{"click": "#live"}, {"click": "#live"}, {"set": ["crank_length", "0.11"]}]
+    steps: list[dict[str, Any]] = [{"click": "#live"}, {"click": "#live"}, {"set": ["crank_length", "110"]}]
     (seen,) = in_node(["session", {"hash": "#crank_length=0.02"}, steps], of=page_of("ratchet"))
     assert seen[-1]["errors"] == []
     assert ["too short" in one["alert"] for one in seen] == [True, True, True, False]
@@ -165,8 +165,8 @@ def test_a_page_whose_first_run_is_refused_lives_and_ends(page_of: Callable[[str
 
 def test_what_is_kept_is_what_is_shown(page_of: Callable[[str], Path]) -> None:
     steps: list[dict[str, Any]] = [
-        {"set": ["drive_torque", "0.002"]},
-        {"set": ["crank_length", "0.02"]},
+        {"set": ["drive_torque", "2"]},
+        {"set": ["crank_length", "20"]},
         {"click": "#keep"},
         {"click": "#toml"},
     ]
