@@ -89,7 +89,7 @@ class FmuError(HarnessError):
 # Packages that only some commands need.
 
 #: The extra that brings each, by the name that is imported.
-EXTRAS = {"pyarrow": "designs", "PIL": "designs"}
+EXTRAS = {"pyarrow": "designs", "PIL": "designs", "scipy": "analysis"}
 
 
 def way_to_get(extra: str) -> str:

@@ -119,7 +119,8 @@ def build_fmu(
     # These follow from all that the fingerprint is of: last digits of results may be those of this machine, and what a
     # start imports is compiled for this Python.
     follows = reference_results(model, library_of(report))
-    follows |= bytecode({name: text for name, text in entries.items() if name in imported})
+    compiled = {name for name in entries if name in imported or name.startswith("resources/pythonfmu/")}
+    follows |= bytecode({name: entries[name] for name in compiled if name.endswith(".py")})
     write_archive(with_guid(entries) | follows, path)
     return record_build(path)
 
@@ -164,11 +165,10 @@ def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> tuple[dic
 
 
 def _imported(slave: str) -> set[str]:
-    """The entries that have been imported to start an FMU: its modules and pythonfmu's."""
+    """The entries of an FMU's own modules that have been imported to start it."""
     digest = slave.rpartition("_")[2]
-    own = {name.replace(".", "/") for name in sys.modules if name.partition(".")[0].endswith(digest)}
-    wrapper = {name.replace(".", "/") for name in sys.modules if name.partition(".")[0] == "pythonfmu"}
-    return {f"resources/{name}{end}" for name in own | wrapper for end in (".py", "/__init__.py")}
+    names = (name.replace(".", "/") for name in sys.modules if name.partition(".")[0].endswith(digest))
+    return {f"resources/{name}{end}" for name in names for end in (".py", "/__init__.py")}
 
 
 @contextmanager

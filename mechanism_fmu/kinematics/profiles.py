@@ -9,7 +9,6 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
 
 from ..model.curves import Curve, Piece
 from .equations import FloatArray
@@ -189,6 +188,8 @@ def _extreme(
     function: Callable[[float], float], grid: FloatArray, values: FloatArray, sign: float
 ) -> tuple[float, float]:
     """The largest value (sign 1) or the least one (sign -1) on a grid and between its points, and its place."""
+    from scipy.optimize import minimize_scalar  # an extra: only cams get here
+
     k = int(np.argmax(sign * values))
     near = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
     found = minimize_scalar(lambda x: -sign * function(x), bounds=near, method="bounded", options={"xatol": 1e-9})
@@ -202,6 +203,8 @@ def _bend(piece: Piece, alpha: float) -> float:
 
 def _below_zero(function: Callable[[float], float], grid: FloatArray, values: FloatArray) -> list[tuple[float, float]]:
     """The ranges within a piece where a function, with its values on a grid, is negative."""
+    from scipy.optimize import brentq  # an extra: only cams get here
+
     negative = (values < 0.0).tolist()
     edges = [
         float(brentq(function, a, b))

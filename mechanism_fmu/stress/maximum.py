@@ -79,6 +79,9 @@ _REACH = 2
 #: Points, in cells, of the central differences that give the slope of the stress at the middle one.
 _DIFFERENCE = 1e-3
 _STENCIL = np.array([-1.0, 0.0, 1.0])
+#: So many steps are taken at most; one of so little [cells] changes no digit of the largest value.
+_ROUNDS = 50
+_FINE = 1e-8
 
 
 class StressPoint(NamedTuple):
@@ -137,30 +140,54 @@ def _times(field: BendingField, x: FloatArray, until: float) -> FloatArray:
 
 
 def _locate(field: BendingField, centre: tuple[float, float], cell: tuple[float, float]) -> StressPoint:
-    """The maximum of |sigma_b| near a grid point (x, t), found in units of cells from there."""
+    """The maximum of |sigma_b| near a grid point (x, t), found in units of cells from there.
+
+    By Newton's method within bounds: a coordinate that stands at its bound and wants beyond stays; where the stress is
+    not curved downwards, or a step would lower it, a shorter way uphill is taken.
+    """
+    low = np.array([max(-_REACH, -centre[0] / cell[0]), max(-_REACH, -centre[1] / cell[1])])
+    high = np.array([min(_REACH, (field.length - centre[0]) / cell[0]), _REACH])
 
     def stress_around(point: FloatArray) -> FloatArray:
         x, t = (c + size * (at + _DIFFERENCE * _STENCIL) for c, size, at in zip(centre, cell, point, strict=True))
         return field.stress(x, t)
 
-    def descent(point: FloatArray) -> tuple[float, FloatArray]:
-        values = -stress_around(point) / scale
-        slope = np.array([values[2, 1] - values[0, 1], values[1, 2] - values[1, 0]]) / (2 * _DIFFERENCE)
-        return float(values[1, 1]), slope
+    point = np.zeros(2)
+    scale = stress_around(point)[1, 1]
+    values = stress_around(point) / scale
+    for _ in range(_ROUNDS):
+        move = _uphill(values, point, low, high)
+        while True:
+            tried = np.clip(point + move, low, high)
+            found = stress_around(tried) / scale
+            if found[1, 1] >= values[1, 1] or np.abs(move).max() <= _FINE:
+                break
+            move = move / 4
+        if found[1, 1] < values[1, 1]:
+            break
+        moved = float(np.abs(tried - point).max())
+        point, values = tried, found
+        if moved <= _FINE:
+            break
+    x, t = (float(c + size * at) for c, size, at in zip(centre, cell, point, strict=True))
+    return StressPoint(abs(float(values[1, 1] * scale)), x, t)
 
-    from scipy.optimize import minimize  # takes long to load, and few commands get here
 
-    start = np.zeros(2)
-    scale = stress_around(start)[1, 1]
-    bounds = [
-        (max(-_REACH, -centre[0] / cell[0]), min(_REACH, (field.length - centre[0]) / cell[0])),
-        (max(-_REACH, -centre[1] / cell[1]), _REACH),
-    ]
-    # TNC, and no scaling by it: cells are the right unit, and its small problem starts no threads of a BLAS.
-    options = {"ftol": 1e-15, "gtol": 1e-9, "xtol": 1e-7, "scale": np.ones(2), "offset": np.zeros(2)}
-    found = minimize(descent, start, jac=True, method="TNC", bounds=bounds, options=options)
-    x, t = (float(c + size * at) for c, size, at in zip(centre, cell, found.x, strict=True))
-    return StressPoint(abs(float(found.fun * scale)), x, t)
+def _uphill(values: FloatArray, point: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    """A step from the middle of a stencil to where the values should be largest, shape (2,), in cells."""
+    slope = np.array([values[2, 1] - values[0, 1], values[1, 2] - values[1, 0]]) / (2 * _DIFFERENCE)
+    along = np.array([values[2, 1] + values[0, 1], values[1, 2] + values[1, 0]]) - 2 * values[1, 1]
+    across = (values[2, 2] - values[2, 0] - values[0, 2] + values[0, 0]) / 4
+    bend = np.array([[along[0], across], [across, along[1]]]) / _DIFFERENCE**2
+    free = ~(((point <= low) & (slope < 0.0)) | ((point >= high) & (slope > 0.0)))
+    move = np.zeros(2)
+    if free.any():
+        inner = bend[np.ix_(free, free)]
+        curved = np.linalg.eigvalsh(inner)
+        # what is flat or hollow goes uphill as if it were curved downwards by as much as anything
+        inner = inner if curved.max() < 0.0 else -max(float(np.abs(curved).max()), 1e-9) * np.eye(len(inner))
+        move[free] = np.clip(np.linalg.solve(inner, -slope[free]), -0.5, 0.5)
+    return move
 
 
 #: With less damping there are thousands of nearly equal swings to compare, and with none there is no largest one.

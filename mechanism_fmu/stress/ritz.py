@@ -269,8 +269,6 @@ def natural_modes(
 
     Source: Pennestrì, Valentini, Vita, eqs (9), (11), (12).
     """
-    from scipy.linalg import eigh  # takes long to load, and few commands get here
-
     motions = rigid_motions(root, tip)
     advice = "12 give the first three modes of most beams to ten digits; each rigid motion takes one"
     require_within("number of Ritz terms", terms, 1 + len(motions), _MOST_TERMS, "", advice)
@@ -282,14 +280,27 @@ def natural_modes(
     # shift makes the stiffness of rigid motions, the first polynomials, positive; it is about that of the first mode.
     first = len(motions)
     shift = float(stiffness[first, first] / mass[first, first]) if motions else 0.0
-    _, vectors = eigh(mass, stiffness + shift * mass)
-    bending = [vector / math.sqrt(vector @ mass @ vector) for vector in vectors.T[::-1][first:]]
+    vectors = _slow_first(mass, stiffness + shift * mass)
+    bending = [vector / math.sqrt(vector @ mass @ vector) for vector in vectors[first:]]
     modes = (
         NaturalMode(tuple((polynomials @ u).tolist()), 1.0, float(u @ stiffness @ u), f"bending {number}")
         for number, u in enumerate(bending, 1)
     )
     kept = _rigid_modes(beam, material, motions) if rigid else ()
     return (*kept, *(scaled(mode, beam, material, root, scaling) for mode in modes))
+
+
+def _slow_first(mass: FloatArray, stiffness: FloatArray) -> FloatArray:
+    """Eigenvectors u of M u = (1/Lambda^2) K u as rows, those of the slowest modes first.
+
+    By Cholesky's factor of K, scaled so that its diagonal is 1: stiffnesses differ by many powers of ten.
+    """
+    scale = 1.0 / np.sqrt(np.diag(stiffness))
+    factor = np.linalg.cholesky(stiffness * np.outer(scale, scale))
+    half = np.linalg.solve(factor, mass * np.outer(scale, scale))
+    _, vectors = np.linalg.eigh(np.linalg.solve(factor, half.T))
+    found: FloatArray = (scale[:, None] * np.linalg.solve(factor.T, vectors)).T[::-1]
+    return found
 
 
 def _energies(beam: Beam, material: Material, polynomials: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from .beam import Beam, FloatArray, require_within
+from .interpolation import monotone_cubic
 
 # Beams of rectangular cross section: their height along x says all.
 
@@ -282,7 +283,7 @@ class TableBeam:
         ValueError: when the columns differ in length, the places do not ascend from 0, or a value is negative, not a
             number, or zero other than at one end.
 
-    Source: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), by `scipy.interpolate.PchipInterpolator`.
+    Source: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), as `monotone_cubic`.
     """
 
     places: tuple[float, ...]
@@ -345,6 +346,4 @@ class TableBeam:
 
     @cached_property
     def _interpolants(self) -> tuple[Callable[[FloatArray], FloatArray], ...]:
-        from scipy.interpolate import PchipInterpolator  # takes long to load
-
-        return tuple(PchipInterpolator(self.places, y) for y in (self.areas, self.second_moments, self.outer_fibres))
+        return tuple(monotone_cubic(self.places, y) for y in (self.areas, self.second_moments, self.outer_fibres))

@@ -48,9 +48,9 @@ def test_a_linker_that_is_missing_or_another_is_named_with_the_way_to_get_it(sai
 
 
 def test_what_everything_needs_and_is_missing_is_a_failure(said, monkeypatch, capsys):
-    without(monkeypatch, "scipy")
+    without(monkeypatch, "pandas")
     assert doctor.examine() == 1
-    assert not said["scipy"]["well"]
+    assert not said["pandas"]["well"]
     assert "missing" in capsys.readouterr().out
 
 

@@ -54,13 +54,13 @@ def _python() -> list[Found]:
 #: What packages are for, of those that people ask about.
 _PURPOSES = {
     "numpy": "arrays",
-    "scipy": "assembly of linkages, optimum design, stress",
     "fmpy": "runs FMUs",
     "pythonfmu": "builds the FMU that runs in Python",
     "pandas": "result tables",
 }
 #: What extras bring: what for, and the extra.
 _EXTRAS = {
+    "scipy": ("linkages that bend (`ked`), profiles of cams, the papers reproduced", "analysis"),
     "pyarrow": ("sweeps, optimum design, the study; tables as Parquet", "designs"),
     "pillow": ("the study, whose figures are pictures, too", "designs"),
     "plotly": ("charts by `plot` of a result of `simulate`", "plot"),

@@ -143,7 +143,7 @@ def _no_module(name: str, path: Path) -> str:
         return f"there is no module {name!r}; write 'from {public.__name__} import ...', where all parts are."
     return (
         f"there is no package {top!r} in this Python. Do without it if you can: an FMU by pythonfmu can ask for "
-        "nothing but what mechanism_fmu needs itself (numpy, scipy). For the native flavour, install it."
+        "nothing but what mechanism_fmu needs itself (numpy). For the native flavour, install it."
     )
 
 
