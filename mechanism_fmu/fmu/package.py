@@ -119,8 +119,8 @@ def build_fmu(
     # These follow from all that the fingerprint is of: last digits of results may be those of this machine, and what a
     # start imports is compiled for this Python.
     follows = reference_results(model, library_of(report))
-    compiled = {name for name in entries if name in imported or name.startswith("resources/pythonfmu/")}
-    follows |= bytecode({name: entries[name] for name in compiled if name.endswith(".py")})
+    early = {name for name in entries if name in imported or name.startswith("resources/pythonfmu/")}
+    follows |= bytecode({name: entries[name] for name in early if name.endswith(".py")})
     write_archive(with_guid(entries) | follows, path)
     return record_build(path)
 
