@@ -104,7 +104,7 @@ def test_the_engine_in_a_report_begins_with_the_run(width: int, ratchet_fmu: Pat
         assert page.value(f"{inside}.querySelector('#of_drive_torque').placeholder") == "varies"
         before = page.value(first)
         page.value(
-            f"(() => {{ const field = {inside}.querySelector('#of_drive_torque'); field.value = '0.003';"
+            f"(() => {{ const field = {inside}.querySelector('#of_drive_torque'); field.value = '3';"
             " field.dispatchEvent(new Event('change')); })()"
         )
         page.wait_until(f"{first} !== '{before}'")

@@ -28,19 +28,24 @@ _CHECKOUT = Path(__file__).parents[3]
 _PROJECT = _CHECKOUT / "pyproject.toml"
 
 
+#: Extras whose packages the library itself imports, where a model may reach them.
+_EXTRAS = ("analysis", "designs", "plot", "dev")
+
+
 def dependencies() -> list[str]:
-    """What the library needs, and what compiles its engine, with pins, e.g. "numpy>=2.0".
+    """What the library imports, with pins, e.g. "numpy>=2.0": what it needs, and what some of it needs.
 
     The same from a checkout and when installed.
     """
     if _PROJECT.is_file():
         project = tomllib.loads(_PROJECT.read_text(encoding="utf-8"))["project"]
-        pins: list[str] = [*project["dependencies"], *project.get("optional-dependencies", {}).get("dev", ())]
+        extras = project.get("optional-dependencies", {})
+        pins: list[str] = [*project["dependencies"], *(pin for extra in _EXTRAS for pin in extras.get(extra, ()))]
     else:
         stated = [pin.partition(";") for pin in metadata.requires("mechanism_fmu") or []]
-        extra = re.compile(r"""extra == ['"]dev['"]""")
+        extra = re.compile(rf"""extra == ['"]({"|".join(_EXTRAS)})['"]""")
         pins = [pin.strip() for pin, _, marker in stated if "extra ==" not in marker or extra.search(marker)]
-    return [_in_order(pin) for pin in pins]
+    return [_in_order(pin) for pin in dict.fromkeys(pins)]
 
 
 def _in_order(pin: str) -> str:
