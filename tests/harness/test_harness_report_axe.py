@@ -1,13 +1,14 @@
-"""Reports as axe-core judges them: nothing serious keeps a reader out, on a desk and a phone, in light and dark."""
+"""Reports and pages as axe-core judges them: nothing serious keeps a reader out; desk and phone, light and dark."""
 
 import json
 import shutil
 import subprocess
 import tarfile
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from chromium import PROGRAM, chromium, opened
+from chromium import PROGRAM, Browser, chromium, opened
 from real_reports import Report
 
 #: Of the npm registry; it judges, and goes into no report.
@@ -40,14 +41,24 @@ def axe(tmp_path_factory: pytest.TempPathFactory) -> str:
         return script.read().decode()
 
 
+def judged(browser: Browser, file: Path, axe: str, ready: str) -> None:
+    for scheme in ("light", "dark"):
+        for width in (1200, 390):
+            with opened(browser, file, width) as page:
+                features = [{"name": "prefers-color-scheme", "value": scheme}]
+                page.call("Emulation.setEmulatedMedia", features=features)
+                page.wait_until(ready)
+                page.value(f"{axe};0")
+                assert json.loads(page.value(JUDGE)) == [], f"{file.name}, {scheme}, {width} px"
+
+
 def test_no_report_keeps_a_reader_out(axe: str, reports: dict[str, Report], tmp_path: Path) -> None:
     with chromium(tmp_path / "profile") as browser:
         for name in ("run", "study", "sweep", "optimum", "machine"):
-            for scheme in ("light", "dark"):
-                for width in (1200, 390):
-                    with opened(browser, reports[name].path, width) as page:
-                        features = [{"name": "prefers-color-scheme", "value": scheme}]
-                        page.call("Emulation.setEmulatedMedia", features=features)
-                        page.wait_until("document.documentElement.classList.contains('drawn')")
-                        page.value(f"{axe};0")
-                        assert json.loads(page.value(JUDGE)) == [], f"{name}, {scheme}, {width} px"
+            judged(browser, reports[name].path, axe, "document.documentElement.classList.contains('drawn')")
+
+
+def test_no_page_keeps_a_reader_out(axe: str, page_of: Callable[[str], Path], tmp_path: Path) -> None:
+    with chromium(tmp_path / "profile") as browser:
+        for name in ("ratchet", "geneva"):
+            judged(browser, page_of(name), axe, "!!document.querySelector('.animation svg > *, #impacts tbody td')")
