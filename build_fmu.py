@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
+import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -13,6 +13,8 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
+
+import mechanism_fmu
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -132,12 +134,13 @@ def built(
     if clocks and fmi != 3:
         _refuse("Clocks come with FMI 3.0 only; add --fmi 3.")
     with _loaded(model, "the FMU", flavour is Flavour.NATIVE) as (module, file, report, warn):
+        source = f"{file.resolve() if file else model}\n{_sources_of(module)}"  # before what comes takes its time
         if flavour is Flavour.NATIVE:
             path = build_native_fmu(module, output, fmi, report, clocks=clocks, baked=own)
         else:
             path = build_fmu(module, output, report, baked=own)
         if not own.starts and not own.inputs:
-            record_source(path, model if file is None else _with_digest(file))
+            record_source(path, source)
         if inform is not None and file is not None:
             report_freedoms(module.MODEL, file, inform, warn)
     return path
@@ -168,31 +171,45 @@ def web_of(path: Path) -> WebModule:
     Raises:
         LookupError: it cannot be had; the message says why.
     """
+    import models
     from mechanism_fmu.fmu.disk.user_cache import source_of
     from mechanism_fmu.fmu.native.objects import web_library_is_made
+    from mechanism_fmu.fmu.native.web import web_module
+    from mechanism_fmu.fmu.own.find import find
+    from mechanism_fmu.fmu.own.prepare import load
     from mechanism_fmu.model import MechanismError
 
-    model = source_of(path).partition("\n")[0]
+    model, _, digest = source_of(path).partition("\n")
     if not model:
         raise LookupError(
             "the model of an FMU is known where `mechanism-fmu build` has made it, and this file is not from here"
         )
     try:
-        if "\n" in source_of(path) and source_of(path) != _with_digest(Path(model)):
+        module = models.load(model) if model in models.available() else load(find(model))
+        if _sources_of(module) != digest:
             raise LookupError(f"{model} has changed since the FMU was built; build it again")
         if not web_library_is_made():
             raise LookupError(
                 f"the engine for browsers is not compiled here yet; `mechanism-fmu page {model}` does it, once"
             )
-        return web(model)
+        return web_module(module)
     except (MechanismError, OSError) as error:
         raise LookupError(str(error)) from error
-    except typer.Exit as error:
-        raise LookupError(f"{model} cannot be traced for a page; `mechanism-fmu page {model}` says why") from error
 
 
-def _with_digest(file: Path) -> str:
-    return f"{file.resolve()}\n{hashlib.sha256(file.read_bytes()).hexdigest()}"
+def _sources_of(module: ModuleType) -> str:
+    """A digest of a model's module, its neighbours that it has imported, and the engine's sources."""
+    from mechanism_fmu.fmu.disk.archive import content_hash
+    from mechanism_fmu.fmu.native.sources import fingerprint
+
+    package = f"{module.__name__.rpartition('.')[0]}."
+    files = {
+        name.removeprefix(package): Path(file).read_bytes()
+        for name, found in list(sys.modules.items())
+        if name.startswith(package) and (file := getattr(found, "__file__", None))
+    }
+    engine = fingerprint(Path(mechanism_fmu.__file__).parent)
+    return content_hash({**files, "engine": engine.encode()})
 
 
 def _require(model: str) -> None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 import os
+import re
 import runpy
 import shutil
 import subprocess
@@ -108,11 +109,18 @@ class BdistWheel(bdist_wheel):
     """Says of a wheel what it puts at the root of site-packages."""
 
     def write_wheelfile(self, wheelfile_base: str, *args: str, **options: str) -> None:
-        """Add the file WHEEL, and correct top_level.txt, which is written of the tree."""
+        """Add the file WHEEL, and correct top_level.txt and entry_points.txt, which are written of the tree."""
         super().write_wheelfile(wheelfile_base, *args, **options)
         folder = Path(wheelfile_base)
         if folder.parent == Path(self.bdist_dir):  # an editable install has its own elsewhere
             (folder / "top_level.txt").write_text(f"{NAME}\n", encoding="utf-8")
+            entries = folder / "entry_points.txt"
+            entries.write_text(moved_entries(entries.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def moved_entries(text: str) -> str:
+    """Entry points with the modules that move where they are in a wheel."""
+    return re.sub(rf"^(\S+ = )(?=({'|'.join(MOVED)})[.:])", rf"\1{NAME}.", text, flags=re.MULTILINE)
 
 
 def write_engine(packages: Path, library: Path) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from enum import IntEnum
+from pathlib import Path
 
 # Log messages of an FMU.
 
@@ -93,8 +94,9 @@ EXTRAS = {"pyarrow": "designs", "PIL": "designs", "scipy": "analysis"}
 
 
 def way_to_get(extra: str) -> str:
-    """The command that installs an extra, in a clone as beside a wheel."""
-    return f'python -m pip install "mechanism_fmu[{extra}]"'
+    """The command that installs an extra: in a clone from it, as there is no package on an index."""
+    clone = (Path(__file__).parents[1] / "pyproject.toml").is_file()
+    return f'python -m pip install -e ".[{extra}]"' if clone else f'python -m pip install "mechanism_fmu[{extra}]"'
 
 
 # What a machine runs out of at any place: memory, and space where something is printed.

@@ -168,6 +168,7 @@ def test_the_wheel_has_one_name_at_its_root_and_everything_below_it(wheel: Path)
         facts = {Path(name).name: archive.read(name).decode() for name in names if ".dist-info/" in name}
     assert facts["top_level.txt"] == "mechanism_fmu\n"
     assert "mechanism-fmu = mechanism_fmu.__main__:main" in facts["entry_points.txt"]
+    assert "show = mechanism_fmu.harness.page.shown:show" in facts["entry_points.txt"]
     below = {name.removeprefix("mechanism_fmu/") for name in names if name.startswith("mechanism_fmu/")}
     assert {name.partition("/")[0] for name in names} == {"mechanism_fmu", wheel.name.rsplit("-", 3)[0] + ".dist-info"}
     expected = tree(ROOT / "mechanism_fmu") | {"build_fmu.py"}

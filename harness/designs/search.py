@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import UsageError
+from ..errors import UsageError, way_to_get
 from ..fmu.description import Value
 from .optimum_file import CONTINUOUS, Optimum
 from .store import Store
@@ -263,8 +263,7 @@ def _optuna() -> Any:
         import optuna
     except ImportError:
         raise UsageError(
-            "Whole numbers and lists of values need optuna, which is not installed: "
-            'python -m pip install "mechanism_fmu[optimise]"'
+            f"Whole numbers and lists of values need optuna, which is not installed: {way_to_get('optimise')}"
         ) from None
     optuna.logging.set_verbosity(optuna.logging.WARNING)
     return optuna

@@ -158,10 +158,14 @@
       contacts: MODEL.contacts.map((one) => ({ active: run.of(one.variable) })) });
   }
 
+  // Up to which time curves are drawn.
+  let drawnTo = 0;
+
   function curves(shown) {
     const behind = kept && !isLive ? kept.run : null;
     if (behind) shown.to = Math.max(GIVEN.caseOf(MODEL, filed()).stop, behind.time[behind.count - 1]);
     run = shown;
+    drawnTo = shown.time[shown.count - 1];
     charts.forEach((chart) => chart.draw(shown, behind));
     table.draw(shown, behind);
   }
@@ -178,7 +182,8 @@
       const middle = (low + high) >> 1;
       if (run.time[middle] <= time) low = middle; else high = middle;
     }
-    together.point(time);
+    // a live run goes on while its curves wait to be drawn
+    together.point(isLive ? Math.min(time, drawnTo) : time);
   }
 
   // --- live ----------------------------------------------------------------------------------------------------------
@@ -188,6 +193,7 @@
       play(data);
       if (anew) document.body.classList.toggle("stale", false);
       if (anew) find("#state").textContent = "";
+      if (anew) moved(data.time[0]);
       if (anew && !still) player.run(true);
     },
     grow: () => player.grow(), go, draw: curves, note: (text) => { say("#refusal", ""); say("#note", text); },

@@ -4,13 +4,15 @@ var RUN_CHARTS = (function () {
 
   // No more lines across the curves than leave them to be seen.
   const HEIGHT = 230, MOST_MARKS = 150, TIME = "time [s]";
+  // What rounding leaves of nothing, in SI units.
+  const NOTHING = 1e-12;
 
   const common = (run) => ({ x: TIME, y: "", range: [run.from, run.to], marks: run.struck.slice(0, MOST_MARKS).map((row) => run.time[row]) });
 
   // Of units, [[unit, how many are one SI unit], ...], that in which a magnitude is nearest to ten, in orders of magnitude.
   function unitOf(units, most) {
     const away = ([, factor]) => Math.abs(Math.log10(most * factor) - 1);
-    return most > 0 && most < Infinity ? units.reduce((best, next) => away(next) < away(best) ? next : best) : units[0];
+    return most > NOTHING && most < Infinity ? units.reduce((best, next) => away(next) < away(best) ? next : best) : units[0];
   }
 
   // A chart in `host` of variables with one unit, or another one of its `ladder`, [[unit, how many are one], ...]:
@@ -29,8 +31,8 @@ var RUN_CHARTS = (function () {
       const columns = [run, ...(kept ? [kept] : [])].flatMap((each) => variables.map((one) => each.of(one.name)));
       const most = Math.max(...(AXES.extent(columns) || [NaN]).map(Math.abs)), [unit, factor] = unitOf(units, most);
       const spec = {
-        ...fixed, ...common(run), still: most === 0,
-        title: title + (unit ? " [" + unit + "]" : "") + (most === 0 ? ": 0 all the time" : ""),
+        ...fixed, ...common(run), still: most <= NOTHING,
+        title: title + (unit ? " [" + unit + "]" : "") + (most <= NOTHING ? ": 0 all the time" : ""),
         curves: [...(kept ? curves(kept, factor, { kept: true }) : []), ...curves(run, factor)],
       };
       if (plot) plot.take(spec); else plot = CURVES.plot(host, spec, share, { go });

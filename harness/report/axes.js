@@ -10,7 +10,8 @@ var AXES = (function () {
     const raw = (high - low) / count, unit = 10 ** Math.floor(Math.log10(raw));
     const step = unit * [1, 2, 5, 10].find((digit) => digit * unit >= raw * (1 - 1e-9));
     const first = Math.ceil(low / step - 1e-9), found = [];
-    for (let k = first; k * step <= high + 1e-9 * step; k++) found.push(Number((k * step).toPrecision(12)));
+    // counted: beyond 2^53 one more is the same number
+    for (let k = 0; k <= 4 * count && (first + k) * step <= high + 1e-9 * step; k++) found.push(Number(((first + k) * step).toPrecision(12)));
     return found;
   }
 

@@ -6,7 +6,7 @@ var CURVES = (function () {
   const { element } = PLAYER;
   const WIDTH = 560, HEIGHT = 250, LEFT = 56, RIGHT = 12, TOP = 16, BOTTOM = 26, LANE = 32, BAR = 12, LINE = 16, LETTER = 6.3;
   // As many colours as there are; dots that answer to the pointer are no farther [px]; a click moves no farther [px].
-  const COLOURS = 7, NEAR = 40, STILL = 5;
+  const COLOURS = 7, NEAR = 40, STILL = 5, NARROWEST = 1e-9;
   const KEYS = "Arrow keys move the cursor, + and - zoom, 0 shows all.";
 
   const make = (tag, attributes, ...inside) => {
@@ -20,6 +20,8 @@ var CURVES = (function () {
   function group() {
     const members = [], own = { members, range: null };
     own.zoom = (range) => {
+      // so far that numbers still differ
+      if (range && range[1] - range[0] <= NARROWEST * Math.max(...range.map(Math.abs))) return;
       own.range = range;
       members.forEach((one) => one.draw());
     };
@@ -293,7 +295,10 @@ var CURVES = (function () {
       const [low, high] = [limited(begun.from), limited(left)].sort((one, other) => one - other);
       if (high > low) share.zoom([low, high]);
     });
-    svg.addEventListener("pointercancel", () => { drag = null; });
+    svg.addEventListener("pointercancel", () => {
+      if (drag && drag.box) drag.box.remove();
+      drag = null;
+    });
     svg.addEventListener("pointerleave", () => {
       if (hasCursor()) return hooks.go ? undefined : share.point(null);
       cursor.setAttribute("d", "");
@@ -303,6 +308,7 @@ var CURVES = (function () {
     svg.addEventListener("dblclick", () => share.zoom(null));
     reset.addEventListener("click", () => share.zoom(null));
     svg.addEventListener("keydown", (event) => {
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
       const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key], size = x.high - x.low;
       if (step && hasCursor() && !x.log) {
         const next = (at === null ? (x.low + x.high) / 2 : at) + step * (spec.bars ? 1 : size * (event.shiftKey ? 0.1 : 0.01));

@@ -54,9 +54,9 @@ _CHUNK = 4096
 class Batch:
     """A model made ready for many designs. Make one of a model, or `of_fmu`.
 
-    Where the engine's library is not given, and the extra `native` is installed, it is compiled ahead of time, once for
-    each state of its sources (one or two minutes), and kept in the user's cache directory. Without, it is compiled just
-    in time, in every process.
+    Where the engine's library is not given, it is the one that the installation has compiled, or that the extra `dev`
+    compiles once for each state of its sources (one or two minutes) and keeps in the user's cache directory. Without
+    either, it is compiled just in time, in every process.
 
     Attributes:
         model: it.

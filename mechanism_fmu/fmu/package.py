@@ -71,8 +71,8 @@ def build_fmu(
 ) -> Path:
     """Build the FMU of a model: the same bytes from the same sources and versions of the tools.
 
-    Where the package ziglang is installed, the engine travels compiled. Where it is not, the engine is compiled on the
-    way, into the user's cache, so that the FMU starts fast here.
+    The engine travels compiled, as the installation has compiled it, or the extra `dev` does after a change of its
+    sources. Without either, it is compiled on the way for this machine alone.
 
     Args:
         module: what holds `MODEL`, e.g. `models.ratchet.model`; it may import its neighbours and `mechanism_fmu`.

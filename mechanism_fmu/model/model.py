@@ -273,7 +273,7 @@ class Model:
         for point in entry_points(group="mechanism_fmu.show", name="show"):
             shown: object = point.load()(self, height)
             return shown
-        raise MechanismError("Nothing that shows models is installed here; give: python -m pip install mechanism_fmu.")
+        raise MechanismError("Nothing that shows models is installed here; install the project again: docs/install.md.")
 
 
 class Limited(Protocol):

@@ -22,9 +22,9 @@ _SILENT = 2.0
 class Simulation(MovingMechanism):
     """One mechanism, from assembly through its motion.
 
-    The engine is compiled ahead of time, once for each state of its sources, and kept in the user's cache directory:
-    that takes a minute or two, the first time, and says so. Where that cannot be done (no package ziglang, no cache
-    directory), it is compiled just in time; with NUMBA_DISABLE_JIT=1 it runs as plain Python. The numbers are the same.
+    The engine is the one that the installation has compiled, or that the extra `dev` compiles after a change of its
+    sources, in a minute or two, which it says, and keeps in the user's cache directory. Where that cannot be done, it
+    is compiled just in time; with NUMBA_DISABLE_JIT=1 it runs as plain Python. The numbers are the same.
 
     Args:
         mechanism: its numbers are checked and written as tables.

@@ -63,7 +63,7 @@ def test_what_an_extra_brings_is_not_needed_and_named_with_the_extra(said, monke
     without(monkeypatch, package)
     assert doctor.examine() == 0
     assert not said[package]["well"]
-    assert said[package]["follows"].endswith(f'python -m pip install "mechanism_fmu[{extra}]"')
+    assert said[package]["follows"].endswith(f'python -m pip install -e ".[{extra}]"')
 
 
 def test_a_cache_that_cannot_be_used_is_a_failure(said, monkeypatch, tmp_path):

@@ -24,6 +24,7 @@ from harness.run.inputs import InputSignals
 from mechanism_fmu.fmu.disk.user_cache import record_build, record_source
 from mechanism_fmu.fmu.native.link import has_linker
 from mechanism_fmu.fmu.native.web import web_module
+from mechanism_fmu.fmu.own.find import write_new
 from tests.report_page import packed
 
 needs_linker = pytest.mark.skipif(not has_linker(), reason="ziglang is not installed")
@@ -130,6 +131,19 @@ def test_an_fmu_that_was_built_here_has_its_model(tmp_path: Path, monkeypatch: p
         build_fmu.web_of(path)
 
 
+@needs_linker
+def test_a_neighbour_that_has_changed_is_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "lever.py"
+    text = write_new("lever", tmp_path).read_text(encoding="utf-8")
+    path.write_text(text.replace("START = deg(30)", "from .numbers import START"), encoding="utf-8")
+    (tmp_path / "numbers.py").write_text("START = 0.1\n")
+    fmu = build_fmu.built(str(path), tmp_path / "out")
+    assert build_fmu.web_of(fmu).model.name == "lever"
+    (tmp_path / "numbers.py").write_text("START = 0.2\n")
+    assert refusal(fmu) == f"{path} has changed since the FMU was built; build it again"
+
+
 def refusal(path: Path) -> str:
     with pytest.raises(LookupError) as refused:
         build_fmu.web_of(path)
@@ -144,8 +158,10 @@ def test_why_a_model_cannot_be_had(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     record_build(fmu)
     assert "this file is not from here" in refusal(fmu)  # by whom else
     record_source(fmu, f"{own}\n{'0' * 64}")
-    assert refusal(fmu) == f"{own} has changed since the FMU was built; build it again"
-    record_source(fmu, "ratchet")
+    assert "own.py" in refusal(fmu)
+    record_source(fmu, f"ratchet\n{'0' * 64}")
+    assert refusal(fmu) == "ratchet has changed since the FMU was built; build it again"
+    record_source(fmu, f"ratchet\n{build_fmu._sources_of(models.load('ratchet'))}")
     monkeypatch.setattr("mechanism_fmu.fmu.native.objects.web_library_is_made", lambda: False)
     assert "`mechanism-fmu page ratchet` does it, once" in refusal(fmu)
     own.unlink()

@@ -92,7 +92,7 @@ def test_without_optuna_the_extra_is_named(slider_crank_fmu: Path, tmp_path: Pat
     path = file_of(tmp_path, slider_crank_fmu, method='method = "tpe"')
     code, text = invoke(path, "-o", tmp_path / "out", "--workers", "1")
     assert code == 2
-    assert 'python -m pip install "mechanism_fmu[optimise]"' in text
+    assert 'python -m pip install -e ".[optimise]"' in text
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGTERM there")

@@ -36,7 +36,7 @@ def test_it_is_the_page_of_the_command() -> None:
 
 def test_without_a_front_end_a_model_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("importlib.metadata.entry_points", lambda **_: ())
-    with pytest.raises(MechanismError, match="Nothing that shows models is installed here; give: python -m pip"):
+    with pytest.raises(MechanismError, match="Nothing that shows models is installed here; install the project again"):
         models.load("ratchet").MODEL.show()
 
 

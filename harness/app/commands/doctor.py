@@ -10,6 +10,8 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from ...errors import way_to_get
+
 
 class Found(NamedTuple):
     """One line: what was looked for, what was found, whether all is well, and what follows."""
@@ -87,14 +89,10 @@ def _packages() -> list[Found]:
         needed = name in required
         purpose, extra = (_PURPOSES.get(name, ""), "") if needed else _EXTRAS[name]
         if not there:
-            command = f"python -m pip install {name}" if needed else _way_to_get(extra)
+            command = f"python -m pip install {name}" if needed else way_to_get(extra)
             purpose = f"{purpose}; get it: {command}".removeprefix("; ")
         found.append(Found(name, version, there, needed, purpose))
     return found
-
-
-def _way_to_get(extra: str) -> str:
-    return f'python -m pip install "mechanism_fmu[{extra}]"'
 
 
 def _version(package: str) -> tuple[str, bool]:
@@ -109,7 +107,7 @@ def _linker() -> Found:
 
     tested = INSTALL.split("==")[1]
     version, there = _version("ziglang")
-    purpose = "links native FMUs, and in a clone pages and the engine that starts at once"
+    purpose = "links native FMUs, and the engine after a change of its sources"
     if not there or not has_linker():
         return Found("ziglang", "-", False, False, f"{purpose}; get it: {INSTALL}")
     if version != tested:

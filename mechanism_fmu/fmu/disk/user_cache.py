@@ -137,10 +137,10 @@ def record_source(path: Path, source: str) -> None:
 
     Args:
         path: of the FMU.
-        source: name of a ready-made model, or file of the user's own and, in a second line, its digest.
+        source: name of a ready-made model or file of the user's own and, in a second line, a digest of its sources.
     """
     with suppress(OSError):
-        (private_cache() / _FOLDER / _digest(path)).write_text(source, encoding="utf-8")
+        _write(private_cache() / _FOLDER / _digest(path), source.encode(), 0o644)
 
 
 def source_of(path: Path) -> str:

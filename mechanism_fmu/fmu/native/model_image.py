@@ -74,6 +74,8 @@ class _Image:
                 self.contents += struct.pack("<I", part)
             case int():
                 self.contents += struct.pack("<i", part)
+            case _:
+                raise TypeError(f"{part!r} has no form in the image of a model")
         return False
 
     def _align(self, size: int) -> None:

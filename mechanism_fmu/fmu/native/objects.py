@@ -304,6 +304,8 @@ def web_library(report: Report = silently) -> bytes:
 
 def web_library_is_made() -> bool:
     """Whether `web_library` has it already, so that nothing is compiled for it now."""
+    if not (is_bundled() or has_linker()):
+        return False
     engine = _engine()
     return engine.complete and is_whole(_path_of(engine, WEB, WEB_SURFACE, HEADERS))
 

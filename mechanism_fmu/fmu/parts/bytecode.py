@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import importlib.util
 import marshal
+import sys
 from collections.abc import Mapping
 
 #: Flags of a .pyc file: it belongs to a source of one hash (PEP 552), and whoever imports it looks whether that fits.
@@ -30,6 +31,12 @@ def bytecode(sources: Mapping[str, bytes]) -> dict[str, bytes]:
     for name, text in sources.items():
         code = compile(text, "", "exec", dont_inherit=True, optimize=0)
         head = importlib.util.MAGIC_NUMBER + _OF_A_HASH + importlib.util.source_hash(text)
-        whole = head + marshal.dumps(code, _WITHOUT_REFERENCES)
-        found[importlib.util.cache_from_source(name, optimization="")] = whole + hashlib.sha256(whole).digest()
+        try:
+            whole = head + marshal.dumps(code, _WITHOUT_REFERENCES)
+        except ValueError:
+            continue  # a constant that this form does not know, as slices from Python 3.14 on
+        folder, _, file = name.rpartition("/")
+        # not by importlib, which puts it elsewhere where PYTHONPYCACHEPREFIX says so
+        place = f"__pycache__/{file.removesuffix('.py')}.{sys.implementation.cache_tag}.pyc"
+        found[f"{folder}/{place}" if folder else place] = whole + hashlib.sha256(whole).digest()
     return found

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from ..areas import Area
 from ..body import Point
 from ..findings import length
-from ..functions import Number, atan2, cos, is_plain, sin
+from ..functions import Number, atan2, cos, is_plain, sin, where_positive
 
 #: So many straight lines show an arc in a drawing, whatever its sweep, which may follow from parameters.
 _DRAWN = 12
@@ -82,9 +82,9 @@ class Element(NamedTuple):
     def area(self) -> Area:
         """What it adds to the area that the outline encloses, seen from the origin.
 
-        The triangle of origin, start and end; and the circular segment beside the chord, with half the sweep a and
-        the radius R, both with the sign of the bulge: A = R^2 (2 a - sin 2a) / 2, first moment about the centre of the
-        circle 2/3 R^3 sin(a)^3, polar moment there R^4 (a/2 - (s c^3)/2 - (s^3 c)/6).
+        The triangle of origin, start and end; and the circular segment beside the chord of length L, with the area
+        alpha(b) L^2, the first moment beta(b) L^3 to the right of the chord, and the polar moment pi(b) L^4 about its
+        middle (`_moments`).
 
         Source: textbook: moments of a circular segment.
         """
@@ -97,13 +97,60 @@ class Element(NamedTuple):
         )
         if self.is_straight:
             return whole
-        square = self.bulge * self.bulge
-        s, c, a = 2.0 * self.bulge / (1.0 + square), (1.0 - square) / (1.0 + square), self.sweep / 2
-        r, (cx, cy), (dx, dy) = self.radius, self.centre, self.chord
-        long = length((dx, dy))
-        area = r * r * (a - s * c)
-        towards = 2.0 / 3.0 * r * r * r * s * s * s  # to the right of the chord
-        fx, fy = towards * dy / long, -towards * dx / long
-        about = r * r * r * r * (a / 2 - s * c * c * c / 2 - s * s * s * c / 6)
-        polar = about + 2.0 * (cx * fx + cy * fy) + (cx * cx + cy * cy) * area
-        return whole.with_more(Area(area, (fx + cx * area, fy + cy * area), polar))
+        dx, dy = self.chord
+        square = dx * dx + dy * dy
+        alpha, beta, about = _moments(self.bulge)
+        area, mx, my = alpha * square, x + dx / 2, y + dy / 2
+        fx, fy = beta * square * dy, -beta * square * dx
+        polar = about * square * square + 2.0 * (mx * fx + my * fy) + (mx * mx + my * my) * area
+        return whole.with_more(Area(area, (fx + mx * area, fy + my * area), polar))
+
+
+#: Up to this bulge the closed forms of `_moments` lose digits, as 1 / b^4, and their series are exact to rounding.
+_FLAT = 0.25
+#: Coefficients of b^(2 k + 1), b^(2 k + 2), b^(2 k + 1).
+_ALPHA = tuple((-1.0) ** (k + 1) / ((2 * k - 1) * (2 * k + 1) * (2 * k + 3)) for k in range(14))
+_BETA = tuple(
+    over / under
+    for over, under in (
+        *((1, 15), (2, 105), (-1, 315), (4, 3465), (-5, 9009), (2, 6435), (-7, 36465)),
+        *((8, 62985), (-1, 11305), (10, 156009), (-11, 229425), (4, 108675), (-13, 450225), (14, 606825)),
+    )
+)
+_ABOUT = tuple(
+    over / under
+    for over, under in (
+        *((1, 60), (11, 420), (1, 140), (-17, 13860), (83, 180180), (-41, 180180), (19, 145860)),
+        *((-227, 2771340), (97, 1763580), (-121, 3120180), (443, 15600900), (-59, 2753100)),
+        *((209, 12606300), (-731, 55827900)),
+    )
+)
+
+
+def _moments(b: Number) -> tuple[Number, Number, Number]:
+    """Area, first moment and polar moment about the chord's middle of the segment of bulge b beside a chord of 1.
+
+    With a = 2 atan b, r = (1 + b^2) / (4 b), h = (1 - b^2) / (4 b): alpha = r^2 (a - s c), beta = 1/12 - h alpha, and
+    pi = r^4 (a/2 - s c^3/2 - s^3 c/6) - h/6 + h^2 alpha; flat arcs by their series.
+    """
+    square = b * b
+    flat = b * _series(_ALPHA, square), square * _series(_BETA, square), b * _series(_ABOUT, square)
+    if is_plain(b) and abs(b) <= _FLAT:
+        return flat
+    a, s, c = 2.0 * atan2(b, 1.0), 2.0 * b / (1.0 + square), (1.0 - square) / (1.0 + square)
+    r, h = (1.0 + square) / (4.0 * b), (1.0 - square) / (4.0 * b)
+    alpha = r * r * (a - s * c)
+    about = r * r * r * r * (a / 2 - s * c * c * c / 2 - s * s * s * c / 6) - h / 6 + h * h * alpha
+    curved = alpha, 1.0 / 12 - h * alpha, about
+    if is_plain(b):
+        return curved
+    is_flat = _FLAT * _FLAT - square
+    found = tuple(where_positive(is_flat, one, other) for one, other in zip(flat, curved, strict=True))
+    return found[0], found[1], found[2]
+
+
+def _series(coefficients: tuple[float, ...], x: Number) -> Number:
+    total: Number = 0.0
+    for coefficient in reversed(coefficients):
+        total = coefficient + x * total
+    return total

@@ -48,15 +48,18 @@ def from_svg_path(path: str, scale: float = 1e3, *, hole: bool = False) -> Outli
 
     Args:
         path: y downwards, as on a screen.
-        scale: units of the drawing per metre; 1000 for millimetres.
+        scale: units of the drawing per metre, > 0; 1000 for millimetres.
         hole: as of `Outline`.
 
     Raises:
-        MechanismError: another command (curves are to be approximated by arcs first), an ellipse, or a number missing.
+        MechanismError: the scale is not positive, another command (curves are to be approximated by arcs first), an
+            ellipse, or a number missing.
 
     Source: definition: W3C, Scalable Vector Graphics (SVG) 2, Paths; the bulge of an arc with a given radius, chord and
         flags: tan(sweep/4).
     """
+    if not scale > 0.0:
+        raise MechanismError(f"scale = {scale:g}, but it must be positive; give 1000 for a drawing in millimetres.")
     vertices: list[tuple[float, float, float]] = []
     x = y = 0.0
     closed = False
@@ -115,6 +118,13 @@ def _commands(path: str) -> Iterator[tuple[str, list[float]]]:
 def _bulge(numbers: list[float], chord: float) -> float:
     """Of an SVG arc: radii, rotation, large, sweep; a radius that is too small is the least that reaches."""
     rx, ry, _, large, sweep = numbers[:5]
+    if {large, sweep} - {0.0, 1.0}:
+        flags = f"{large:g} and {sweep:g}"
+        raise MechanismError(f"The path has an arc with flags {flags}; write 0 or 1, and a space between.")
+    if chord == 0.0:
+        raise MechanismError("The path has an arc that ends where it begins; draw a circle as two arcs.")
+    if rx == 0.0 or ry == 0.0:
+        return 0.0  # a straight line, says SVG
     if not math.isclose(rx, ry, rel_tol=1e-9):
         raise MechanismError(f"The path has an arc of an ellipse, with radii {rx:g} and {ry:g}; give a circle's.")
     radius = max(abs(rx), chord / 2)

@@ -46,6 +46,34 @@ def test_moments_are_those_of_many_small_edges(outline: Outline) -> None:
     assert np.hstack([found.area, found.first, found.polar]) == pytest.approx(expected, abs=2e-9)
 
 
+@pytest.mark.parametrize("bulge", [*(10.0**-k for k in range(1, 13)), 0.2, 0.2499, 0.2501, 0.3, 1.0, 1.7])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_flat_arcs_keep_all_digits(bulge: float, sign: float) -> None:
+    """Of a segment beside a chord of 1, against the closed forms in a hundred digits."""
+    from mpmath import atan, cos, mp, mpf, sin
+
+    mp.dps = 100
+    b = mpf(bulge)
+    a, r = 2 * atan(b), (1 + b * b) / (4 * b)
+    h = r * cos(a)
+
+    shape = Outline(((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)))
+    round_one = Outline(((0.0, 0.0, sign * bulge), *shape.vertices[1:]))
+    area = float(r * r * (a - sin(a) * cos(a)))
+    first = float(r**3 * sin(a) ** 3 * 2 / 3 - h * r * r * (a - sin(a) * cos(a)))
+    about = float(
+        r**4 * (a / 2 - sin(a) * cos(a) ** 3 / 2 - sin(a) ** 3 * cos(a) / 6)
+        - 2 * h * r**3 * sin(a) ** 3 * 2 / 3
+        + h**2 * r**2 * (a - sin(a) * cos(a))
+    )
+    more, less = round_one.area(), shape.area()
+    scale = max(1.0, bulge**3)
+    assert more.area - less.area == pytest.approx(sign * area, rel=1e-14, abs=4e-16 * scale)
+    assert more.first[1] - less.first[1] == pytest.approx(-first, rel=1e-13, abs=4e-16 * scale)
+    # seen from the origin: the middle of the chord is at (1/2, 0)
+    assert more.polar - less.polar == pytest.approx(sign * (about + area / 4), rel=1e-13, abs=8e-16 * scale)
+
+
 def test_a_circle_is_that_of_its_radius() -> None:
     area, hole = (Outline.circle(0.5, (1.0, 2.0), hole=hole).area() for hole in (False, True))
     assert area.area == pytest.approx(math.pi / 4, rel=1e-15)
@@ -114,6 +142,9 @@ def test_paths_of_drawing_programs() -> None:
     assert svg_path(Outline.circle(0.5)) == "M 500,0 A 500 500 0 0 0 -500,0 A 500 500 0 0 0 500,0 Z"
     large = from_svg_path("M 5 0 A 5 5 0 1 0 0 5 Z")  # three quarters of a circle, and its chord
     assert large.area().area == pytest.approx((0.75 * math.pi + 0.5) * 25e-6)
+    assert from_svg_path("M 0 0 A 0 5 0 0 1 10 0").elements[0].is_straight
+    with pytest.raises(MechanismError, match="scale = 0, but it must be positive"):
+        from_svg_path("M 0 0 L 1 1", 0.0)
     open_chain = from_svg_path("M 0 0 L 10 0")
     assert (open_chain.closed, svg_path(open_chain)) == (False, "M 0,0 L 10,0")
 
@@ -125,6 +156,8 @@ def test_paths_of_drawing_programs() -> None:
         ("M 0 0 L 1", "command L needs 2 numbers, but has 1"),
         ("M 0 0 A 5 3 0 0 1 1 1", "ellipse, with radii 5 and 3"),
         ("M 0 0 L 1 1 M 2 2", "second M"),
+        ("M 0 0 A 5 5 0 1 0 0 0 Z", "ends where it begins"),
+        ("M 0 0 A 5 5 0 015 5 1 1", "flags 15 and 5"),
         ("M 0 0 L 1 1 Z 3 3", "behind Z"),
         ("0 0", "a number before its first letter"),
         ("M 0 0 L 1 ?", "'\\?', which is neither a letter nor a number"),
