@@ -14,8 +14,6 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
-import mechanism_fmu
-
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -200,7 +198,7 @@ def web_of(path: Path) -> WebModule:
 def _sources_of(module: ModuleType) -> str:
     """A digest of a model's module, its neighbours that it has imported, and the engine's sources."""
     from mechanism_fmu.fmu.disk.archive import content_hash
-    from mechanism_fmu.fmu.native.sources import fingerprint
+    from mechanism_fmu.fmu.native import sources
 
     package = f"{module.__name__.rpartition('.')[0]}."
     files = {
@@ -208,7 +206,7 @@ def _sources_of(module: ModuleType) -> str:
         for name, found in list(sys.modules.items())
         if name.startswith(package) and (file := getattr(found, "__file__", None))
     }
-    engine = fingerprint(Path(mechanism_fmu.__file__).parent)
+    engine = sources.fingerprint(Path(sources.__file__).parents[2])
     return content_hash({**files, "engine": engine.encode()})
 
 

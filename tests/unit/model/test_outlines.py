@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import assume, given, strategies as st
 
 from mechanism_fmu.model import (
     STEEL,
@@ -18,7 +18,7 @@ from mechanism_fmu.model import (
     svg_path,
 )
 from mechanism_fmu.model.areas import polygon
-from tests.outlines_apart import Pose, is_inside
+from tests.outlines_apart import Pose, is_inside, placed
 
 SQUARE = [(0.0, 0.0), (0.2, 0.0), (0.2, 0.1), (0.0, 0.1)]
 
@@ -122,7 +122,9 @@ def test_moved_and_mirrored_outlines_have_the_same_area(outline: Outline, x: flo
 
 @given(rounds(), st.floats(-2, 2), st.floats(-2, 2))
 def test_the_mirror_image_has_the_mirrored_points(outline: Outline, x: float, y: float) -> None:
-    assert is_inside(outline, Pose(), complex(x, y)) == is_inside(outline.mirrored(), Pose(), complex(x, -y))
+    point = complex(x, y)
+    assume(min(abs(point - element.nearest(point)) for element in placed(outline, Pose())) > 1e-9)
+    assert is_inside(outline, Pose(), point) == is_inside(outline.mirrored(), Pose(), complex(x, -y))
 
 
 @given(rounds())
