@@ -103,6 +103,8 @@ class BuildPy(build_py):
         if tree["is_of_these_sources"](_ROOT / NAME):  # compiled by an editable install
             shutil.copytree(_ROOT / NAME / tree["COMPILED"], package / tree["COMPILED"], dirs_exist_ok=True)
         write_engine(built, package)
+        for folder in list(package.rglob("__pycache__")):  # of the process that has compiled it
+            _remove(folder)
 
 
 class BdistWheel(bdist_wheel):
@@ -147,7 +149,10 @@ def write_engine(packages: Path, library: Path) -> None:
         "import sys; from pathlib import Path; from mechanism_fmu.fmu.native.objects import write_engine; "
         "write_engine(Path(sys.argv[1]))"
     )
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(packages), os.environ.get("PYTHONPATH", "")])}
+    environment = os.environ | {
+        "PYTHONPATH": os.pathsep.join([str(packages), os.environ.get("PYTHONPATH", "")]),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
     command = [sys.executable, "-P", "-c", program, str(library / sources["COMPILED"])]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     if done.returncode != 0:
