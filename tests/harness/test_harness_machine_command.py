@@ -14,7 +14,7 @@ from harness.app.execution import alone_in
 from harness.app.terminal import RunDisplay
 from harness.errors import UsageError
 from harness.fmu.interface import Observable
-from harness.machine.observers import record
+from harness.machine.observers import growing_table, record
 from tests.harness.machine.machines import geared_cam, invoke
 
 
@@ -155,7 +155,7 @@ def test_a_full_disk_ends_the_run_and_leaves_what_can_be_written(machine, tmp_pa
     """Files of an earlier run are named, so that nobody takes them for this one's."""
     folder = tmp_path / "result"
     assert invoke("run", machine, "-o", folder)[0] == 0
-    usual, written = record.write_binary, []
+    usual, written = growing_table.write_binary, []
 
     def until_full(path, write):
         written.append(path)
@@ -163,7 +163,7 @@ def test_a_full_disk_ends_the_run_and_leaves_what_can_be_written(machine, tmp_pa
             raise UsageError(f"'{path}' cannot be written: no space left.")
         return usual(path, write)
 
-    monkeypatch.setattr(record, "write_binary", until_full)
+    monkeypatch.setattr(growing_table, "write_binary", until_full)
     monkeypatch.setattr(record, "_PATIENCE", 0.0)
     code, said = invoke("run", machine, "-o", folder)
     assert code == 1

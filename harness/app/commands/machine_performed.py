@@ -17,7 +17,8 @@ from ...machine.file.machine_plan import Scheme
 from ...machine.machine import Machine
 from ...machine.observers.bonds import Bond, Bonds
 from ...machine.observers.component_impacts import Impacts
-from ...machine.observers.record import FORMATS, Recorder, chosen
+from ...machine.observers.growing_table import FORMATS
+from ...machine.observers.record import Recorder, chosen
 from ...machine.observers.watched import statistics, statistics_rows
 from ...machine.running import Frames, MachineRun, Prepared, bond_cautions, cautions, loop_cautions, run_machine
 from ...machine.stepping import algorithm_of

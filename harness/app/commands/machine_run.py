@@ -20,7 +20,8 @@ from ...machine.file.machine_plan import NO_CHANGES, Changes
 from ...machine.file.write_file import write_new
 from ...machine.observers.bonds import HEADINGS as BOND_HEADINGS, bond_rows, bond_summary
 from ...machine.observers.component_impacts import Cycles, cycles_of
-from ...machine.observers.record import FORMATS, chosen
+from ...machine.observers.growing_table import FORMATS
+from ...machine.observers.record import chosen
 from ...machine.observers.watched import HEADINGS as PART_HEADINGS, STATISTICS_UNITS
 from ...machine.running import MachineRun, Prepared
 from ...machine.structure import structure_of
