@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -121,6 +120,7 @@ def built(
     """
     from mechanism_fmu.fmu.disk.user_cache import record_source
     from mechanism_fmu.fmu.native.package import build_native_fmu
+    from mechanism_fmu.fmu.native.web import sources_of
     from mechanism_fmu.fmu.own.freedoms import report_freedoms
     from mechanism_fmu.fmu.package import build_fmu
     from mechanism_fmu.model.baked import Baked, Seen
@@ -132,7 +132,7 @@ def built(
     if clocks and fmi != 3:
         _refuse("Clocks come with FMI 3.0 only; add --fmi 3.")
     with _loaded(model, "the FMU", flavour is Flavour.NATIVE) as (module, file, report, warn):
-        source = f"{file.resolve() if file else model}\n{_sources_of(module)}"  # before what comes takes its time
+        source = f"{file.resolve() if file else model}\n{sources_of(module)}"  # before what comes takes its time
         if flavour is Flavour.NATIVE:
             path = build_native_fmu(module, output, fmi, report, clocks=clocks, baked=own)
         else:
@@ -172,7 +172,7 @@ def web_of(path: Path) -> WebModule:
     import models
     from mechanism_fmu.fmu.disk.user_cache import source_of
     from mechanism_fmu.fmu.native.objects import web_library_is_made
-    from mechanism_fmu.fmu.native.web import web_module
+    from mechanism_fmu.fmu.native.web import sources_of, web_module
     from mechanism_fmu.fmu.own.find import find
     from mechanism_fmu.fmu.own.prepare import load
     from mechanism_fmu.model import MechanismError
@@ -184,7 +184,7 @@ def web_of(path: Path) -> WebModule:
         )
     try:
         module = models.load(model) if model in models.available() else load(find(model))
-        if _sources_of(module) != digest:
+        if sources_of(module) != digest:
             raise LookupError(f"{model} has changed since the FMU was built; build it again")
         if not web_library_is_made():
             raise LookupError(
@@ -193,21 +193,6 @@ def web_of(path: Path) -> WebModule:
         return web_module(module)
     except (MechanismError, OSError) as error:
         raise LookupError(str(error)) from error
-
-
-def _sources_of(module: ModuleType) -> str:
-    """A digest of a model's module, its neighbours that it has imported, and the engine's sources."""
-    from mechanism_fmu.fmu.disk.archive import content_hash
-    from mechanism_fmu.fmu.native import sources
-
-    package = f"{module.__name__.rpartition('.')[0]}."
-    files = {
-        name.removeprefix(package): Path(file).read_bytes()
-        for name, found in list(sys.modules.items())
-        if name.startswith(package) and (file := getattr(found, "__file__", None))
-    }
-    engine = sources.fingerprint(Path(sources.__file__).parents[2])
-    return content_hash({**files, "engine": engine.encode()})
 
 
 def _require(model: str) -> None:

@@ -23,7 +23,7 @@ from harness.run.experiment import Experiment, Run, perform
 from harness.run.inputs import InputSignals
 from mechanism_fmu.fmu.disk.user_cache import record_build, record_source
 from mechanism_fmu.fmu.native.link import has_linker
-from mechanism_fmu.fmu.native.web import web_module
+from mechanism_fmu.fmu.native.web import sources_of, web_module
 from mechanism_fmu.fmu.own.find import write_new
 from tests.report_page import packed
 
@@ -161,7 +161,7 @@ def test_why_a_model_cannot_be_had(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert "own.py" in refusal(fmu)
     record_source(fmu, f"ratchet\n{'0' * 64}")
     assert refusal(fmu) == "ratchet has changed since the FMU was built; build it again"
-    record_source(fmu, f"ratchet\n{build_fmu._sources_of(models.load('ratchet'))}")
+    record_source(fmu, f"ratchet\n{sources_of(models.load('ratchet'))}")
     monkeypatch.setattr("mechanism_fmu.fmu.native.objects.web_library_is_made", lambda: False)
     assert "`mechanism-fmu page ratchet` does it, once" in refusal(fmu)
     own.unlink()

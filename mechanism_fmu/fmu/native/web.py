@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 import uuid
 from dataclasses import dataclass
+from pathlib import Path
 from types import ModuleType
 
 from ...model import Model, compile_mechanism
@@ -16,6 +18,7 @@ from .formulas import formulas
 from .model_data import model_data
 from .model_image import model_image
 from .objects import Report, silently, web_library
+from .sources import fingerprint
 
 
 @dataclass(frozen=True)
@@ -66,3 +69,21 @@ def web_model(model: Model, report: Report = silently) -> WebModule:
     guid = uuid.UUID(content_hash({"image": unnamed, "binary": binary})[:32])
     image = model_image(model_data(model, traced, f"{{{guid}}}", guid.bytes), traced)
     return WebModule(model, f"{{{guid}}}", binary, image)
+
+
+def sources_of(module: ModuleType) -> str:
+    """A digest of what a model is made from: its module, what of its package it has imported, the engine's sources.
+
+    Args:
+        module: what holds `MODEL`, just loaded.
+
+    Raises:
+        OSError: a file of it is gone.
+    """
+    package = f"{module.__name__.rpartition('.')[0]}."
+    files = {
+        name.removeprefix(package): Path(file).read_bytes()
+        for name, found in list(sys.modules.items())
+        if name.startswith(package) and (file := getattr(found, "__file__", None))
+    }
+    return content_hash({**files, "engine": fingerprint(Path(__file__).parents[2]).encode()})
