@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
-from .areas import Area, CircularHole, circle_area, polygon
+from .areas import CircularHole, circle_area, polygon
 from .body import Body, Point
 from .errors import MechanismError
 from .findings import length as length_of, literal, refuse, refuse_unless
@@ -170,7 +170,7 @@ def plate(
         Steiner's theorem, J = m (polar/A - x^2 - y^2).
     """
     label = f"plate {name!r}"
-    corners = _drawn(outline) if isinstance(outline, Outline) else _corners(outline, label, "outline")
+    corners = outline.drawn() if isinstance(outline, Outline) else _corners(outline, label, "outline")
     # Integrals count from a corner: from an origin far away, differences of large numbers would take the digits.
     (x_first, y_first) = corners[0]
 
@@ -178,7 +178,7 @@ def plate(
         return point[0] - x_first, point[1] - y_first
 
     if isinstance(outline, Outline):
-        left = _enclosed(outline, corners[0], f"{label}: its outline")
+        left = outline.seen_from(corners[0], f"{label}: its outline")
     else:
         left = polygon([seen(corner) for corner in corners])
     for number, hole in enumerate(holes, start=1):
@@ -186,7 +186,7 @@ def plate(
         if isinstance(hole, Outline):
             if not hole.hole:
                 raise MechanismError(f"{label}: {what} is not a hole; make it with hole=True, clockwise.")
-            left = left.without(_enclosed(hole, corners[0], f"{label}: {what}"))
+            left = left.without(hole.seen_from(corners[0], f"{label}: {what}"))
         elif isinstance(hole, CircularHole):
             middle = seen(_point(hole.centre, label, f"centre of {what}"))
             left = left.without(circle_area(middle, quantity(hole.radius, "m", f"{label}: radius of {what}")))
@@ -335,18 +335,6 @@ def _mass(label: str, mass: Number | None, thickness: Number | None, material: D
     if material is None:
         return quantity(mass, "kg", f"{label}: mass")
     return material.density * quantity(thickness, "m", f"{label}: thickness") * area
-
-
-def _drawn(outline: Outline) -> list[Point]:
-    """The corners of an outline for a drawing, with points on its arcs."""
-    return [point for element in outline.elements for point in element.points()]
-
-
-def _enclosed(outline: Outline, origin: Point, label: str) -> Area:
-    """The area inside an outline, seen from a point."""
-    for finding in outline.findings(label):
-        refuse(finding)
-    return outline.moved(-origin[0], -origin[1]).area()
 
 
 def _point(point: Point, label: str, what: str) -> Point:

@@ -13,7 +13,7 @@ from itertools import pairwise
 from ..areas import Area
 from ..body import Point
 from ..errors import MechanismError
-from ..findings import Finding, length, literal, positive, refuse_unless
+from ..findings import Finding, length, literal, positive, refuse, refuse_unless
 from ..functions import Number, cos, is_plain, sin, sqrt, where_positive
 from ..quantities import pair, quantity
 from .element import Element
@@ -150,6 +150,24 @@ class Outline:
             whole = whole.with_more(element.area())
         side = -1.0 if self.hole else 1.0
         return Area(side * whole.area, (side * whole.first[0], side * whole.first[1]), side * whole.polar)
+
+    def drawn(self) -> list[Point]:
+        """Its vertices, and points on its arcs, near enough for a drawing [m]."""
+        return [point for element in self.elements for point in element.points()]
+
+    def seen_from(self, origin: Point, label: str) -> Area:
+        """Moments of the area inside about a point, after a look at what can be wrong.
+
+        Args:
+            origin: from which they count [m]: far away, differences of large numbers would take their digits.
+            label: how messages call it.
+
+        Raises:
+            MechanismError: it is open, an element is too short, or it runs the wrong way round.
+        """
+        for finding in self.findings(label):
+            refuse(finding)
+        return self.moved(-origin[0], -origin[1]).area()
 
     def findings(self, label: str) -> Iterator[Finding]:
         """What its numbers can be wrong in, by themselves: short elements, and the wrong way round.
