@@ -90,7 +90,16 @@ class FmuError(HarnessError):
 # Packages that only some commands need.
 
 #: The extra that brings each, by the name that is imported.
-EXTRAS = {"pyarrow": "designs", "PIL": "designs", "scipy": "analysis"}
+EXTRAS = {
+    "scipy": "analysis",
+    "pyarrow": "designs",
+    "PIL": "designs",
+    "plotly": "plot",
+    "distributed": "cluster",
+    "optuna": "optimise",
+    "libcosimpy": "importers",
+    "numba": "dev",
+}
 
 
 def way_to_get(extra: str) -> str:

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from ...errors import way_to_get
+from ...errors import EXTRAS, way_to_get
 
 
 class Found(NamedTuple):
@@ -60,16 +60,16 @@ _PURPOSES = {
     "pythonfmu": "builds the FMU that runs in Python",
     "pandas": "result tables",
 }
-#: What extras bring: what for, and the extra.
+#: What extras bring, and what for.
 _EXTRAS = {
-    "scipy": ("linkages that bend (`ked`), profiles of cams, the papers reproduced", "analysis"),
-    "pyarrow": ("sweeps, optimum design, the study; tables as Parquet", "designs"),
-    "pillow": ("the study, whose figures are pictures, too", "designs"),
-    "plotly": ("charts by `plot` of a result of `simulate`", "plot"),
-    "distributed": ("sweeps on a cluster", "cluster"),
-    "optuna": ("optimum design by the method 'tpe'", "optimise"),
-    "libcosimpy": ("checks against another master", "importers"),
-    "numba": ("compiles the engine after a change of its sources", "dev"),
+    "scipy": "linkages that bend (`ked`), profiles of cams, the papers reproduced",
+    "pyarrow": "sweeps, optimum design, the study; tables as Parquet",
+    "pillow": "the study, whose figures are pictures, too",
+    "plotly": "charts by `plot` of a result of `simulate`",
+    "distributed": "sweeps on a cluster",
+    "optuna": "optimum design by the method 'tpe'",
+    "libcosimpy": "checks against another master",
+    "numba": "compiles the engine after a change of its sources",
 }
 #: Modules whose name is not that of their package.
 _MODULES = {"pillow": "PIL", "markdown-it-py": "markdown_it"}
@@ -84,12 +84,13 @@ def _packages() -> list[Found]:
     ]
     found = []
     for name in dict.fromkeys((*required, *_EXTRAS)):
+        module = _MODULES.get(name, name)
         version, there = _version(name)
-        there = there and importlib.util.find_spec(_MODULES.get(name, name)) is not None
+        there = there and importlib.util.find_spec(module) is not None
         needed = name in required
-        purpose, extra = (_PURPOSES.get(name, ""), "") if needed else _EXTRAS[name]
+        purpose = _PURPOSES.get(name, "") if needed else _EXTRAS[name]
         if not there:
-            command = f"python -m pip install {name}" if needed else way_to_get(extra)
+            command = f"python -m pip install {name}" if needed else way_to_get(EXTRAS[module])
             purpose = f"{purpose}; get it: {command}".removeprefix("; ")
         found.append(Found(name, version, there, needed, purpose))
     return found
