@@ -100,7 +100,7 @@ class BuildPy(build_py):
             if after != before:
                 path.write_text(after, encoding="utf-8", newline="\n")
         tree = runpy.run_path(str(_ROOT / NAME / "fmu" / "native" / "sources.py"))
-        if tree["is_of_these_sources"](_ROOT / NAME):  # compiled by an editable install
+        if tree["is_compiled"](_ROOT / NAME):  # compiled by an editable install
             shutil.copytree(_ROOT / NAME / tree["COMPILED"], package / tree["COMPILED"], dirs_exist_ok=True)
         write_engine(built, package)
         for folder in list(package.rglob("__pycache__")):  # of the process that has compiled it
@@ -136,7 +136,7 @@ def write_engine(packages: Path, library: Path) -> None:
         SetupError: what compiles it is not installed, or refuses.
     """
     sources = runpy.run_path(str(library / "fmu" / "native" / "sources.py"))
-    if sources["is_of_these_sources"](library):
+    if sources["is_compiled"](library):
         return
     missing = [name for name in COMPILERS if importlib.util.find_spec(name) is None]
     if missing:

@@ -50,10 +50,8 @@ def build_editable(
 
 def _compilers() -> list[str]:
     """What the engine is compiled and linked with, in the project's own versions, unless it is compiled."""
-    is_of_these_sources: Callable[[Path], bool] = runpy.run_path(str(_LIBRARY / "fmu" / "native" / "sources.py"))[
-        "is_of_these_sources"
-    ]
-    if is_of_these_sources(_LIBRARY):
+    is_compiled: Callable[[Path], bool] = runpy.run_path(str(_LIBRARY / "fmu" / "native" / "sources.py"))["is_compiled"]
+    if is_compiled(_LIBRARY):
         return []
     project = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]
     # numpy and pythonfmu are imported with the library, and fmpy brings the headers of FMI

@@ -6,7 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from mechanism_fmu.fmu.native.sources import COMPILED, FILES, FOLDERS, SURFACE, fingerprint, is_of_these_sources
+from mechanism_fmu.fmu.disk.user_cache import keep
+from mechanism_fmu.fmu.native.sources import (
+    COMPILED,
+    FILES,
+    FOLDERS,
+    SURFACE,
+    fingerprint,
+    is_compiled,
+    is_of_these_sources,
+)
 
 ROOT = Path(__file__).parents[1]
 LIBRARY = ROOT / "mechanism_fmu"
@@ -37,6 +46,7 @@ def asked(kind: str) -> set[str]:
 
 def compiled(library: Path) -> None:
     (library / COMPILED).mkdir(parents=True, exist_ok=True)
+    keep(library / COMPILED / "engine.bc", b"an engine")
     (library / COMPILED / "sources").write_text(fingerprint(library) + "\n")
 
 
@@ -47,6 +57,20 @@ def test_what_compiles_the_engine_is_asked_for_until_it_is_compiled(kind: str, t
     assert not asked(kind) & COMPILERS
     (tree / "engine" / "vectors.py").write_text("# changed")
     assert asked(kind) >= COMPILERS
+
+
+@pytest.mark.parametrize("damage", ["cut off", "gone", "its digest too"])
+def test_what_is_damaged_is_compiled_anew(damage: str, tree: Path) -> None:
+    compiled(tree)
+    file = tree / COMPILED / "engine.bc"
+    if damage == "cut off":
+        file.write_bytes(file.read_bytes()[:-1])
+    else:
+        file.unlink()
+    if damage == "its digest too":
+        file.with_name("engine.bc.sha256").unlink()
+    assert asked("editable") >= COMPILERS
+    assert not is_compiled(tree)
 
 
 @pytest.mark.parametrize("name", ["engine/vectors.py", "tables/sizes.py", "codes.py", "fmu/native/c/many.c"])

@@ -213,6 +213,7 @@ def write_engine(folder: Path) -> None:
         libraries = list(pool.map(partial(_linked, engine), (WEB, *TARGETS)))
     paths = [*engine.objects.values(), engine.headers / "engine.bc", engine.headers / "engine.h"]
     (folder / "libraries").mkdir(parents=True, exist_ok=True)
+    (folder / "sources").unlink(missing_ok=True)  # until all is there, none of it counts
     for path in libraries:
         keep(folder / "libraries" / path.name, path.read_bytes(), program=True)
     for path in paths:

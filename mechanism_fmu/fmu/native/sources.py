@@ -43,8 +43,19 @@ def fingerprint(library: Path, *, linked: bool = True) -> str:
     return digest.hexdigest()
 
 
+def is_compiled(library: Path) -> bool:
+    """Whether a compiled engine of these sources lies in the library, each file as its digest says."""
+    folder = library / COMPILED
+    try:
+        files = {path: path.read_text(encoding="ascii").strip() for path in folder.rglob("*.sha256")}
+        whole = all(hashlib.sha256(path.with_suffix("").read_bytes()).hexdigest() == files[path] for path in files)
+    except (OSError, UnicodeError):
+        return False
+    return bool(files) and whole and is_of_these_sources(library)
+
+
 def is_of_these_sources(library: Path) -> bool:
-    """Whether a compiled engine lies in the library that was made of the sources that lie there."""
+    """Whether the compiled engine that lies in the library, whole or not, was made of the sources that lie there."""
     try:
         return (library / COMPILED / "sources").read_text(encoding="ascii").strip() == fingerprint(library)
     except (OSError, UnicodeError):
