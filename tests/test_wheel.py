@@ -99,6 +99,12 @@ def test_an_import_that_cannot_be_written_anew_stops_the_build(line: str, reloca
         relocated(f"\n{line}\n", "file.py")
 
 
+def test_entry_points_lead_to_where_a_wheel_has_what_moves() -> None:
+    moved = runpy.run_path(str(ROOT / "setup.py"), run_name="not main")["moved_entries"]
+    text = "[console_scripts]\na = mechanism_fmu.__main__:main\n[x]\nb = harness.page.shown:show\nc = harnesses:d\n"
+    assert moved(text) == text.replace("b = harness.", "b = mechanism_fmu.harness.")
+
+
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Built of a source distribution, in whose place an earlier version has left modules."""
@@ -238,6 +244,8 @@ simulation.advance(2.0)
 print(simulation.read()["impact_count"])
 """
     assert float(python("-c", bare + run)) >= 1
+    show = "from mechanism_fmu.models.ratchet.model import MODEL\nprint(len(MODEL.show().html))\n"
+    assert int(python("-c", bare + show)) > 100_000
     command("new", "lever")
     command("page", "lever.py")
     assert 100_000 < (tmp_path / "lever.html").stat().st_size < 1_000_000

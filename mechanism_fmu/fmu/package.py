@@ -166,9 +166,14 @@ def _built_by_pythonfmu(slave: str, resources: Mapping[str, bytes]) -> tuple[dic
 
 def _imported(slave: str) -> set[str]:
     """The entries of an FMU's own modules that have been imported to start it."""
-    digest = slave.rpartition("_")[2]
-    names = (name.replace(".", "/") for name in sys.modules if name.partition(".")[0].endswith(digest))
+    names = (name.replace(".", "/") for name in _own_modules(slave))
     return {f"resources/{name}{end}" for name in names for end in (".py", "/__init__.py")}
+
+
+def _own_modules(slave: str) -> dict[str, ModuleType]:
+    """What is loaded of an FMU's own modules, which no other contents have."""
+    digest = slave.rpartition("_")[2]
+    return {name: module for name, module in sys.modules.items() if name.partition(".")[0].endswith(digest)}
 
 
 @contextmanager
@@ -183,16 +188,20 @@ def _temporary_files_in(folder: Path) -> Iterator[None]:
 
 @contextmanager
 def _imports_left_alone(slave: str) -> Iterator[None]:
-    """Restore `sys.path`, and forget the FMU's modules; what they import from elsewhere stays."""
-    digest = slave.rpartition("_")[2]
-    path, modules = sys.path[:], set(sys.modules)
+    """Restore `sys.path`, and the FMU's modules as they were; what they import from elsewhere stays.
+
+    Within, none of them is loaded, whatever this process has run before: an FMU has the same bytes then.
+    """
+    path, before = sys.path[:], _own_modules(slave)
+    for name in before:
+        del sys.modules[name]
     try:
         yield
     finally:
         sys.path[:] = path
-        for name in set(sys.modules) - modules:
-            if digest in name.partition(".")[0]:
-                del sys.modules[name]
+        for name in _own_modules(slave):
+            del sys.modules[name]
+        sys.modules.update(before)
 
 
 def _requirements(sources: Closure, compiled: bool) -> str:

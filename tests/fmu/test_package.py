@@ -119,6 +119,14 @@ def test_the_icon_is_the_models_own(entries: dict[str, bytes]) -> None:
     assert entries["model.png"] == (models.available()["ratchet"] / "model.png").read_bytes()
 
 
+def test_what_this_process_has_run_changes_no_byte(ratchet_fmu: Path, tmp_path: Path) -> None:
+    """Such as modules that only a run imports."""
+    fmpy.simulate_fmu(str(ratchet_fmu), stop_time=0.01)
+    again = build_fmu(models.load("ratchet"), tmp_path)
+    assert again.read_bytes() == ratchet_fmu.read_bytes()
+    fmpy.simulate_fmu(str(again), stop_time=0.01)  # by the modules that were there before
+
+
 def test_the_guid_is_a_fingerprint_of_the_contents(entries: dict[str, bytes]) -> None:
     # Reference results and compiled sources follow from the rest.
     follows = ("extra/", ".pyc")

@@ -53,6 +53,12 @@ def test_ticks_are_round_and_few() -> None:
     ]
 
 
+def test_ticks_end_where_numbers_can_hardly_be_told_apart() -> None:
+    """One more was the same number there, for ever."""
+    found = answers(["ticks", 1e6, 1e6 + 1e-9, 6], ["ticks", 0.9399211769321433, 0.9399211769321435, 6])
+    assert all(len(ticks) <= 25 for ticks in found)
+
+
 def test_logarithmic_ticks_are_powers_of_ten_and_more_where_these_are_few() -> None:
     found = answers(["decades", 1e-3, 1e4, 5], ["decades", 30, 400, 5], ["decades", 1, 1e12, 4])
     assert found == [[0.01, 1, 100, 10_000], [50, 100, 200], [1, 1e3, 1e6, 1e9, 1e12]]

@@ -276,7 +276,11 @@ def test_in_a_browser(width: int, page_of: Callable[[str], Path], tmp_path: Path
         # it lives, and an input that is dragged does not begin anew
         shown.click("#live")
         shown.wait_until("document.querySelector('#state').textContent === ''")
+        legends = "[...document.querySelectorAll('#charts .curves b')].map((one) => one.textContent)"
+        shown.wait_until(f"!({legends}).some((one) => ['', '–'].includes(one))")
         shown.click(".play")
+        for _ in range(10):  # at each look there are numbers, though curves are drawn now and then only
+            assert not {"", "–"} & set(shown.value(legends))
         shown.wait_until("document.querySelector('.time').textContent > 't = 0.2'")
         shown.value(
             "(() => { const slider = document.querySelector('#inputs input[type=range]'); slider.value = 240;"

@@ -187,7 +187,7 @@ def examine(module: ModuleType, path: Path, native: bool) -> list[str]:
     except MechanismError as error:
         if native:
             raise
-        remarks.append(f"as it is, it cannot be built with --flavour native. {error}")
+        remarks.append(f"as it is, it cannot be shown by `page`, nor built with --flavour native. {error}")
     remarks += _old_form(said, path)
     return [f"{path}: {remark}" for remark in remarks]
 

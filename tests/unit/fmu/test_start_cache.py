@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from importlib.machinery import EXTENSION_SUFFIXES, SourceFileLoader
 from pathlib import Path
+from typing import Any
 
 import pytest
 from start_resources import SOURCES, Load, contents, write_resources
@@ -150,6 +151,25 @@ def test_the_first_start_takes_what_was_compiled_for_this_python_and_these_sourc
     assert [Path(path).name for path in compilations] == ([] if change == "none" else ["tiny.py"])
     assert not list(cache.rglob("was_here"))
     assert {path.suffix for path in cache.rglob("*") if path.is_file()} <= {".py", ".pyc"}
+
+
+def test_compiled_sources_lie_beside_them_wherever_python_keeps_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    tag = sys.implementation.cache_tag
+    monkeypatch.setattr(sys, "pycache_prefix", "/somewhere/else")
+    assert set(bytecode({"a/b.py": b"", "c.py": b""})) == {f"a/__pycache__/b.{tag}.pyc", f"__pycache__/c.{tag}.pyc"}
+
+
+def test_a_source_that_cannot_be_written_compiled_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As one with a constant that only later forms of marshal know."""
+    usual = marshal.dumps
+
+    def dumps(code: Any, version: int) -> bytes:
+        if "NEW" in code.co_names:
+            raise ValueError("unmarshallable object")
+        return usual(code, version)
+
+    monkeypatch.setattr(marshal, "dumps", dumps)
+    assert [name.partition(".")[0] for name in bytecode({"a.py": b"NEW = 1", "b.py": b"OLD = 1"})] == ["__pycache__/b"]
 
 
 def test_compiled_sources_are_the_same_bytes_whatever_else_is_loaded() -> None:

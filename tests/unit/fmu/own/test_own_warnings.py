@@ -26,7 +26,8 @@ def test_what_cannot_be_traced_is_refused_for_native_and_a_warning_for_pythonfmu
     assert f"lever cannot be traced, lever.py, line {line} " in output
     assert said in output
     output = built()
-    assert output.startswith("Warning: lever.py: as it is, it cannot be built with --flavour native.")
+    said_too = "as it is, it cannot be shown by `page`, nor built with --flavour native."
+    assert output.startswith(f"Warning: lever.py: {said_too}")
     assert said in output
 
 
