@@ -9,7 +9,7 @@ import numpy as np
 
 from . import codes
 from .engine import status
-from .model import Mechanism
+from .model import Contact, Mechanism
 from .model.compile import unknown_names
 from .tables.layout import field_of
 from .tolerances import RATES_WITHIN
@@ -43,6 +43,8 @@ def failure_details(mechanism: Mechanism, block: Array, outcome: int, contacts: 
     """
     if outcome in (*status.OUT_OF_STEPS, status.STEP_TOO_SMALL):
         return _stiffest(mechanism, block)
+    if outcome == status.PENETRATED:
+        return _penetration(mechanism.contacts[field_of(block, "stage_stiffest").item(0)], block, "")
     if outcome == status.OUT_OF_REACH:
         return _driven_too_far(mechanism, block)
     if outcome not in _ABOUT_CONTACTS:
@@ -111,9 +113,14 @@ def start_details(mechanism: Mechanism, block: Array, outcome: int, closed: Coll
     contact = mechanism.contacts[field_of(block, "counters").item(codes.PENDING_SUBJECT)]
     if outcome == status.AT_CENTRE:
         return f" Contact {contact.name!r}."
+    return _penetration(contact, block, "; change the start angles or the lengths")
+
+
+def _penetration(contact: Contact, block: Array, way_out: str) -> str:
+    """Which contact is inside, and how deep, by the spare row."""
     depth = -field_of(block, "residual").item(-1)
     before, behind = contact.too_deep()
-    return f" Contact {contact.name!r}: {before} {depth:.6g} {behind}; change the start angles or the lengths."
+    return f" Contact {contact.name!r}: {before} {depth:.6g} {behind}{way_out}."
 
 
 def _contradictions(mechanism: Mechanism, block: Array, closed: Collection[str]) -> str:

@@ -13,6 +13,35 @@ ANGLE_LOCK = 2
 CAM_FOLLOWER = 3
 CAM_FLAT_FOLLOWER = 4
 POINT_FOLLOWER = 5
+OUTLINE = 6  # a place where two outlines touch
+
+# feature_kind: what an outline consists of; its vertices and elements follow each other
+VERTEX = 0
+SEGMENT = 1
+ARC = 2
+
+# feature_data columns
+FEATURE_X = 0  # a vertex, the start of a segment, the centre of an arc [m]
+FEATURE_Y = 1
+FEATURE_DX = 2  # of travel on arriving at a vertex, and along a segment; from the centre to the middle of an arc
+FEATURE_DY = 3
+FEATURE_LEAVES_X = 4  # of travel on leaving a vertex; zeros at a free end, as where there is no arriving
+FEATURE_LEAVES_Y = 5
+FEATURE_LENGTH = 4  # of a segment [m]
+FEATURE_RADIUS = 4  # of an arc [m], negative where it is hollow
+FEATURE_HALF = 5  # half the sweep of an arc [rad]
+FEATURE_TURN = 6  # the sine by which the way turns at a vertex, to the left; `FREE_END` at the end of a chain
+FEATURE_COLUMNS = 7
+FREE_END = 2.0
+
+# outline_data columns
+OUTLINE_X = 0  # the centre of a circle around it [m]
+OUTLINE_Y = 1
+OUTLINE_RADIUS = 2
+OUTLINE_PITCH = 3  # from one copy to the next [rad]; 0 where copies stand in a row
+OUTLINE_DX = 4  # or [m]
+OUTLINE_DY = 5
+OUTLINE_COLUMNS = 6
 
 # contact_data columns: of POINT_LINE the point and (as contact_line) the line; of profiles see their specs; of
 # ANGLE_STOP and ANGLE_LOCK:
@@ -165,6 +194,7 @@ GUARD_SLIP = 10  # the friction of one that sticks reaches its bound
 GUARD_SHOCK = 11  # no finite forces agree with friction: an impact without approach
 GUARD_SEVERAL = 12  # forces of several modes agree with the motion, one of which is taken (Painlevé)
 GUARD_UNDETERMINED = 13  # friction depends on forces that the rows share out at will
+GUARD_HANDOVER = 14  # where two outlines touch, one of them goes over to its next feature
 
 # stop rules: where `stepper.go_on` stops; those but the first may be added
 STOP_AT_TARGET = 0

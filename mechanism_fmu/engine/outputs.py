@@ -77,7 +77,7 @@ def _contact_force(block: Array, _at: Pose, index: int, _slot: int, value: float
 @jit
 def _contact_gap(block: Array, at: Pose, index: int, _slot: int, value: float) -> float:
     if Contacts(block).mode[index] == codes.OPEN:
-        value, _ = gap(block, at, index)
+        value, _ = shown_gap(block, at, index)
     return value
 
 
@@ -85,7 +85,7 @@ def _contact_gap(block: Array, at: Pose, index: int, _slot: int, value: float) -
 def _contact_gap_rate(block: Array, at: Pose, index: int, _slot: int, _value: float) -> float:
     rate = 0.0  # closed
     if Contacts(block).mode[index] == codes.OPEN:
-        _, rate = gap(block, at, index)
+        _, rate = shown_gap(block, at, index)
     return rate
 
 

@@ -19,6 +19,7 @@ AT_CENTRE = 15
 NO_PROGRESS = 16
 OUT_OF_REACH = 17
 MANY_TOUCH = 18
+PENETRATED = 19
 
 #: How an event can fail, after which nothing goes on (see `codes.GUARD_FAILED`).
 EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY, MANY_TOUCH)
@@ -41,6 +42,9 @@ ADVICE = {
     "paradox). Change lengths or start positions a little; give less friction, or the mechanism tangential_shock=True.",
     MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Let less of them meet at one instant: "
     "change lengths or start positions a little.",
+    PENETRATED: "Two outlines have gone into each other: a corner was grazed between two looks, an outline came in past "
+    "the open end of another, or two that no contact keeps apart carried a third along. Give a smaller "
+    "relative_tolerance, close the outline, or add the contact that is missing.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
     JAMMED: "No finite forces agree with friction from here on (Painleve's paradox; A/G, what a normal force does to "

@@ -94,6 +94,11 @@ from .members import (
     lumped_body as lumped_body,
 )
 from .model import Model as Model
+from .outline_contacts import (
+    CircularCopies as CircularCopies,
+    LinearCopies as LinearCopies,
+    OutlineContact as OutlineContact,
+)
 from .outlines import Outline as Outline, from_svg_path as from_svg_path, svg_path as svg_path
 from .patterns import CircularPattern as CircularPattern
 from .port_builders import *  # noqa: F403

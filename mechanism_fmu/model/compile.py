@@ -18,6 +18,9 @@ from .curves import Curve
 from .functions import is_plain, sqrt
 from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
+from .outline_contacts import CircularCopies, LinearCopies
+from .outlines import Outline
+from .outlines.features import around, features
 from .sources import kept, output_factor, reads_members, resolve_output
 from .structure import Structure, member_data, structure
 
@@ -127,6 +130,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     factors = [output_factor(o.source, mechanism) for o in mechanism.outputs] + [c.value for c in mechanism.calculated]
     elastic = structure(mechanism) if reads_members(mechanism) else Structure()
     hanging = beam_members(mechanism)
+    outlines = _Outlines(contacts)
 
     def columns(table: type[Table], parts: Sequence[Any] = (), **given: Sequence[Any]) -> Iterator[tuple[str, Array]]:
         """The columns of a table: those given, and else what the parts have by that name."""
@@ -179,7 +183,23 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                     alpha=[first if c.alphas else codes.NONE for c, first in _pairs(contacts, first_alphas)],
                     curve_i=[_number_of(c.profiles[0], curves) for c in contacts],
                     curve_j=[_number_of(c.profiles[1], curves) for c in contacts],
+                    outline_i=[outlines.number(c, 0) for c in contacts],
+                    outline_j=[outlines.number(c, 1) for c in contacts],
+                    group=[k - getattr(c, "place", 0) for k, c in enumerate(contacts)],
                     value=[(c.restitution, c.friction, c.guided, c.enabled, c.closed, c.holding) for c in contacts],
+                ),
+                columns(
+                    tables.Features,
+                    kind=[kind for chain_ in outlines.features for kind, _ in chain_],
+                    data=[data for chain_ in outlines.features for _, data in chain_],
+                ),
+                columns(
+                    tables.Outlines,
+                    first=np.cumsum([0, *map(len, outlines.features)])[:-1].tolist(),
+                    count=[len(chain_) for chain_ in outlines.features],
+                    closed=[int(outline.closed) for outline, _ in outlines.all],
+                    copies=[0 if copies is None else copies.count for _, copies in outlines.all],
+                    data=[(*around(o), *((0.0, 0.0, 0.0) if c is None else c.data())) for o, c in outlines.all],
                 ),
                 columns(tables.Patterns, mechanism.patterns),
                 columns(
@@ -261,6 +281,33 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             "event_buffer": kept("events", mechanism, codes.EVENT_BUFFER_LENGTH),
         },
     )
+
+
+class _Outlines:
+    """The outlines of contacts, each once, with its copies, and their features."""
+
+    def __init__(self, contacts: Sequence[Any]) -> None:
+        self.all: list[tuple[Outline, CircularCopies | LinearCopies | None]] = []
+        self._numbers: list[tuple[int, int]] = []
+        for contact in contacts:
+            if contact.has_outlines:
+                first, second = self._of(contact.outline_i, None), self._of(contact.outline_j, contact.copies)
+                self._numbers.append((first, second))
+            else:
+                self._numbers.append((codes.NONE, codes.NONE))
+        self._of_contact = {contact.name: numbers for contact, numbers in _pairs(contacts, self._numbers)}
+        self.features = [[*features(outline)] for outline, _ in self.all]
+
+    def _of(self, outline: Outline, copies: CircularCopies | LinearCopies | None) -> int:
+        for number, (other, of_other) in enumerate(self.all):
+            if other is outline and of_other is copies:
+                return number
+        self.all.append((outline, copies))
+        return len(self.all) - 1
+
+    def number(self, contact: Any, side: int) -> int:
+        """The number of the outline of a contact's body i (0) or j (1); `codes.NONE` of one that has none."""
+        return self._of_contact[contact.name][side]
 
 
 def _pairs(left: Sequence[Any], right: Any) -> Iterator[tuple[Any, Any]]:

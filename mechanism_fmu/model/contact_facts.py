@@ -34,6 +34,7 @@ class ContactFacts(Attached):
     Attributes:
         angular: whether the gap is an angle, and the force a torque.
         has_memory: whether it clicks (see `AngleStop`).
+        has_outlines: whether outlines touch, and hand over from feature to feature (see `OutlineContact`).
         holds: name of the number that says whether it also pulls.
         readings: what an `Output` may read, with the source "<contact>.<name>", as codes.
         rows, alphas: how many constraint rows and contact coordinates it has.
@@ -43,6 +44,7 @@ class ContactFacts(Attached):
 
     angular: ClassVar[bool] = False
     has_memory: ClassVar[bool] = False
+    has_outlines: ClassVar[bool] = False
     holds: ClassVar[str] = "guided"
     readings: ClassVar[Mapping[str, int]] = {
         "force": codes.CONTACT_FORCE,

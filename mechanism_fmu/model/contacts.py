@@ -21,6 +21,7 @@ from .contact_facts import ContactFacts, no_unit_length
 from .findings import Finding, positive, refuse_unless
 from .functions import Number
 from .joints import HigherPair
+from .outline_contacts import OutlineContact
 
 
 @dataclass(frozen=True, init=False)
@@ -177,4 +178,4 @@ class AngleLock(_OfAngles):
 
 
 #: Any contact.
-Contact = PointLineContact | AngleStop | AngleLock | HigherPair
+Contact = PointLineContact | AngleStop | AngleLock | OutlineContact | HigherPair

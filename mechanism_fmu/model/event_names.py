@@ -14,7 +14,12 @@ from .mechanism import Mechanism
 #: The event of inputs that have changed.
 INPUT = "input"
 
-_OF_CONTACT = {codes.GUARD_GAP: "gap", codes.GUARD_PUSH: "force", codes.GUARD_CLICK: "click"}
+_OF_CONTACT = {
+    codes.GUARD_GAP: "gap",
+    codes.GUARD_PUSH: "force",
+    codes.GUARD_CLICK: "click",
+    codes.GUARD_HANDOVER: "handover",
+}
 _OF_FRICTION = {
     codes.GUARD_STICK: "sticks",
     codes.GUARD_SLIP: "slips",
@@ -47,7 +52,9 @@ def event_names(mechanism: Mechanism) -> Iterator[tuple[int, int, str]]:
     }
     for guard in sorted(subjects):
         for subject in range(subjects[guard]):
-            if guard != codes.GUARD_CLICK or mechanism.contacts[subject].has_memory:
+            contact = mechanism.contacts[subject] if guard in _OF_CONTACT else None
+            only = {codes.GUARD_CLICK: "has_memory", codes.GUARD_HANDOVER: "has_outlines"}.get(guard)
+            if only is None or getattr(contact, only):
                 yield guard, subject, event_name(mechanism, guard, subject)
     may_rub = mechanism.rubs_or_may
     for guard in _OF_FRICTION:

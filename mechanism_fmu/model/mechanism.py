@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
+from itertools import chain
 from types import SimpleNamespace
 from typing import Literal
 
@@ -16,6 +17,7 @@ from .functions import Number, is_plain
 from .joints import Joint
 from .logic import LogicalFunction
 from .members import LumpedMass, Member
+from .outline_contacts import OutlineContact
 from .patterns import CircularPattern
 from .ports import Calculated, Input, Output
 from .quantities import pair
@@ -108,7 +110,9 @@ class Mechanism:
     rubs: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        """Make numbers of the texts of gravity."""
+        """Make numbers of the texts of gravity, and a contact of outlines for each place where they can touch."""
+        places = [c.places if isinstance(c, OutlineContact) else (c,) for c in self.contacts]
+        object.__setattr__(self, "contacts", tuple(chain.from_iterable(places)))
         if self.gravity is not None:
             object.__setattr__(self, "gravity", pair(self.gravity, "m/s2", "gravity"))
 

@@ -23,11 +23,13 @@ from .parts import (
     Bodies as Bodies,
     Contacts as Contacts,
     Curves as Curves,
+    Features as Features,
     Forces as Forces,
     Functions as Functions,
     Joints as Joints,
     Operations as Operations,
     Options as Options,
+    Outlines as Outlines,
     Patterns as Patterns,
     Ports as Ports,
 )

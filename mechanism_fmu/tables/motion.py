@@ -28,7 +28,7 @@ _COUNTERS = {
     "COUNT_IN_STEP": whole(0, 0, "buffer"),
     "COUNT_LOST": COUNT,
     "COUNT_STEPS": COUNT,
-    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_UNDETERMINED),
+    "PENDING_GUARD": whole(codes.GUARD_NONE, codes.GUARD_HANDOVER),
     "PENDING_SUBJECT": _SUBJECT,
     "COUNT_PULLS": WHOLE,
     "COUNT_EVENTS": COUNT,
@@ -59,7 +59,7 @@ _RECORD = {
 }
 _EVENT = {
     "EVENT_TIME": FINITE,
-    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_UNDETERMINED),
+    "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_HANDOVER),
     "EVENT_SUBJECT": _SUBJECT,
     "EVENT_OLD_MODE": COUNT,
     "EVENT_NEW_MODE": COUNT,
@@ -208,7 +208,7 @@ class Watch(Table, rows="guards", prefix="guard_"):
     """Scratch of the search for events.
 
     Which guards are looked at, whether each is armed and what it must come down to; its rate at the last look; value
-    and rate at the next.
+    and rate at the next; of the distance of two outlines, up to which part of the step it has been looked at.
     """
 
     watched = integer(work=True)
@@ -216,6 +216,7 @@ class Watch(Table, rows="guards", prefix="guard_"):
     floor = real(work=True)
     rate = real(work=True)
     next = real(2, work=True)
+    reached = real(work=True)
 
 
 class Rubs(Table, rows="rubs", prefix="rub_"):

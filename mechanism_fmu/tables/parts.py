@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .. import codes
-from .declare import ANY, COUNT, FINITE, FLAG, NOT_NAN, WHOLE, Table, integer, real, whole
+from .declare import ANY, COUNT, FINITE, FLAG, NOT_NAN, WHOLE, Table, index_of, integer, real, whole
 from .kinds import FORCES, JOINTS
 
 
@@ -79,6 +79,8 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     its tolerance.
     Contacts of profiles have contact coordinates, the first of which is `alpha`, and curves; `row_first` counts the
     rows that contacts have when contact coordinates are coordinates.
+    Two outlines share a group of contacts, of which `group` is the first, one for each place where they touch at once;
+    each is bound to the two features that touch there, and to the copy of outline j (state; none: it is free).
     """
 
     kind = integer()
@@ -93,6 +95,9 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     curve_i = integer()
     curve_j = integer()
     value = real(codes.CONTACT_VALUES)
+    outline_i = integer()
+    outline_j = integer()
+    group = integer()
     mode = integer(holds=whole(codes.OPEN, codes.CLOSED))
     touching = integer(holds=whole(0, codes.LEFT_INSIDE))
     clicks = integer(holds=COUNT)
@@ -100,8 +105,33 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     hollow = integer(holds=whole(codes.CONVEX, codes.BRIDGES))
     alpha_haste = real("alphas", alone=True, name="alpha_haste", holds=NOT_NAN)
     pull_time = real(name="pull_time", holds=NOT_NAN)
+    feature_i = integer(holds=index_of("features"))
+    feature_j = integer(holds=index_of("features"))
+    copy = integer(holds=WHOLE)
     row = integer(work=True)
     least_push = real(name="least_push", work=True)
+
+
+class Features(Table, rows="features", prefix="feature_"):
+    """Vertices, segments and arcs of outlines, in the order of each chain (columns in `codes`)."""
+
+    kind = integer()
+    data = real(codes.FEATURE_COLUMNS)
+
+
+class Outlines(Table, rows="outlines", prefix="outline_"):
+    """The outlines: their features, whether the last one is followed by the first, and their copies (0: it alone).
+
+    Work: how deep behind a feature a point may be for it to count there [m]; what a search has found.
+    """
+
+    first = integer()
+    count = integer()
+    closed = integer()
+    copies = integer()
+    data = real(codes.OUTLINE_COLUMNS)
+    depth = real(1, name="outlines_depth", alone=True, work=True)
+    found = integer(3, name="outlines_found", alone=True, work=True)
 
 
 class Patterns(Table, rows="patterns", prefix="pattern_"):

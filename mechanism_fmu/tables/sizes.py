@@ -37,6 +37,8 @@ class Sizes:
     curves = _given()
     pieces = _given()
     terms = _given()
+    features = _given()  # of outlines
+    outlines = _given()
     alphas = _given()  # contact coordinates
     own = _given()  # states of force elements' own
     operations = _given()  # of laws of force

@@ -4,13 +4,35 @@ The variable SHAPES_ORACLE names another file with the same kinds of cases and o
 """
 
 import json
+import math
 import os
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
-from mechanism_fmu.model import Outline
+from mechanism_fmu import codes
+from mechanism_fmu.model import (
+    GROUND,
+    Body,
+    CircularCopies,
+    Damper,
+    LinearCopies,
+    Mechanism,
+    Outline,
+    OutlineContact,
+    Output,
+    PointForce,
+    RackAndPinion,
+    Revolute,
+    Settings,
+    Torque,
+    TorsionSpring,
+    Translational,
+)
+from mechanism_fmu.moving import Event
+from mechanism_fmu.simulation import Simulation
 from tests.outlines_apart import Pose, nearest
 
 _FILE = Path(os.environ.get("SHAPES_ORACLE") or Path(__file__).parents[1] / "data" / "shapes.json")
@@ -32,3 +54,501 @@ def test_gap_pairs(case: dict[str, Any]) -> None:
             assert abs(point - complex(*result[f"point_{which}"])) < 1e-9
             count = len(outline.elements)
             assert (element - result[f"element_{which}"]) % count in (0, 1, count - 1)
+
+
+# Motions. An impact is told by its time and closing speed, and a state by what outputs show there.
+
+
+class Struck(NamedTuple):
+    """An impact, and the outputs right behind it."""
+
+    time: float
+    contact: str
+    copy: int
+    closing: float
+    shown: dict[str, float]
+
+
+class Moved(NamedTuple):
+    """A motion: its impacts, and what else happened."""
+
+    simulation: Simulation
+    impacts: list[Struck]
+    events: list[Event]
+
+
+def moved(mechanism: Mechanism, until: float, impacts: int = 1_000_000) -> Moved:
+    """A motion up to a time, or so many impacts."""
+    simulation = Simulation(replace(mechanism, settings=Settings(relative_tolerance=1e-12)))
+    found: list[Struck] = []
+    events: list[Event] = []
+    while len(found) < impacts and simulation.time < until:
+        simulation.begin_step()
+        simulation.go_on(until, codes.STOP_AT_IMPACT)
+        shown = simulation.read()
+        records = simulation.field("impacts")
+        for k, one in enumerate(simulation.impacts_in_step()):
+            copy = int(records[k, codes.RECORD_TOOTH])
+            found.append(Struck(one.time, one.contact, copy, one.closing_speed, shown))
+        events += simulation.events_in_step()
+    return Moved(simulation, found, events)
+
+
+def states(mechanism: Mechanism, times: list[float]) -> list[dict[str, float]]:
+    """What outputs show at times."""
+    simulation = Simulation(replace(mechanism, settings=Settings(relative_tolerance=1e-12)))
+    found = []
+    for time in times:
+        simulation.advance(time)
+        found.append(simulation.read())
+    return found
+
+
+def agree(found: list[float], asked: list[float], case: dict[str, Any]) -> None:
+    """Within the tolerance of the case, relative to the largest magnitude of the quantity in it."""
+    assert len(found) == len(asked)
+    largest = max(map(abs, asked))
+    assert found == pytest.approx(asked, rel=0.0, abs=case["tolerance"] * max(largest, 1e-3))
+
+
+def agree_impacts(of: Moved, results: list[Any], case: dict[str, Any], **names: str) -> None:
+    """Times, closing speeds and named quantities of the impacts."""
+    impacts = of.impacts[: len(results)]
+    agree([one.time for one in impacts], [float(r["t"]) for r in results], case)
+    agree([one.closing for one in impacts], [-float(r["closing"]) for r in results], case)
+    for name, output in names.items():
+        agree([one.shown[output] for one in impacts], [float(r[name]) for r in results], case)
+
+
+def agree_rates(of: Moved, results: list[Any], names: tuple[str, ...], case: dict[str, Any]) -> None:
+    """Coordinates at impacts and rates behind them, in the order of the case."""
+    for k, name in enumerate(names):
+        impacts = of.impacts[: len(results)]
+        agree([one.shown[name] for one in impacts], [float(r["q"][k]) for r in results], case)
+        agree([one.shown[f"{name}_rate"] for one in impacts], [float(r["rates_after"][k]) for r in results], case)
+
+
+def agree_states(found: list[dict[str, float]], results: list[Any], names: tuple[str, ...], case: Any) -> None:
+    for k, name in enumerate(names):
+        agree([shown[name] for shown in found], [float(r["q"][k]) for r in results], case)
+        agree([shown[f"{name}_rate"] for shown in found], [float(r["rates"][k]) for r in results], case)
+
+
+def of_body(*names: str) -> tuple[Output, ...]:
+    """Outputs of coordinates, as "disc.x", and their rates."""
+    every = [part for name in names for part in (name, f"{name}_rate")]
+    return tuple(Output(name, name.replace("angle_rate", "speed"), "") for name in every)
+
+
+G = (0.0, -9.81)
+
+
+def polar(radius: float, degrees: float) -> tuple[float, float]:
+    return radius * math.cos(math.radians(degrees)), radius * math.sin(math.radians(degrees))
+
+
+@pytest.mark.parametrize("case", of_kind("bouncing_square"))
+def test_bouncing_square(case: dict[str, Any]) -> None:
+    half, mass = 0.05, 1.5
+    square = Body("square", mass, mass * (2 * half) ** 2 / 6, start=(0.0, 0.3, 0.3), start_rate=(0.0, 0.0, 1.0))
+    sides = Outline.polygon([(half, half), (-half, half), (-half, -half), (half, -half)])
+    ground = Outline.chain([(10.0, 0.0), (-10.0, 0.0)])
+    contact = OutlineContact("floor", square, GROUND, outline_i=sides, outline_j=ground, restitution=0.8)
+    shown = of_body("square.y", "square.angle")
+    of = moved(Mechanism((square,), contacts=(contact,), gravity=G, outputs=shown), 3.0, len(case["results"]))
+    agree_impacts(of, case["results"], case, y="square.y", angle="square.angle", y_rate="square.y_rate")
+
+
+@pytest.mark.parametrize("case", of_kind("disc_over_edge"))
+def test_disc_over_edge(case: dict[str, Any]) -> None:
+    result = {name: float(value) for name, value in case["results"].items()}
+    radius = 0.1
+    disc = Body("disc", 1.0, 1.0, start=(-0.2, radius, 0.0), start_rate=(case["data"]["v"], 0.0, 0.0))
+    table = Outline.chain([(0.0, -1.0), (0.0, 0.0), (-1.0, 0.0)])
+    contact = OutlineContact("table", disc, GROUND, outline_i=Outline.circle(radius), outline_j=table)
+    shown = of_body("disc.x", "disc.y")
+    mechanism = Mechanism((disc,), contacts=(contact,), gravity=G, outputs=shown)
+    of = moved(mechanism, result["t_leaves"] + 0.05)
+    assert not of.impacts
+    events = {event.guard.partition(".")[2]: event.time for event in of.events}
+    assert [*events] == ["handover", "force"]
+    agree([events["handover"], events["force"]], [result["t_corner"], result["t_leaves"]], case)
+    (at,) = states(mechanism, [result["t_leaves"]])
+    agree([at["disc.x"], at["disc.y"]], [result["x"], result["y"]], case)
+    agree([at["disc.x_rate"], at["disc.y_rate"]], [result["vx"], result["vy"]], case)
+
+
+@pytest.mark.parametrize("case", of_kind("ball_in_bowl"))
+def test_ball_in_bowl(case: dict[str, Any]) -> None:
+    period, amplitude = float(case["results"]["period"]), case["data"]["amplitude"]
+    disc = Body("disc", 1.0, 1.0, start=(math.sin(amplitude), -math.cos(amplitude), 0.0))
+    bowl = Outline.circle(1.1, hole=True)
+    contact = OutlineContact("bowl", disc, GROUND, outline_i=Outline.circle(0.1), outline_j=bowl)
+    mechanism = Mechanism((disc,), contacts=(contact,), gravity=G, outputs=of_body("disc.x", "disc.y"))
+    found = states(mechanism, [period / 4, period / 2, 5 * period / 4, 2 * period])
+    swing = math.sin(amplitude)
+    assert [one["disc.x"] for one in found] == pytest.approx([0, -swing, 0, swing], abs=10 * case["tolerance"])
+
+
+@pytest.mark.parametrize("case", of_kind("ball_in_ring"))
+def test_ball_in_ring(case: dict[str, Any]) -> None:
+    data = case["data"]
+    disc = Body("disc", 1.0, 1.0, start=(*data["start"], 0.0), start_rate=(*data["rates"], 0.0))
+    ring = Outline.circle(1.05, hole=True)
+    contact = OutlineContact(
+        "ring", disc, GROUND, outline_i=Outline.circle(0.05), outline_j=ring, restitution=data["e"]
+    )
+    mechanism = Mechanism((disc,), contacts=(contact,), gravity=G, outputs=of_body("disc.x", "disc.y"))
+    names = {name: f"disc.{name}" for name in ("x", "y", "x_rate", "y_rate")}
+    agree_impacts(moved(mechanism, 60.0, len(case["results"])), case["results"], case, **names)
+
+
+@pytest.mark.parametrize("case", of_kind("galton"))
+def test_galton(case: dict[str, Any]) -> None:
+    data, step = case["data"], 0.02
+    ball = Body("ball", 1.0, 1.0, start=(data["x"], 0.05, 0.0))
+    rows = [
+        OutlineContact(
+            f"row_{i}",
+            ball,
+            GROUND,
+            outline_i=Outline.circle(0.004),
+            outline_j=Outline.circle(0.002, (0.5 * step if i % 2 else 0.0, -0.02 * i)),
+            copies=LinearCopies((step, 0.0)),
+            restitution=data["e"],
+        )
+        for i in range(6)
+    ]
+    shown = of_body("ball.x", "ball.y")
+    of = moved(Mechanism((ball,), contacts=tuple(rows), gravity=G, outputs=shown), 2.0, len(case["results"]))
+    names = {name: f"ball.{name}" for name in ("x", "y", "x_rate", "y_rate")}
+    agree_impacts(of, case["results"], case, **names)
+    assert [[int(one.contact[4]), one.copy] for one in of.impacts] == [r["peg"] for r in case["results"]]
+
+
+L1, L2 = 0.153, 0.306
+
+
+def slider_crank(slider: Body, joints: tuple[Any, ...], contacts: tuple[Any, ...], rod_end: bool) -> Mechanism:
+    """Crank and rod of Flores, Leine and Glocker (2010), and a slider at the end of the rod."""
+    crank = Body("crank", 0.038, 7.4e-5, start=(L1 / 2, 0.0, 0.0), start_rate=(0.0, 150.0 * L1 / 2, 150.0))
+    speed = 150.0 * L1 - 75.0 * L2 / 2
+    rod = Body("rod", 0.038, 5.9e-4, start=(L1 + L2 / 2, 0.0, 0.0), start_rate=(0.0, speed, -75.0))
+    pins = (
+        Revolute("main", crank.at(-L1 / 2, 0.0), GROUND),
+        Revolute("crank_pin", crank.at(L1 / 2, 0.0), rod.at(-L2 / 2, 0.0)),
+        *((Revolute("piston_pin", rod.at(L2 / 2, 0.0), slider.at(0.0, 0.0)),) if rod_end else ()),
+        *joints,
+    )
+    shown = of_body("crank.angle", "rod.angle", "slider.angle", "slider.x")
+    return Mechanism((crank, rod, slider), pins, contacts=contacts, gravity=G, outputs=shown)
+
+
+@pytest.mark.parametrize("case", of_kind("slider_crank_guide"))
+def test_slider_crank_guide(case: dict[str, Any]) -> None:
+    data = case["data"]
+    slider = Body("slider", 0.076, 2.7e-6, start=(L1 + L2, 0.0, 0.0), start_rate=(0.0, 0.0, data["w3"]))
+    block = Outline.polygon([(0.05, 0.025), (-0.05, 0.025), (-0.05, -0.025), (0.05, -0.025)])
+    guides = {"bottom": [(1.0, -0.026), (-1.0, -0.026)], "top": [(-1.0, 0.026), (1.0, 0.026)]}
+    contacts = tuple(
+        OutlineContact(
+            name, slider, GROUND, outline_i=block, outline_j=Outline.chain(points), restitution=data["e"], points=2
+        )
+        for name, points in guides.items()
+    )
+    mechanism = slider_crank(slider, (), contacts, rod_end=True)
+    until = float(case["until"] or math.inf)
+    results = [one for one in case["results"]["impacts"] if float(one["t"]) <= until]
+    of = moved(mechanism, until, len(results))
+    agree_impacts(of, results, case)
+    names = ("crank.angle", "rod.angle", "slider.angle")
+    agree_rates(of, results, names, case)
+    shown = [one for one in case["results"]["states"] if float(one["t"]) <= until]
+    agree_states(states(mechanism, [float(one["t"]) for one in shown]), shown, names, case)
+
+
+@pytest.mark.parametrize("case", of_kind("slider_crank_pin_in_hole"))
+def test_slider_crank_pin_in_hole(case: dict[str, Any]) -> None:
+    slider = Body("slider", 0.076, 2.7e-6, start=(L1 + L2, 0.0, 0.0))
+    rod = Body("rod", 1.0, 1.0)
+    guide = Translational("guide", slider.line((0, 0), (1.0, 0.0)), GROUND.line((0, 0), (1.0, 0.0)))
+    play = OutlineContact(
+        "play",
+        slider,
+        rod,
+        outline_i=Outline.circle(0.01),
+        outline_j=Outline.circle(0.0105, (L2 / 2, 0.0), hole=True),
+        restitution=case["data"]["e"],
+    )
+    mechanism = slider_crank(slider, (guide,), (play,), rod_end=False)
+    results = case["results"]["impacts"]
+    names = ("crank.angle", "rod.angle", "slider.x")
+    last = max(float(one["t"]) for one in case["results"]["states"])
+    of = moved(mechanism, last)
+    assert len(of.impacts) == len(results)
+    agree_impacts(of, results, case)
+    agree_rates(of, results, names, case)
+    shown = case["results"]["states"]
+    agree_states(states(mechanism, [float(one["t"]) for one in shown]), shown, names, case)
+
+
+#: Where the example of Siconos begins, mechanics/FourBarWithClearance: q as the case counts it.
+START_OF_FOUR_BAR = (
+    *(1.570823772407980, 0.3532842020624460, 1.264872058968431),
+    *(1.876454585097650, 1.691962091335582, 0.3764686197082958, 1.191962183453451),
+)
+
+
+def joint_with_play(name: str, pin: Body, at_pin: tuple[float, float], hole: Body | str, at_hole: Any, e: float) -> Any:
+    """A pin of 50 mm in a hole of 55 mm."""
+    return OutlineContact(
+        name,
+        pin,
+        hole,
+        outline_i=Outline.circle(0.05, at_pin),
+        outline_j=Outline.circle(0.055, at_hole, hole=True),
+        restitution=e,
+        points=1,
+    )
+
+
+@pytest.mark.parametrize("case", of_kind("four_bar_three_clearances"))
+def test_four_bar_three_clearances(case: dict[str, Any]) -> None:
+    l0, l1, l2, l3, e = 3.0, 1.0, 4.0, 2.5, case["data"]["e"]
+    q = START_OF_FOUR_BAR
+    crank = Body("crank", 1.0, l1**2 / 12, start=(l1 / 2 * math.cos(q[0]), l1 / 2 * math.sin(q[0]), q[0]))
+    coupler = Body("coupler", 1.0, l2**2 / 12, start=(q[3], q[4], q[1]))
+    rocker = Body("rocker", 1.0, l3**2 / 12, start=(l0 + q[5], q[6], q[2]))
+    contacts = (
+        joint_with_play("crank-coupler", crank, (l1 / 2, 0.0), coupler, (-l2 / 2, 0.0), e),
+        joint_with_play("coupler-rocker", rocker, (l3 / 2, 0.0), coupler, (l2 / 2, 0.0), e),
+        joint_with_play("rocker-ground", rocker, (-l3 / 2, 0.0), GROUND, (l0, 0.0), e),
+    )
+    names = ("crank.angle", "coupler.angle", "rocker.angle", "coupler.x", "coupler.y", "rocker.x", "rocker.y")
+    mechanism = Mechanism(
+        (crank, coupler, rocker),
+        (Revolute("hinge", crank.at(-l1 / 2, 0.0), GROUND),),
+        forces=(Torque("motor", crank, torque=10.0),),
+        contacts=contacts,
+        gravity=G,
+        outputs=of_body(*names),
+    )
+    results = case["results"]["impacts"][:4]  # until the fourth impact
+    until = float(results[-1]["t"])
+    shown = [one for one in case["results"]["states"] if float(one["t"]) <= until]
+
+    def with_offset(results: list[Any]) -> list[Any]:
+        """The case counts x of the rocker from its hinge."""
+        return [one | {"q": [*map(float, one["q"][:5]), float(one["q"][5]) + l0, one["q"][6]]} for one in results]
+
+    of = moved(mechanism, until + 0.001, len(results))
+    assert [one.contact for one in of.impacts] == [one["contact"] for one in results]
+    agree_impacts(of, results, case)
+    agree_rates(of, with_offset(results), names, case)
+    agree_states(states(mechanism, [float(one["t"]) for one in shown]), with_offset(shown), names, case)
+
+
+@pytest.mark.parametrize("case", of_kind("geneva_entry"))
+def test_geneva_entry(case: dict[str, Any]) -> None:
+    arm, off = 0.1 * math.sin(math.radians(45)), case["data"]["off"]
+    driver = Body("driver", 1.0, 2e-4, start=(0.0, 0.0, math.radians(60)), start_rate=(0.0, 0.0, -10.0))
+    wheel = Body("wheel", 1.0, 1e-4, start=(0.1, 0.0, math.radians(135) + off))
+    mouth, half, inner, quarter = arm - 0.003, 0.0062, 0.03, math.tan(math.pi / 8)
+    sides = {
+        "lower": ((arm, -half - 0.003, quarter), (mouth, -half, 0.0), (inner, -half, 0.0)),
+        "upper": ((inner, half, 0.0), (mouth, half, quarter), (arm, half + 0.003, 0.0)),
+    }
+    pin = Outline.circle(0.006, (arm, 0.0))
+    contacts = tuple(
+        OutlineContact(
+            name,
+            driver,
+            wheel,
+            outline_i=pin,
+            outline_j=Outline(side, closed=False),
+            copies=CircularCopies(4),
+            restitution=case["data"]["e"],
+        )
+        for name, side in sides.items()
+    )
+    names = ("driver.angle", "wheel.angle")
+    hinges = (Revolute("a", driver.at(0, 0), GROUND), Revolute("b", wheel.at(0, 0), GROUND.at(0.1, 0.0)))
+    mechanism = Mechanism((driver, wheel), hinges, contacts=contacts, outputs=of_body(*names))
+    results, shown = case["results"]["impacts"], case["results"]["states"]
+    of = moved(mechanism, float(shown[-1]["t"]))
+    assert [one.contact.partition("_")[0] for one in of.impacts] == [one["contact"].split()[1] for one in results]
+    agree_impacts(of, results, case)
+    agree_rates(of, results, names, case)
+    agree_states(states(mechanism, [float(one["t"]) for one in shown]), shown, names, case)
+
+
+@pytest.mark.parametrize("case", of_kind("ratchet_round_pawl"))
+def test_ratchet_round_pawl(case: dict[str, Any]) -> None:
+    wheel = Body("wheel", 1.0, 32.7948e-3, start=(0.0, 0.0, math.radians(92)), start_rate=(0.0, 0.0, 2.0))
+    pawl = Body("pawl", 1.0, 0.0853e-3 + 0.0976 * 0.05**2, start=(0.09, 0.15, math.radians(195)))
+    root, following = polar(0.1, 0.0), polar(0.1, -36.0)
+    apex = root[0], -1.115 * 0.2 * math.sin(math.radians(18))
+    contact = OutlineContact(
+        "tooth",
+        pawl,
+        wheel,
+        outline_i=Outline.circle(0.5e-3, (0.1, 0.0)),
+        outline_j=Outline.chain([following, apex, root]),
+        copies=CircularCopies(10),
+        restitution=case["data"]["e"],
+    )
+    names = ("wheel.angle", "pawl.angle")
+    hinges = (Revolute("a", wheel.at(0, 0), GROUND), Revolute("b", pawl.at(0, 0), GROUND.at(0.09, 0.15)))
+    spring = Torque("spring", pawl, torque=0.05)
+    mechanism = Mechanism((wheel, pawl), hinges, (spring,), (contact,), outputs=of_body(*names))
+    results, shown = case["results"]["impacts"], case["results"]["states"]
+    of = moved(mechanism, float(shown[-1]["t"]))
+    assert [-one.copy % 10 for one in of.impacts] == [int(one["contact"].split()[1]) for one in results]
+    agree_impacts(of, results, case)
+    agree_rates(of, results, names, case)
+    agree_states(states(mechanism, [float(one["t"]) for one in shown]), shown, names, case)
+    changes = case["results"]["mode_changes"]
+    found = [event for event in of.events if event.guard.endswith(("handover", "force"))]
+    # what passes on to the apex and leaves it at the same instant is one event here
+    asked = [one for k, one in enumerate(changes) if not (k and changes[k - 1]["t"] == one["t"])]
+    agree([event.time for event in found], [float(one["t"]) for one in asked], case)
+
+
+def ticks(mechanism: Mechanism, case: dict[str, Any], wheel: str, verge: str, count: int) -> Moved:
+    """The first ticks of an escapement: when, on which tooth of which pallet, how fast, and where both stand."""
+    results = case["results"]["first_ticks"]
+    of = moved(mechanism, 20.0, len(results))
+    agree_impacts(of, results, case, wheel_angle=wheel, verge_angle=verge)
+    for one, result in zip(of.impacts, results, strict=True):
+        pallet, _, tooth = result["contact"].partition("/")
+        assert one.contact.partition("_")[0] == pallet
+        assert (one.copy - int(tooth)) % count == 0
+    return of
+
+
+@pytest.mark.parametrize("case", of_kind("verge"))
+def test_verge(case: dict[str, Any]) -> None:
+    radius = 0.02
+    pitch = 2 * math.pi * radius / 15
+    wheel, verge = Body("wheel", 1.0, 1e-5), Body("verge", 1.0, 2e-5)
+    # of the wheel, one half of the inertia is in its upper and lower teeth, which move to either side
+    names = ("upper", "lower")
+    racks = [Body(f"{name}_teeth", 0.5e-5 / radius**2, 1.0, start=(0.0, -0.008, 0.0)) for name in names]
+    tooth = Outline.circle(0.2e-3)
+    pallets = {"upper": [polar(0.002, -60), polar(0.010, -60)], "lower": [polar(0.010, -120), polar(0.002, -120)]}
+    contacts = tuple(
+        OutlineContact(
+            name,
+            verge,
+            rack,
+            outline_i=Outline.chain(pallets[name]),
+            outline_j=tooth.moved(0.5 * pitch if name == "lower" else 0.0),
+            copies=LinearCopies((pitch, 0.0)),
+        )
+        for name, rack in zip(pallets, racks, strict=True)
+    )
+    joints = (
+        Revolute("a", wheel.at(0, 0), GROUND),
+        Revolute("b", verge.at(0, 0), GROUND),
+        *(
+            Translational(f"guide_{rack.name}", rack.line((0, 0), (1.0, 0.0)), GROUND.line((0, -0.008), (1.0, 0.0)))
+            for rack in racks
+        ),
+        *(
+            RackAndPinion(
+                f"mesh_{rack.name}",
+                rack.line((0.0, 0.008 - side * radius), (side, 0.0)),
+                wheel.at(0, 0),
+                rack.at(0.0, 0.008 - side * radius),
+                radius_j=radius,
+                angle_j=-side * math.pi / 2,
+            )
+            for rack, side in zip(racks, (1.0, -1.0), strict=True)
+        ),
+    )
+    mechanism = Mechanism(
+        (wheel, verge, *racks),
+        joints,
+        (Torque("drive", wheel, torque=case["data"]["torque"]),),
+        contacts,
+        outputs=of_body("wheel.angle", "verge.angle"),
+    )
+    ticks(mechanism, case, "wheel.angle", "verge.angle", 1_000_000_007)
+
+
+def ring_sector(outer: tuple[float, float], inner: tuple[float, float], middle: float, half: float) -> Outline:
+    """Between two circles about the origin: from and to which angle on the outer and on the inner one [deg]."""
+    (u0, u1), (v0, v1) = outer, inner
+    out, back = math.tan(math.radians(u1 - u0) / 4), -math.tan(math.radians(v1 - v0) / 4)
+    places = polar(middle + half, u0), polar(middle + half, u1), polar(middle - half, v1), polar(middle - half, v0)
+    return Outline(tuple((*at, bulge) for at, bulge in zip(places, (out, 0.0, back, 0.0), strict=True)))
+
+
+@pytest.mark.parametrize("case", of_kind("graham_dead_beat"))
+def test_graham_dead_beat(case: dict[str, Any]) -> None:
+    radius = 0.03
+    start = math.radians(135) + 1.7e-3 / radius
+    wheel = Body("wheel", 1.0, 2e-5, start=(0.0, 0.0, start))
+    hinge = (0.0, radius / math.cos(math.radians(45)))
+    anchor = Body("anchor", 1.0, 0.988, start=(*hinge, math.radians(3)))
+    pallets = {
+        "entry": ring_sector((216.5, 224.5), (216.5, 226.5), radius, 1.3e-3),
+        "exit": ring_sector((313.5, 323.5), (315.5, 323.5), radius, 1.3e-3),
+    }
+    contacts = tuple(
+        OutlineContact(
+            name,
+            anchor,
+            wheel,
+            outline_i=pallet,
+            outline_j=Outline.circle(0.2e-3, (radius, 0.0)),
+            copies=CircularCopies(30),
+        )
+        for name, pallet in pallets.items()
+    )
+    mechanism = Mechanism(
+        (wheel, anchor),
+        (Revolute("a", wheel.at(0, 0), GROUND), Revolute("b", anchor.at(0, 0), GROUND.at(*hinge))),
+        (
+            Torque("drive", wheel, torque=-0.012),
+            Damper("air", anchor, damping=0.1),
+            PointForce("weight", anchor.at(0.0, -1.0), force=(0.0, -9.75)),
+        ),
+        contacts,
+        outputs=of_body("wheel.angle", "anchor.angle"),
+    )
+    ticks(mechanism, case, "wheel.angle", "anchor.angle", 30)
+
+
+@pytest.mark.parametrize("case", of_kind("pin_pallet"))
+def test_pin_pallet(case: dict[str, Any]) -> None:
+    wheel = Body("wheel", 1.0, 2e-6, start=(0.0, 0.0, math.radians(132 + 4.6 + 1.5)))
+    hinge = (0.0, 0.03 / math.cos(math.radians(42)))
+    inertia = 2e-4
+    lever = Body("lever", 1.0, inertia, start=(*hinge, math.radians(6)))
+    tooth = Outline.chain([polar(0.025, -4.6), polar(0.0290, -4.6), polar(0.0304, 4.6), polar(0.025, 2.6)])
+    contacts = []
+    for name, direction in (("entry", 132), ("exit", 48)):
+        x, y = polar(0.0298, direction)
+        contacts.append(
+            OutlineContact(
+                name,
+                lever,
+                wheel,
+                outline_i=Outline.circle(0.4e-3, (x, y - hinge[1])),
+                outline_j=tooth,
+                copies=CircularCopies(15),
+            )
+        )
+    mechanism = Mechanism(
+        (wheel, lever),
+        (Revolute("a", wheel.at(0, 0), GROUND), Revolute("b", lever.at(0, 0), GROUND.at(*hinge))),
+        (
+            Torque("drive", wheel, torque=-case["data"]["torque"]),
+            TorsionSpring("balance_spring", lever, stiffness=inertia * (5 * math.pi) ** 2, free_angle=0.0),
+            Damper("air", lever, damping=inertia * 5 * math.pi / 10),
+        ),
+        tuple(contacts),
+        outputs=of_body("wheel.angle", "lever.angle"),
+    )
+    ticks(mechanism, case, "wheel.angle", "lever.angle", 15)

@@ -17,6 +17,7 @@ from ...tables.parts import Contacts, Forces, Joints, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..vectors import clear
+from .outline_row import outline_row
 from .point_line import angle_row, point_line, tangent_line
 from .profile_row import slip_row
 
@@ -109,7 +110,9 @@ def friction_row(block: Array, at: Pose, rub: int, row: int) -> None:
     contacts = Sizes(block).contacts
     if rub < contacts:
         table = Contacts(block)
-        if table.alpha[rub] == codes.NONE:
+        if table.kind[rub] == codes.OUTLINE:
+            outline_row(block, at, rub, row, True)
+        elif table.alpha[rub] == codes.NONE:
             tangent_line(table.line[rub], line)
             point_line(at, out, row, table.body_i[rub], table.body_j[rub], table.data[rub], line)
         else:

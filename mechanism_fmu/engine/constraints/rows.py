@@ -17,6 +17,7 @@ from .friction_rows import rubs, stick_rows, stuck_count
 from .joints.drivers import angle_driver, distance_driver, translational_driver, x_driver, y_driver
 from .joints.gears import gears, internal_gears, rack_and_pinion
 from .joints.pins_and_slides import distance, revolute, revolute_translational, translational
+from .outline_row import outline_row
 from .point_line import angle_row, point_line, spare_row
 from .profile_row import profile_row
 
@@ -86,6 +87,8 @@ def contact_row(block: Array, at: Pose, contact: int, row: int) -> None:
         point_line(at, out, row, i, j, table.data[contact], table.line[contact])
     elif table.alpha[contact] != codes.NONE:
         profile_row(block, at, contact, row)
+    elif table.kind[contact] == codes.OUTLINE:
+        outline_row(block, at, contact, row, False)
     else:
         angle_row(at, out, row, i, j, table.line[contact])
 

@@ -15,7 +15,9 @@ from ..constraints.friction_rows import friction_row, slips
 from ..constraints.point_line import point_line, spare_row, tangent_row
 from ..constraints.rows import contact_row
 from ..elementary import sine_cosine
+from ..outlines.nearest import EXACT, FREE, nearest
 from ..profiles.nearest import find_nearest, is_searched
+from .handover import free_place, is_free, is_outline, left_to_go, let_loose, take_found
 
 # Where the contacts stand now: the present copy of a pattern, the present angle of a stop or lock.
 
@@ -36,7 +38,7 @@ def place_contact(block: Array, at: Pose, contact: int) -> None:
         if pattern != codes.NONE:
             angle = Patterns(block).copy[pattern] * Patterns(block).pitch[pattern]
         turn_line(data[2:], angle, line)
-    elif table.alpha[contact] == codes.NONE:
+    elif table.alpha[contact] == codes.NONE and table.kind[contact] != codes.OUTLINE:
         turns = float(table.clicks[contact])
         pitch = data[codes.STOP_PITCH]
         if table.kind[contact] == codes.ANGLE_LOCK:
@@ -73,7 +75,8 @@ def turn_line(source: Array, angle: float, target: Array) -> None:
 
 # Guards: functions of position and rates that are positive until something happens.
 #
-# In order: the gap of each contact; how far each stop with memory is from its next click; how far each pattern's point
+# In order: the gap of each contact; how far each stop with memory is from its next click, and where outlines touch the
+# place of contact from the end of a feature; how far each pattern's point
 # is from the boundary to the next copy and to the previous one; how far each logical function is from its change; slip
 # speeds. All but gaps and slip speeds are passed by `MARGIN` before they count, so that what has just changed is well
 # inside its new range.
@@ -87,6 +90,19 @@ def gap(block: Array, at: Pose, contact: int) -> tuple[float, float]:
         find_nearest(block, at, contact)
     contact_row(block, at, contact, spare_row(block))
     return _spare(block)
+
+
+@jit
+def shown_gap(block: Array, at: Pose, contact: int) -> tuple[float, float]:
+    """As `gap`; of outlines, where nothing touches, that of the nearest features."""
+    keep_small()
+    if not is_free(block, contact):
+        return gap(block, at, contact)
+    distance = nearest(block, at, contact, EXACT)
+    take_found(block, contact)
+    rate = gap(block, at, contact)[1]
+    let_loose(block, contact)
+    return distance, rate
 
 
 @jit
@@ -105,6 +121,8 @@ def guard_of(block: Array, number: int) -> tuple[int, int]:
         return codes.GUARD_GAP, number
     number -= count
     if number < count:
+        if is_outline(block, number):
+            return codes.GUARD_HANDOVER, number
         return codes.GUARD_CLICK, number
     number -= count
     count = Sizes(block).patterns
@@ -134,11 +152,23 @@ def is_watched(block: Array, number: int) -> bool:
         repeats: bool = Patterns(block).enabled[subject] > 0.5
         return repeats
     exists = table.value[subject, codes.ENABLED] > 0.5
+    if guard == codes.GUARD_HANDOVER:
+        ends: bool = exists and table.mode[subject] == codes.CLOSED
+        return ends
+    if exists and is_free(block, subject):
+        return free_place(block, table.group[subject]) == subject
     if guard == codes.GUARD_CLICK:
         clicks: bool = exists and table.kind[subject] == codes.ANGLE_STOP
         return clicks and table.data[subject, codes.STOP_PITCH] > 0.0
     opened: bool = exists and table.mode[subject] == codes.OPEN and table.function[subject] == codes.NONE
     return opened
+
+
+@jit
+def stands_for_search(block: Array, number: int) -> bool:
+    """Whether a guard is the distance of what two outlines touch with next, whichever of their features it is."""
+    guard, subject = guard_of(block, number)
+    return guard == codes.GUARD_GAP and is_free(block, subject)
 
 
 @jit
@@ -155,7 +185,11 @@ def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
     keep_small()
     guard, subject = guard_of(block, number)
     if guard == codes.GUARD_GAP:
+        if is_free(block, subject):
+            return nearest(block, at, subject, FREE), 0.0
         return gap(block, at, subject)
+    if guard == codes.GUARD_HANDOVER:
+        return left_to_go(block, at, subject)[0] + MARGIN, 0.0
     if guard == codes.GUARD_CLICK:
         value, rate = gap(block, at, subject)
         return Contacts(block).data[subject, codes.STOP_PITCH] + MARGIN - value, -rate

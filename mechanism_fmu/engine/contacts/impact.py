@@ -242,6 +242,9 @@ def _copy(block: Array, contact: int) -> int:
     """The index of the tooth: of the contact's pattern, or the clicks of a stop."""
     table = Contacts(block)
     pattern = table.pattern[contact]
+    if table.kind[contact] == codes.OUTLINE:
+        copy: int = table.copy[contact]
+        return copy
     if pattern == codes.NONE:
         clicks: int = table.clicks[contact]
         return clicks

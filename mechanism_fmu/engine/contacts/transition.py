@@ -18,6 +18,7 @@ from ..dynamics.forces import kinetic_energy, set_time
 from .complementarity import push_forces
 from .doubts import other_choice, undetermined
 from .guards import can_open, gap, place_contact, place_pattern
+from .handover import bind_what_touches, hand_over, let_loose
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, make_space, strike
 from .impact_laws import shock
 from .rubbing import let_slip, look_at_slip, note_sticks, part, set_noted
@@ -40,6 +41,7 @@ def release(block: Array, struck: int) -> None:
             distance, rate = gap(block, at, c)
             if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
                 table.touching[c] = 0
+                let_loose(block, c)
 
 
 # What happens at an event: x- becomes x+, and the mechanism's mode changes.
@@ -140,6 +142,12 @@ def _take_effect(block: Array, guard: int, subject: int) -> int:
     keep_small()
     table = Contacts(block)
     at = place_bodies(block, Course(block).y_end)
+    if guard == codes.GUARD_HANDOVER:
+        hand_over(block, at, subject)
+    if Sizes(block).outlines > 0:
+        outcome = bind_what_touches(block, at, subject if guard == codes.GUARD_GAP else codes.NONE)
+        if outcome != status.OK:
+            return outcome
     if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
         Patterns(block).copy[subject] += -1 if guard == codes.GUARD_PREVIOUS else 1
         place_pattern(block, at, subject)

@@ -15,6 +15,7 @@ from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from ..contacts.guards import function_value, gap, guard_value, place_contact, place_pattern
+from ..contacts.handover import let_loose
 from ..contacts.rubbing import part_all
 from ..contacts.transition import switch_contacts
 from ..dynamics.minimum_norm import minimum_norm
@@ -132,6 +133,7 @@ def start_guess(block: Array, offset: int) -> None:
         if table.value[c, codes.STARTS_CLOSED] > 0.5 and table.value[c, codes.ENABLED] > 0.5:
             table.mode[c] = codes.CLOSED
         place_contact(block, at, c)
+        let_loose(block, c)
     find_copies(block)
     for p in range(Patterns(block).copy.shape[0]):
         if Patterns(block).enabled[p] > 0.5:

@@ -17,6 +17,7 @@ from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows
 from ..contacts.guards import gap
+from ..contacts.handover import bind_what_touches, deepest_overlap, is_free
 from ..contacts.impact import clear_impact, clear_records
 from ..dynamics.forces import set_time, take_inputs
 from ..profiles.overlap import overlap
@@ -44,6 +45,14 @@ def start(block: Array, time: float) -> int:
     if not _close_rates(block, at):
         return status.START_RATES
     at = place_bodies(block, Course(block).y_end)
+    if Sizes(block).outlines > 0:
+        contact, depth = deepest_overlap(block, at)
+        if contact != codes.NONE:
+            _blame(block, contact, -depth)
+            return status.START_INSIDE
+        outcome = bind_what_touches(block, at, codes.NONE)
+        if outcome != status.OK:
+            return outcome
     if not _contacts_begin(block, at):
         return status.START_INSIDE
     return status.OK
@@ -100,6 +109,8 @@ def _contacts_begin(block: Array, at: Pose) -> bool:
     for c in range(table.mode.shape[0]):
         table.pull_time[c] = math.inf
         table.touching[c] = 0
+        if is_free(block, c):
+            continue
         exists = table.value[c, codes.ENABLED] > 0.5 and table.function[c] == codes.NONE
         if table.mode[c] == codes.OPEN and exists:
             distance, rate = gap(block, at, c)

@@ -27,7 +27,10 @@ from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, T
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
-from ..contacts.guards import gap, guard_of, guard_value, is_watched
+from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for_search
+from ..contacts.handover import bind, is_free, left_to_go
+from ..outlines.advance import FINEST, fastest
+from ..outlines.nearest import look_no_deeper
 from .interpolation import interpolate
 from .letting_go import first_to_let_go
 from .runge_kutta import try_step
@@ -64,6 +67,8 @@ def refine(block: Array, contact: int, step_size: float) -> float:
     s = Stages(block)
     start = s.tried[0]
     limit = 2.0 * step_size
+    if is_free(block, contact):
+        bind(block, _place(block, step_size / s.tried[1]), contact)
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, step_size)
         at = place_bodies(block, s.y_new)
@@ -76,6 +81,37 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         step_size += move
     try_step(block, start, step_size)
     return step_size
+
+
+@jit
+def refine_end(block: Array, contact: int, step_size: float) -> float:
+    """The step size at which the true step ends with the place of contact right at the end of its feature.
+
+    The guard has fired `MARGIN` beyond it, where the feature that follows would have turned the normal already. By
+    secants; that step is the last one tried.
+    """
+    keep_small()
+    s = Stages(block)
+    start = s.tried[0]
+    before = 0.0
+    left = left_to_go(block, _place(block, 0.0), contact)[0]
+    size = step_size
+    try_step(block, start, size)
+    for _ in range(_NEWTON_STEPS):
+        value = left_to_go(block, place_bodies(block, s.y_new), contact)[0]
+        if value == left:
+            return size
+        move = value * (size - before) / (left - value)
+        if not 0.0 < size + move <= step_size:
+            return size
+        if abs(move) <= ROOT_TOLERANCE:
+            return size
+        if abs(value) < abs(left):
+            before = size
+            left = value
+        size += move
+        try_step(block, start, size)
+    return size
 
 
 @jit
@@ -102,19 +138,55 @@ def _first_zero(block: Array) -> tuple[int, float]:
         at = _place(block, after)
         for k in range(count):
             g = look_at.watched[k]
-            look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, at, g)
+            if not stands_for_search(block, g):
+                look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, at, g)
         which = codes.NONE
         earliest = 2.0
         for k in range(count):
             g = look_at.watched[k]
+            if stands_for_search(block, g):
+                continue
             fraction = _zero_between(block, g, before, after)
             if fraction < earliest:
                 earliest = fraction
                 which = g
+        for k in range(count):
+            g = look_at.watched[k]
+            if stands_for_search(block, g) and look_at.reached[g] <= after:
+                fraction = _advance(block, g, after)
+                if fraction < earliest:
+                    earliest = fraction
+                    which = g
         if which != codes.NONE:
             return which, earliest
         before = after
     return codes.NONE, 2.0
+
+
+@jit
+def _advance(block: Array, number: int, after: float) -> float:
+    """Where the distance of two outlines comes down to zero before `after`; 2.0 when it does not (see `advance`)."""
+    keep_small()
+    look_at = Watch(block)
+    contact = guard_of(block, number)[1]
+    speed = fastest(block, _place(block, look_at.reached[number]), contact)
+    look_no_deeper(block, speed * FINEST)
+    found = 2.0
+    while look_at.reached[number] <= after:
+        last = look_at.next[number, 1]
+        now = look_at.reached[number]
+        value = _value_at(block, number, now)[0]
+        if value <= 0.0 and now > 0.0:
+            found = _bisect(block, number, last, now, 0.0)
+            break
+        look_at.next[number, 1] = now
+        look_at.reached[number] = 2.0
+        if value <= speed * (1.0 - now):
+            look_at.reached[number] = now + max(value / speed, FINEST)
+            if now < 1.0 < look_at.reached[number]:
+                look_at.reached[number] = 1.0
+    look_no_deeper(block, 0.0)
+    return found
 
 
 @jit
@@ -127,6 +199,10 @@ def _begin(block: Array, at: Pose, number: int) -> bool:
     look_at.armed[number] = 1
     look_at.floor[number] = 0.0
     guard, subject = guard_of(block, number)
+    if stands_for_search(block, number):
+        look_at.reached[number] = 0.0
+        look_at.next[number, 1] = 0.0
+        return False
     if guard == codes.GUARD_STICK:
         if value <= SLIPS_ABOVE:  # it begins to slip
             look_at.armed[number] = 0

@@ -7,19 +7,21 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, LinearSystem, Stages
+from ...tables.motion import Course, LinearSystem, Rows, Stages
 from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
+from ..constraints.point_line import spare_row
+from ..contacts.handover import deepest_overlap
 from ..contacts.transition import release
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import copy
-from .events import first_event, refine
+from .events import first_event, refine, refine_end
 from .interpolation import interpolate
 from .letting_go import refine_hold, refine_slip
 from .runge_kutta import try_step
@@ -138,6 +140,8 @@ def _end_at_event(block: Array, guard: int, subject: int, start: float, step: fl
     keep_small()
     if guard == codes.GUARD_GAP:
         return refine(block, subject, step)
+    if guard == codes.GUARD_HANDOVER:
+        return refine_end(block, subject, step)
     if guard == codes.GUARD_STICK:
         return refine_slip(block, subject, step)
     if guard == codes.GUARD_SLIP:
@@ -172,6 +176,12 @@ def _mend_and_check(block: Array) -> int:
     set_time(block, now.clock[codes.STEP_END])
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
+    if Sizes(block).outlines > 0:
+        contact, depth = deepest_overlap(block, place_bodies(block, now.y_end))
+        if contact != codes.NONE:
+            Stages(block).stiffest[0] = contact
+            Rows(block).residual[spare_row(block)] = -depth
+            return status.PENETRATED
     if Sizes(block).alphas > 0:
         at = place_bodies(block, now.y_end)
         if not least_fit(block, at) > 0.0:

@@ -38,6 +38,7 @@ SUBJECTS = {
     codes.GUARD_SHOCK: "rubs",
     codes.GUARD_SEVERAL: "rubs",
     codes.GUARD_UNDETERMINED: "rubs",
+    codes.GUARD_HANDOVER: "contacts",
 }
 
 

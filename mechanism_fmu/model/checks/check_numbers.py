@@ -120,7 +120,7 @@ def _not_finite(part: Joint | ForceElement | Contact | CircularPattern) -> tuple
     for field in fields(part):
         value = getattr(part, field.name)
         numbers = value if isinstance(value, tuple) else (value,)
-        asked = field.name in _ASKED_FOR or callable(value)
+        asked = field.name in _ASKED_FOR or callable(value) or hasattr(value, "__dataclass_fields__")
         if not asked and not any(isinstance(n, str | Curve | None) for n in numbers):
             shown = "({:g}, {:g})" if isinstance(value, tuple) else "{:g}"
             text = f"{label}: {field.name} = {shown} is not finite; give finite numbers."

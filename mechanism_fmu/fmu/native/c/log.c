@@ -90,7 +90,9 @@ static const char *mode_name(const Instance *x, double mode, char *text, size_t 
 
 static void name_event(int guard, int subject, char *text, size_t size) {
     static const char *const of_friction[] = {"sticks", "slips", "shock", "several", "undetermined"};
-    const char *of_contact = guard == CODE_GUARD_GAP ? "gap" : guard == CODE_GUARD_PUSH ? "force" : "click";
+    const char *of_contact = guard == CODE_GUARD_GAP ? "gap" : guard == CODE_GUARD_PUSH       ? "force"
+                             : guard == CODE_GUARD_HANDOVER ? "handover"
+                                                            : "click";
     if (guard == CODE_GUARD_INPUT) snprintf(text, size, "input");
     else if (guard == CODE_GUARD_FUNCTION) snprintf(text, size, "%s", model.functions[subject]);
     else if (guard == CODE_GUARD_NEXT) snprintf(text, size, "%s.next", model.patterns[subject]);
@@ -217,11 +219,11 @@ static void driven_too_far(Instance *x, char *text, size_t size) {
              FIELD(x, residual)[SIZE(x, rows) - 1], driver->unit);
 }
 
-static void penetration(Instance *x, char *text, size_t size) {
-    const Contact *contact = model.contacts + COUNTERS(x)[CODE_PENDING_SUBJECT];
+static void penetration(Instance *x, int64_t which, const char *way_out, char *text, size_t size) {
+    const Contact *contact = model.contacts + which;
     double depth = -FIELD(x, residual)[SIZE(x, rows) - 1];
-    snprintf(text, size, " Contact '%s': %s %.6g %s; change the start angles or the lengths.", contact->name, contact->before,
-             depth, contact->behind);
+    snprintf(text, size, " Contact '%s': %s %.6g %s%s.", contact->name, contact->before, depth, contact->behind,
+             way_out);
 }
 
 /* The contacts that a failed event is about: those of the step's events, and the closed ones. */
@@ -288,7 +290,10 @@ const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size
     if (outcome == STATUS_OUT_OF_REACH) driven_too_far(x, text, size);
     if (outcome == STATUS_AT_CENTRE)
         snprintf(text, size, " Contact '%s'.", model.contacts[COUNTERS(x)[CODE_PENDING_SUBJECT]].name);
-    if (outcome == STATUS_START_INSIDE || outcome == STATUS_OVERLAP) penetration(x, text, size);
+    if (outcome == STATUS_START_INSIDE || outcome == STATUS_OVERLAP)
+        penetration(x, COUNTERS(x)[CODE_PENDING_SUBJECT], "; change the start angles or the lengths", text, size);
+    if (outcome == STATUS_PENETRATED)
+        penetration(x, ((const int64_t *)FIELD(x, stage_stiffest))[0], "", text, size);
     if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
         outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED)
         involved_contacts(x, text, size);

@@ -27,7 +27,7 @@ static Status check_words(const Instance *x, const double *state) {
 static int rubs(int64_t guard) { return guard >= CODE_GUARD_STICK && guard <= CODE_GUARD_UNDETERMINED; }
 
 static int has_subject(int64_t guard) {
-    return (guard >= CODE_GUARD_GAP && guard <= CODE_GUARD_FUNCTION) || rubs(guard);
+    return (guard >= CODE_GUARD_GAP && guard <= CODE_GUARD_FUNCTION) || rubs(guard) || guard == CODE_GUARD_HANDOVER;
 }
 
 /* Whether a guard can be about a subject. */

@@ -1,0 +1,249 @@
+"""Contacts of outlines: bound to the two features that touch, handed over where one of these ends, freed when apart.
+
+Two outlines have a group of contacts, one for each place where they may touch at once. Those that touch are bound; the
+first free one stands for the nearest pair of features that touch nothing yet (`engine.outlines.nearest`).
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Pose, Rows
+from ...tables.parts import Contacts, Features, Outlines
+from ...tolerances import TOUCHES_WITHIN
+from .. import status
+from ..compiler.subset import jit, keep_small
+from ..constraints.outline_row import FAR, outline_row, place_feature, radius_of, turning_of
+from ..constraints.point_line import spare_row
+from ..outlines.features import beside, inside_range, is_corner, is_hollow_corner, over_arc
+from ..outlines.nearest import EVERY, FREE, look_no_deeper, nearest
+
+#: Outlines that reach farther into each other than this do not touch, but overlap [m].
+OVERLAPS = 1e-9
+
+
+@jit
+def is_outline(block: Array, contact: int) -> bool:
+    """Whether a contact is one of outlines."""
+    found: bool = Contacts(block).kind[contact] == codes.OUTLINE
+    return found
+
+
+@jit
+def is_free(block: Array, contact: int) -> bool:
+    """Whether a contact of outlines is bound to nothing."""
+    free: bool = is_outline(block, contact) and Contacts(block).feature_i[contact] == codes.NONE
+    return free
+
+
+@jit
+def free_place(block: Array, group: int) -> int:
+    """The first free contact of a group, or `codes.NONE`."""
+    table = Contacts(block)
+    for k in range(group, table.mode.shape[0]):
+        if table.group[k] != group:
+            break
+        if table.feature_i[k] == codes.NONE:
+            return k
+    return codes.NONE
+
+
+@jit
+def bind(block: Array, at: Pose, contact: int) -> None:
+    """Bind a free contact to the nearest features that touch nothing yet."""
+    keep_small()
+    nearest(block, at, contact, FREE)
+    take_found(block, contact)
+
+
+@jit
+def take_found(block: Array, contact: int) -> None:
+    """Bind a contact to what the last search has found."""
+    keep_small()
+    from_search = Outlines(block).found
+    table = Contacts(block)
+    table.feature_i[contact] = from_search[0]
+    table.feature_j[contact] = from_search[1]
+    table.copy[contact] = from_search[2]
+
+
+@jit
+def let_loose(block: Array, contact: int) -> None:
+    """An open contact of outlines that has come off is free again."""
+    if is_outline(block, contact):
+        Contacts(block).feature_i[contact] = codes.NONE
+        Contacts(block).feature_j[contact] = codes.NONE
+        Contacts(block).copy[contact] = 0
+
+
+@jit
+def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
+    """Bind a contact to every pair of features that touches, and free those that do not but for `struck`; a status."""
+    keep_small()
+    table = Contacts(block)
+    look_no_deeper(block, 0.0)
+    for c in range(table.mode.shape[0]):
+        if not is_outline(block, c):
+            continue
+        if table.mode[c] == codes.OPEN and table.touching[c] == 0 and c != struck:
+            let_loose(block, c)
+        if c == struck:
+            table.touching[c] = 1
+    for c in range(table.mode.shape[0]):
+        if not is_outline(block, c) or table.group[c] != c or table.value[c, codes.ENABLED] < 0.5:
+            continue
+        while nearest(block, at, c, FREE) <= TOUCHES_WITHIN:
+            place = free_place(block, c)
+            if place == codes.NONE:
+                return status.MANY_TOUCH
+            take_found(block, place)
+            table.touching[place] = 1
+    return status.OK
+
+
+@jit
+def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
+    """The contact of the outlines that reach deepest into each other, and how deep [m]; `codes.NONE` where none does.
+
+    A disc of one that is inside the other counts, and none in an open chain, which has no inside.
+    """
+    keep_small()
+    table = Contacts(block)
+    found = codes.NONE
+    least = -OVERLAPS
+    look_no_deeper(block, FAR)
+    for c in range(table.mode.shape[0]):
+        if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
+            gap = nearest(block, at, c, EVERY)
+            if gap < least:
+                least = gap
+                found = c
+    look_no_deeper(block, 0.0)
+    return found, -least
+
+
+# Where a feature ends.
+
+
+@jit
+def left_to_go(block: Array, at: Pose, contact: int) -> tuple[float, int, int]:
+    """How far the place of contact is from the nearest end of a feature it is on [m]; of which side, and which way."""
+    keep_small()
+    table = Contacts(block)
+    i, j = table.body_i[contact], table.body_j[contact]
+    f, g = table.feature_i[contact], table.feature_j[contact]
+    copy = table.copy[contact]
+    ax, ay, tx, ty = place_feature(block, at, i, table.outline_i[contact], 0, f)
+    bx, by, vx, vy = place_feature(block, at, j, table.outline_j[contact], copy, g)
+    dx = at.x[i] + ax - at.x[j] - bx
+    dy = at.y[i] + ay - at.y[j] - by
+    kind_i, kind_j = Features(block).kind[f], Features(block).kind[g]
+    nx, ny = dx, dy  # out of j, whatever its length
+    if kind_j == codes.SEGMENT:
+        nx, ny = vy, -vx
+    elif kind_i == codes.SEGMENT:
+        nx, ny = -ty, tx
+    elif radius_of(block, f) < 0.0 or radius_of(block, g) < 0.0:
+        nx, ny = -dx, -dy
+    way_i, value_i = _end(block, at, table.outline_i[contact], i, 0, f, kind_j, -dx, -dy, -nx, -ny)
+    way_j, value_j = _end(block, at, table.outline_j[contact], j, copy, g, kind_i, dx, dy, nx, ny)
+    if value_i < value_j:
+        return value_i, 0, way_i
+    return value_j, 1, way_j
+
+
+@jit
+def _end(
+    block: Array,
+    at: Pose,
+    outline: int,
+    body: int,
+    copy: int,
+    feature: int,
+    partner: int,
+    dx: float,
+    dy: float,
+    nx: float,
+    ny: float,
+) -> tuple[int, float]:
+    """The nearer end of a feature: which way it lies, and how far [m].
+
+    (dx, dy) leads from the feature's point to that of its partner, (nx, ny) is the normal out of the feature.
+    """
+    keep_small()
+    data = Features(block).data[feature]
+    kind = Features(block).kind[feature]
+    c, s = turning_of(block, at, body, outline, copy)
+    before = math.inf
+    behind = math.inf
+    if kind == codes.ARC:
+        side = 1.0 if data[codes.FEATURE_RADIUS] > 0.0 else -1.0
+        before, behind = over_arc(block, feature, side * (c * nx + s * ny), side * (c * ny - s * nx))
+    elif kind == codes.SEGMENT or partner == codes.ARC:
+        x = data[codes.FEATURE_X] + c * dx + s * dy
+        y = data[codes.FEATURE_Y] + c * dy - s * dx
+        before, behind = inside_range(block, feature, x, y)
+    if kind != codes.VERTEX:
+        corner = beside(block, outline, feature, -1)
+        if corner != codes.NONE and is_hollow_corner(block, corner):
+            before = math.inf
+        corner = beside(block, outline, feature, 1)
+        if corner != codes.NONE and is_hollow_corner(block, corner):
+            behind = math.inf
+    elif data[codes.FEATURE_TURN] == codes.FREE_END:
+        if data[codes.FEATURE_DX] == 0.0 and data[codes.FEATURE_DY] == 0.0:
+            before = math.inf
+        else:
+            behind = math.inf
+    if before < behind:
+        return -1, before
+    return 1, behind
+
+
+@jit
+def hand_over(block: Array, at: Pose, contact: int) -> None:
+    """Where the place of contact has come to the end of a feature, go on with the next one, or come off.
+
+    Where the outline goes on smoothly, and where a disc goes around a corner, the normal goes on as well, and nothing
+    strikes. A corner that comes to the corner of the other outline has come to its end.
+    """
+    keep_small()
+    table = Contacts(block)
+    _, side, way = left_to_go(block, at, contact)
+    outline = table.outline_i[contact] if side == 0 else table.outline_j[contact]
+    leaves = table.feature_i[contact] if side == 0 else table.feature_j[contact]
+    partner = table.feature_j[contact] if side == 0 else table.feature_i[contact]
+    follows = beside(block, outline, leaves, way)
+    if follows != codes.NONE and Features(block).kind[follows] == codes.VERTEX:
+        if not is_corner(block, follows):
+            follows = beside(block, outline, follows, way)
+        elif Features(block).kind[partner] == codes.VERTEX:
+            follows = codes.NONE
+    if follows != codes.NONE and _fits(block, follows, partner):
+        if side == 0:
+            table.feature_i[contact] = follows
+        else:
+            table.feature_j[contact] = follows
+        outline_row(block, at, contact, spare_row(block), False)
+        if abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN:
+            return
+    table.mode[contact] = codes.OPEN
+    table.touching[contact] = 0
+    let_loose(block, contact)
+
+
+@jit
+def _fits(block: Array, feature: int, other: int) -> bool:
+    """Whether two features can touch: not two segments, nor a hollow arc and what is flatter than it."""
+    keep_small()
+    if Features(block).kind[feature] == codes.SEGMENT and Features(block).kind[other] == codes.SEGMENT:
+        return False
+    one = radius_of(block, feature)
+    two = radius_of(block, other)
+    if one < 0.0 or two < 0.0:
+        if Features(block).kind[feature] == codes.SEGMENT or Features(block).kind[other] == codes.SEGMENT:
+            return False
+        return one + two < 0.0 and max(one, two) >= 0.0
+    return True

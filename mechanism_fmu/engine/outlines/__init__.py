@@ -1,0 +1,1 @@
+"""Outlines of segments and arcs: their features, how far they are apart, and what touches."""

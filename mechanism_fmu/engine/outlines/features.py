@@ -1,0 +1,147 @@
+"""Features of an outline as others see them: how far a disc is from one, and over which part of one it stands.
+
+All in the frame of the outline's body. A point is a disc of radius 0. The material lies to the left of the way along
+the chain, so that a segment's normal out of it points to the right; an arc is hollow where its radius is negative.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.parts import Features, Outlines
+from ...tolerances import MARGIN
+from ..compiler.subset import jit, keep_small
+from ..elementary import atan2
+
+#: Elements whose directions differ by less than this where they meet go on smoothly: there is no corner [rad].
+_SMOOTH = 1e-9
+
+
+@jit
+def beside(block: Array, outline: int, feature: int, way: int) -> int:
+    """The feature `way` places further along the chain, or `codes.NONE` beyond the end of an open one."""
+    table = Outlines(block)
+    place = feature - table.first[outline] + way
+    count = table.count[outline]
+    if place < 0 or place >= count:
+        if table.closed[outline] == 0:
+            return codes.NONE
+        place = (place + count) % count
+    found: int = table.first[outline] + place
+    return found
+
+
+@jit
+def is_corner(block: Array, feature: int) -> bool:
+    """Whether a vertex sticks out: others may touch it."""
+    sticks_out: bool = Features(block).data[feature, codes.FEATURE_TURN] > _SMOOTH
+    return sticks_out
+
+
+@jit
+def is_hollow_corner(block: Array, feature: int) -> bool:
+    """Whether a vertex is one where the chain turns towards its free side."""
+    hollow: bool = Features(block).data[feature, codes.FEATURE_TURN] < -_SMOOTH
+    return hollow
+
+
+@jit
+def disc_radius(block: Array, feature: int) -> float:
+    """The radius of a feature that is a disc for others [m]: 0 of a corner; negative of one that is none."""
+    keep_small()
+    table = Features(block)
+    if table.kind[feature] == codes.SEGMENT:
+        return -1.0
+    if table.kind[feature] == codes.VERTEX:
+        return 0.0 if is_corner(block, feature) else -1.0
+    radius: float = table.data[feature, codes.FEATURE_RADIUS]
+    return radius
+
+
+@jit
+def apart(block: Array, feature: int, x: float, y: float, radius: float) -> tuple[float, float, float]:
+    """How far a disc about (x, y) is from a feature, whatever part of it; and the normal out of the material."""
+    keep_small()
+    data = Features(block).data[feature]
+    kind = Features(block).kind[feature]
+    dx = x - data[codes.FEATURE_X]
+    dy = y - data[codes.FEATURE_Y]
+    if kind == codes.SEGMENT:
+        nx, ny = data[codes.FEATURE_DY], -data[codes.FEATURE_DX]
+        return nx * dx + ny * dy - radius, nx, ny
+    distance = math.sqrt(dx * dx + dy * dy)
+    own = 0.0
+    if kind == codes.ARC:
+        own = data[codes.FEATURE_RADIUS]
+    if distance == 0.0:  # right in the middle: any normal will do
+        dx, dy = data[codes.FEATURE_DX], data[codes.FEATURE_DY]
+        distance = math.sqrt(dx * dx + dy * dy)
+        if distance == 0.0:
+            dx, distance = 1.0, 1.0
+        if own < 0.0:
+            return -own - radius, -dx / distance, -dy / distance
+        return -own - radius, dx / distance, dy / distance
+    if own < 0.0:
+        return -own - radius - distance, -dx / distance, -dy / distance
+    return distance - own - radius, dx / distance, dy / distance
+
+
+@jit
+def inside_range(block: Array, feature: int, x: float, y: float) -> tuple[float, float]:
+    """How far a point over a feature is from the start and from the end of that feature [m]; negative beyond them.
+
+    Of a vertex: from where the elements before and behind it begin.
+    """
+    keep_small()
+    data = Features(block).data[feature]
+    kind = Features(block).kind[feature]
+    dx = x - data[codes.FEATURE_X]
+    dy = y - data[codes.FEATURE_Y]
+    along = data[codes.FEATURE_DX] * dx + data[codes.FEATURE_DY] * dy
+    if kind == codes.SEGMENT:
+        return along, data[codes.FEATURE_LENGTH] - along
+    if kind == codes.VERTEX:
+        return along, -(data[codes.FEATURE_LEAVES_X] * dx + data[codes.FEATURE_LEAVES_Y] * dy)
+    if dx == 0.0 and dy == 0.0:
+        return math.inf, math.inf
+    return over_arc(block, feature, dx, dy)
+
+
+@jit
+def over_arc(block: Array, feature: int, dx: float, dy: float) -> tuple[float, float]:
+    """As `inside_range`, of what lies in a direction from the centre of an arc."""
+    keep_small()
+    data = Features(block).data[feature]
+    mx, my = data[codes.FEATURE_DX], data[codes.FEATURE_DY]
+    radius = data[codes.FEATURE_RADIUS]
+    angle = atan2(mx * dy - my * dx, mx * dx + my * dy)
+    half = data[codes.FEATURE_HALF]
+    if half > math.pi:
+        return math.inf, math.inf
+    # a hollow arc runs clockwise, and its radius is negative
+    return abs(radius) * half + radius * angle, abs(radius) * half - radius * angle
+
+
+@jit
+def is_over(block: Array, outline: int, feature: int, x: float, y: float) -> bool:
+    """Whether a feature is what a point at (x, y) may touch: it stands over it, or over what leads into its corner.
+
+    Beyond an end in a hollow corner, the point is still kept off by the element before that corner, and slides towards
+    this one: as long as it stands over the former, the latter counts as if it went on.
+    """
+    keep_small()
+    if Features(block).kind[feature] == codes.VERTEX and not is_corner(block, feature):
+        return False
+    before, behind = inside_range(block, feature, x, y)
+    if before >= -MARGIN and behind >= -MARGIN:
+        return True
+    if Features(block).kind[feature] == codes.VERTEX:
+        return False
+    way = -1 if before < behind else 1
+    corner = beside(block, outline, feature, way)
+    if corner == codes.NONE or not is_hollow_corner(block, corner):
+        return False
+    before, behind = inside_range(block, beside(block, outline, feature, 2 * way), x, y)
+    return before >= -MARGIN and behind >= -MARGIN

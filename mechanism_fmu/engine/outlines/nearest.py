@@ -1,0 +1,295 @@
+"""How far two outlines are apart, and which of their features are nearest to each other.
+
+Of every disc of one outline (a corner, an arc that bulges), that feature of the other counts that is nearest, on
+whichever side of it the disc stands, and over which it stands; of all these the one with the least gap. What is behind
+a feature by more than `outlines.depth` does not count: it has come in past an open end, or is the far side of a plate.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.parts import Contacts, Features, Outlines
+from ...tolerances import MARGIN, TOUCHES_WITHIN
+from ..compiler.subset import jit, keep_small
+from ..constraints.outline_row import FAR
+from ..elementary import atan2, sine_cosine
+from .features import apart, beside, disc_radius, is_hollow_corner, is_over, over_arc
+
+# What a search counts (`mode`).
+#: Whatever touches nothing yet, as far as two circles around the outlines say that it may matter.
+FREE = 0
+#: The same, however far.
+EXACT = 1
+#: All, also what touches: for a look whether anything has gone through.
+EVERY = 2
+
+
+@jit
+def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
+    """The least gap of the outlines of a contact [m]; `outlines.found` are the features and the copy, or none.
+
+    Where none was found, the outlines are at least as far from each other.
+    """
+    keep_small()
+    table = Contacts(block)
+    outlines = Outlines(block)
+    i, j = table.body_i[contact], table.body_j[contact]
+    one, other = table.outline_i[contact], table.outline_j[contact]
+    outlines.found[0] = codes.NONE
+    outlines.found[1] = codes.NONE
+    outlines.found[2] = 0
+    c = at.cosine[j] * at.cosine[i] + at.sine[j] * at.sine[i]
+    s = at.cosine[j] * at.sine[i] - at.sine[j] * at.cosine[i]
+    dx = at.x[i] - at.x[j]
+    dy = at.y[i] - at.y[j]
+    x = at.cosine[j] * dx + at.sine[j] * dy
+    y = at.cosine[j] * dy - at.sine[j] * dx
+    data = outlines.data[one]
+    mx = x + c * data[codes.OUTLINE_X] - s * data[codes.OUTLINE_Y]
+    my = y + s * data[codes.OUTLINE_X] + c * data[codes.OUTLINE_Y]
+    radius = data[codes.OUTLINE_RADIUS]
+    data = outlines.data[other]
+    reach = radius + data[codes.OUTLINE_RADIUS]
+    if outlines.copies[other] == 0:
+        dx = mx - data[codes.OUTLINE_X]
+        dy = my - data[codes.OUTLINE_Y]
+        distance = math.sqrt(dx * dx + dy * dy)
+        if mode == FREE and distance > 2.0 * reach:
+            return distance - reach
+        return _of_copy(block, contact, mode, 0, c, s, x, y, FAR)
+    margin = FAR if mode == EXACT else reach
+    first, last = _copies(block, other, mx, my, reach + margin)
+    best = margin
+    for k in range(first, last + 1):
+        if data[codes.OUTLINE_PITCH] == 0.0:
+            best = _of_copy(
+                block, contact, mode, k, c, s, x - k * data[codes.OUTLINE_DX], y - k * data[codes.OUTLINE_DY], best
+            )
+        else:
+            st, ct = sine_cosine(k * data[codes.OUTLINE_PITCH])
+            best = _of_copy(
+                block, contact, mode, k, ct * c + st * s, ct * s - st * c, ct * x + st * y, ct * y - st * x, best
+            )
+    return best
+
+
+@jit
+def _copies(block: Array, outline: int, x: float, y: float, reach: float) -> tuple[int, int]:
+    """The first and the last copy of an outline whose circle comes nearer than `reach` to a point [m]."""
+    keep_small()
+    data = Outlines(block).data[outline]
+    count = Outlines(block).copies[outline]
+    ox, oy = data[codes.OUTLINE_X], data[codes.OUTLINE_Y]
+    pitch = data[codes.OUTLINE_PITCH]
+    if pitch == 0.0:
+        px, py = data[codes.OUTLINE_DX], data[codes.OUTLINE_DY]
+        square = px * px + py * py
+        middle = ((x - ox) * px + (y - oy) * py) / square
+        across = ((x - ox) * py - (y - oy) * px) ** 2 / square
+        if across > reach * reach:
+            return 0, -1
+        half = min(math.sqrt((reach * reach - across) / square), 0.5 * count)
+        return math.ceil(middle - half), math.floor(middle + half)
+    own = math.sqrt(ox * ox + oy * oy)
+    far = math.sqrt(x * x + y * y)
+    middle = 0.0
+    if far > 0.0 and own > 0.0:
+        middle = atan2(ox * y - oy * x, ox * x + oy * y) / pitch
+    half = 0.5 * count
+    if 2.0 * own * far > 0.0:
+        cosine = (own * own + far * far - reach * reach) / (2.0 * own * far)
+        if cosine > 1.0:
+            return 0, -1
+        if cosine > -1.0:
+            half = min(half, atan2(math.sqrt(1.0 - cosine * cosine), cosine) / abs(pitch))
+    first = math.ceil(middle - half)
+    return first, min(math.floor(middle + half), first + count - 1)
+
+
+@jit
+def _of_copy(
+    block: Array, contact: int, mode: int, copy: int, c: float, s: float, x: float, y: float, best: float
+) -> float:
+    """The least gap to one copy, or `best`; (x, y) and the turning (c, s) take points of body i to the copy's frame."""
+    keep_small()
+    one, other = Contacts(block).outline_i[contact], Contacts(block).outline_j[contact]
+    best = _of_discs(block, contact, mode, copy, 0, one, other, c, s, x, y, best)
+    return _of_discs(block, contact, mode, copy, 1, other, one, c, -s, -c * x - s * y, s * x - c * y, best)
+
+
+@jit
+def _of_discs(
+    block: Array,
+    contact: int,
+    mode: int,
+    copy: int,
+    side: int,
+    one: int,
+    other: int,
+    c: float,
+    s: float,
+    x: float,
+    y: float,
+    best: float,
+) -> float:
+    """The least gap of the discs of outline `one` from the features of the other, or `best`."""
+    keep_small()
+    outlines = Outlines(block)
+    features = Features(block)
+    around = outlines.data[other]
+    for f in range(outlines.first[one], outlines.first[one] + outlines.count[one]):
+        radius = disc_radius(block, f)
+        if radius < 0.0:
+            continue
+        u, v = features.data[f, codes.FEATURE_X], features.data[f, codes.FEATURE_Y]
+        px = x + c * u - s * v
+        py = y + s * u + c * v
+        dx = px - around[codes.OUTLINE_X]
+        dy = py - around[codes.OUTLINE_Y]
+        within = best + radius + around[codes.OUTLINE_RADIUS]
+        if dx * dx + dy * dy > within * within:
+            continue
+        found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius)
+        if found != codes.NONE and gap < best:
+            best = gap
+            outlines.found[side] = f
+            outlines.found[1 - side] = found
+            outlines.found[2] = copy
+    return best
+
+
+@jit
+def _of_disc(
+    block: Array,
+    contact: int,
+    mode: int,
+    copy: int,
+    side: int,
+    one: int,
+    other: int,
+    disc: int,
+    c: float,
+    s: float,
+    px: float,
+    py: float,
+    radius: float,
+) -> tuple[int, float]:
+    """What a disc about (px, py) touches first of an outline, but for what it touches already; and its gap.
+
+    In front of a feature, that with the least gap; behind one, only if it is the nearest of all, or no neighbour of
+    that and no deeper than what may have happened since the last look.
+    """
+    keep_small()
+    outlines = Outlines(block)
+    features = Features(block)
+    deepest = outlines.depth[0]
+    if outlines.closed[other] == 0 and deepest == FAR:
+        deepest = TOUCHES_WITHIN  # an open chain has no inside
+    front, crossed, closest = codes.NONE, codes.NONE, codes.NONE
+    gap, depth, least = FAR, 0.0, FAR
+    for g in range(outlines.first[other], outlines.first[other] + outlines.count[other]):
+        if features.kind[g] == codes.ARC and 0.0 > features.data[g, codes.FEATURE_RADIUS] >= -radius:
+            continue  # it does not fit in
+        distance, nx, ny = apart(block, g, px, py, radius)
+        if distance < -deepest or (distance >= gap and abs(distance) >= least):
+            continue
+        if not is_over(block, other, g, px, py):
+            continue
+        if mode != EVERY and _is_held(block, contact, copy, side, one, other, disc, g):
+            continue
+        faces = True
+        if radius > 0.0:  # the place on the disc, seen from its body
+            before, behind = over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
+            faces = before >= -MARGIN and behind >= -MARGIN
+            if faces and distance < 0.0:
+                faces = _is_inside(block, other, px - radius * nx, py - radius * ny)
+        if abs(distance) < least:
+            least = abs(distance)
+            closest = g
+            if distance < 0.0 and faces:
+                crossed = g
+                depth = distance
+        if faces and 0.0 <= distance < gap:
+            gap = distance
+            front = g
+        if faces and mode != EVERY and distance < 0.0 and g != closest and not _is_one_with(block, other, g, closest):
+            crossed = g
+            depth = distance
+    if crossed != codes.NONE and (crossed == closest or not _is_one_with(block, other, crossed, closest)):
+        if crossed == closest or mode != EVERY:
+            return crossed, depth
+    return front, gap
+
+
+@jit
+def _is_inside(block: Array, outline: int, x: float, y: float) -> bool:
+    """Whether a point is behind that feature of an outline that is nearest to it.
+
+    The deepest place of an arc, where the arc as a whole circle reaches into something: that may lie in the circle and
+    yet outside of what the arc bounds.
+    """
+    keep_small()
+    outlines = Outlines(block)
+    least = FAR
+    inside = False
+    for g in range(outlines.first[outline], outlines.first[outline] + outlines.count[outline]):
+        distance, _, _ = apart(block, g, x, y, 0.0)
+        if abs(distance) < least and is_over(block, outline, g, x, y):
+            least = abs(distance)
+            inside = distance < 0.0
+    return inside
+
+
+@jit
+def _is_held(block: Array, contact: int, copy: int, side: int, one: int, other: int, disc: int, feature: int) -> bool:
+    """Whether a disc touches a feature already, or what it touches goes on there.
+
+    Features that follow upon each other, smoothly or around a corner that sticks out, touch the same feature at one
+    place at most: where the one hands over to the other.
+    """
+    keep_small()
+    table = Contacts(block)
+    group = table.group[contact]
+    for k in range(group, table.mode.shape[0]):
+        if table.group[k] != group:
+            break
+        if table.feature_i[k] == codes.NONE or table.copy[k] != copy:
+            continue
+        own, its = table.feature_i[k], table.feature_j[k]
+        if side == 1:
+            own, its = its, own
+        same = own == disc or its == feature or disc_radius(block, own) >= 0.0
+        if same and _is_one_with(block, one, disc, own) and _is_one_with(block, other, feature, its):
+            return True
+    return False
+
+
+@jit
+def _is_one_with(block: Array, outline: int, feature: int, held: int) -> bool:
+    """Whether a feature is the one that is touched, or follows upon it without a hollow corner between."""
+    keep_small()
+    if feature == held:
+        return True
+    for way in range(-1, 2, 2):
+        corner = held
+        if Features(block).kind[held] != codes.VERTEX:
+            corner = beside(block, outline, held, way)
+            if corner == codes.NONE:
+                continue
+            if corner == feature:
+                return True
+            if is_hollow_corner(block, corner):
+                continue
+        if beside(block, outline, corner, way) == feature:
+            return True
+    return False
+
+
+@jit
+def look_no_deeper(block: Array, depth: float) -> None:
+    """From here on, features behind which a disc is deeper than this do not count [m]; at least what touches does."""
+    Outlines(block).depth[0] = max(depth, TOUCHES_WITHIN)
