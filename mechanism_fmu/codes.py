@@ -32,7 +32,7 @@ FEATURE_RADIUS = 4  # of an arc [m], negative where it is hollow
 FEATURE_HALF = 5  # half the sweep of an arc [rad]
 FEATURE_TURN = 6  # the sine by which the way turns at a vertex, to the left; `FREE_END` at the end of a chain
 FEATURE_COLUMNS = 7
-FREE_END = 2.0
+FREE_END = 2
 
 # outline_data columns
 OUTLINE_X = 0  # the centre of a circle around it [m]

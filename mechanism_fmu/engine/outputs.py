@@ -15,7 +15,7 @@ from .compiler.by_kind import by_kind
 from .compiler.subset import entry, jit, keep_small
 from .constraints.kinematics import place_bodies, set_instant
 from .contacts.friction_readings import friction_force, gap_acceleration, slip_acceleration, slip_speed, sticks_now
-from .contacts.guards import gap
+from .contacts.guards import shown_gap
 from .dynamics.acceleration import derivative
 from .dynamics.forces import (
     feed,

@@ -42,8 +42,8 @@ ADVICE = {
     "paradox). Change lengths or start positions a little; give less friction, or the mechanism tangential_shock=True.",
     MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Let less of them meet at one instant: "
     "change lengths or start positions a little.",
-    PENETRATED: "Two outlines have gone into each other: a corner was grazed between two looks, an outline came in past "
-    "the open end of another, or two that no contact keeps apart carried a third along. Give a smaller "
+    PENETRATED: "Two outlines have gone into each other: a corner was grazed between two looks, an outline came in "
+    "past the open end of another, or two that no contact keeps apart carried a third along. Give a smaller "
     "relative_tolerance, close the outline, or add the contact that is missing.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",

@@ -183,8 +183,8 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                     alpha=[first if c.alphas else codes.NONE for c, first in _pairs(contacts, first_alphas)],
                     curve_i=[_number_of(c.profiles[0], curves) for c in contacts],
                     curve_j=[_number_of(c.profiles[1], curves) for c in contacts],
-                    outline_i=[outlines.number(c, 0) for c in contacts],
-                    outline_j=[outlines.number(c, 1) for c in contacts],
+                    outline_i=[first for first, _ in outlines.numbers],
+                    outline_j=[second for _, second in outlines.numbers],
                     group=[k - getattr(c, "place", 0) for k, c in enumerate(contacts)],
                     value=[(c.restitution, c.friction, c.guided, c.enabled, c.closed, c.holding) for c in contacts],
                 ),
@@ -284,18 +284,23 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
 
 
 class _Outlines:
-    """The outlines of contacts, each once, with its copies, and their features."""
+    """The outlines of contacts, each once, with its copies, and their features.
+
+    Attributes:
+        all: outlines and how they repeat.
+        numbers: of outline i and j of each contact; `codes.NONE` of one that has none.
+        features: of each outline, in the order of its chain.
+    """
 
     def __init__(self, contacts: Sequence[Any]) -> None:
         self.all: list[tuple[Outline, CircularCopies | LinearCopies | None]] = []
-        self._numbers: list[tuple[int, int]] = []
+        self.numbers: list[tuple[int, int]] = []
         for contact in contacts:
             if contact.has_outlines:
                 first, second = self._of(contact.outline_i, None), self._of(contact.outline_j, contact.copies)
-                self._numbers.append((first, second))
+                self.numbers.append((first, second))
             else:
-                self._numbers.append((codes.NONE, codes.NONE))
-        self._of_contact = {contact.name: numbers for contact, numbers in _pairs(contacts, self._numbers)}
+                self.numbers.append((codes.NONE, codes.NONE))
         self.features = [[*features(outline)] for outline, _ in self.all]
 
     def _of(self, outline: Outline, copies: CircularCopies | LinearCopies | None) -> int:
@@ -304,10 +309,6 @@ class _Outlines:
                 return number
         self.all.append((outline, copies))
         return len(self.all) - 1
-
-    def number(self, contact: Any, side: int) -> int:
-        """The number of the outline of a contact's body i (0) or j (1); `codes.NONE` of one that has none."""
-        return self._of_contact[contact.name][side]
 
 
 def _pairs(left: Sequence[Any], right: Any) -> Iterator[tuple[Any, Any]]:

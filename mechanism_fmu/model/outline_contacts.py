@@ -1,4 +1,4 @@
-"""Contact of two outlines, wherever their segments, arcs and corners meet; and copies of one, as the teeth of a wheel."""
+"""Contact of two outlines, wherever their segments, arcs and corners meet; and copies of one, as teeth of a wheel."""
 
 from __future__ import annotations
 

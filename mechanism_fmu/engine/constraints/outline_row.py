@@ -20,10 +20,8 @@ from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
 from ..compiler.subset import jit, keep_small
 from ..elementary import sine_cosine
+from ..outlines.features import FAR
 from ..vectors import clear
-
-#: The gap of what is bound to nothing [m].
-FAR = 1e30
 
 
 @jit

@@ -15,9 +15,9 @@ from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.outline_row import FAR, outline_row, place_feature, radius_of, turning_of
+from ..constraints.outline_row import outline_row, place_feature, radius_of, turning_of
 from ..constraints.point_line import spare_row
-from ..outlines.features import beside, inside_range, is_corner, is_hollow_corner, over_arc
+from ..outlines.features import FAR, beside, inside_range, is_corner, is_hollow_corner, over_arc
 from ..outlines.nearest import EVERY, FREE, look_no_deeper, nearest
 
 #: Outlines that reach farther into each other than this do not touch, but overlap [m].
@@ -71,11 +71,11 @@ def take_found(block: Array, contact: int) -> None:
 
 @jit
 def let_loose(block: Array, contact: int) -> None:
-    """An open contact of outlines that has come off is free again."""
-    if is_outline(block, contact):
-        Contacts(block).feature_i[contact] = codes.NONE
-        Contacts(block).feature_j[contact] = codes.NONE
-        Contacts(block).copy[contact] = 0
+    """An open contact that has come off is bound to no features any more; one that has no outlines never is."""
+    table = Contacts(block)
+    table.feature_i[contact] = codes.NONE
+    table.feature_j[contact] = codes.NONE
+    table.copy[contact] = 0
 
 
 @jit
@@ -185,14 +185,7 @@ def _end(
         x = data[codes.FEATURE_X] + c * dx + s * dy
         y = data[codes.FEATURE_Y] + c * dy - s * dx
         before, behind = inside_range(block, feature, x, y)
-    if kind != codes.VERTEX:
-        corner = beside(block, outline, feature, -1)
-        if corner != codes.NONE and is_hollow_corner(block, corner):
-            before = math.inf
-        corner = beside(block, outline, feature, 1)
-        if corner != codes.NONE and is_hollow_corner(block, corner):
-            behind = math.inf
-    elif data[codes.FEATURE_TURN] == codes.FREE_END:
+    if kind == codes.VERTEX and data[codes.FEATURE_TURN] == codes.FREE_END:
         if data[codes.FEATURE_DX] == 0.0 and data[codes.FEATURE_DY] == 0.0:
             before = math.inf
         else:
@@ -207,7 +200,8 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
     """Where the place of contact has come to the end of a feature, go on with the next one, or come off.
 
     Where the outline goes on smoothly, and where a disc goes around a corner, the normal goes on as well, and nothing
-    strikes. A corner that comes to the corner of the other outline has come to its end.
+    strikes. A corner that comes to the corner of the other outline has come to its end. In a hollow corner it stays,
+    and meets the element behind that besides, which is then for `bind_what_touches`.
     """
     keep_small()
     table = Contacts(block)
@@ -216,6 +210,8 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
     leaves = table.feature_i[contact] if side == 0 else table.feature_j[contact]
     partner = table.feature_j[contact] if side == 0 else table.feature_i[contact]
     follows = beside(block, outline, leaves, way)
+    if follows != codes.NONE and is_hollow_corner(block, follows):
+        return
     if follows != codes.NONE and Features(block).kind[follows] == codes.VERTEX:
         if not is_corner(block, follows):
             follows = beside(block, outline, follows, way)

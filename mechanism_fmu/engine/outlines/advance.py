@@ -21,6 +21,7 @@ from ..compiler.subset import jit, keep_small
 
 #: Looks are no closer than this, in parts of a step.
 FINEST = 1.0 / 512.0
+_ROWS = METHOD.dense_rows
 #: Largest slope in 0..1 of what the dense output's coefficients beyond the cubic's multiply.
 _SLOPE = 0.2
 
@@ -46,7 +47,8 @@ def _reach(block: Array, outline: int) -> float:
     """How far from the origin of its body an outline reaches at most [m]."""
     data = Outlines(block).data[outline]
     x, y = data[codes.OUTLINE_X], data[codes.OUTLINE_Y]
-    return math.sqrt(x * x + y * y) + data[codes.OUTLINE_RADIUS]
+    reach: float = math.sqrt(x * x + y * y) + data[codes.OUTLINE_RADIUS]
+    return reach
 
 
 @jit
@@ -65,7 +67,7 @@ def _slope(block: Array, unknown: int) -> float:
     """A bound of how fast an unknown changes within the step [per step]."""
     keep_small()
     dense = Stages(block).new_dense
-    found = abs(dense[1, unknown]) + abs(dense[2, unknown]) + abs(dense[3, unknown])
-    for row in range(4, METHOD.dense_rows):
+    found: float = abs(dense[1, unknown]) + abs(dense[2, unknown]) + abs(dense[3, unknown])
+    for row in range(4, _ROWS):
         found += _SLOPE * abs(dense[row, unknown])
     return found

@@ -15,6 +15,8 @@ from ...tolerances import MARGIN
 from ..compiler.subset import jit, keep_small
 from ..elementary import atan2
 
+#: The gap where there is nothing to touch [m].
+FAR = 1e30
 #: Elements whose directions differ by less than this where they meet go on smoothly: there is no corner [rad].
 _SMOOTH = 1e-9
 
@@ -125,23 +127,10 @@ def over_arc(block: Array, feature: int, dx: float, dy: float) -> tuple[float, f
 
 
 @jit
-def is_over(block: Array, outline: int, feature: int, x: float, y: float) -> bool:
-    """Whether a feature is what a point at (x, y) may touch: it stands over it, or over what leads into its corner.
-
-    Beyond an end in a hollow corner, the point is still kept off by the element before that corner, and slides towards
-    this one: as long as it stands over the former, the latter counts as if it went on.
-    """
+def is_over(block: Array, feature: int, x: float, y: float) -> bool:
+    """Whether a point at (x, y) stands over a feature, and may touch it; no point touches a hollow or smooth vertex."""
     keep_small()
     if Features(block).kind[feature] == codes.VERTEX and not is_corner(block, feature):
         return False
     before, behind = inside_range(block, feature, x, y)
-    if before >= -MARGIN and behind >= -MARGIN:
-        return True
-    if Features(block).kind[feature] == codes.VERTEX:
-        return False
-    way = -1 if before < behind else 1
-    corner = beside(block, outline, feature, way)
-    if corner == codes.NONE or not is_hollow_corner(block, corner):
-        return False
-    before, behind = inside_range(block, beside(block, outline, feature, 2 * way), x, y)
     return before >= -MARGIN and behind >= -MARGIN

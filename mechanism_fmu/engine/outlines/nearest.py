@@ -15,9 +15,8 @@ from ...tables.motion import Pose
 from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import MARGIN, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_small
-from ..constraints.outline_row import FAR
 from ..elementary import atan2, sine_cosine
-from .features import apart, beside, disc_radius, is_hollow_corner, is_over, over_arc
+from .features import FAR, apart, beside, disc_radius, is_hollow_corner, is_over, over_arc
 
 # What a search counts (`mode`).
 #: Whatever touches nothing yet, as far as two circles around the outlines say that it may matter.
@@ -59,7 +58,7 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
         dy = my - data[codes.OUTLINE_Y]
         distance = math.sqrt(dx * dx + dy * dy)
         if mode == FREE and distance > 2.0 * reach:
-            return distance - reach
+            return float(distance - reach)
         return _of_copy(block, contact, mode, 0, c, s, x, y, FAR)
     margin = FAR if mode == EXACT else reach
     first, last = _copies(block, other, mx, my, reach + margin)
@@ -197,7 +196,7 @@ def _of_disc(
         distance, nx, ny = apart(block, g, px, py, radius)
         if distance < -deepest or (distance >= gap and abs(distance) >= least):
             continue
-        if not is_over(block, other, g, px, py):
+        if not is_over(block, g, px, py):
             continue
         if mode != EVERY and _is_held(block, contact, copy, side, one, other, disc, g):
             continue
@@ -219,9 +218,10 @@ def _of_disc(
         if faces and mode != EVERY and distance < 0.0 and g != closest and not _is_one_with(block, other, g, closest):
             crossed = g
             depth = distance
-    if crossed != codes.NONE and (crossed == closest or not _is_one_with(block, other, crossed, closest)):
-        if crossed == closest or mode != EVERY:
-            return crossed, depth
+    if crossed != codes.NONE and crossed != closest and (mode == EVERY or _is_one_with(block, other, crossed, closest)):
+        crossed = codes.NONE
+    if crossed != codes.NONE:
+        return crossed, depth
     return front, gap
 
 
@@ -238,7 +238,7 @@ def _is_inside(block: Array, outline: int, x: float, y: float) -> bool:
     inside = False
     for g in range(outlines.first[outline], outlines.first[outline] + outlines.count[outline]):
         distance, _, _ = apart(block, g, x, y, 0.0)
-        if abs(distance) < least and is_over(block, outline, g, x, y):
+        if abs(distance) < least and is_over(block, g, x, y):
             least = abs(distance)
             inside = distance < 0.0
     return inside

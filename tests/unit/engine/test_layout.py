@@ -13,6 +13,8 @@ GIVEN = {
     "forces": 4,
     "contacts": 5,
     "patterns": 2,
+    "features": 5,
+    "outlines": 2,
     "functions": 3,
     "curves": 4,
     "pieces": 6,
