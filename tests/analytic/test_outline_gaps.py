@@ -20,7 +20,7 @@ def random_outline(chance: random.Random) -> Outline:
     vertices = []
     for k in range(count):
         angle, radius = turn + math.tau * (k + chance.uniform(-0.2, 0.2)) / count, size * chance.uniform(0.5, 1.0)
-        bulge = chance.choice((0.0, 0.0, chance.uniform(-0.15, 0.35)))
+        bulge = chance.choice((0.0, 0.0, chance.uniform(-0.15, -0.02), chance.uniform(0.02, 0.35)))
         vertices.append((x + radius * math.cos(angle), y + radius * math.sin(angle), bulge))
     return Outline(tuple(vertices))
 
@@ -61,7 +61,7 @@ def compare(seed: int, pairs: int) -> tuple[int, int]:
 def test_gaps_of_random_pairs() -> None:
     apart, inside = compare(1, 12)
     assert apart > 100
-    assert inside > 100
+    assert inside > 50
 
 
 @pytest.mark.slow

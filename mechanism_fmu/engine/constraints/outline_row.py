@@ -20,7 +20,7 @@ from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
 from ..compiler.subset import jit, keep_small
 from ..elementary import sine_cosine
-from ..outlines.features import FAR
+from ..outlines.features import CORNERS_TOUCH, FAR
 from ..vectors import clear
 
 
@@ -81,7 +81,10 @@ def outline_row(block: Array, at: Pose, contact: int, row: int, slides: bool) ->
     elif Features(block).kind[f] == codes.SEGMENT:
         _disc_on_line(block, at, row, slides, j, i, bx, by, radius_of(block, g), ax, ay, ty, -tx)
     else:
-        _disc_on_disc(block, at, row, slides, i, j, ax, ay, radius_of(block, f), bx, by, radius_of(block, g))
+        other = radius_of(block, g)
+        if Features(block).kind[f] == codes.VERTEX and Features(block).kind[g] == codes.VERTEX:
+            other = CORNERS_TOUCH
+        _disc_on_disc(block, at, row, slides, i, j, ax, ay, radius_of(block, f), bx, by, other)
 
 
 @jit

@@ -15,7 +15,7 @@ from ..constraints.friction_rows import friction_row, slips
 from ..constraints.point_line import point_line, spare_row, tangent_row
 from ..constraints.rows import contact_row
 from ..elementary import sine_cosine
-from ..outlines.nearest import EXACT, FREE, nearest
+from ..outlines.nearest import EXACT, NEXT, nearest
 from ..profiles.nearest import find_nearest, is_searched
 from .handover import free_place, is_free, is_outline, left_to_go, let_loose, take_found
 
@@ -186,7 +186,7 @@ def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
     guard, subject = guard_of(block, number)
     if guard == codes.GUARD_GAP:
         if is_free(block, subject):
-            return nearest(block, at, subject, FREE), 0.0
+            return nearest(block, at, subject, NEXT), 0.0
         return gap(block, at, subject)
     if guard == codes.GUARD_HANDOVER:
         return left_to_go(block, at, subject)[0] + MARGIN, 0.0

@@ -18,7 +18,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.outline_row import outline_row, place_feature, radius_of, turning_of
 from ..constraints.point_line import spare_row
 from ..outlines.features import FAR, beside, inside_range, is_corner, is_hollow_corner, over_arc
-from ..outlines.nearest import EVERY, FREE, look_no_deeper, nearest
+from ..outlines.nearest import FREE, look_no_deeper, nearest
 
 #: Outlines that reach farther into each other than this do not touch, but overlap [m].
 OVERLAPS = 1e-9
@@ -104,10 +104,11 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
 
 
 @jit
-def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
+def deepest_overlap(block: Array, at: Pose, mode: int) -> tuple[int, float]:
     """The contact of the outlines that reach deepest into each other, and how deep [m]; `codes.NONE` where none does.
 
-    A disc of one that is inside the other counts, and none in an open chain, which has no inside.
+    A disc of one that is inside the other counts, and none in an open chain, which has no inside; with `nearest.START`
+    also elements that cross. Otherwise `mode` is `nearest.EVERY`.
     """
     keep_small()
     table = Contacts(block)
@@ -116,7 +117,7 @@ def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
     look_no_deeper(block, FAR)
     for c in range(table.mode.shape[0]):
         if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
-            gap = nearest(block, at, c, EVERY)
+            gap = nearest(block, at, c, mode)
             if gap < least:
                 least = gap
                 found = c

@@ -17,6 +17,8 @@ from ..elementary import atan2
 
 #: The gap where there is nothing to touch [m].
 FAR = 1e30
+#: Two corners touch when they are this near [m]: those of two blocks on one floor would else pass through each other.
+CORNERS_TOUCH = 1e-9
 #: Elements whose directions differ by less than this where they meet go on smoothly: there is no corner [rad].
 _SMOOTH = 1e-9
 
@@ -50,16 +52,26 @@ def is_hollow_corner(block: Array, feature: int) -> bool:
 
 
 @jit
-def disc_radius(block: Array, feature: int) -> float:
-    """The radius of a feature that is a disc for others [m]: 0 of a corner; negative of one that is none."""
+def disc_radius(block: Array, outline: int, feature: int) -> float:
+    """The radius of a feature that is a disc for others [m]: 0 of a corner; negative of one that is none.
+
+    Where an element goes over smoothly into a hollow arc, what lies flat on it ends: that place is a corner, too.
+    """
     keep_small()
     table = Features(block)
     if table.kind[feature] == codes.SEGMENT:
         return -1.0
-    if table.kind[feature] == codes.VERTEX:
-        return 0.0 if is_corner(block, feature) else -1.0
-    radius: float = table.data[feature, codes.FEATURE_RADIUS]
-    return radius
+    if table.kind[feature] == codes.ARC:
+        radius: float = table.data[feature, codes.FEATURE_RADIUS]
+        return radius
+    if is_corner(block, feature):
+        return 0.0
+    if not is_hollow_corner(block, feature):
+        for way in range(-1, 2, 2):
+            element = beside(block, outline, feature, way)
+            if table.kind[element] == codes.ARC and table.data[element, codes.FEATURE_RADIUS] < 0.0:
+                return 0.0
+    return -1.0
 
 
 @jit

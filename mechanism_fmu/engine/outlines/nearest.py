@@ -16,15 +16,21 @@ from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import MARGIN, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_small
 from ..elementary import atan2, sine_cosine
-from .features import FAR, apart, beside, disc_radius, is_hollow_corner, is_over, over_arc
+from .crossing import crossing
+from .features import CORNERS_TOUCH, FAR, apart, beside, disc_radius, is_hollow_corner, is_over, over_arc
 
 # What a search counts (`mode`).
-#: Whatever touches nothing yet, as far as two circles around the outlines say that it may matter.
-FREE = 0
+#: Whatever touches nothing yet, as far as two circles around the outlines say that it may matter; and, as what comes
+#: next may be as near, places where an outline goes on smoothly.
+NEXT = 0
+#: The same without those places.
+FREE = 1
 #: The same, however far.
-EXACT = 1
+EXACT = 2
 #: All, also what touches: for a look whether anything has gone through.
-EVERY = 2
+EVERY = 3
+#: All, and elements that cross each other: at the start.
+START = 4
 
 
 @jit
@@ -57,7 +63,7 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
         dx = mx - data[codes.OUTLINE_X]
         dy = my - data[codes.OUTLINE_Y]
         distance = math.sqrt(dx * dx + dy * dy)
-        if mode == FREE and distance > 2.0 * reach:
+        if mode <= FREE and distance > 2.0 * reach:
             return float(distance - reach)
         return _of_copy(block, contact, mode, 0, c, s, x, y, FAR)
     margin = FAR if mode == EXACT else reach
@@ -117,7 +123,12 @@ def _of_copy(
     keep_small()
     one, other = Contacts(block).outline_i[contact], Contacts(block).outline_j[contact]
     best = _of_discs(block, contact, mode, copy, 0, one, other, c, s, x, y, best)
-    return _of_discs(block, contact, mode, copy, 1, other, one, c, -s, -c * x - s * y, s * x - c * y, best)
+    best = _of_discs(block, contact, mode, copy, 1, other, one, c, -s, -c * x - s * y, s * x - c * y, best)
+    if mode == START:
+        across = crossing(block, one, other, c, s, x, y)
+        if across > 0.0:
+            best = min(best, -across)
+    return best
 
 
 @jit
@@ -141,7 +152,10 @@ def _of_discs(
     features = Features(block)
     around = outlines.data[other]
     for f in range(outlines.first[one], outlines.first[one] + outlines.count[one]):
-        radius = disc_radius(block, f)
+        radius = disc_radius(block, one, f)
+        smooth = radius < 0.0 and mode == NEXT and features.kind[f] == codes.VERTEX
+        if smooth:
+            radius = 0.0
         if radius < 0.0:
             continue
         u, v = features.data[f, codes.FEATURE_X], features.data[f, codes.FEATURE_Y]
@@ -153,6 +167,11 @@ def _of_discs(
         if dx * dx + dy * dy > within * within:
             continue
         found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius)
+        if smooth and found != codes.NONE and gap < best:
+            best = max(gap, TOUCHES_WITHIN)
+            found = codes.NONE
+            outlines.found[0] = codes.NONE
+            outlines.found[1] = codes.NONE
         if found != codes.NONE and gap < best:
             best = gap
             outlines.found[side] = f
@@ -194,11 +213,13 @@ def _of_disc(
         if features.kind[g] == codes.ARC and 0.0 > features.data[g, codes.FEATURE_RADIUS] >= -radius:
             continue  # it does not fit in
         distance, nx, ny = apart(block, g, px, py, radius)
+        if mode <= FREE and features.kind[g] == codes.VERTEX and features.kind[disc] == codes.VERTEX:
+            distance -= CORNERS_TOUCH
         if distance < -deepest or (distance >= gap and abs(distance) >= least):
             continue
         if not is_over(block, g, px, py):
             continue
-        if mode != EVERY and _is_held(block, contact, copy, side, one, other, disc, g):
+        if mode < EVERY and _is_held(block, contact, copy, side, one, other, disc, g):
             continue
         faces = True
         if radius > 0.0:  # the place on the disc, seen from its body
@@ -215,10 +236,10 @@ def _of_disc(
         if faces and 0.0 <= distance < gap:
             gap = distance
             front = g
-        if faces and mode != EVERY and distance < 0.0 and g != closest and not _is_one_with(block, other, g, closest):
+        if faces and mode < EVERY and distance < 0.0 and g != closest and not _is_one_with(block, other, g, closest):
             crossed = g
             depth = distance
-    if crossed != codes.NONE and crossed != closest and (mode == EVERY or _is_one_with(block, other, crossed, closest)):
+    if crossed != codes.NONE and crossed != closest and (mode >= EVERY or _is_one_with(block, other, crossed, closest)):
         crossed = codes.NONE
     if crossed != codes.NONE:
         return crossed, depth
@@ -262,7 +283,7 @@ def _is_held(block: Array, contact: int, copy: int, side: int, one: int, other: 
         own, its = table.feature_i[k], table.feature_j[k]
         if side == 1:
             own, its = its, own
-        same = own == disc or its == feature or disc_radius(block, own) >= 0.0
+        same = own == disc or its == feature or disc_radius(block, one, own) >= 0.0
         if same and _is_one_with(block, one, disc, own) and _is_one_with(block, other, feature, its):
             return True
     return False

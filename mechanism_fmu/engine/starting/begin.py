@@ -20,6 +20,7 @@ from ..contacts.guards import gap
 from ..contacts.handover import bind_what_touches, deepest_overlap, is_free
 from ..contacts.impact import clear_impact, clear_records
 from ..dynamics.forces import set_time, take_inputs
+from ..outlines.nearest import START
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
 from ..vectors import clear
@@ -46,7 +47,7 @@ def start(block: Array, time: float) -> int:
         return status.START_RATES
     at = place_bodies(block, Course(block).y_end)
     if Sizes(block).outlines > 0:
-        contact, depth = deepest_overlap(block, at)
+        contact, depth = deepest_overlap(block, at, START)
         if contact != codes.NONE:
             _blame(block, contact, -depth)
             return status.START_INSIDE

@@ -18,6 +18,7 @@ from ..contacts.handover import deepest_overlap
 from ..contacts.transition import release
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
+from ..outlines.nearest import EVERY
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import copy
@@ -177,7 +178,7 @@ def _mend_and_check(block: Array) -> int:
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
     if Sizes(block).outlines > 0:
-        contact, depth = deepest_overlap(block, place_bodies(block, now.y_end))
+        contact, depth = deepest_overlap(block, place_bodies(block, now.y_end), EVERY)
         if contact != codes.NONE:
             Stages(block).stiffest[0] = contact
             Rows(block).residual[spare_row(block)] = -depth
