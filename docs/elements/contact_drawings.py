@@ -34,6 +34,28 @@ def point_line_contact() -> str:
     )
 
 
+def outline_contact() -> str:
+    """A rounded pallet above the tip of a tooth, with the two nearest points."""
+    s = element_sketch()
+    root, tip, foot = (0.4, 0.5), (2.6, 1.35), (2.9, 0.5)
+    corner = (2.75, 2.1)
+    edge = [(1.1, 2.75), (2.75, 2.35), (4.1, 2.75)]
+    nearest = (2.69, 2.36)
+    return element_sheet(
+        "OutlineContact",
+        [
+            s.path([(0.0, 0.5), root, tip, foot, (4.4, 0.5)], LINE),
+            s.path(edge, LINE),
+            s.path([nearest, tip], THIN),
+            s.length(tip, nearest, 30, "s"),
+            s.vector(root, add(root, scale((0.93, 0.36), 1.2)), "", 0, 0),
+            s.dot(tip, "corner: R = 0", 52, 6),
+            s.note((1.5, 0.75), "material: left of the way"),
+            s.note((corner[0] + 0.3, corner[1] + 0.6), "segment"),
+        ],
+    )
+
+
 def angle_stop() -> str:
     """A lever above its stop, with the next latched angles."""
     s = element_sketch()

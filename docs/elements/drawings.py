@@ -7,7 +7,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .contact_drawings import angle_lock, angle_stop, circular_pattern, logical_function, point_line_contact
+from .contact_drawings import (
+    angle_lock,
+    angle_stop,
+    circular_pattern,
+    logical_function,
+    outline_contact,
+    point_line_contact,
+)
 from .force_drawings import bushing, force, marker, nonlinear_spring, spring_damper, torque, torsion_spring
 from .shaft_drawings import brake, compliant_shaft, dc_motor
 
@@ -23,6 +30,7 @@ DRAWINGS = {
     "brake": brake,
     "dc_motor": dc_motor,
     "point_line_contact": point_line_contact,
+    "outline_contact": outline_contact,
     "angle_stop": angle_stop,
     "angle_lock": angle_lock,
     "circular_pattern": circular_pattern,

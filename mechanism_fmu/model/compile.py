@@ -18,9 +18,8 @@ from .curves import Curve
 from .functions import is_plain, sqrt
 from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
-from .outline_contacts import CircularCopies, LinearCopies
-from .outlines import Outline
-from .outlines.features import around, features
+from .outline_contacts import numbered_outlines
+from .outlines.features import around
 from .sources import kept, output_factor, reads_members, resolve_output
 from .structure import Structure, member_data, structure
 
@@ -130,7 +129,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     factors = [output_factor(o.source, mechanism) for o in mechanism.outputs] + [c.value for c in mechanism.calculated]
     elastic = structure(mechanism) if reads_members(mechanism) else Structure()
     hanging = beam_members(mechanism)
-    outlines = _Outlines(contacts)
+    outlines = numbered_outlines(contacts)
 
     def columns(table: type[Table], parts: Sequence[Any] = (), **given: Sequence[Any]) -> Iterator[tuple[str, Array]]:
         """The columns of a table: those given, and else what the parts have by that name."""
@@ -281,34 +280,6 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             "event_buffer": kept("events", mechanism, codes.EVENT_BUFFER_LENGTH),
         },
     )
-
-
-class _Outlines:
-    """The outlines of contacts, each once, with its copies, and their features.
-
-    Attributes:
-        all: outlines and how they repeat.
-        numbers: of outline i and j of each contact; `codes.NONE` of one that has none.
-        features: of each outline, in the order of its chain.
-    """
-
-    def __init__(self, contacts: Sequence[Any]) -> None:
-        self.all: list[tuple[Outline, CircularCopies | LinearCopies | None]] = []
-        self.numbers: list[tuple[int, int]] = []
-        for contact in contacts:
-            if contact.has_outlines:
-                first, second = self._of(contact.outline_i, None), self._of(contact.outline_j, contact.copies)
-                self.numbers.append((first, second))
-            else:
-                self.numbers.append((codes.NONE, codes.NONE))
-        self.features = [[*features(outline)] for outline, _ in self.all]
-
-    def _of(self, outline: Outline, copies: CircularCopies | LinearCopies | None) -> int:
-        for number, (other, of_other) in enumerate(self.all):
-            if other is outline and of_other is copies:
-                return number
-        self.all.append((outline, copies))
-        return len(self.all) - 1
 
 
 def _pairs(left: Sequence[Any], right: Any) -> Iterator[tuple[Any, Any]]:

@@ -17,6 +17,7 @@ from .drawing import Disc, Hinge, Link, Polyline, Quantity, Rod, Shape, Spring, 
 from .findings import length
 from .functions import Number, is_plain, where_positive
 from .mechanism import Mechanism
+from .outline_contacts import OutlineContact, drawn_outline
 from .ports import Calculated, Input, Output
 from .symbol import Symbol
 
@@ -241,6 +242,16 @@ def _outlines(drawn: Drawn) -> Iterator[Shape]:
         if isinstance(contact, PointLineContact):
             nx, ny = contact.normal
             yield _line(drawn, contact.name, contact.body_j, contact.line_point, (-ny, nx))
+        if isinstance(contact, OutlineContact) and contact.place == 0:
+            sides = (
+                (contact.body_i, contact.outline_i, None),
+                (contact.body_j, contact.outline_j, contact.copies),
+            )
+            for owner, outline, copies in sides:
+                at, angle = drawn.pose(owner)
+                for k, points in enumerate(drawn_outline(outline, copies)):
+                    name = f"{contact.name}_{owner}_{k}"
+                    yield Polyline(name, at, angle, tuple(_points(drawn, points, name)))
     for joint in drawn.mechanism.joints:
         for side in ("i", "j"):
             axis, body = getattr(joint, f"axis_{side}", None), getattr(joint, f"body_{side}")

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from .. import codes
 from .attached import Slot
-from .body import Point
+from .body import Body, Point
 from .contact_facts import ContactFacts
 from .errors import MechanismError
 from .findings import Finding, positive, refuse_unless
-from .functions import Number
+from .functions import Number, is_plain
 from .outlines import Outline
-from .outlines.features import around
+from .outlines.features import Feature, around, features
 from .quantities import pair
 
 
@@ -30,6 +30,8 @@ class CircularCopies:
 
     Raises:
         MechanismError: there is none.
+
+    Source: definition: copies k of a tooth stand at k times 2 pi over their number.
     """
 
     count: int
@@ -53,6 +55,8 @@ class LinearCopies:
 
     Raises:
         MechanismError: there is none, or a text is no such quantity.
+
+    Source: definition: copies k of a tooth stand k steps further.
     """
 
     step: Point
@@ -87,7 +91,8 @@ class OutlineContact(ContactFacts):
     Attributes:
         name: unique within the mechanism.
         body_i, body_j: the bodies.
-        outline_i, outline_j: their outlines, each in the frame of its body; material on the left.
+        outline_i, outline_j: their outlines, each in the frame in which its body is drawn (of a body given by its name,
+            from its centre of mass); material on the left.
         copies: how outline j repeats on its body, or None.
         restitution: e of eq (4) [1], 0..1. Below the engine's stick speed, and with 0, the contact stays closed.
         friction: coefficient of Coulomb friction along the common tangent [1], >= 0.
@@ -122,6 +127,14 @@ class OutlineContact(ContactFacts):
     points: int = 2
     place: int = 0
 
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        ends = dict(zip(("body_i", "body_j"), arguments[1:3], strict=False)) | named
+        for side in "ij":
+            body, outline = ends.get(f"body_{side}"), named.get(f"outline_{side}")
+            if isinstance(body, Body) and isinstance(outline, Outline) and not _is_origin(body.centre):
+                named[f"outline_{side}"] = outline.moved(-1.0 * body.centre[0], -1.0 * body.centre[1])
+        super().__init__(*arguments, **named)
+
     def data(self) -> tuple[Number, ...]:
         """The contact has no numbers of its own in `contact_data`; those of its outlines are `features`."""
         return ()
@@ -149,3 +162,79 @@ class OutlineContact(ContactFacts):
             reach = around(outline)[2]
             text = f"{self.label}: outline_{side} reaches {{:g}} m, which is no length."
             yield refuse_unless(positive(reach), text, reach)
+
+
+def _is_origin(point: Point) -> bool:
+    return all(is_plain(x) and x == 0.0 for x in point)
+
+
+#: Of a row of copies, so many are drawn on either side of the first.
+_DRAWN_IN_A_ROW = 5
+
+
+def drawn_outline(outline: Outline, copies: CircularCopies | LinearCopies | None) -> Iterator[list[Point]]:
+    """Closed chains of points that show an outline and its copies in a drawing [m]; teeth around a wheel are one chain.
+
+    Args:
+        outline: in the frame of its body.
+        copies: how it repeats there.
+    """
+    if isinstance(copies, CircularCopies):
+        turned = [outline.moved(angle=2.0 * math.pi * k / copies.count) for k in range(copies.count)]
+        if not outline.closed:
+            yield [point for one in turned for point in _open(one)]
+            return
+        repeated = turned
+    elif isinstance(copies, LinearCopies):
+        (x, y), half = copies.step, min(copies.count // 2, _DRAWN_IN_A_ROW)
+        repeated = [outline.moved(k * x, k * y) for k in range(-half, half + 1)]
+    else:
+        repeated = [outline]
+    for one in repeated:
+        yield one.drawn() if one.closed else [*_open(one), *_open(one)[-2:0:-1]]  # there and back
+
+
+def _open(outline: Outline) -> list[Point]:
+    return [*outline.drawn(), outline.elements[-1].end]
+
+
+class NumberedOutlines(NamedTuple):
+    """The outlines of contacts as the tables number them: each once, with its copies, and its features.
+
+    Attributes:
+        all: outlines and how they repeat.
+        owners: name of the first contact of each.
+        numbers: of outline i and j of each contact; `codes.NONE` of one that has none.
+        features: of each outline, in the order of its chain.
+    """
+
+    all: list[tuple[Outline, CircularCopies | LinearCopies | None]]
+    owners: list[str]
+    numbers: list[tuple[int, int]]
+    features: list[list[Feature]]
+
+
+def numbered_outlines(contacts: Sequence[Any]) -> NumberedOutlines:
+    """The outlines of contacts, of any kind, in their order.
+
+    Args:
+        contacts: of a mechanism.
+    """
+    found = NumberedOutlines([], [], [], [])
+
+    def number(contact: Any, outline: Outline, copies: CircularCopies | LinearCopies | None) -> int:
+        for place, (other, of_other) in enumerate(found.all):
+            if other is outline and of_other is copies:
+                return place
+        found.all.append((outline, copies))
+        found.owners.append(contact.name)
+        found.features.append([*features(outline)])
+        return len(found.all) - 1
+
+    for contact in contacts:
+        if contact.has_outlines:
+            first = number(contact, contact.outline_i, None)
+            found.numbers.append((first, number(contact, contact.outline_j, contact.copies)))
+        else:
+            found.numbers.append((codes.NONE, codes.NONE))
+    return found

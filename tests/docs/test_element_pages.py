@@ -23,7 +23,7 @@ from mechanism_fmu.simulation import Simulation
 PAGES = sorted(FOLDER.glob("*.md"))
 OVERVIEW = FOLDER / "README.md"
 ELEMENTS = get_args(ForceElement)
-CONTACTS = (model.PointLineContact, model.AngleStop, model.AngleLock)
+CONTACTS = (model.PointLineContact, model.OutlineContact, model.AngleStop, model.AngleLock)
 PARTS = (*ELEMENTS, *CONTACTS, model.CircularPattern, model.LogicalFunction)
 STEPS = ["**For**", "**Law**", "**Inputs**", "**Outputs**", "**Energy**"]
 #: What has no default, of the classes that have such fields.
@@ -33,6 +33,7 @@ NEEDED = {
     model.AngleStop: {"angle": 0.1, "pitch": 0.2},
     model.AngleLock: {"angle": 0.1, "pitch": 0.2, "closed_while": "f"},
     model.CircularPattern: {"pitch": 0.2},
+    model.OutlineContact: {"outline_i": model.Outline.circle(0.1), "outline_j": model.Outline.circle(0.2, (1.0, 0.0))},
 }
 by_name = pytest.mark.parametrize("part", PARTS, ids=lambda part: part.__name__)
 by_page = pytest.mark.parametrize("page", [page for page in PAGES if page != OVERVIEW], ids=lambda page: page.stem)

@@ -16,7 +16,7 @@ EXAMPLES = sorted(path.stem for path in GALLERY.glob("*.py"))
 LINES = {"whitworth": 25, "watt": 25, "scotch_yoke": 25, "rocking_block": 20}
 
 #: Those that are built in every run of the tests.
-QUICK = ("whitworth", "rocking_block")
+QUICK = ("whitworth", "rocking_block", "pin_pallet")
 
 
 #: What the first line of a build says: degrees of freedom, coordinates, rows.
@@ -29,6 +29,7 @@ FREEDOMS = {
     "engine": (1, 9, 8),
     "governor": (1, 9, 8),
     "pantograph": (0, 12, 12),
+    "pin_pallet": (2, 6, 4),
     "peaucellier": (0, 21, 21),
     "roberts": (0, 9, 9),
     "rocking_block": (1, 3, 2),

@@ -129,7 +129,8 @@ def _write(block: Array, count: int, form: int) -> int:
         unknowns += form if _is_free(block, Strikes(block).candidates[k]) else 1
     if not unit > 0.0:
         unit = 1.0
-    problem.unit[0] = unit
+    if count > 0:  # there may be no contact at all, but pins that rub
+        problem.unit[0] = unit
     table = problem.tableau
     for i in range(unknowns):
         for j in range(2 * unknowns + 2):

@@ -13,6 +13,7 @@ from ...model.beams import beam_members
 from ...model.findings import MOST_NUMBERS, Finding, pieces
 from ...model.functions import Number
 from ...model.mechanism import curve_owners
+from ...model.outline_contacts import numbered_outlines
 from ...model.sources import reads_members
 from ...model.structure import Structure, structure
 from ...model.symbol import Operation, Symbol
@@ -68,6 +69,7 @@ def _labels(table: str, mechanism: Mechanism) -> list[str]:
     bodies = [body.name for body in mechanism.bodies]
     owners = curve_owners(mechanism)
     elastic = structure(mechanism) if reads_members(mechanism) else Structure()
+    outlines = numbered_outlines(mechanism.contacts)
     parts = {
         "inverse": [*bodies, GROUND],
         "body": bodies,
@@ -75,6 +77,8 @@ def _labels(table: str, mechanism: Mechanism) -> list[str]:
         "force": [force.name for force in mechanism.elements],
         "operation": [force.name for force in mechanism.elements for _ in force.operations()],
         "contact": [contact.name for contact in mechanism.contacts],
+        "feature": [owner for owner, chain in zip(outlines.owners, outlines.features, strict=True) for _ in chain],
+        "outline": outlines.owners,
         "pattern": [pattern.name for pattern in mechanism.patterns],
         "function": [function.name for function in mechanism.functions],
         "curve": [name for name, _ in owners],

@@ -35,6 +35,8 @@ from mechanism_fmu.model import (
     Member,
     NonlinearSpring,
     NonlinearTorsionSpring,
+    Outline,
+    OutlineContact,
     PointFollower,
     PointForce,
     PointLineContact,
@@ -112,6 +114,10 @@ PAIRS: list[tuple[Any, Any]] = [
         PointLineContact("x", "rod", (-0.1, 0.0), GROUND, (0.0, 1.0), (0.0, 1.0), False, 0.5),
     ),
     (AngleStop("x", ROD, GROUND, angle=0.1), AngleStop("x", "rod", GROUND, 0.1)),
+    (
+        OutlineContact("x", ROD, CRANK, outline_i=Outline.circle(0.1), outline_j=Outline.circle(0.2)),
+        OutlineContact("x", "rod", "crank", outline_i=Outline.circle(0.1).moved(-0.1), outline_j=Outline.circle(0.2)),
+    ),
     (AngleLock("x", ROD, CRANK, angle=0.1, pitch=0.2, closed_while="f"), AngleLock("x", "rod", "crank", 0.1, 0.2, "f")),
     (
         CircularPattern("x", ROD, CRANK.line((0.0, 0.0), (0.0, -1.0)), pitch=0.5),

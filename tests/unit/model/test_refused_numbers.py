@@ -205,6 +205,7 @@ def test_every_kind_of_part_is_there() -> None:
     # what makes parts: tests/unit/model/test_ends.py and test_solids.py
     others |= {"End", "Material"}
     others |= {"Outline"}  # tests/unit/model/test_outlines.py
+    others |= {"OutlineContact", "CircularCopies", "LinearCopies"}  # tests/unit/model/test_outline_contacts.py
     others |= {"Case", "SineSignal", "TableSignal"}  # tests/unit/model/test_cases.py
     others |= {"Arm", "ImpactStress", "SawtoothWheel", "SeriesCompliance", "Strut"}
     others |= {"RectangularTooth", "TableBeam", "TrapezoidTooth", "WedgeTooth"}
