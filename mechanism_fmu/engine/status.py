@@ -40,8 +40,8 @@ ADVICE = {
     "Check the size of inputs and parameters, take shorter communication steps, or give a larger max_internal_steps.",
     NO_CHOICE: "No set of pushing contacts agrees with the motion; with friction, no finite forces may (Painleve's "
     "paradox). Change lengths or start positions a little; give less friction, or the mechanism tangential_shock=True.",
-    MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Let less of them meet at one instant: "
-    "change lengths or start positions a little.",
+    MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Give an OutlineContact more points; let "
+    "less of them meet at one instant: change lengths or start positions a little.",
     PENETRATED: "Two outlines have gone into each other: a corner was grazed between two looks, an outline came in "
     "past the open end of another, or two that no contact keeps apart carried a third along. Give a smaller "
     "relative_tolerance, close the outline, or add the contact that is missing.",

@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Literal, NamedTuple, cast
 from .body import GROUND, Body, End, Point
 from .errors import MechanismError
 from .findings import length
-from .functions import Number, atan2, where_positive
+from .functions import Number, atan2, is_plain, where_positive
 from .quantities import with_texts
 
 
@@ -33,6 +33,7 @@ class Slot(NamedTuple):
         direction: the field with the direction of a line; None where the end is a point.
         kind: whether that is a vector along the line, the unit normal to its left, or its angle.
         name: of the argument.
+        outline: the field with the outline that the body has there, in the frame in which it is drawn.
     """
 
     body: str
@@ -40,6 +41,7 @@ class Slot(NamedTuple):
     direction: str | None = None
     kind: Literal["vector", "normal", "angle"] = "vector"
     name: str = ""
+    outline: str = ""
 
     @property
     def argument(self) -> str:
@@ -141,7 +143,11 @@ def _filled(label: str, slot: Slot, end: Any, values: Mapping[str, Any]) -> dict
             raise MechanismError(
                 f"{label} is attached to {end.body!r} as a whole, not to a point of it; give the body itself."
             )
-        return {slot.body: end.body}
+        attached: dict[str, Any] = {slot.body: end.body}
+        x, y = end.point  # how far the origin of the frame is from the centre of mass
+        if slot.outline in values and not all(is_plain(n) and n == 0.0 for n in (x, y)):
+            attached[slot.outline] = values[slot.outline].moved(x, y)
+        return attached
     if values.get(slot.body, end.body) != end.body:
         raise MechanismError(f"{label} is attached to {values[slot.body]!r} and {end.body!r}; give ends of one body.")
     found = {slot.body: end.body}

@@ -9,11 +9,11 @@ from typing import Any, ClassVar, NamedTuple
 
 from .. import codes
 from .attached import Slot
-from .body import Body, Point
+from .body import Point
 from .contact_facts import ContactFacts
 from .errors import MechanismError
 from .findings import Finding, positive, refuse_unless
-from .functions import Number, is_plain
+from .functions import Number
 from .outlines import Outline
 from .outlines.features import Feature, around, features
 from .quantities import pair
@@ -109,7 +109,7 @@ class OutlineContact(ContactFacts):
 
     kind: ClassVar[int] = codes.OUTLINE
     has_outlines: ClassVar = True
-    slots: ClassVar = (Slot("body_i"), Slot("body_j"))
+    slots: ClassVar = (Slot("body_i", outline="outline_i"), Slot("body_j", outline="outline_j"))
     closed: ClassVar[Number] = False
     guided: ClassVar[Number] = False
     closed_while: ClassVar[str | None] = None
@@ -126,14 +126,6 @@ class OutlineContact(ContactFacts):
     enabled: Number = True
     points: int = 2
     place: int = 0
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        ends = dict(zip(("body_i", "body_j"), arguments[1:3], strict=False)) | named
-        for side in "ij":
-            body, outline = ends.get(f"body_{side}"), named.get(f"outline_{side}")
-            if isinstance(body, Body) and isinstance(outline, Outline) and not _is_origin(body.centre):
-                named[f"outline_{side}"] = outline.moved(-1.0 * body.centre[0], -1.0 * body.centre[1])
-        super().__init__(*arguments, **named)
 
     def data(self) -> tuple[Number, ...]:
         """The contact has no numbers of its own in `contact_data`; those of its outlines are `features`."""
@@ -162,10 +154,6 @@ class OutlineContact(ContactFacts):
             reach = around(outline)[2]
             text = f"{self.label}: outline_{side} reaches {{:g}} m, which is no length."
             yield refuse_unless(positive(reach), text, reach)
-
-
-def _is_origin(point: Point) -> bool:
-    return all(is_plain(x) and x == 0.0 for x in point)
 
 
 #: Of a row of copies, so many are drawn on either side of the first.

@@ -47,7 +47,9 @@ def world(seed: int, bodies: int, restitution: float, **more: float) -> Simulati
         )
         outlines.append(outline)
     contacts = [
-        OutlineContact(f"wall_{k}", body, GROUND, outline_i=outline, outline_j=BOX, restitution=restitution, **more)
+        OutlineContact(
+            f"wall_{k}", body, GROUND, outline_i=outline, outline_j=BOX, restitution=restitution, points=4, **more
+        )
         for k, (body, outline) in enumerate(zip(made, outlines, strict=True))
     ]
     for (k, one), (m, other) in combinations(enumerate(made), 2):

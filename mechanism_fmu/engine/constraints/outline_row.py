@@ -18,7 +18,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import sine_cosine
 from ..outlines.features import CORNERS_TOUCH, FAR
 from ..vectors import clear
@@ -41,7 +41,7 @@ def place_feature(
     block: Array, at: Pose, body: int, outline: int, copy: int, feature: int
 ) -> tuple[float, float, float, float]:
     """A feature's point from the origin of its body [m], and its direction, in the global frame."""
-    keep_small()
+    keep_apart()
     data = Features(block).data[feature]
     of = Outlines(block).data[outline]
     c, s = turning_of(block, at, body, outline, copy)
@@ -63,7 +63,7 @@ def radius_of(block: Array, feature: int) -> float:
 @jit
 def outline_row(block: Array, at: Pose, contact: int, row: int, slides: bool) -> None:
     """Write the row of the gap of a bound contact of outlines, or the one along which it slides."""
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     i, j = table.body_i[contact], table.body_j[contact]
     f, g = table.feature_i[contact], table.feature_j[contact]
@@ -104,7 +104,7 @@ def _disc_on_line(
     ny: float,
 ) -> None:
     """A disc of body i, centre a, on a line of body j through b with the normal n; see `point_line`."""
-    keep_small()
+    keep_apart()
     out = Rows(block)
     entry = out.jacobian[row]
     ui, uj = at.phi_rate[i], at.phi_rate[j]
@@ -146,7 +146,7 @@ def _disc_on_disc(
     other: float,
 ) -> None:
     """A disc of body i, centre a, on one of body j, centre b; see the head of this file."""
-    keep_small()
+    keep_apart()
     out = Rows(block)
     entry = out.jacobian[row]
     ui, uj = at.phi_rate[i], at.phi_rate[j]

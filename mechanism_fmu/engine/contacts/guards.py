@@ -10,7 +10,7 @@ from ...tables.motion import Pose, Rows, Rubs, Strikes
 from ...tables.parts import Contacts, Functions, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import MARGIN
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import friction_row, slips
 from ..constraints.point_line import point_line, spare_row, tangent_row
 from ..constraints.rows import contact_row
@@ -95,7 +95,7 @@ def gap(block: Array, at: Pose, contact: int) -> tuple[float, float]:
 @jit
 def shown_gap(block: Array, at: Pose, contact: int) -> tuple[float, float]:
     """As `gap`; of outlines, where nothing touches, that of the nearest features."""
-    keep_small()
+    keep_apart()
     if not is_free(block, contact):
         return gap(block, at, contact)
     distance = nearest(block, at, contact, EXACT)

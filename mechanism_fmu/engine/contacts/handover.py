@@ -14,7 +14,7 @@ from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import TOUCHES_WITHIN
 from .. import status
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.outline_row import outline_row, place_feature, radius_of, turning_of
 from ..constraints.point_line import spare_row
 from ..outlines.features import FAR, beside, inside_range, is_corner, is_hollow_corner, over_arc
@@ -81,7 +81,7 @@ def let_loose(block: Array, contact: int) -> None:
 @jit
 def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
     """Bind a contact to every pair of features that touches, and free those that do not but for `struck`; a status."""
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     look_no_deeper(block, 0.0)
     for c in range(table.mode.shape[0]):
@@ -100,6 +100,8 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
                 return status.MANY_TOUCH
             take_found(block, place)
             table.touching[place] = 1
+        if free_place(block, c) == codes.NONE:  # the last one is there to tell
+            return status.MANY_TOUCH
     return status.OK
 
 
@@ -110,7 +112,7 @@ def deepest_overlap(block: Array, at: Pose, mode: int) -> tuple[int, float]:
     A disc of one that is inside the other counts, and none in an open chain, which has no inside; with `nearest.START`
     also elements that cross. Otherwise `mode` is `nearest.EVERY`.
     """
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     found = codes.NONE
     least = -OVERLAPS
@@ -131,7 +133,7 @@ def deepest_overlap(block: Array, at: Pose, mode: int) -> tuple[int, float]:
 @jit
 def left_to_go(block: Array, at: Pose, contact: int) -> tuple[float, int, int]:
     """How far the place of contact is from the nearest end of a feature it is on [m]; of which side, and which way."""
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     i, j = table.body_i[contact], table.body_j[contact]
     f, g = table.feature_i[contact], table.feature_j[contact]
@@ -173,7 +175,7 @@ def _end(
 
     (dx, dy) leads from the feature's point to that of its partner, (nx, ny) is the normal out of the feature.
     """
-    keep_small()
+    keep_apart()
     data = Features(block).data[feature]
     kind = Features(block).kind[feature]
     c, s = turning_of(block, at, body, outline, copy)
@@ -204,7 +206,7 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
     strikes. A corner that comes to the corner of the other outline has come to its end. In a hollow corner it stays,
     and meets the element behind that besides, which is then for `bind_what_touches`.
     """
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     _, side, way = left_to_go(block, at, contact)
     outline = table.outline_i[contact] if side == 0 else table.outline_j[contact]

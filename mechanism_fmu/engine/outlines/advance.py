@@ -17,7 +17,7 @@ from ...tables.method import METHOD
 from ...tables.motion import Pose, Stages
 from ...tables.parts import Contacts, Outlines
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 
 #: Looks are no closer than this, in parts of a step.
 FINEST = 1.0 / 512.0
@@ -29,7 +29,7 @@ _SLOPE = 0.2
 @jit
 def fastest(block: Array, at: Pose, contact: int) -> float:
     """A bound of the speed of points of two outlines against each other over the step in `new_dense` [m per step]."""
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     outlines = Outlines(block)
     i, j = table.body_i[contact], table.body_j[contact]

@@ -12,7 +12,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.parts import Features, Outlines
 from ...tolerances import MARGIN
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2
 
 #: The gap where there is nothing to touch [m].
@@ -57,7 +57,7 @@ def disc_radius(block: Array, outline: int, feature: int) -> float:
 
     Where an element goes over smoothly into a hollow arc, what lies flat on it ends: that place is a corner, too.
     """
-    keep_small()
+    keep_apart()
     table = Features(block)
     if table.kind[feature] == codes.SEGMENT:
         return -1.0
@@ -108,7 +108,7 @@ def inside_range(block: Array, feature: int, x: float, y: float) -> tuple[float,
 
     Of a vertex: from where the elements before and behind it begin.
     """
-    keep_small()
+    keep_apart()
     data = Features(block).data[feature]
     kind = Features(block).kind[feature]
     dx = x - data[codes.FEATURE_X]
@@ -126,7 +126,7 @@ def inside_range(block: Array, feature: int, x: float, y: float) -> tuple[float,
 @jit
 def over_arc(block: Array, feature: int, dx: float, dy: float) -> tuple[float, float]:
     """As `inside_range`, of what lies in a direction from the centre of an arc."""
-    keep_small()
+    keep_apart()
     data = Features(block).data[feature]
     mx, my = data[codes.FEATURE_DX], data[codes.FEATURE_DY]
     radius = data[codes.FEATURE_RADIUS]

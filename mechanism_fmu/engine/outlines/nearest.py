@@ -14,7 +14,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose
 from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import MARGIN, TOUCHES_WITHIN
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2, sine_cosine
 from .crossing import crossing
 from .features import CORNERS_TOUCH, FAR, apart, beside, disc_radius, is_hollow_corner, is_over, over_arc
@@ -39,7 +39,7 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
 
     Where none was found, the outlines are at least as far from each other.
     """
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     outlines = Outlines(block)
     i, j = table.body_i[contact], table.body_j[contact]
@@ -147,7 +147,7 @@ def _of_discs(
     best: float,
 ) -> float:
     """The least gap of the discs of outline `one` from the features of the other, or `best`."""
-    keep_small()
+    keep_apart()
     outlines = Outlines(block)
     features = Features(block)
     around = outlines.data[other]
@@ -201,7 +201,7 @@ def _of_disc(
     In front of a feature, that with the least gap; behind one, only if it is the nearest of all, or no neighbour of
     that and no deeper than what may have happened since the last look.
     """
-    keep_small()
+    keep_apart()
     outlines = Outlines(block)
     features = Features(block)
     deepest = outlines.depth[0]
@@ -272,7 +272,7 @@ def _is_held(block: Array, contact: int, copy: int, side: int, one: int, other: 
     Features that follow upon each other, smoothly or around a corner that sticks out, touch the same feature at one
     place at most: where the one hands over to the other.
     """
-    keep_small()
+    keep_apart()
     table = Contacts(block)
     group = table.group[contact]
     for k in range(group, table.mode.shape[0]):
