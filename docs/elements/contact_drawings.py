@@ -35,23 +35,22 @@ def point_line_contact() -> str:
 
 
 def outline_contact() -> str:
-    """A rounded pallet above the tip of a tooth, with the two nearest points."""
+    """A pallet above the tip of a tooth, with the two nearest points, and the way along the tooth."""
     s = element_sketch()
-    root, tip, foot = (0.4, 0.5), (2.6, 1.35), (2.9, 0.5)
-    corner = (2.75, 2.1)
-    edge = [(1.1, 2.75), (2.75, 2.35), (4.1, 2.75)]
-    nearest = (2.69, 2.36)
+    root, tip, foot = (0.6, 0.75), (2.6, 1.55), (2.9, 0.75)
+    nearest = (2.68, 2.46)
+    middle = (1.9, 1.27)
     return element_sheet(
         "OutlineContact",
         [
-            s.path([(0.0, 0.5), root, tip, foot, (4.4, 0.5)], LINE),
-            s.path(edge, LINE),
+            s.path([(4.4, 0.75), foot, tip, root, (0.1, 0.75)], LINE),
+            s.path([(1.1, 2.85), (2.85, 2.42), (4.1, 2.85)], LINE),
             s.path([nearest, tip], THIN),
             s.length(tip, nearest, 30, "s"),
-            s.vector(root, add(root, scale((0.93, 0.36), 1.2)), "", 0, 0),
-            s.dot(tip, "corner: R = 0", 52, 6),
-            s.note((1.5, 0.75), "material: left of the way"),
-            s.note((corner[0] + 0.3, corner[1] + 0.6), "segment"),
+            s.vector(middle, add(middle, scale((-0.928, -0.371), 0.9)), "", 0, 0),
+            s.dot(tip, "R = 0", 34, -4),
+            s.note((1.3, 0.45), "material: left of the way"),
+            s.note((3.4, 2.3), "segment"),
         ],
     )
 
