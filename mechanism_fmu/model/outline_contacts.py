@@ -12,7 +12,7 @@ from .attached import Slot
 from .body import Point
 from .contact_facts import ContactFacts
 from .errors import MechanismError
-from .findings import Finding, positive, refuse_unless
+from .findings import Finding, length, positive, refuse_unless
 from .functions import Number
 from .outlines import Outline
 from .outlines.features import Feature, around, features
@@ -154,6 +154,10 @@ class OutlineContact(ContactFacts):
             reach = around(outline)[2]
             text = f"{self.label}: outline_{side} reaches {{:g}} m, which is no length."
             yield refuse_unless(positive(reach), text, reach)
+        if isinstance(self.copies, LinearCopies):
+            step = length(self.copies.step)
+            text = f"{self.label}: its copies are {{:g}} m apart; give LinearCopies a step that is not zero."
+            yield refuse_unless(positive(step), text, step)
 
 
 #: Of a row of copies, so many are drawn on either side of the first.

@@ -90,6 +90,7 @@ BAD = {
     "no number": (lambda: contact(outline_i=Outline.circle(math.nan)), "must be longer than"),
     "points": (lambda: contact(points=0), "points = 0 is outside 1..20"),
     "no copies": (lambda: contact(copies=CircularCopies(0)), "count = 0, but it must be at least 1"),
+    "copies in one place": (lambda: contact(copies=LinearCopies((0.0, 0.0))), "its copies are 0 m apart"),
     "no copies in a row": (lambda: contact(copies=LinearCopies((1.0, 0.0), 0)), "count = 0, but it must be"),
 }
 
