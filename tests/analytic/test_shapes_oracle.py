@@ -105,7 +105,10 @@ def states(mechanism: Mechanism, times: list[float]) -> list[dict[str, float]]:
 
 
 def agree(found: list[float], asked: list[float], case: dict[str, Any]) -> None:
-    """Within the tolerance of the case, relative to the largest magnitude of the quantity in it."""
+    """Within the tolerance of the case, relative to the largest magnitude of the quantity in it.
+
+    Of what is zero but for rounding, as the angle of a slider between its guides, to 1e-3 times that tolerance.
+    """
     assert len(found) == len(asked)
     largest = max(map(abs, asked))
     assert found == pytest.approx(asked, rel=0.0, abs=case["tolerance"] * max(largest, 1e-3))
