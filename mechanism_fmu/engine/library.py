@@ -10,35 +10,50 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from llvmlite.binding import parse_assembly
 from numba import carray, cfunc, types
 
+from .compiler.just_in_time import compiled_inner
+from .compiler.machine_code import InnerCompiler
 from .elementary import atan2, cos, sin, tan
 from .outputs import read_output_rates, read_outputs
 from .starting.begin import begin
 from .stepping.stepper import begin_step, go_on
+
+
+def _part(entry: Any) -> Any:
+    """What Python calls is machine code of its own; here it is a part of a program."""
+    return compiled_inner(entry.py_func)
+
+
+_BEGIN, _BEGIN_STEP, _GO_ON = _part(begin), _part(begin_step), _part(go_on)
+_READ_OUTPUTS, _READ_OUTPUT_RATES = _part(read_outputs), _part(read_output_rates)
 
 _BLOCK = types.CPointer(types.float64)
 _OPTIONS: dict[str, Any] = {"nopython": True, "error_model": "numpy", "boundscheck": False, "fastmath": False}
 
 
 def _begin(block: Any, words: int, time: float) -> int:
-    return begin(carray(block, (words,)), time)
+    status: int = _BEGIN(carray(block, (words,)), time)
+    return status
 
 
 def _begin_step(block: Any, words: int) -> int:
-    return begin_step(carray(block, (words,)))
+    status: int = _BEGIN_STEP(carray(block, (words,)))
+    return status
 
 
 def _go_on(block: Any, words: int, target: float, rule: int) -> int:
-    return go_on(carray(block, (words,)), target, rule)
+    status: int = _GO_ON(carray(block, (words,)), target, rule)
+    return status
 
 
 def _read_outputs(block: Any, words: int) -> None:
-    read_outputs(carray(block, (words,)))
+    _READ_OUTPUTS(carray(block, (words,)))
 
 
 def _read_output_rates(block: Any, words: int) -> None:
-    read_output_rates(carray(block, (words,)))
+    _READ_OUTPUT_RATES(carray(block, (words,)))
 
 
 def _sin(x: float) -> float:
@@ -72,9 +87,22 @@ EXPORTS: dict[str, tuple[Callable[..., Any], Any]] = {
 }
 
 
-def intermediate_code(name: str) -> str:
-    """LLVM intermediate code of one exported function with all that it calls."""
+#: Numba counts references to the arrays that it makes of the caller's blocks; they are the caller's, so that nothing is
+#: to be counted, and its own counting is for the processor that it runs on.
+_NO_COUNTING = """
+define linkonce_odr void @NRT_incref(ptr %0) alwaysinline { ret void }
+define linkonce_odr void @NRT_decref(ptr %0) alwaysinline { ret void }
+"""
+
+
+def intermediate_code(name: str) -> Any:
+    """LLVM intermediate code of one exported function with all that it calls, as it is before any optimisation."""
     function, signature = EXPORTS[name]
-    compiled = cfunc(signature, **_OPTIONS)(function)
-    code: str = compiled.inspect_llvm()
-    return code.replace(compiled.native_name, name)
+    compiled = cfunc(signature, pipeline_class=InnerCompiler, **_OPTIONS)(function)
+    code = compiled._library._get_module_for_linking()
+    exported = code.get_function(compiled.native_name)
+    exported.name = name
+    exported.linkage = "external"
+    module = parse_assembly(_NO_COUNTING)
+    module.link_in(code)
+    return module

@@ -8,6 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from llvmlite.binding import Linkage
 from numba.core.caching import IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
@@ -28,7 +29,13 @@ class _NoEnvironment:
 
 
 class _InnerLibrary(JITCodeLibrary):
-    """The intermediate code of a function, to be linked into its callers' and never to be run by itself."""
+    """The intermediate code of a function, to be linked into programs and never to be run by itself.
+
+    Its own alone: what it calls is added once, when a program is linked. In each caller's, as numba does it, a function
+    ten deep would be copied ten times.
+    """
+
+    _shared_module: Any
 
     @property
     def codegen(self) -> _NoEnvironment:
@@ -37,12 +44,43 @@ class _InnerLibrary(JITCodeLibrary):
     def get_pointer_to_function(self, _name: str) -> int:
         return 0
 
-    def _optimize_final_module(self) -> None:
-        pass
-
-    def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()
+    def finalize(self) -> None:
+        """Leave the code as it is."""
         self._finalized = True
+
+    def _get_module_for_linking(self) -> Any:
+        if self._shared_module is None:
+            whole = self._own_code()
+            for part in self._what_it_calls():
+                code = part._own_code() if isinstance(part, _InnerLibrary) else part._get_module_for_linking()
+                whole.link_in(code, preserve=True)
+            _set_linkage(whole, Linkage.linkonce_odr)
+            self._shared_module = whole
+        return self._shared_module
+
+    def _what_it_calls(self) -> list[Any]:
+        """The libraries of all that it calls, and of what that calls, each once; numba's own are whole."""
+        parts: dict[Any, None] = {}
+        todo = list(self._linking_libraries)
+        while todo:
+            part = todo.pop()
+            if part not in parts:
+                parts[part] = None
+                todo += part._linking_libraries if isinstance(part, _InnerLibrary) else ()
+        return list(parts)
+
+    def _own_code(self) -> Any:
+        """A copy, of which nothing is lost before it is called."""
+        module = self._final_module.clone()
+        _set_linkage(module, Linkage.weak_odr)
+        return module
+
+
+def _set_linkage(module: Any, linkage: Linkage) -> None:
+    """Let what a module defines be defined in other modules as well: weak, or gone where nothing calls it."""
+    for function in module.functions:
+        if not function.is_declaration and function.linkage in (Linkage.external, Linkage.weak_odr):
+            function.linkage = linkage
 
 
 class InnerCompiler(CompilerBase):
