@@ -200,6 +200,7 @@ GUARD_HANDOVER = 14  # where two outlines touch, one of them goes over to its ne
 STOP_AT_TARGET = 0
 STOP_AT_IMPACT = 1  # ... or right after an event with an impact
 STOP_AT_STEP = 2  # ... or at the end of each of the engine's own steps
+STOP_AT_EVENT = 8  # ... or right after any event
 STOP_BEFORE_EVENT = 4  # ... or at an event that has not happened yet: outputs are left limits
 
 # columns of an event record

@@ -216,7 +216,8 @@ class MovingMechanism:
 
         Args:
             target: where to stop at the latest [s], not before `time`.
-            rule: what stops earlier: `codes.STOP_AT_TARGET`, `codes.STOP_AT_IMPACT` or `codes.STOP_AT_STEP`.
+            rule: what stops earlier: `codes.STOP_AT_TARGET`, `codes.STOP_AT_IMPACT`, `codes.STOP_AT_EVENT` or
+                `codes.STOP_AT_STEP`.
 
         Raises:
             SimulationError: as of `advance`.
@@ -282,9 +283,14 @@ class MovingMechanism:
         pairs = zip(self._mechanism.contacts, times, strict=True)
         return {contact.name: time for contact, time in pairs if time <= self.time}
 
-    def impacts_in_step(self) -> list[Impact]:
-        """The impacts of the last call of `advance`, oldest first, at most as many as are kept (`model.Output`)."""
-        records = field_of(self._block, "impacts")[: int(self.counters[codes.COUNT_IN_STEP])].tolist()
+    def impacts_in_step(self, last: int | None = None) -> list[Impact]:
+        """The impacts of the last call of `advance`, oldest first, at most as many as are kept (`model.Output`).
+
+        Args:
+            last: only that many, the last ones; None: all that are kept.
+        """
+        count = int(self.counters[codes.COUNT_IN_STEP])
+        records = field_of(self._block, "impacts")[_first(count, last) : count].tolist()
         names = [contact.name for contact in self._mechanism.contacts]
         return [
             Impact(
@@ -299,9 +305,14 @@ class MovingMechanism:
             for record in records
         ]
 
-    def events_in_step(self) -> list[Event]:
-        """The events of the last call of `advance`, oldest first, at most as many as are kept (`model.Output`)."""
-        records = field_of(self._block, "events")[: int(self.counters[codes.EVENTS_IN_STEP])].tolist()
+    def events_in_step(self, last: int | None = None) -> list[Event]:
+        """The events of the last call of `advance`, oldest first, at most as many as are kept (`model.Output`).
+
+        Args:
+            last: only that many, the last ones; None: all that are kept.
+        """
+        count = int(self.counters[codes.EVENTS_IN_STEP])
+        records = field_of(self._block, "events")[_first(count, last) : count].tolist()
         return [
             Event(
                 record[codes.EVENT_TIME],
@@ -335,3 +346,8 @@ class MovingMechanism:
         if outcome != status.OK:
             kind = StepBudgetError if outcome in status.OUT_OF_STEPS else SimulationError
             raise kind(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._details(outcome)}")
+
+
+def _first(count: int, last: int | None) -> int:
+    """The first of the `last` records of `count`."""
+    return 0 if last is None else max(count - last, 0)

@@ -96,8 +96,13 @@ define linkonce_odr void @NRT_decref(ptr %0) alwaysinline { ret void }
 
 
 def intermediate_code(name: str) -> Any:
-    """LLVM intermediate code of one exported function with all that it calls, as it is before any optimisation."""
+    """The program of an exported function."""
     function, signature = EXPORTS[name]
+    return program(function, signature, name)
+
+
+def program(function: Callable[..., Any], signature: Any, name: str) -> Any:
+    """LLVM intermediate code of a function, by a name, with all that it calls, as it is before any optimisation."""
     compiled = cfunc(signature, pipeline_class=InnerCompiler, **_OPTIONS)(function)
     code = compiled._library._get_module_for_linking()
     exported = code.get_function(compiled.native_name)

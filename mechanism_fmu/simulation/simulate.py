@@ -103,16 +103,16 @@ def simulate(
 
 
 def _advance(simulation: Simulation, until: float, impacts: list[Impact], events: list[Event]) -> None:
-    """Go on, and stop where an impact happens: so none is lost, however many there are."""
+    """Go on, and stop at each event: so none is lost, and no impact, however many there are."""
     seen_impacts, seen_events = _counts(simulation)
     simulation.begin_step()  # where an input jumps, something may slip at once
     while simulation.time < until:
-        simulation.go_on(until, codes.STOP_AT_IMPACT | codes.STOP_AT_STEP)
+        simulation.go_on(until, codes.STOP_AT_EVENT)
         now_impacts, now_events = _counts(simulation)
         if now_impacts > seen_impacts:
-            impacts += simulation.impacts_in_step()[seen_impacts - now_impacts :]
+            impacts += simulation.impacts_in_step(now_impacts - seen_impacts)
         if now_events > seen_events:
-            events += simulation.events_in_step()[seen_events - now_events :]
+            events += simulation.events_in_step(now_events - seen_events)
         seen_impacts, seen_events = now_impacts, now_events
 
 

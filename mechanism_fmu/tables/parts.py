@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .. import codes
-from .declare import ANY, COUNT, FINITE, FLAG, NOT_NAN, WHOLE, Table, index_of, integer, real, whole
+from .declare import ANY, COUNT, FINITE, FLAG, NOT_NAN, NOT_NEGATIVE, WHOLE, Table, index_of, integer, real, whole
 from .kinds import FORCES, JOINTS
 
 
@@ -80,7 +80,8 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     Contacts of profiles have contact coordinates, the first of which is `alpha`, and curves; `row_first` counts the
     rows that contacts have when contact coordinates are coordinates.
     Two outlines share a group of contacts, of which `group` is the first, one for each place where they touch at once;
-    each is bound to the two features that touch there, and to the copy of outline j (state; none: it is free).
+    each is bound to the two features that touch there, and to the copy of outline j (state; none: it is free). `apart`
+    of the first is how far all that touches nothing is from each other at least [m], as far as looks have shown.
     """
 
     kind = integer()
@@ -108,6 +109,7 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     feature_i = integer(holds=index_of("features"))
     feature_j = integer(holds=index_of("features"))
     copy = integer(holds=WHOLE)
+    apart = real(holds=NOT_NEGATIVE)
     row = integer(work=True)
     least_push = real(name="least_push", work=True)
 

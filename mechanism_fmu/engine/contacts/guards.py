@@ -99,9 +99,12 @@ def shown_gap(block: Array, at: Pose, contact: int) -> tuple[float, float]:
     if not is_free(block, contact):
         return gap(block, at, contact)
     distance = nearest(block, at, contact, EXACT)
+    table = Contacts(block)
+    apart = table.apart[table.group[contact]]
     take_found(block, contact)
     rate = gap(block, at, contact)[1]
     let_loose(block, contact)
+    table.apart[table.group[contact]] = apart  # who reads outputs changes nothing
     return distance, rate
 
 

@@ -73,6 +73,8 @@ def take_found(block: Array, contact: int) -> None:
 def let_loose(block: Array, contact: int) -> None:
     """An open contact that has come off is bound to no features any more; one that has no outlines never is."""
     table = Contacts(block)
+    if is_outline(block, contact):
+        table.apart[table.group[contact]] = 0.0
     table.feature_i[contact] = codes.NONE
     table.feature_j[contact] = codes.NONE
     table.copy[contact] = 0
@@ -87,6 +89,7 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c):
             continue
+        table.apart[c] = 0.0
         if table.mode[c] == codes.OPEN and table.touching[c] == 0 and c != struck:
             let_loose(block, c)
         if c == struck:
@@ -119,12 +122,26 @@ def deepest_overlap(block: Array, at: Pose, mode: int) -> tuple[int, float]:
     look_no_deeper(block, FAR)
     for c in range(table.mode.shape[0]):
         if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
+            if table.apart[c] > 0.0 and not _is_bound(block, c):
+                continue
             gap = nearest(block, at, c, mode)
             if gap < least:
                 least = gap
                 found = c
     look_no_deeper(block, 0.0)
     return found, -least
+
+
+@jit
+def _is_bound(block: Array, group: int) -> bool:
+    """Whether any contact of a group is bound to features."""
+    table = Contacts(block)
+    for k in range(group, table.mode.shape[0]):
+        if table.group[k] != group:
+            break
+        if table.feature_i[k] != codes.NONE:
+            return True
+    return False
 
 
 # Where a feature ends.

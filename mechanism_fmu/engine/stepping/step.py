@@ -21,7 +21,7 @@ from ..dynamics.forces import set_time
 from ..outlines.nearest import EVERY
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
-from ..vectors import copy
+from ..vectors import clear, copy
 from .events import first_event, refine, refine_end
 from .interpolation import interpolate
 from .letting_go import refine_hold, refine_slip
@@ -177,6 +177,7 @@ def _mend_and_check(block: Array) -> int:
     set_time(block, now.clock[codes.STEP_END])
     if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
+        clear(Contacts(block).apart)
     if Sizes(block).outlines > 0:
         contact, depth = deepest_overlap(block, place_bodies(block, now.y_end), EVERY)
         if contact != codes.NONE:

@@ -55,7 +55,7 @@ def begin_step(block: Array) -> int:
 def go_on(block: Array, target: float, rule: int) -> int:
     """Go on within the communication step until `target` [s], or until `rule` stops it earlier; return a status.
 
-    `rule` is `codes.STOP_AT_TARGET`, or a sum of `STOP_AT_IMPACT`, `STOP_AT_STEP` and `STOP_BEFORE_EVENT`; the motion
+    `rule` is `codes.STOP_AT_TARGET`, or a sum of other rules (`STOP_AT_IMPACT` ...); the motion
     is the same with all of them. An event before which it has stopped happens with the next call, whose rule must be
     without the last of them. After any other stop, the step may be continued to the same target (what is set meanwhile
     acts from the next `begin_step` on), or another one be begun. Where it stops, `inputs` are the values reached.
@@ -138,7 +138,8 @@ def _move(block: Array, target: float, rule: int) -> int:
             restart(block)
             now.clock[codes.NEXT_STEP] = initial_step_size(block)
         struck = now.counters[codes.COUNT_IMPACTS] > impacts
-        if rule & codes.STOP_AT_STEP or (rule & codes.STOP_AT_IMPACT and struck):
+        stops = rule & codes.STOP_AT_STEP or (rule & codes.STOP_AT_IMPACT and struck)
+        if stops or (rule & codes.STOP_AT_EVENT and guard != codes.GUARD_NONE):
             return status.OK
 
 

@@ -4,9 +4,9 @@ import llvmlite.binding as llvm
 import numba
 import numpy as np
 import pytest
-from numba import carray, cfunc, types
+from numba import carray, types
 
-from mechanism_fmu.engine.library import EXPORTS
+from mechanism_fmu.engine.library import EXPORTS, program
 from mechanism_fmu.fmu.native.emit import linked, object_file
 from mechanism_fmu.fmu.native.link import TARGETS
 from mechanism_fmu.fmu.native.objects import compiled_engine
@@ -44,10 +44,9 @@ def raising(block, words):
         raise ValueError("too many")
 
 
-def intermediate_code(function):
+def code(function):
     """As that of the engine is made, under the name of an exported function."""
-    compiled = cfunc(types.void(types.CPointer(types.float64), types.int64), nopython=True)(function)
-    return compiled.inspect_llvm().replace(compiled.native_name, next(iter(EXPORTS)))
+    return linked([program(function, types.void(types.CPointer(types.float64), types.int64), next(iter(EXPORTS)))])
 
 
 @pytest.fixture(scope="module")
@@ -61,11 +60,11 @@ def compiler():
 @pytest.mark.usefixtures("compiler")
 @pytest.mark.parametrize(("function", "prefix"), [(allocating, "NRT_"), (raising, "numba_")])
 def test_a_function_that_leaves_the_subset_is_found_out(function, prefix):
-    found = strangers(object_file(linked([intermediate_code(function)]), TARGETS[0]))
+    found = strangers(object_file(code(function), TARGETS[0]))
     assert any(name.startswith(prefix) for name in found), found
 
 
 @pytest.mark.usefixtures("compiler")
 def test_the_object_is_the_same_every_time():
-    code = linked([intermediate_code(allocating)])
-    assert object_file(code, TARGETS[0]) == object_file(code, TARGETS[0])
+    made = code(allocating)
+    assert object_file(made, TARGETS[0]) == object_file(made, TARGETS[0])
