@@ -156,6 +156,9 @@ class MovingMechanism:
         self.state: Array = state_of(self._block)
         self.counters: Array = field_of(self._block, "counters")
         self._clock: Array = field_of(self._block, "clock")
+        self._impacts: Array = field_of(self._block, "impacts")
+        self._events: Array = field_of(self._block, "events")
+        self._contacts = tuple(contact.name for contact in mechanism.contacts)
 
     def _begin_with(self, time: float, inputs: Sequence[float | str] | None) -> None:
         """Begin with values of all inputs, or with their own start values."""
@@ -290,8 +293,8 @@ class MovingMechanism:
             last: only that many, the last ones; None: all that are kept.
         """
         count = int(self.counters[codes.COUNT_IN_STEP])
-        records = field_of(self._block, "impacts")[_first(count, last) : count].tolist()
-        names = [contact.name for contact in self._mechanism.contacts]
+        records = self._impacts[_first(count, last) : count].tolist()
+        names = self._contacts
         return [
             Impact(
                 record[codes.RECORD_TIME],
@@ -312,7 +315,7 @@ class MovingMechanism:
             last: only that many, the last ones; None: all that are kept.
         """
         count = int(self.counters[codes.EVENTS_IN_STEP])
-        records = field_of(self._block, "events")[_first(count, last) : count].tolist()
+        records = self._events[_first(count, last) : count].tolist()
         return [
             Event(
                 record[codes.EVENT_TIME],
@@ -330,7 +333,7 @@ class MovingMechanism:
         return tuple(c.name for c, mode in zip(self._mechanism.contacts, modes, strict=True) if mode == codes.CLOSED)
 
     def _closed(self, mode: int) -> tuple[str, ...]:
-        return tuple(contact.name for c, contact in enumerate(self._mechanism.contacts) if mode >> c & 1)
+        return tuple(name for c, name in enumerate(self._contacts) if mode >> c & 1)
 
     def _require_later(self, target: float) -> None:
         if not self.time <= target < math.inf:

@@ -39,6 +39,8 @@ from .runge_kutta import try_step
 _LOOKS = 8
 #: Bisections of a bracket: 2^-60 of a step is below rounding.
 _BISECTIONS = 60
+#: After so many false positions, bisections.
+_FALSE_POSITIONS = 16
 _NEWTON_STEPS = 12
 #: The part of the way to the end of a feature from which on the slope there is measured.
 _CLOSE = 0.999
@@ -177,9 +179,10 @@ def _advance(block: Array, number: int, after: float) -> float:
     found = 2.0
     while look_at.reached[number] <= after:
         now = look_at.reached[number]
-        value = _value_at(block, number, now)[0]
+        value = _value_at(block, number, now)[0] - GAP_NOISE
         if value <= 0.0 and now > 0.0:
-            found = _root(block, number, look_at.next[number, 1], look_at.next[number, 0], now, value)
+            before = look_at.next[number, 1]
+            found = _meeting(block, number, before, look_at.next[number, 0], now, value, GAP_NOISE / speed)
             break
         look_at.next[number, 0] = value
         look_at.next[number, 1] = now
@@ -194,22 +197,22 @@ def _advance(block: Array, number: int, after: float) -> float:
 
 
 @jit
-def _root(block: Array, number: int, before: float, above: float, after: float, below: float) -> float:
-    """Where the distance of two outlines, `above` > 0 at `before` and `below` <= 0 at `after`, comes down to zero.
+def _meeting(block: Array, number: int, before: float, above: float, after: float, below: float, close: float) -> float:
+    """Where two outlines that were apart at `before`, by `above` [m], have met: just before `after`, where `below` is.
 
-    By false position, where the value at an end that stays counts half (Illinois); each fourth look is in the middle.
+    The end of an interval shorter than `close`. By false position, where the value at an end that stays counts half
+    (Illinois); where the distance jumps, as behind two corners that meet, false positions lead nowhere: by bisection.
     """
     keep_small()
     stayed = 0
-    for look in range(_BISECTIONS):
-        middle = (before * below - after * above) / (below - above)
-        if look % 4 == 3 or not before < middle < after:
-            middle = 0.5 * (before + after)
-        if not before < middle < after:
+    for look in range(2 * _BISECTIONS):
+        middle = 0.5 * (before + after)
+        if above > 0.0 and look < _FALSE_POSITIONS and look % 4 < 3:
+            middle = (before * below - after * above) / (below - above)
+            middle = max(min(middle, after - 0.5 * close), before + 0.5 * close)
+        if after - before <= close or not before < middle < after:
             break
-        value = _value_at(block, number, middle)[0]
-        if abs(value) <= GAP_NOISE:
-            return middle
+        value = _value_at(block, number, middle)[0] - GAP_NOISE
         if value > 0.0:
             before = middle
             above = value
