@@ -86,6 +86,8 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
             i = system.order[s]
             share = _dot(basis[p], basis[i], width)
             system.triangle[i, r] = share
+            if share == 0.0:  # most rows have no body in common
+                continue
             _add_multiple(basis[i], -share, basis[p], width)
             left = system.row_norm[i, 1] - share * share
             if left < _RECOMPUTE_BELOW * system.row_norm[i, 0]:

@@ -28,22 +28,15 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for_search
-from ..contacts.handover import bind, is_free, left_to_go
-from ..outlines.advance import FINEST, fastest
-from ..outlines.nearest import look_no_deeper
-from .interpolation import interpolate
+from ..contacts.handover import bind, is_free
 from .letting_go import first_to_let_go
+from .looks import BISECTIONS, bisect, place_at, value_at
+from .meeting import meets_before
 from .runge_kutta import try_step
 
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
-#: Bisections of a bracket: 2^-60 of a step is below rounding.
-_BISECTIONS = 60
-#: After so many false positions, bisections.
-_FALSE_POSITIONS = 16
 _NEWTON_STEPS = 12
-#: The part of the way to the end of a feature from which on the slope there is measured.
-_CLOSE = 0.999
 
 
 @jit
@@ -72,7 +65,7 @@ def refine(block: Array, contact: int, step_size: float) -> float:
     start = s.tried[0]
     limit = 2.0 * step_size
     if is_free(block, contact):
-        bind(block, _place(block, step_size / s.tried[1]), contact)
+        bind(block, place_at(block, step_size / s.tried[1]), contact)
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, step_size)
         at = place_bodies(block, s.y_new)
@@ -88,37 +81,11 @@ def refine(block: Array, contact: int, step_size: float) -> float:
 
 
 @jit
-def refine_end(block: Array, contact: int, step_size: float) -> float:
-    """The step size at which the true step ends with the place of contact right at the end of its feature.
-
-    The guard has fired `MARGIN` beyond it, where the feature that follows would have turned the normal already. By
-    Newton's method with the slope of the dense output there; that step is the last one tried.
-    """
-    keep_small()
-    s = Stages(block)
-    start = s.tried[0]
-    fraction = step_size / s.tried[1]
-    before = left_to_go(block, _place(block, _CLOSE * fraction), contact)[0]
-    slope = (before - left_to_go(block, _place(block, fraction), contact)[0]) / ((1.0 - _CLOSE) * step_size)
-    size = step_size
-    try_step(block, start, size)
-    for _ in range(_NEWTON_STEPS):
-        if not slope > 0.0:
-            return size
-        move = left_to_go(block, place_bodies(block, s.y_new), contact)[0] / slope
-        if abs(move) <= ROOT_TOLERANCE or not 0.0 < size + move <= step_size:
-            return size
-        size += move
-        try_step(block, start, size)
-    return size
-
-
-@jit
 def _first_zero(block: Array) -> tuple[int, float]:
     """The first guard that reaches zero, and where; (`codes.NONE`, 2.0) when none does."""
     keep_small()
     look_at = Watch(block)
-    at = _place(block, 0.0)
+    at = place_at(block, 0.0)
     count = 0
     guards = Sizes(block).guards
     if not rubs(block):
@@ -134,7 +101,7 @@ def _first_zero(block: Array) -> tuple[int, float]:
     before = 0.0
     for look in range(1, _LOOKS + 1):
         after = look / _LOOKS
-        at = _place(block, after)
+        at = place_at(block, after)
         for k in range(count):
             g = look_at.watched[k]
             if not stands_for_search(block, g):
@@ -152,7 +119,7 @@ def _first_zero(block: Array) -> tuple[int, float]:
         for k in range(count):
             g = look_at.watched[k]
             if stands_for_search(block, g) and look_at.reached[g] <= after:
-                fraction = _advance(block, g, after)
+                fraction = meets_before(block, g, after)
                 if fraction < earliest:
                     earliest = fraction
                     which = g
@@ -160,72 +127,6 @@ def _first_zero(block: Array) -> tuple[int, float]:
             return which, earliest
         before = after
     return codes.NONE, 2.0
-
-
-@jit
-def _advance(block: Array, number: int, after: float) -> float:
-    """Where the distance of two outlines comes down to zero before `after`; 2.0 when it does not (see `advance`)."""
-    keep_small()
-    look_at = Watch(block)
-    contact = guard_of(block, number)[1]
-    group = Contacts(block).group[contact]
-    apart = Contacts(block).apart
-    speed = fastest(block, _place(block, look_at.reached[number]), contact)
-    if look_at.reached[number] == 0.0 and apart[group] > speed:
-        apart[group] -= speed
-        look_at.reached[number] = 2.0
-        return 2.0
-    look_no_deeper(block, speed * FINEST)
-    found = 2.0
-    while look_at.reached[number] <= after:
-        now = look_at.reached[number]
-        value = _value_at(block, number, now)[0] - GAP_NOISE
-        if value <= 0.0 and now > 0.0:
-            before = look_at.next[number, 1]
-            found = _meeting(block, number, before, look_at.next[number, 0], now, value, GAP_NOISE / speed)
-            break
-        look_at.next[number, 0] = value
-        look_at.next[number, 1] = now
-        look_at.reached[number] = 2.0
-        apart[group] = max(value - speed * (1.0 - now), 0.0)
-        if value <= speed * (1.0 - now):
-            look_at.reached[number] = now + max(value / speed, FINEST)
-            if now < 1.0 < look_at.reached[number]:
-                look_at.reached[number] = 1.0
-    look_no_deeper(block, 0.0)
-    return found
-
-
-@jit
-def _meeting(block: Array, number: int, before: float, above: float, after: float, below: float, close: float) -> float:
-    """Where two outlines that were apart at `before`, by `above` [m], have met: just before `after`, where `below` is.
-
-    The end of an interval shorter than `close`. By false position, where the value at an end that stays counts half
-    (Illinois); where the distance jumps, as behind two corners that meet, false positions lead nowhere: by bisection.
-    """
-    keep_small()
-    stayed = 0
-    for look in range(2 * _BISECTIONS):
-        middle = 0.5 * (before + after)
-        if above > 0.0 and look < _FALSE_POSITIONS and look % 4 < 3:
-            middle = (before * below - after * above) / (below - above)
-            middle = max(min(middle, after - 0.5 * close), before + 0.5 * close)
-        if after - before <= close or not before < middle < after:
-            break
-        value = _value_at(block, number, middle)[0] - GAP_NOISE
-        if value > 0.0:
-            before = middle
-            above = value
-            if stayed > 0:
-                below *= 0.5
-            stayed = 1
-        else:
-            after = middle
-            below = value
-            if stayed < 0:
-                above *= 0.5
-            stayed = -1
-    return after
 
 
 @jit
@@ -274,7 +175,7 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     fraction = 2.0
     if look_at.armed[number] == 0 and guard_of(block, number)[0] == codes.GUARD_STICK:
         if next_value <= floor:
-            fraction = _bisect(block, number, before, after, floor)
+            fraction = bisect(block, number, before, after, floor)
         if next_value > SLIPS_ABOVE:  # not before: of what rests although it is taken to slip, rounding has either sign
             look_at.armed[number] = 1
             look_at.floor[number] = 0.0
@@ -283,15 +184,15 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
         if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
             before = _after_opening(block, number, after)
             if before > 0.0:
-                fraction = _bisect(block, number, before, after, 0.0)
+                fraction = bisect(block, number, before, after, 0.0)
             elif next_value <= floor:
-                fraction = _bisect(block, number, before, after, floor)
+                fraction = bisect(block, number, before, after, floor)
     elif next_value <= floor:
-        fraction = _bisect(block, number, before, after, floor)
+        fraction = bisect(block, number, before, after, floor)
     elif rate < 0.0 < next_rate and floor == 0.0:
         bottom = _bottom(block, number, before, after)
-        if _value_at(block, number, bottom)[0] <= 0.0:
-            fraction = _bisect(block, number, before, bottom, floor)
+        if value_at(block, number, bottom)[0] <= 0.0:
+            fraction = bisect(block, number, before, bottom, floor)
     if next_value > 0.0 and look_at.armed[number] == 0:
         look_at.armed[number] = 1
         look_at.floor[number] = 0.0
@@ -302,55 +203,24 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
 
 
 @jit
-def _place(block: Array, fraction: float) -> Pose:
-    """Put the bodies where they are at `fraction` of the step."""
-    keep_small()
-    s = Stages(block)
-    interpolate(s.new_dense, fraction, s.y_at)
-    return place_bodies(block, s.y_at)
-
-
-@jit
-def _value_at(block: Array, number: int, fraction: float) -> tuple[float, float]:
-    keep_small()
-    at = _place(block, fraction)
-    return guard_value(block, at, number)
-
-
-@jit
 def _after_opening(block: Array, number: int, after: float) -> float:
     """A fraction before `after` at which a gap that opens from zero is positive; 0.0 when rounding hides it."""
     keep_small()
     fraction = after
-    for _ in range(_BISECTIONS):
+    for _ in range(BISECTIONS):
         fraction *= 0.5
-        if _value_at(block, number, fraction)[0] > 0.0:
+        if value_at(block, number, fraction)[0] > 0.0:
             return fraction
     return 0.0
-
-
-@jit
-def _bisect(block: Array, number: int, before: float, after: float, floor: float) -> float:
-    """The fraction at which a guard, above `floor` at `before` and not at `after`, comes down to it."""
-    keep_small()
-    for _ in range(_BISECTIONS):
-        middle = 0.5 * (before + after)
-        if middle <= before or middle >= after:
-            return after
-        if _value_at(block, number, middle)[0] > floor:
-            before = middle
-        else:
-            after = middle
-    return after
 
 
 @jit
 def _bottom(block: Array, number: int, before: float, after: float) -> float:
     """The fraction at which a guard that falls at `before` and rises at `after` is least."""
     keep_small()
-    for _ in range(_BISECTIONS):
+    for _ in range(BISECTIONS):
         middle = 0.5 * (before + after)
-        if _value_at(block, number, middle)[1] < 0.0:
+        if value_at(block, number, middle)[1] < 0.0:
             before = middle
         else:
             after = middle

@@ -22,9 +22,10 @@ from ..outlines.nearest import EVERY
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import clear, copy
-from .events import first_event, refine, refine_end
+from .events import first_event, refine
 from .interpolation import interpolate
 from .letting_go import refine_hold, refine_slip
+from .meeting import refine_end
 from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
 from .step_size import accurate_step, smallest_step, why_no_step
