@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from ctypes import CDLL
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -159,6 +160,9 @@ class MovingMechanism:
         self._impacts: Array = field_of(self._block, "impacts")
         self._events: Array = field_of(self._block, "events")
         self._contacts = tuple(contact.name for contact in mechanism.contacts)
+        # of thousands of events, hardly any is of a new kind
+        self._closed = cache(self._closed_in)
+        self._event_name = cache(partial(event_name, mechanism))
 
     def _begin_with(self, time: float, inputs: Sequence[float | str] | None) -> None:
         """Begin with values of all inputs, or with their own start values."""
@@ -319,9 +323,9 @@ class MovingMechanism:
         return [
             Event(
                 record[codes.EVENT_TIME],
-                event_name(self._mechanism, int(record[codes.EVENT_GUARD]), int(record[codes.EVENT_SUBJECT])),
-                self._closed(int(record[codes.EVENT_OLD_MODE])),
-                self._closed(int(record[codes.EVENT_NEW_MODE])),
+                self._event_name(int(record[codes.EVENT_GUARD]), int(record[codes.EVENT_SUBJECT])),
+                self._closed(record[codes.EVENT_OLD_MODE]),
+                self._closed(record[codes.EVENT_NEW_MODE]),
                 record[codes.EVENT_IMPULSE],
             )
             for record in records
@@ -332,8 +336,8 @@ class MovingMechanism:
         modes = field_of(self._block, "contact_mode").tolist()
         return tuple(c.name for c, mode in zip(self._mechanism.contacts, modes, strict=True) if mode == codes.CLOSED)
 
-    def _closed(self, mode: int) -> tuple[str, ...]:
-        return tuple(name for c, name in enumerate(self._contacts) if mode >> c & 1)
+    def _closed_in(self, mode: float) -> tuple[str, ...]:
+        return tuple(name for c, name in enumerate(self._contacts) if int(mode) >> c & 1)
 
     def _require_later(self, target: float) -> None:
         if not self.time <= target < math.inf:

@@ -1,0 +1,119 @@
+"""A day of ticks: a pin-pallet escapement at two tolerances, and with a wheel of twice as many teeth.
+
+    python -m benchmarks.escapement [--ticks 86400]
+
+Processor time of one thread; the rate is what the mean period of all ticks but the first hundred loses in a day.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from typing import NamedTuple
+
+from mechanism_fmu.model import (
+    GROUND,
+    CircularCopies,
+    Damper,
+    Mechanism,
+    Outline,
+    OutlineContact,
+    Revolute,
+    Settings,
+    Torque,
+    TorsionSpring,
+    deg,
+    rigid_body,
+)
+from mechanism_fmu.model.functions import cos, sin, tan
+from mechanism_fmu.simulation import simulate
+
+_DAY = 86400.0
+#: Ticks until the swing is steady, and the time of one [s].
+_SETTLED, _TICK = 100, 0.2
+
+
+def _polar(radius: float, angle: float) -> tuple[float, float]:
+    return radius * cos(angle), radius * sin(angle)
+
+
+def pin_pallet(teeth: int, tolerance: float) -> Mechanism:
+    """As in the gallery, with teeth of the same size, and the same forces, on a wheel that is as large as they need.
+
+    Args:
+        teeth: how many the wheel has.
+        tolerance: relative, of the integrator [1].
+    """
+    more = teeth / 15
+    # the pins are three and a half teeth apart
+    half = deg(42) / more
+    root, tip, on = 0.030 * more - 0.005, 0.030 * more + 0.0004, 0.030 * more - 0.0002
+    hinge = (0.0, 0.030 * more / cos(half))
+    arm = more * tan(half) / tan(deg(42))
+    inertia = 2e-4 * arm * arm
+    wheel = rigid_body("wheel", mass="5 g", inertia=2e-6 * more * more, angle=deg(90) + deg(48.1) / more)
+    lever = rigid_body("lever", hinge, mass="50 g", inertia=inertia, angle=deg(6) / arm)
+    corners = (root, -4.6), (tip - 0.0014, -4.6), (tip, 4.6), (root, 2.6)
+    tooth = Outline.chain([_polar(radius, deg(angle / more)) for radius, angle in corners])
+    contacts = []
+    for name, side in (("entry", deg(90) + half), ("exit", deg(90) - half)):
+        x, y = _polar(on, side)
+        pin = Outline.circle("0.4 mm", (x, y - hinge[1]))
+        copies = CircularCopies(teeth)
+        contacts.append(OutlineContact(name, lever, wheel, outline_i=pin, outline_j=tooth, copies=copies))
+    joints = (Revolute("arbor", wheel.at(0, 0), GROUND), Revolute("staff", lever.at(0, 0), GROUND.at(*hinge)))
+    swing = 2.5 * deg(360)
+    forces = (
+        Torque("mainspring", wheel, torque=-6e-4 * more),
+        TorsionSpring("hairspring", lever, stiffness=inertia * swing * swing),
+        Damper("air", lever, damping=0.1 * inertia * swing),
+    )
+    settings = Settings(relative_tolerance=tolerance)
+    return Mechanism((wheel, lever), joints, forces, tuple(contacts), settings=settings)
+
+
+class Run(NamedTuple):
+    """Ticks, their mean period, and the processor time of all [s]."""
+
+    ticks: int
+    period: float
+    seconds: float
+
+
+def run(teeth: int, tolerance: float, ticks: int) -> Run:
+    """Let it tick.
+
+    Args:
+        teeth: as of `pin_pallet`.
+        tolerance: likewise.
+        ticks: how many, about.
+    """
+    mechanism = pin_pallet(teeth, tolerance)
+    simulate(mechanism, 1.0, (), step=1.0)
+    begun = time.process_time()
+    result = simulate(mechanism, _TICK * ticks, (), step=60.0)
+    seconds = time.process_time() - begun
+    # a tick is where the pin that was out catches a tooth
+    times = [
+        impact.time
+        for before, impact in zip(result.impacts, result.impacts[1:], strict=False)
+        if impact.contact.partition("_")[0] != before.contact.partition("_")[0]
+    ]
+    return Run(len(times), (times[-1] - times[_SETTLED]) / (len(times) - 1 - _SETTLED), seconds)
+
+
+def main() -> None:
+    """Measure, and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--ticks", type=int, default=int(_DAY), help="how many, about")
+    ticks = parser.parse_args().ticks
+    fine = run(15, 1e-9, ticks)
+    for teeth, tolerance in ((15, 1e-9), (15, 1e-7), (30, 1e-7)):
+        found = fine if tolerance < 1e-8 else run(teeth, tolerance, ticks)
+        rate = f", rate beside that {_DAY * (found.period / fine.period - 1.0):+.4f} s a day" if teeth == 15 else ""
+        each = 1e6 * found.seconds / found.ticks
+        print(f"{teeth} teeth, {tolerance:.0e}: {found.ticks} ticks in {found.seconds:.2f} s, {each:.0f} us each{rate}")
+
+
+if __name__ == "__main__":
+    main()
