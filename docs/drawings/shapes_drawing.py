@@ -41,7 +41,7 @@ SHAPES: tuple[tuple[str, int, Outline], ...] = (
     ("pin_tooth", 12, pin_tooth(12, 0.1, 0.012)),
     ("geneva_sector", 6, geneva_sector(6, 0.1, 0.012, 0.055, 0.034, mouth_radius=3e-3)),
     ("escape_tooth", 15, escape_tooth(15, 0.1, 0.075, deg(8), deg(27), tip_radius=5e-4, root_fillet=3e-3)),
-    ("recoil_pallet", 0, recoil_pallet((0.1, 0.0), (0.0, 0.03), 0.04, corner_radius=5e-3)),
+    ("recoil_pallet", 0, recoil_pallet((0.1, 0.0), (0.0, 0.03), 0.03, relief_angle=deg(35), corner_radius=4e-3)),
     ("deadbeat_pallet", 0, deadbeat_pallet(0.09, 0.12, deg(110), deg(100), deg(60))),
     ("hook", 0, hook(0.1, 0.02, 0.025, 0.03, undercut=deg(8), tip_radius=4e-3, throat_fillet=3e-3)),
     ("round_hole", 0, round_hole(0.02)),

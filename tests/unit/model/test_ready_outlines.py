@@ -240,6 +240,9 @@ def test_holes_and_hooks_have_their_areas() -> None:
     rounded = hook(*HOOK, tip_radius=1e-3, throat_fillet=2e-3).area().area
     assert rounded == pytest.approx(hook(*HOOK).area().area + (1 - math.pi / 4) * (2e-3**2 - 2 * 1e-3**2))
     assert recoil_pallet((0, 0), (3e-3, 4e-3), 1e-3).area().area == pytest.approx(5e-6)
+    leaning = recoil_pallet((0, 0), (0.01, 0), 0.002, relief_angle=deg(45))
+    assert leaning.area().area == pytest.approx(2e-5)
+    assert leaning.points[2] == pytest.approx((0.008, 0.002))
 
 
 def test_an_escape_tooth_leans_as_its_faces_say() -> None:
@@ -335,6 +338,7 @@ def test_a_wheel_of_ready_teeth_is_accepted() -> None:
         (lambda: deadbeat_pallet(0.02, 0.03, 1.0, 1.2, math.nan), "back_angle = nan"),
         (lambda: recoil_pallet((0, 0), (0, 0), 0.01), "its face is 0 m long"),
         (lambda: recoil_pallet((0, 0), (0.01, 0), 0.01, corner_radius=0.01), "corner_radius need 0.02 m of an edge"),
+        (lambda: recoil_pallet((0, 0), (0.01, 0), 0.01, relief_angle=deg(80)), "relief_angle = 80 deg"),
         (lambda: hook(0.1, 0.01, 0.01, 0.2), "nose_length = 0.2 m, but it must be less than the length of 0.1 m"),
         (lambda: hook(*HOOK, undercut=deg(-60)), "undercut = -60 deg"),
         (lambda: round_hole(0.0), "round_hole: radius = 0 m"),

@@ -138,30 +138,42 @@ def deadbeat_pallet(
     )
 
 
-def recoil_pallet(start: Point, end: Point, thickness: Number | str, *, corner_radius: Number | str = 0.0) -> Outline:
+def recoil_pallet(
+    start: Point,
+    end: Point,
+    thickness: Number | str,
+    *,
+    relief_angle: Number | str = 0.0,
+    corner_radius: Number | str = 0.0,
+) -> Outline:
     """A pallet of a recoil anchor, closed: a straight face on which a tooth rests and pushes, and the material behind.
 
     The wheel recoils where the anchor swings on while a tooth is on the face: where the common normal passes the
-    anchor's arbor at some distance, as it always does but on an arc about the arbor.
+    anchor's arbor at some distance, as it always does but on an arc about the arbor. With a relief angle, the pallet
+    leans back from the end of its face, where a tooth that has been let go must not be met again.
 
     Args:
         start: of the face, in the frame of the anchor [m].
-        end: of the face [m]; the material is on the left of the way from start to end.
+        end: of the face, where a tooth leaves it [m]; the material is on the left of the way from start to end.
         thickness: of the material behind the face [m].
+        relief_angle: by which the sides at start and end lean back from the normal of the face [rad], above -75 and
+            below 75 deg.
         corner_radius: of all four corners [m]; 0 leaves them sharp.
 
     Raises:
         MechanismError: start and end are the same, a number is impossible, roundings need more than an edge has, or a
             text is no such quantity.
 
-    Source: definition: a rectangle on the left of one of its edges.
+    Source: definition: a parallelogram on the left of one of its edges.
     """
     said = "recoil_pallet: "
     (x, y), (u, v) = pair(start, "m", said + "start"), pair(end, "m", said + "end")
     thick = positive_length(thickness, said + "thickness")
+    relief = angle_between(relief_angle, -math.radians(75), math.radians(75), said + "relief_angle")
     radius = rounding(corner_radius, said + "corner_radius")
     long = length((u - x, v - y))
     required(positive(long), said + "its face is {:g} m long; give an end that differs from the start.", long)
-    dx, dy = -(v - y) * thick / long, (u - x) * thick / long
+    along, back = ((u - x) / long, (v - y) / long), thick * tan(relief)
+    dx, dy = -along[1] * thick - along[0] * back, along[0] * thick - along[1] * back
     points = (x, y), (u, v), (u + dx, v + dy), (x + dx, y + dy)
     return rounded(said[:-2], [(point, "corner_radius", radius) for point in points], closed=True)
