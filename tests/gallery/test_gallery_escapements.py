@@ -129,7 +129,7 @@ def test_two_pawls_hold_the_wheel_every_half_pitch() -> None:
     for speed in (6.0, 9.0, 12.0, 14.0):
         found, shown = run("two_pawls", 2.0, 0.1, speed=speed)
         assert len(found) > 3
-        assert abs(shown[-1]["speed"]) < 1e-9
+        assert abs(shown[-1]["wheel_rate"]) < 1e-9
         forces = shown[-1]["first_force"], shown[-1]["second_force"]
         rests[speed] = math.degrees(shown[-1]["wheel"]) / 15.0, forces[0] > forces[1]
     places = [place for place, _ in rests.values()]

@@ -42,8 +42,9 @@ def mechanism(values):
         "speed": values.driver_speed,
     }
     pawl = rigid_body("pawl", hinge, mass="10 g", inertia=5e-7, centre=(mm(8), 0.0), angle=deg(65), **moving)
-    # clockwise along the inside, material on the left: a slope inwards to the tip, and the face that is driven
-    tooth = Outline.chain([polar(34, 360 / count), polar(30, 0), polar(34, 0)], mm(0.5))
+    # of the ring: along a slope inwards to the tip, out along the face that is driven, and back outside
+    corners = polar(34, 360 / count), polar(30, 0), polar(37, 0), polar(37, 360 / count)
+    tooth = Outline.polygon(corners, (0.0, mm(0.5), 0.0, 0.0))
     tip, copies = Outline.circle(mm(1.5), arm), CircularCopies(count)
     contact = OutlineContact("tooth", pawl, ring, outline_i=tip, outline_j=tooth, copies=copies)
     joints = (

@@ -45,7 +45,7 @@ def mechanism(values):
         joints.append(Revolute(f"{name}_hinge", pawl.at(0, 0), GROUND.at(*hinge)))
         forces.append(Torque(f"{name}_spring", pawl, torque=0.3))
         contacts.append(OutlineContact(name, pawl, wheel, outline_i=tip, outline_j=tooth, copies=copies))
-    outputs = (angle_output("wheel", wheel.angle, "Wheel"), speed_output("speed", wheel.speed, "Wheel"))
+    outputs = (angle_output("wheel", wheel.angle, "Wheel"), speed_output("wheel_rate", wheel.speed, "Wheel"))
     for name in ("first", "second"):
         outputs += (Output(f"{name}_force", f"{name}.force", "Pushes the pawl", "N"),)
     outputs += impact_outputs("Clicks", (Output("closing_speed", "closing_speed", "{impact}", "m/s"),))

@@ -6,6 +6,7 @@ with it. Two pallets on the verge meet them in turn. Four times the torque makes
 
 from mechanism_fmu.model import (
     GROUND,
+    AngleDriver,
     LinearCopies,
     Mechanism,
     Model,
@@ -16,10 +17,10 @@ from mechanism_fmu.model import (
     RackAndPinion,
     Revolute,
     Torque,
-    Translational,
     angle_output,
     deg,
     impact_outputs,
+    polynomial_motion,
     rigid_body,
     settings_parameters,
     speed_output,
@@ -47,8 +48,8 @@ def mechanism(values):
     joints = [Revolute("arbor", wheel.at(0, 0), GROUND), Revolute("pivot", verge.at(0, 0), GROUND)]
     for name, (ends, way, ahead) in pallets.items():
         rack = rigid_body(f"{name}_teeth", (0.0, depth), mass=0.25 * values.wheel_inertia / radius**2, inertia=1.0)
-        at, line = -depth - way * radius, GROUND.line((0, depth), (1.0, 0.0))
-        joints.append(Translational(f"{name}_rim", rack.line((0, 0), (1.0, 0.0)), line))
+        at = -depth - way * radius
+        joints.append(AngleDriver(f"{name}_rim", rack, motion=polynomial_motion(0.0)))
         mesh = rack.line((0, at), (way, 0.0)), wheel.at(0, 0), rack.at(0, at)
         joints.append(RackAndPinion(f"{name}_mesh", *mesh, radius_j=radius, angle_j=-way * deg(90)))
         sides = {"outline_i": Outline.chain(ends), "outline_j": tooth.moved(ahead)}
