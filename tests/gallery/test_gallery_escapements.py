@@ -106,7 +106,7 @@ def test_the_recoil_anchor_pushes_its_wheel_back() -> None:
 
 def test_the_verge_goes_twice_as_fast_with_four_times_the_torque() -> None:
     """Exactly, by the same angles: there is no other time in it than that of torque and inertia."""
-    (slow, at_slow), (fast, at_fast) = (run("verge", 5.0 / k, 0.05 / k, torque=k * k * 1e-3) for k in (1, 2))
+    (slow, at_slow), (fast, at_fast) = (run("verge", 5.0 / k, 0.05 / k, torque=k * k * 8e-4) for k in (1, 2))
     assert len(slow) == len(fast) > 10
     assert [tick.time / 2.0 for tick in slow] == pytest.approx([tick.time for tick in fast], rel=1e-7)
     assert [2.0 * t.closing_speed for t in slow] == pytest.approx([t.closing_speed for t in fast], rel=1e-5)
