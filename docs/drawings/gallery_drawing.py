@@ -25,6 +25,8 @@ PICTURES = Path(__file__).parents[1] / "gallery"
 WIDTH, HEIGHT, MARGIN = 420, 300, 36
 #: The moment that is shown, as a part of the run, and how many moments make a path.
 SHOWN, SAMPLES = 0.15, 240
+#: Points of an outline that are nearer to each other are one [px].
+NEAR = 1.5
 COLOURS = ("#2b7a78", "#d9731a", "#6b46c1", "#b83280", "#2c5282", "#975a16", "#4a5568")
 
 
@@ -158,7 +160,7 @@ def _drawn(shape: Shape, now: Moment, view: View, colours: cycle[str]) -> str:
         case Polyline():
             closed = len(shape.points) > 2
             style = f'fill="{"#e2e8f0" if closed else "none"}" stroke="#718096" stroke-width="1.5"'
-            return view.path([*map(_pair, now.points(shape))], style, closed)
+            return view.path([*map(_pair, _thinned(now.points(shape), NEAR / view.scale))], style, closed)
         case Disc():
             size = now.number(shape.radius) * view.scale
             return view.circle(_pair(now.place(shape.at)), size, 'fill="#e2e8f0" stroke="#718096" stroke-width="1.5"')
@@ -182,6 +184,15 @@ def _drawn(shape: Shape, now: Moment, view: View, colours: cycle[str]) -> str:
         case Trace():
             return ""
     raise TypeError(f"{type(shape).__name__} is no shape of a default drawing; draw it here, too.")
+
+
+def _thinned(points: list[complex], near: float) -> list[complex]:
+    """Without points that are nearer to the one before than the picture shows; the last one stays."""
+    kept = points[:1]
+    for point in points[1:-1]:
+        if abs(point - kept[-1]) > near:
+            kept.append(point)
+    return [*kept, *points[1:][-1:]]
 
 
 def main() -> None:

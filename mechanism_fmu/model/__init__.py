@@ -100,6 +100,18 @@ from .outline_contacts import (
     OutlineContact as OutlineContact,
 )
 from .outlines import Outline as Outline, from_svg_path as from_svg_path, svg_path as svg_path
+from .outlines.ready import (
+    deadbeat_pallet as deadbeat_pallet,
+    escape_tooth as escape_tooth,
+    geneva_sector as geneva_sector,
+    hook as hook,
+    involute_tooth as involute_tooth,
+    pin_tooth as pin_tooth,
+    ratchet_tooth as ratchet_tooth,
+    recoil_pallet as recoil_pallet,
+    round_hole as round_hole,
+    slot_hole as slot_hole,
+)
 from .patterns import CircularPattern as CircularPattern
 from .port_builders import *  # noqa: F403
 from .ports import Calculated as Calculated, Input as Input, Output as Output, Parameter as Parameter

@@ -30,6 +30,8 @@ from mechanism_fmu.model import (
     Torque,
     TorsionSpring,
     Translational,
+    geneva_sector,
+    ratchet_tooth,
 )
 from mechanism_fmu.moving import Event
 from mechanism_fmu.simulation import Simulation
@@ -351,8 +353,10 @@ def test_four_bar_three_clearances(case: dict[str, Any]) -> None:
     agree_states(states(mechanism, [float(one["t"]) for one in shown]), with_offset(shown), names, case)
 
 
+@pytest.mark.parametrize("is_ready", [False, True])
 @pytest.mark.parametrize("case", of_kind("geneva_entry"))
-def test_geneva_entry(case: dict[str, Any]) -> None:
+def test_geneva_entry(case: dict[str, Any], is_ready: bool) -> None:
+    """With both walls of a slot as chains of their own, and with the arms of a ready wheel, which have the same."""
     arm, off = 0.1 * math.sin(math.radians(45)), case["data"]["off"]
     driver = Body("driver", 1.0, 2e-4, start=(0.0, 0.0, math.radians(60)), start_rate=(0.0, 0.0, -10.0))
     wheel = Body("wheel", 1.0, 1e-4, start=(0.1, 0.0, math.radians(135) + off))
@@ -361,6 +365,10 @@ def test_geneva_entry(case: dict[str, Any]) -> None:
         "lower": ((arm, -half - 0.003, quarter), (mouth, -half, 0.0), (inner, -half, 0.0)),
         "upper": ((inner, half, 0.0), (mouth, half, quarter), (arm, half + 0.003, 0.0)),
     }
+    walls = {name: Outline(side, closed=False) for name, side in sides.items()}
+    if is_ready:
+        sector = geneva_sector(4, 0.1, 2 * half, arm - inner + half, 0.04, mouth_radius=0.003)
+        walls = {"arm": sector.moved(angle=math.radians(45))}
     pin = Outline.circle(0.006, (arm, 0.0))
     contacts = tuple(
         OutlineContact(
@@ -368,35 +376,38 @@ def test_geneva_entry(case: dict[str, Any]) -> None:
             driver,
             wheel,
             outline_i=pin,
-            outline_j=Outline(side, closed=False),
+            outline_j=wall,
             copies=CircularCopies(4),
             restitution=case["data"]["e"],
         )
-        for name, side in sides.items()
+        for name, wall in walls.items()
     )
     names = ("driver.angle", "wheel.angle")
     hinges = (Revolute("a", driver.at(0, 0), GROUND), Revolute("b", wheel.at(0, 0), GROUND.at(0.1, 0.0)))
     mechanism = Mechanism((driver, wheel), hinges, contacts=contacts, outputs=of_body(*names))
     results, shown = case["results"]["impacts"], case["results"]["states"]
     of = moved(mechanism, float(shown[-1]["t"]))
-    assert [one.contact.partition("_")[0] for one in of.impacts] == [one["contact"].split()[1] for one in results]
+    struck = [one.contact.partition("_")[0] for one in of.impacts]
+    assert struck == ["arm" if is_ready else one["contact"].split()[1] for one in results]
     agree_impacts(of, results, case)
     agree_rates(of, results, names, case)
     agree_states(states(mechanism, [float(one["t"]) for one in shown]), shown, names, case)
 
 
+@pytest.mark.parametrize("is_ready", [False, True])
 @pytest.mark.parametrize("case", of_kind("ratchet_round_pawl"))
-def test_ratchet_round_pawl(case: dict[str, Any]) -> None:
+def test_ratchet_round_pawl(case: dict[str, Any], is_ready: bool) -> None:
     wheel = Body("wheel", 1.0, 32.7948e-3, start=(0.0, 0.0, math.radians(92)), start_rate=(0.0, 0.0, 2.0))
     pawl = Body("pawl", 1.0, 0.0853e-3 + 0.0976 * 0.05**2, start=(0.09, 0.15, math.radians(195)))
     root, following = polar(0.1, 0.0), polar(0.1, -36.0)
     apex = root[0], -1.115 * 0.2 * math.sin(math.radians(18))
+    tooth = ratchet_tooth(10, math.radians(90), 0.1, 1.115) if is_ready else Outline.chain([following, apex, root])
     contact = OutlineContact(
         "tooth",
         pawl,
         wheel,
         outline_i=Outline.circle(0.5e-3, (0.1, 0.0)),
-        outline_j=Outline.chain([following, apex, root]),
+        outline_j=tooth,
         copies=CircularCopies(10),
         restitution=case["data"]["e"],
     )

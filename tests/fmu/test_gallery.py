@@ -21,13 +21,16 @@ QUICK = ("whitworth", "rocking_block", "pin_pallet")
 
 #: What the first line of a build says: degrees of freedom, coordinates, rows.
 FREEDOMS = {
+    "anchor": (2, 6, 4),
     "andrews": (1, 21, 20),
     "backspin": (2, 3, 1),
     "braked_shaft": (2, 6, 4),
     "chebyshev": (0, 9, 9),
     "door_closer": (1, 3, 2),
     "engine": (1, 9, 8),
+    "freewheel": (3, 9, 6),
     "governor": (1, 9, 8),
+    "graham": (2, 6, 4),
     "pantograph": (0, 12, 12),
     "pin_pallet": (2, 6, 4),
     "peaucellier": (0, 21, 21),
@@ -37,6 +40,8 @@ FREEDOMS = {
     "stephenson": (0, 15, 15),
     "stick_slip": (1, 6, 5),
     "toggle_press": (0, 15, 15),
+    "two_pawls": (3, 9, 6),
+    "verge": (2, 12, 10),
     "watt": (0, 15, 15),
     "wedge": (1, 6, 5),
     "whitworth": (0, 12, 12),
