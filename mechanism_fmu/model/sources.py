@@ -190,7 +190,7 @@ def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
 
 
 def output_factor(source: str, mechanism: Mechanism) -> Number:
-    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a member.
+    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a member, a joint with play.
 
     The moment on a member's start bends it against the sense in which it turns it.
     """
@@ -201,6 +201,9 @@ def output_factor(source: str, mechanism: Mechanism) -> Number:
         if joint.name == part:
             found = joint.effort(quantity)
             return 0.0 if found is None else found[1]
+    for contact in mechanism.contacts:
+        if contact.name == part:
+            return contact.factor(quantity)
     return 0.0
 
 

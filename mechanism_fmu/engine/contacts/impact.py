@@ -13,6 +13,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
+from ..constraints.wear import wear_by_impact
 from .guards import gap
 from .impact_laws import exchange
 from .trial import ABSENT, COUNT, DECIDED, KEPT
@@ -59,6 +60,8 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     outcome = exchange(block, at)
     if outcome != status.OK:
         return False, outcome
+    if Sizes(block).wears > 0:
+        wear_by_impact(block, place_bodies(block, Course(block).y_end), Course(block).y_end)
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
             keep_impact(block, c)
