@@ -70,7 +70,8 @@ class MechanismTables:
         columns: arrays by name of the field, whose shape is in `mechanism_fmu.tables`.
         numbers: `joint_rows`, the number of rows of all joints; `contact_rows`, that of all contacts when contact
             coordinates count as coordinates; `alphas`, the number of these; `own`, of states of force elements' own;
-            `wears`, of contacts that wear; `buffer` and `event_buffer`, of impacts and events of a communication step that are kept.
+            `wears`, of contacts that wear; `buffer` and `event_buffer`, of impacts and events of a communication step
+            that are kept.
     """
 
     columns: Mapping[str, Array]
