@@ -6,9 +6,10 @@ falls between two steps. Only this way round counts. Of several guards the earli
 
 - a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at;
 - a gap that is not positive at t0, or whose contact touched there (`contacts.touching`): closing (w' < -RESTS_BELOW),
-  it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then only below
-  min(w(t0), 0) - GAP_NOISE; at rest, it counts below -GAP_NOISE until it has been above GAP_NOISE, and where rows that
-  contradict each other by rounding have left it inside (`codes.LEFT_INSIDE`), that much further below.
+  it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then where it
+  comes back to min(w(t0), 0), or below that by GAP_NOISE where rounding hides the hop; at rest, it counts below
+  -GAP_NOISE until it has been above GAP_NOISE, and where rows that contradict each other by rounding have left it
+  inside (`codes.LEFT_INSIDE`), that much further below.
 
 Guards of the position are looked at on the dense output, the forces of closed contacts at the step's stages. The root
 of a gap is then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the
@@ -243,9 +244,15 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
         return fraction
     if look_at.armed[number] == 0:
         if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
+            level = 0.0
             before = _after_opening(block, number, after)
+            if before == 0.0 and next_rate < 0.0 and next_value <= floor + GAP_NOISE:
+                level = floor + GAP_NOISE
+                before = _top(block, number, after)
+                if not _value_at(block, number, before)[0] > level:
+                    before = 0.0
             if before > 0.0:
-                fraction = _bisect(block, number, before, after, 0.0)
+                fraction = _bisect(block, number, before, after, level)
             elif next_value <= floor:
                 fraction = _bisect(block, number, before, after, floor)
     elif next_value <= floor:
@@ -304,6 +311,20 @@ def _bisect(block: Array, number: int, before: float, after: float, floor: float
         else:
             after = middle
     return after
+
+
+@jit
+def _top(block: Array, number: int, after: float) -> float:
+    """The fraction up to which a gap that opens at the step's start rises, and that falls at `after`."""
+    keep_small()
+    before = 0.0
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (before + after)
+        if _value_at(block, number, middle)[1] > 0.0:
+            before = middle
+        else:
+            after = middle
+    return before
 
 
 @jit
