@@ -245,12 +245,15 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     if look_at.armed[number] == 0:
         if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
             level = 0.0
-            before = _after_opening(block, number, after)
-            if before == 0.0 and next_rate < 0.0 and next_value <= floor + GAP_NOISE:
-                level = floor + GAP_NOISE
+            if next_rate < 0.0:
                 before = _top(block, number, after)
-                if not _value_at(block, number, before)[0] > level:
+                height = _value_at(block, number, before)[0]
+                if not height > 0.0:
+                    level = floor + GAP_NOISE
+                if not height > level or next_value > level:
                     before = 0.0
+            else:
+                before = _after_opening(block, number, after)
             if before > 0.0:
                 fraction = _bisect(block, number, before, after, level)
             elif next_value <= floor:
