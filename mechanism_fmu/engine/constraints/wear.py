@@ -8,6 +8,7 @@ from ...tables.motion import LinearSystem, Pose, Rows, Strikes
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
+from .friction_rows import rubs, sticks
 from .outline_row import outline_row
 from .point_line import spare_row
 
@@ -22,7 +23,7 @@ def wear_by_sliding(block: Array, at: Pose, dy: Array) -> None:
     for c in range(table.mode.shape[0]):
         if table.wear[c] != codes.NONE:
             power = 0.0
-            if table.mode[c] == codes.CLOSED:
+            if table.mode[c] == codes.CLOSED and not (rubs(block) and sticks(block, c)):
                 outline_row(block, at, c, spare, True)
                 power = max(0.0, LinearSystem(block).multiplier[table.row[c]]) * abs(Rows(block).residual_rate[spare])
             dy[first + table.wear[c]] = power

@@ -28,9 +28,10 @@ from .trial import ABSENT, COUNT, DECIDED, KEPT
 
 #: From this round at the same instant on, all impacts are plastic and all touching contacts take part: that ends it.
 _PLASTIC_FROM = 32
-#: From so many events on that follow each other without progress, nothing bounces: where forces are large, rounding of
-#: a gap gives speeds above `STICK_SPEED`.
-_RESTS_FROM = 100
+#: From so many events on that follow each other without progress, what comes apart more slowly than this stays closed
+#: [m/s, rad/s]: where forces are large, rounding of a gap alone gives speeds above `STICK_SPEED`.
+_PILED = 100
+_STICK_SPEED_WHERE_PILED = 1e-4
 MOST_ROUNDS = 40
 
 
@@ -79,7 +80,9 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
     table = Contacts(block)
     taking_part = Strikes(block)
     approached = False
-    bounces = Course(block).counters[codes.PILE] < _RESTS_FROM
+    sticks_below = STICK_SPEED
+    if Course(block).counters[codes.PILE] >= _PILED:
+        sticks_below = _STICK_SPEED_WHERE_PILED
     for c in range(table.mode.shape[0]):
         taking_part.role[c] = ABSENT
         taking_part.closing[c] = 0.0
@@ -117,7 +120,7 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
             approached = True
             taking_part.closing[c] = -rate
             restitution = table.value[c, codes.RESTITUTION]
-            if bounces and not plastic and restitution * -rate >= STICK_SPEED:
+            if not plastic and restitution * -rate >= sticks_below:
                 taking_part.target[c] = (1.0 + restitution) * -rate
     return approached
 
