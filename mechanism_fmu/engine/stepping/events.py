@@ -7,9 +7,9 @@ falls between two steps. Only this way round counts. Of several guards the earli
 - a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at;
 - a gap that is not positive at t0, or whose contact touched there (`contacts.touching`): closing (w' < -RESTS_BELOW),
   it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then where it
-  comes back to min(w(t0), 0), or below that by GAP_NOISE where rounding hides the hop; at rest, it counts below
-  -GAP_NOISE until it has been above GAP_NOISE, and where rows that contradict each other by rounding have left it
-  inside (`codes.LEFT_INSIDE`), that much further below.
+  comes back to min(w(t0), 0), at the top of its hop where rounding hides that, or below by GAP_NOISE where there is
+  none; at rest, it counts below -GAP_NOISE until it has been above GAP_NOISE, and where rows that contradict each other
+  by rounding have left it inside (`codes.LEFT_INSIDE`), that much further below.
 
 Guards of the position are looked at on the dense output, the forces of closed contacts at the step's stages. The root
 of a gap is then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the
@@ -35,6 +35,7 @@ from ..outlines.nearest import look_no_deeper
 from .interpolation import interpolate
 from .letting_go import first_to_let_go
 from .runge_kutta import try_step
+from .step_size import smallest_step
 
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
@@ -247,10 +248,9 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
             level = 0.0
             if next_rate < 0.0:
                 before = _top(block, number, after)
-                height = _value_at(block, number, before)[0]
-                if not height > 0.0:
-                    level = floor + GAP_NOISE
-                if not height > level or next_value > level:
+                if not _value_at(block, number, before)[0] > 0.0:
+                    level = floor + GAP_NOISE  # where it began
+                if next_value > level or not before * Stages(block).tried[1] > smallest_step(Stages(block).tried[0]):
                     before = 0.0
             else:
                 before = _after_opening(block, number, after)
