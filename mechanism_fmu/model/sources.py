@@ -10,6 +10,7 @@ from typing import get_args
 from .. import codes
 from ..tables.sizes import GIVEN_SIZES, complete
 from .beams import OF_BEAM, beam_members, hinge
+from .clearance_joints import ClearanceJoint
 from .contacts import AngleStop
 from .errors import MechanismError
 from .forces import ForceElement
@@ -35,6 +36,8 @@ _COUNTERS = {
 }
 #: Of any contact, and of a stop with memory besides, for messages.
 _OF_CONTACT = AngleStop.readings
+#: Of joints with play besides.
+_OF_PLAY = [name for name in ClearanceJoint.readings if name not in _OF_CONTACT]
 _FIELDS = {
     "time": codes.RECORD_TIME,
     "contact": codes.RECORD_CONTACT,
@@ -100,7 +103,7 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
         raise MechanismError(
             f"output source {source!r} is unknown{meant}<body>.x|y|angle|x_rate|y_rate|speed, "
-            f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, "
+            f"<contact>.{'|'.join(_OF_CONTACT)}, <joint with play>.{'|'.join(_OF_PLAY)}, <profile contact>.alpha_i|alpha_j, "
             f"<contact, joint or brake>.{'|'.join(OF_FRICTION)}, <pattern>.index, "
             f"{', '.join(_of_kinds())}, event.count|in_step, "
             f"<member>.{'|'.join([*_OF_MEMBER, *OF_BEAM])}, <member>.start|end.{'|'.join(_OF_MEMBER_END)}, "
