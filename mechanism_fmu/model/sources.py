@@ -103,7 +103,8 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
         raise MechanismError(
             f"output source {source!r} is unknown{meant}<body>.x|y|angle|x_rate|y_rate|speed, "
-            f"<contact>.{'|'.join(_OF_CONTACT)}, <joint with play>.{'|'.join(_OF_PLAY)}, <profile contact>.alpha_i|alpha_j, "
+            f"<contact>.{'|'.join(_OF_CONTACT)}, <joint with play>.{'|'.join(_OF_PLAY)}, "
+            f"<profile contact>.alpha_i|alpha_j, "
             f"<contact, joint or brake>.{'|'.join(OF_FRICTION)}, <pattern>.index, "
             f"{', '.join(_of_kinds())}, event.count|in_step, "
             f"<member>.{'|'.join([*_OF_MEMBER, *OF_BEAM])}, <member>.start|end.{'|'.join(_OF_MEMBER_END)}, "
