@@ -110,22 +110,30 @@ class PlayFacts(OutlineFacts):
         return (*self.point_i, *start, *way)
 
     def factor(self, reading: str) -> Number:
-        """By what a reading is multiplied: of the eccentricity, 1/c; of the worn volume, the coefficient of wear."""
+        """By what a reading is multiplied: of the eccentricity, 1/c; of the worn volume, the coefficient of wear.
+
+        Args:
+            reading: its name, of those of `readings`.
+        """
         if reading == "eccentricity":
             return 1.0 / where_positive(self.play, self.play, 1.0)
         return {"sliding_work": 1.0, "wear_volume": self.wear_coefficient}.get(reading, 0.0)
 
     def findings(self) -> Iterator[Finding]:
-        """Those of all contacts, of the radii, and of the coefficient of wear."""
+        """Those of all contacts, of the radii, and of the coefficient of wear.
+
+        Args:
+            reading: its name, of those of `readings`.
+        """
         yield from super().findings()
         label, r, c = self.label, self.pin_radius, self.play
         text = f"{label}: pin_radius = {{:g}} m, but it must be positive and finite."
         radius = refuse_unless(finite_positive(r), text, r)
         if self.hole_radius is None:
-            text = f"{label}: clearance = {{:g}} m is not larger than {LEAST_CLEARANCE:g} m and finite: "
+            text = f"{label}: clearance = {{:g}} m must be positive, finite, and larger than {LEAST_CLEARANCE:g} m: "
             shown: tuple[Number, ...] = (c,)
         else:
-            text = f"{label}: hole_radius = {{:g}} m is not {LEAST_CLEARANCE:g} m larger than pin_radius = {{:g}} m: "
+            text = f"{label}: hole_radius = {{:g}} m must be positive, finite, and larger than pin_radius = {{:g}} m: "
             shown = (self.hole_radius, r)
         wide = where_positive(c - LEAST_CLEARANCE, finite(c), 0.0)
         yield from first(radius, refuse_unless(wide, text + self._instead, *shown))

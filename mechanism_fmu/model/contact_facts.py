@@ -98,8 +98,12 @@ class ContactFacts(Attached):
         """What the shapes in contact can have wrong, which is said behind all else."""
         yield from ()
 
-    def factor(self, _reading: str) -> Number:
-        """By what a reading is multiplied where the engine knows less than the contact; else 0."""
+    def factor(self, reading: str) -> Number:
+        """By what a reading is multiplied where the engine knows less than the contact; else 0.
+
+        Args:
+            reading: its name, of those of `readings`.
+        """
         return 0.0
 
     def too_deep(self) -> tuple[str, str]:

@@ -322,10 +322,13 @@ BODY = Body("b", 1.0, 1.0)
 BAD = {
     "as large as the hole": (
         {"pin_radius": 0.01, "hole_radius": 0.01},
-        "hole_radius = 0.01 m is not 1e-09 m larger than pin_radius = 0.01 m: the pin has no play; use Revolute.",
+        "must be positive, finite, and larger than pin_radius = 0.01 m: the pin has no play; use Revolute.",
     ),
     "larger": ({"pin_radius": 0.02, "hole_radius": 0.01}, "use Revolute."),
-    "without play": ({"pin_radius": 0.01, "clearance": 0.0}, "clearance = 0 m is not larger than 1e-09 m and finite"),
+    "without play": (
+        {"pin_radius": 0.01, "clearance": 0.0},
+        "clearance = 0 m must be positive, finite, and larger than 1e-09 m",
+    ),
     "no radius": ({"pin_radius": 0.0, "clearance": 0.1}, "pin_radius = 0 m, but it must be positive and finite."),
     "nothing": ({"pin_radius": 0.01}, "it takes a hole_radius or a clearance, and neither is given; give one of them."),
     "both": ({"pin_radius": 0.01, "hole_radius": 0.02, "clearance": 0.01}, "and both are given; give one of them."),

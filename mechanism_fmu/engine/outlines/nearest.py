@@ -299,10 +299,10 @@ def _is_one_circle(block: Array, one: int, other: int) -> bool:
     if features.kind[one] != codes.ARC or features.kind[other] != codes.ARC:
         return False
     a, b = features.data[one], features.data[other]
-    dx = a[codes.FEATURE_X] - b[codes.FEATURE_X]
-    dy = a[codes.FEATURE_Y] - b[codes.FEATURE_Y]
-    wider = a[codes.FEATURE_RADIUS] - b[codes.FEATURE_RADIUS]
-    return abs(dx) <= MARGIN and abs(dy) <= MARGIN and abs(wider) <= MARGIN
+    dx: float = a[codes.FEATURE_X] - b[codes.FEATURE_X]
+    dy: float = a[codes.FEATURE_Y] - b[codes.FEATURE_Y]
+    wider: float = a[codes.FEATURE_RADIUS] - b[codes.FEATURE_RADIUS]
+    return max(abs(dx), abs(dy), abs(wider)) <= MARGIN
 
 
 @jit
