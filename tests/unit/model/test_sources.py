@@ -7,9 +7,19 @@ import pytest
 from mechanism_fmu.model import ClearanceJoint, DCMotor, Distance, Revolute
 from mechanism_fmu.model.sources import output_factor
 
+PLAY = ClearanceJoint(
+    "play",
+    "arm",
+    "ground",
+    point_i=(0.0, 0.0),
+    point_j=(0.0, 0.0),
+    pin_radius=0.1,
+    clearance=0.5,
+    wear_coefficient=3.0,
+)
 MECHANISM = SimpleNamespace(
     members=(SimpleNamespace(name="bar"),),
-    contacts=(
+    contacts=(PLAY,),
         ClearanceJoint(
             "play",
             "arm",
