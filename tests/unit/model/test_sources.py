@@ -20,17 +20,6 @@ PLAY = ClearanceJoint(
 MECHANISM = SimpleNamespace(
     members=(SimpleNamespace(name="bar"),),
     contacts=(PLAY,),
-        ClearanceJoint(
-            "play",
-            "arm",
-            "ground",
-            point_i=(0.0, 0.0),
-            point_j=(0.0, 0.0),
-            pin_radius=0.1,
-            clearance=0.5,
-            wear_coefficient=3.0,
-        ),
-    ),
     forces=(DCMotor("motor", "arm", constant=0.05),),
     joints=(
         Revolute("pin", "ground", "arm", (0.0, 0.0), (0.0, 0.0)),
