@@ -161,6 +161,9 @@ FRICTION_FORCE = 37
 STICKS_NOW = 38
 GAP_ACCELERATION = 39  # of a contact
 SLIP_ACCELERATION = 40
+ECCENTRICITY = 41  # of a joint with play: distance from the middle [m], times the output's value
+CONTACT_ANGLE = 42
+SLIDING_WORK = 43  # times the output's value
 
 # columns of an impact record; behind them: impulse of every contact, then all rates before the instant, then after it
 RECORD_TIME = 0

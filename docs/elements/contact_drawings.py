@@ -55,6 +55,29 @@ def outline_contact() -> str:
     )
 
 
+def clearance_joint() -> str:
+    """A pin that touches the wall of its hole, with their centres, the clearance and the contact angle."""
+    s = element_sketch()
+    o, angle, hole, pin = (2.2, 1.3), math.radians(-52), 1.15, 0.7
+    at = polar(o, hole - pin, angle)
+    return element_sheet(
+        "ClearanceJoint",
+        [
+            s.box(o, 3.9, 2.8, 0.0, BODY_J),
+            s.disc(o, hole, 'fill="#fff" stroke="#1f2933" stroke-width="1.6"'),
+            s.disc(at, pin, f'fill="{BODY_I}" fill-opacity="0.75" stroke="#1f2933" stroke-width="1.6"'),
+            s.path([o, (o[0] + 1.8, o[1])], AXIS),
+            s.path([o, polar(o, hole + 0.25, angle)], THIN),
+            s.angle(o, 0.85, angle, 0.0, "angle", 24),
+            s.length(o, at, 26, "d"),
+            s.dot(o),
+            s.dot(at),
+            s.dot(polar(o, hole, angle)),
+            s.note((0.75, 2.35), "body j"),
+        ],
+    )
+
+
 def angle_stop() -> str:
     """A lever above its stop, with the next latched angles."""
     s = element_sketch()

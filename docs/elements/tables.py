@@ -26,6 +26,10 @@ READINGS = {
     "gap": ("m", "rad", "positive when open"),
     "closed": ("1", "1", "1 while closed, else 0"),
     "gap_acceleration": ("m/s2", "rad/s2", "second derivative of the gap by the present forces; 0 while closed"),
+    "eccentricity": ("1", "1", "d/c: 0 in the middle, 1 where the pin touches"),
+    "contact_angle": ("rad", "rad", "direction from the middle to the pin's centre, in the frame of body j"),
+    "sliding_work": ("J", "J", "normal force times |slip speed|, added up since the start"),
+    "wear_volume": ("m3", "m3", "the same times `wear_coefficient`: Archard's law"),
     "clicks": ("1", "1", "how often the latched angle has grown"),
     "latched": ("rad", "rad", "the latched angle"),
 }

@@ -16,6 +16,7 @@ from .compiler.subset import entry, jit, keep_small
 from .constraints.kinematics import place_bodies, set_instant
 from .contacts.friction_readings import friction_force, gap_acceleration, slip_acceleration, slip_speed, sticks_now
 from .contacts.guards import shown_gap
+from .contacts.play_readings import contact_angle, eccentricity, sliding_power, sliding_work
 from .dynamics.acceleration import derivative
 from .dynamics.forces import (
     feed,
@@ -221,6 +222,9 @@ READINGS: dict[int, Reading] = {
     codes.STICKS_NOW: Reading(sticks_now, solves=True),
     codes.GAP_ACCELERATION: Reading(gap_acceleration, solves=True),
     codes.SLIP_ACCELERATION: Reading(slip_acceleration, solves=True),
+    codes.ECCENTRICITY: Reading(eccentricity),
+    codes.CONTACT_ANGLE: Reading(contact_angle),
+    codes.SLIDING_WORK: Reading(sliding_work, sliding_power),
 }
 
 

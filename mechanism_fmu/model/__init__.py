@@ -22,6 +22,7 @@ from .analysis import (
 from .areas import CircularHole as CircularHole
 from .body import GROUND as GROUND, Body as Body, End as End
 from .cases import Case as Case, SineSignal as SineSignal, TableSignal as TableSignal
+from .clearance_joints import ClearanceJoint as ClearanceJoint, SlotClearanceJoint as SlotClearanceJoint
 from .compile import MechanismTables as MechanismTables, compile_mechanism as compile_mechanism
 from .contacts import (
     AngleLock as AngleLock,

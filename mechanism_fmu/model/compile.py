@@ -30,7 +30,7 @@ _IMPACT_LAWS = {"newton": codes.NEWTON, "poisson": codes.POISSON, "stronge": cod
 
 
 def unknown_names(mechanism: Mechanism) -> tuple[str, ...]:
-    """What the user knows each unknown as, in the order of the engine: positions, rates, work, loss, contacts, own.
+    """What the user knows each unknown as, in the order of the engine: positions, rates, work, loss ...
 
     A body is named with the force elements and contacts that act on it.
     """
@@ -43,6 +43,7 @@ def unknown_names(mechanism: Mechanism) -> tuple[str, ...]:
     names += ["the work done", "the energy lost"]
     names += [f"the contact point of {contact.name}" for contact in mechanism.contacts for _ in range(contact.alphas)]
     names += [f"the state of {force.name}" for force in mechanism.elements for _ in range(force.own)]
+    names += [f"the sliding work of {contact.name}" for contact in mechanism.contacts if contact.wears]
     return tuple(names)
 
 
@@ -69,7 +70,8 @@ class MechanismTables:
         columns: arrays by name of the field, whose shape is in `mechanism_fmu.tables`.
         numbers: `joint_rows`, the number of rows of all joints; `contact_rows`, that of all contacts when contact
             coordinates count as coordinates; `alphas`, the number of these; `own`, of states of force elements' own;
-            `buffer` and `event_buffer`, of impacts and events of a communication step that are kept.
+            `wears`, of contacts that wear; `buffer` and `event_buffer`, of impacts and events of a communication step
+            that are kept.
     """
 
     columns: Mapping[str, Array]
@@ -114,6 +116,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     first_rows = np.cumsum([0, *(joint.rows for joint in mechanism.joints)])
     first_contact_rows = np.cumsum([0, *(contact.rows for contact in contacts)])
     first_alphas = np.cumsum([0, *(contact.alphas for contact in contacts)])
+    wear = count()
     first_own = np.cumsum([0, *(force.own for force in mechanism.elements)])
     curves = [curve for _, curve in curve_owners(mechanism)]
     laws = [force.operations() for force in mechanism.elements]
@@ -185,6 +188,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                     outline_i=[first for first, _ in outlines.numbers],
                     outline_j=[second for _, second in outlines.numbers],
                     group=[k - getattr(c, "place", 0) for k, c in enumerate(contacts)],
+                    wear=[next(wear) if c.wears else codes.NONE for c in contacts],
                     value=[(c.restitution, c.friction, c.guided, c.enabled, c.closed, c.holding) for c in contacts],
                 ),
                 columns(
@@ -276,6 +280,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             "contact_rows": int(first_contact_rows[-1]),
             "alphas": int(first_alphas[-1]),
             "own": int(first_own[-1]),
+            "wears": sum(c.wears for c in contacts),
             "buffer": kept("impacts", mechanism, codes.IMPACT_BUFFER_LENGTH),
             "event_buffer": kept("events", mechanism, codes.EVENT_BUFFER_LENGTH),
         },

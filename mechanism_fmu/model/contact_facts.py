@@ -35,6 +35,7 @@ class ContactFacts(Attached):
         angular: whether the gap is an angle, and the force a torque.
         has_memory: whether it clicks (see `AngleStop`).
         has_outlines: whether outlines touch, and hand over from feature to feature (see `OutlineContact`).
+        wears: whether the work of its sliding is added up (see `ClearanceJoint`).
         holds: name of the number that says whether it also pulls.
         readings: what an `Output` may read, with the source "<contact>.<name>", as codes.
         rows, alphas: how many constraint rows and contact coordinates it has.
@@ -45,6 +46,7 @@ class ContactFacts(Attached):
     angular: ClassVar[bool] = False
     has_memory: ClassVar[bool] = False
     has_outlines: ClassVar[bool] = False
+    wears: ClassVar[bool] = False
     holds: ClassVar[str] = "guided"
     readings: ClassVar[Mapping[str, int]] = {
         "force": codes.CONTACT_FORCE,
@@ -62,6 +64,11 @@ class ContactFacts(Attached):
     name: str
     body_i: str
     body_j: str
+
+    @property
+    def places(self) -> tuple[Any, ...]:
+        """The contacts that stand for it in a mechanism: itself."""
+        return (self,)
 
     @property
     def profiles(self) -> tuple[Curve | None, Curve | None]:
@@ -90,6 +97,14 @@ class ContactFacts(Attached):
     def shape_findings(self) -> Iterator[Finding]:
         """What the shapes in contact can have wrong, which is said behind all else."""
         yield from ()
+
+    def factor(self, reading: str) -> Number:
+        """By what a reading is multiplied where the engine knows less than the contact; else 0.
+
+        Args:
+            reading: its name, of those of `readings`.
+        """
+        return 0.0
 
     def too_deep(self) -> tuple[str, str]:
         """How to say that it starts inside the other body: what stands before and behind the depth."""

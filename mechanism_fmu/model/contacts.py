@@ -17,6 +17,7 @@ from typing import ClassVar
 from .. import codes
 from .attached import Slot
 from .body import Point
+from .clearance_joints import ClearanceJoint, SlotClearanceJoint
 from .contact_facts import ContactFacts, no_unit_length
 from .findings import Finding, positive, refuse_unless
 from .functions import Number
@@ -178,4 +179,4 @@ class AngleLock(_OfAngles):
 
 
 #: Any contact.
-Contact = PointLineContact | AngleStop | AngleLock | OutlineContact | HigherPair
+Contact = PointLineContact | AngleStop | AngleLock | OutlineContact | ClearanceJoint | SlotClearanceJoint | HigherPair

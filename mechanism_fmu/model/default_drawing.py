@@ -17,7 +17,7 @@ from .drawing import Disc, Hinge, Link, Polyline, Quantity, Rod, Shape, Spring, 
 from .findings import length
 from .functions import Number, is_plain, where_positive
 from .mechanism import Mechanism
-from .outline_contacts import OutlineContact, drawn_outline
+from .outline_contacts import OutlineFacts, drawn_outline
 from .ports import Calculated, Input, Output
 from .symbol import Symbol
 
@@ -242,7 +242,7 @@ def _outlines(drawn: Drawn) -> Iterator[Shape]:
         if isinstance(contact, PointLineContact):
             nx, ny = contact.normal
             yield _line(drawn, contact.name, contact.body_j, contact.line_point, (-ny, nx))
-        if isinstance(contact, OutlineContact) and contact.place == 0:
+        if isinstance(contact, OutlineFacts) and contact.place == 0:
             sides = (
                 (contact.body_i, contact.outline_i, None),
                 (contact.body_j, contact.outline_j, contact.copies),

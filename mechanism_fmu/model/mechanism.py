@@ -17,7 +17,6 @@ from .functions import Number, is_plain
 from .joints import Joint
 from .logic import LogicalFunction
 from .members import LumpedMass, Member
-from .outline_contacts import OutlineContact
 from .patterns import CircularPattern
 from .ports import Calculated, Input, Output
 from .quantities import pair
@@ -111,8 +110,7 @@ class Mechanism:
 
     def __post_init__(self) -> None:
         """Make numbers of the texts of gravity, and a contact of outlines for each place where they can touch."""
-        places = [c.places if isinstance(c, OutlineContact) else (c,) for c in self.contacts]
-        object.__setattr__(self, "contacts", tuple(chain.from_iterable(places)))
+        object.__setattr__(self, "contacts", tuple(chain.from_iterable(c.places for c in self.contacts)))
         if self.gravity is not None:
             object.__setattr__(self, "gravity", pair(self.gravity, "m/s2", "gravity"))
 

@@ -72,8 +72,24 @@ class LinearCopies:
         return 0.0, *self.step
 
 
+class OutlineFacts(ContactFacts):
+    """What all contacts of outlines have.
+
+    Attributes:
+        outline_i, outline_j: the outlines, from the centres of mass of their bodies.
+        copies: how outline j repeats on its body, or None.
+        place: which of the places where the outlines touch at once this is, from 0.
+    """
+
+    kind: ClassVar[int] = codes.OUTLINE
+    has_outlines: ClassVar = True
+    closed: ClassVar[Number] = False
+    guided: ClassVar[Number] = False
+    closed_while: ClassVar[str | None] = None
+
+
 @dataclass(frozen=True, init=False)
-class OutlineContact(ContactFacts):
+class OutlineContact(OutlineFacts):
     """Two outlines that touch wherever their corners, segments and arcs meet, and go on from one feature to the next.
 
     The gap is the distance of the nearest features: a corner or a rounding, whose place on its body is fixed, against a
@@ -107,12 +123,7 @@ class OutlineContact(ContactFacts):
     Source: this project's: docs/decisions/052-outlines.md.
     """
 
-    kind: ClassVar[int] = codes.OUTLINE
-    has_outlines: ClassVar = True
     slots: ClassVar = (Slot("body_i", outline="outline_i"), Slot("body_j", outline="outline_j"))
-    closed: ClassVar[Number] = False
-    guided: ClassVar[Number] = False
-    closed_while: ClassVar[str | None] = None
 
     name: str
     body_i: str

@@ -119,7 +119,8 @@ class Output:
     Attributes:
         name: FMI name.
         source: what it reads. "<body>.x|y|angle" and "<body>.x_rate|y_rate|speed"; "<contact>.force" (multiplier,
-            positive when it pushes), "<contact>.gap" and "<contact>.closed"; "<stop>.clicks" and "<stop>.latched" [rad]
+            positive when it pushes), "<contact>.gap" and "<contact>.closed"; of joints with play
+            "<joint>.eccentricity|contact_angle|sliding_work|wear_volume"; "<stop>.clicks" and "<stop>.latched" [rad]
             of a stop with memory; "<pair of profiles>.alpha_i|alpha_j" [rad]; "<joint>.force|force_x|force_y|
             normal_force|torque" of the joints that have them (see `efforts`); "<pattern>.index"; "<shaft>.torque";
             of elastic members

@@ -10,6 +10,7 @@ from typing import get_args
 from .. import codes
 from ..tables.sizes import GIVEN_SIZES, complete
 from .beams import OF_BEAM, beam_members, hinge
+from .clearance_joints import ClearanceJoint
 from .contacts import AngleStop
 from .errors import MechanismError
 from .forces import ForceElement
@@ -35,6 +36,8 @@ _COUNTERS = {
 }
 #: Of any contact, and of a stop with memory besides, for messages.
 _OF_CONTACT = AngleStop.readings
+#: Of joints with play besides.
+_OF_PLAY = [name for name in ClearanceJoint.readings if name not in _OF_CONTACT]
 _FIELDS = {
     "time": codes.RECORD_TIME,
     "contact": codes.RECORD_CONTACT,
@@ -100,7 +103,8 @@ def resolve_output(source: str, mechanism: Mechanism) -> tuple[int, int, int]:
         meant = f"; did you mean {near[0]!r}? There are " if near else "; use "
         raise MechanismError(
             f"output source {source!r} is unknown{meant}<body>.x|y|angle|x_rate|y_rate|speed, "
-            f"<contact>.{'|'.join(_OF_CONTACT)}, <profile contact>.alpha_i|alpha_j, "
+            f"<contact>.{'|'.join(_OF_CONTACT)}, <joint with play>.{'|'.join(_OF_PLAY)}, "
+            f"<profile contact>.alpha_i|alpha_j, "
             f"<contact, joint or brake>.{'|'.join(OF_FRICTION)}, <pattern>.index, "
             f"{', '.join(_of_kinds())}, event.count|in_step, "
             f"<member>.{'|'.join([*_OF_MEMBER, *OF_BEAM])}, <member>.start|end.{'|'.join(_OF_MEMBER_END)}, "
@@ -190,7 +194,7 @@ def _of_joint(part: str, quantity: str, mechanism: Mechanism) -> tuple[int, int,
 
 
 def output_factor(source: str, mechanism: Mechanism) -> Number:
-    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a member.
+    """The factor of what an output reads, 0 for sources without: of a joint's multiplier, a member, a joint with play.
 
     The moment on a member's start bends it against the sense in which it turns it.
     """
@@ -201,6 +205,9 @@ def output_factor(source: str, mechanism: Mechanism) -> Number:
         if joint.name == part:
             found = joint.effort(quantity)
             return 0.0 if found is None else found[1]
+    for contact in mechanism.contacts:
+        if contact.name == part:
+            return contact.factor(quantity)
     return 0.0
 
 

@@ -159,6 +159,28 @@ class Result:
             for name in self.names
         }
 
+    def per_turn(self, value: str, angle: str) -> np.ndarray[Any, np.dtype[Any]]:
+        """How much a column changes in each whole turn of an angle since the start, shape (turns,).
+
+        Turns end where the angle first comes 2 pi further, in the sense in which it goes over the run; between two rows
+        both are taken as linear. Of the work of sliding of a joint with play, that is its wear per turn.
+
+        Args:
+            value: name of the column.
+            angle: name of that of the angle [rad], which counts turns.
+
+        Raises:
+            KeyError: there is no such column.
+        """
+        angles = self[angle]
+        turned = np.maximum.accumulate(np.sign(angles[-1] - angles[0]) * (angles - angles[0]))
+        ends = 2.0 * np.pi * np.arange(int(turned[-1] / (2.0 * np.pi)) + 1)
+        after = np.maximum(1, np.searchsorted(turned, ends))
+        share = (ends - turned[after - 1]) / (turned[after] - turned[after - 1])
+        share[0], after[0] = 0.0, 1
+        column = self[value]
+        return np.diff(column[after - 1] + share * (column[after] - column[after - 1]))
+
     def to_csv(self, path: Path | str) -> None:
         """Write the table; headings have the units, as in "speed [rad/s]".
 

@@ -82,6 +82,7 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     Two outlines share a group of contacts, of which `group` is the first, one for each place where they touch at once;
     each is bound to the two features that touch there, and to the copy of outline j (state; none: it is free). `apart`
     of the first is how far all that touches nothing is from each other at least [m], as far as looks have shown.
+    `wear` is the place of a contact among those whose work of sliding is added up.
     """
 
     kind = integer()
@@ -99,6 +100,7 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     outline_i = integer()
     outline_j = integer()
     group = integer()
+    wear = integer()
     mode = integer(holds=whole(codes.OPEN, codes.CLOSED))
     touching = integer(holds=whole(0, codes.LEFT_INSIDE))
     clicks = integer(holds=COUNT)

@@ -41,6 +41,7 @@ class Sizes:
     outlines = _given()
     alphas = _given()  # contact coordinates
     own = _given()  # states of force elements' own
+    wears = _given()  # contacts whose work of sliding is added up
     operations = _given()  # of laws of force
     held = _given()
     inputs = _given()
@@ -60,12 +61,13 @@ class Sizes:
     wide = _follows(lambda n: n["columns"] + n["alphas"])
     frames = _follows(lambda n: n["bodies"] + 1)  # and the ground
     rows = _follows(lambda n: n["joint_rows"] + n["contact_rows"] + n["rubs"] + 1)  # and a spare one
-    # y = (q, qd, work, loss, alpha, own): positions begin at 0, rates at `coordinates`, the others here
+    # y = (q, qd, work, loss, alpha, own, wear): positions begin at 0, rates at `coordinates`, the others here
     y_work = _follows(lambda n: 2 * n["coordinates"])
     y_loss = _follows(lambda n: n["y_work"] + 1)
     y_alpha = _follows(lambda n: n["y_loss"] + 1)
     y_own = _follows(lambda n: n["y_alpha"] + n["alphas"])
-    unknowns = _follows(lambda n: n["y_own"] + n["own"])
+    y_wear = _follows(lambda n: n["y_own"] + n["own"])  # from here on, accuracy of the steps is not asked
+    unknowns = _follows(lambda n: n["y_wear"] + n["wears"])
     # two a contact, two a pattern, one a logical function, one for each friction
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])
     rub_columns = _follows(lambda n: n["rubs"] + 1)

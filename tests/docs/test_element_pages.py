@@ -23,7 +23,8 @@ from mechanism_fmu.simulation import Simulation
 PAGES = sorted(FOLDER.glob("*.md"))
 OVERVIEW = FOLDER / "README.md"
 ELEMENTS = get_args(ForceElement)
-CONTACTS = (model.PointLineContact, model.OutlineContact, model.AngleStop, model.AngleLock)
+PLAY = (model.ClearanceJoint, model.SlotClearanceJoint)
+CONTACTS = (model.PointLineContact, model.OutlineContact, *PLAY, model.AngleStop, model.AngleLock)
 PARTS = (*ELEMENTS, *CONTACTS, model.CircularPattern, model.LogicalFunction)
 STEPS = ["**For**", "**Law**", "**Inputs**", "**Outputs**", "**Energy**"]
 #: What has no default, of the classes that have such fields.
@@ -32,6 +33,8 @@ NEEDED = {
     model.NonlinearTorsionSpring: {"law": lambda x, v: x + v},
     model.AngleStop: {"angle": 0.1, "pitch": 0.2},
     model.AngleLock: {"angle": 0.1, "pitch": 0.2, "closed_while": "f"},
+    model.ClearanceJoint: {"pin_radius": 0.1, "clearance": 0.01},
+    model.SlotClearanceJoint: {"pin_radius": 0.1, "clearance": 0.01, "travel": 0.2},
     model.CircularPattern: {"pitch": 0.2},
     model.OutlineContact: {"outline_i": model.Outline.circle(0.1), "outline_j": model.Outline.circle(0.2, (1.0, 0.0))},
 }

@@ -37,6 +37,7 @@ FREEDOMS = {
     "roberts": (0, 9, 9),
     "rocking_block": (1, 3, 2),
     "scotch_yoke": (1, 6, 5),
+    "slider_crank_clearance": (3, 9, 6),
     "stephenson": (0, 15, 15),
     "stick_slip": (1, 6, 5),
     "toggle_press": (0, 15, 15),

@@ -13,6 +13,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
+from ..constraints.wear import wear_by_impact
 from .guards import gap
 from .impact_laws import exchange
 from .trial import ABSENT, COUNT, DECIDED, KEPT
@@ -27,6 +28,10 @@ from .trial import ABSENT, COUNT, DECIDED, KEPT
 
 #: From this round at the same instant on, all impacts are plastic and all touching contacts take part: that ends it.
 _PLASTIC_FROM = 32
+#: From so many events on that follow each other without progress, what comes apart more slowly than this stays closed
+#: [m/s, rad/s]: where forces are large, rounding of a gap alone gives speeds above `STICK_SPEED`.
+_PILED = 100
+_STICK_SPEED_WHERE_PILED = 1e-4
 MOST_ROUNDS = 40
 
 
@@ -59,6 +64,8 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     outcome = exchange(block, at)
     if outcome != status.OK:
         return False, outcome
+    if Sizes(block).wears > 0:
+        wear_by_impact(block, place_bodies(block, Course(block).y_end), Course(block).y_end)
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
             keep_impact(block, c)
@@ -73,6 +80,9 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
     table = Contacts(block)
     taking_part = Strikes(block)
     approached = False
+    sticks_below = STICK_SPEED
+    if Course(block).counters[codes.PILE] >= _PILED:
+        sticks_below = _STICK_SPEED_WHERE_PILED
     for c in range(table.mode.shape[0]):
         taking_part.role[c] = ABSENT
         taking_part.closing[c] = 0.0
@@ -110,7 +120,7 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
             approached = True
             taking_part.closing[c] = -rate
             restitution = table.value[c, codes.RESTITUTION]
-            if not plastic and restitution * -rate >= STICK_SPEED:
+            if not plastic and restitution * -rate >= sticks_below:
                 taking_part.target[c] = (1.0 + restitution) * -rate
     return approached
 

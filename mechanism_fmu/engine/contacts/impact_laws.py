@@ -37,16 +37,16 @@ def exchange(block: Array, at: Pose) -> int:
     keep_small()
     strike = Strikes(block)
     mode = Contacts(block).mode
+    n = Sizes(block).coordinates
+    rate = Course(block).y_end[n:]
+    for k in range(n):
+        strike.rates_of_round[k] = rate[k]
     if not rubs(block):
         outcome = push_impulses(block, at)
         if outcome == status.OK:
             _apply(block)
         return outcome
-    n = Sizes(block).coordinates
-    rate = Course(block).y_end[n:]
     settings = Options(block).settings
-    for k in range(n):
-        strike.rates_of_round[k] = rate[k]
     for c in range(mode.shape[0]):
         strike.closed[c] = mode[c]
     law = settings[codes.IMPACT_LAW]

@@ -10,6 +10,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, driver_power, follow_open_contacts, stabilise
+from ..constraints.wear import wear_by_sliding
 from ..profiles.nearest import settle_contact_points
 from ..vectors import largest
 from .forces import apply_forces
@@ -19,7 +20,7 @@ from .sliding import slide
 
 @jit
 def derivative(block: Array, y: Array, dy: Array) -> Pose:
-    """Derivative of y = (q, qd, work, loss, alpha, own): dy = (qd, qdd, powers, alpha', own'); shape (unknowns,).
+    """Derivative of y = (q, qd, work, loss, alpha, own, wear): dy = (qd, qdd, powers, alpha', ...); shape (unknowns,).
 
     qdd = qdd_f + M^-1/2 D^+ (gamma - Phi_q qdd_f), eq (3). `linear_system.multiplier` afterwards holds the force along
     each active row (M qdd = F + Phi_q^T multiplier; for a contact, positive when it pushes).
@@ -40,6 +41,8 @@ def derivative(block: Array, y: Array, dy: Array) -> Pose:
         dy[n + k] = free[k] + root[k] * correction[k]
     dy[Sizes(block).y_work] = given + driver_power(block)
     dy[Sizes(block).y_loss] = lost
+    if Sizes(block).wears > 0:
+        wear_by_sliding(block, at, dy)
     alphas = Sizes(block).alphas
     if alphas > 0:
         follow_open_contacts(block, at)

@@ -225,7 +225,7 @@ def _of_disc(
         if radius > 0.0:  # the place on the disc, seen from its body
             before, behind = over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
             faces = before >= -MARGIN and behind >= -MARGIN
-            if faces and distance < 0.0:
+            if faces and distance < -TOUCHES_WITHIN:  # where it touches, rounding would say
                 faces = _is_inside(block, other, px - radius * nx, py - radius * ny)
         if abs(distance) < least:
             least = abs(distance)
@@ -283,10 +283,26 @@ def _is_held(block: Array, contact: int, copy: int, side: int, one: int, other: 
         own, its = table.feature_i[k], table.feature_j[k]
         if side == 1:
             own, its = its, own
-        same = own == disc or its == feature or disc_radius(block, one, own) >= 0.0
+        same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, one, own) >= 0.0
         if same and _is_one_with(block, one, disc, own) and _is_one_with(block, other, feature, its):
             return True
     return False
+
+
+@jit
+def _is_one_circle(block: Array, one: int, other: int) -> bool:
+    """Whether two features are the same, or arcs of the same circle."""
+    keep_small()
+    if one == other:
+        return True
+    features = Features(block)
+    if features.kind[one] != codes.ARC or features.kind[other] != codes.ARC:
+        return False
+    a, b = features.data[one], features.data[other]
+    dx: float = a[codes.FEATURE_X] - b[codes.FEATURE_X]
+    dy: float = a[codes.FEATURE_Y] - b[codes.FEATURE_Y]
+    wider: float = a[codes.FEATURE_RADIUS] - b[codes.FEATURE_RADIUS]
+    return max(abs(dx), abs(dy), abs(wider)) <= MARGIN
 
 
 @jit

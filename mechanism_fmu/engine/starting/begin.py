@@ -83,9 +83,8 @@ def _begin_at_zero(block: Array, time: float) -> None:
     now.ledger[codes.LEDGER_LOST] = 0.0
     now.y_end[Sizes(block).y_work] = 0.0
     now.y_end[Sizes(block).y_loss] = 0.0
-    first = Sizes(block).y_own
-    for k in range(Sizes(block).own):
-        now.y_end[first + k] = 0.0
+    for k in range(Sizes(block).y_own, Sizes(block).unknowns):
+        now.y_end[k] = 0.0
 
 
 @jit

@@ -6,9 +6,10 @@ falls between two steps. Only this way round counts. Of several guards the earli
 
 - a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at;
 - a gap that is not positive at t0, or whose contact touched there (`contacts.touching`): closing (w' < -RESTS_BELOW),
-  it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then only below
-  min(w(t0), 0) - GAP_NOISE; at rest, it counts below -GAP_NOISE until it has been above GAP_NOISE, and where rows that
-  contradict each other by rounding have left it inside (`codes.LEFT_INSIDE`), that much further below.
+  it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then where it
+  comes back to min(w(t0), 0), at the top of its hop where rounding hides that, or below by GAP_NOISE where there is
+  none; at rest, it counts below -GAP_NOISE until it has been above GAP_NOISE, and where rows that contradict each other
+  by rounding have left it inside (`codes.LEFT_INSIDE`), that much further below.
 
 Guards of the position are looked at on the dense output, the forces of closed contacts at the step's stages. The root
 of a gap is then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the
@@ -33,6 +34,7 @@ from .letting_go import first_to_let_go
 from .looks import BISECTIONS, bisect, place_at, value_at
 from .meeting import meets_before
 from .runge_kutta import try_step
+from .step_size import smallest_step
 
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
@@ -182,9 +184,17 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
         return fraction
     if look_at.armed[number] == 0:
         if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
-            before = _after_opening(block, number, after)
+            level = 0.0
+            if next_rate < 0.0:
+                before = _top(block, number, after)
+                if not value_at(block, number, before)[0] > 0.0:
+                    level = floor + GAP_NOISE  # where it began
+                if next_value > level or not before * Stages(block).tried[1] > smallest_step(Stages(block).tried[0]):
+                    before = 0.0
+            else:
+                before = _after_opening(block, number, after)
             if before > 0.0:
-                fraction = bisect(block, number, before, after, 0.0)
+                fraction = bisect(block, number, before, after, level)
             elif next_value <= floor:
                 fraction = bisect(block, number, before, after, floor)
     elif next_value <= floor:
@@ -212,6 +222,20 @@ def _after_opening(block: Array, number: int, after: float) -> float:
         if value_at(block, number, fraction)[0] > 0.0:
             return fraction
     return 0.0
+
+
+@jit
+def _top(block: Array, number: int, after: float) -> float:
+    """The fraction up to which a gap that opens at the step's start rises, and that falls at `after`."""
+    keep_small()
+    before = 0.0
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (before + after)
+        if value_at(block, number, middle)[1] > 0.0:
+            before = middle
+        else:
+            after = middle
+    return before
 
 
 @jit

@@ -118,7 +118,7 @@ def _note_pushes(block: Array) -> None:
 @jit
 def _error_norm(block: Array, h: float) -> float:
     """Root mean square of the local error over its tolerance."""
-    n = Sizes(block).unknowns
+    n = Sizes(block).y_wear
     total = 0.0
     for i in range(n):
         error = scaled_error(block, i, h)
@@ -145,7 +145,7 @@ def scaled_error(block: Array, i: int, h: float) -> float:
 def initial_step_size(block: Array) -> float:
     """A first step size from y_end and dy_end [s] (Hairer, Nørsett, Wanner, II.4, algorithm of the starting step)."""
     keep_small()
-    n = Sizes(block).unknowns
+    n = Sizes(block).y_wear
     now = Course(block)
     s = Stages(block)
     relative = Options(block).settings[codes.RELATIVE_TOLERANCE]

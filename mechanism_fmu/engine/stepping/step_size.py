@@ -195,7 +195,7 @@ def note_stiffest(block: Array) -> None:
     keep_apart()
     s = Stages(block)
     worst = -1.0
-    for i in range(Sizes(block).unknowns):
+    for i in range(Sizes(block).y_wear):
         if i == Sizes(block).y_work or i == Sizes(block).y_loss:
             continue  # work and loss follow from the motion
         error = abs(scaled_error(block, i, s.tried[1]))

@@ -21,6 +21,7 @@ GIVEN = {
     "terms": 9,
     "alphas": 3,
     "own": 2,
+    "wears": 3,
     "operations": 3,
     "held": 1,
     "inputs": 6,
@@ -58,7 +59,7 @@ def test_sizes_that_follow_from_others():
     assert (sizes["coordinates"], sizes["columns"], sizes["frames"]) == (6, 9, 3)
     assert sizes["wide"] == 9 + 3  # a column for each contact coordinate
     assert sizes["rows"] == 8 + 7 + 6 + 1  # of joints, of contacts, of what sticks, a spare one
-    assert sizes["unknowns"] == 2 * 6 + 2 + 3 + 2  # positions, rates, work and loss, contact coordinates, own states
+    assert sizes["unknowns"] == 2 * 6 + 2 + 3 + 2 + 3  # positions, rates, work and loss, contact coordinates, own, wear
     assert [sizes[name] for name in ("y_work", "y_loss", "y_alpha", "y_own")] == [12, 13, 14, 17]
     assert sizes["displacements"] == 3 * 4  # x, y and rotation of a node
     assert (

@@ -30,6 +30,7 @@ def write(block: Block, motions: dict[int, Polynomial]) -> None:
     dense = field_of(block, "new_dense")
     coordinates = (dense.shape[1] - 2) // 2  # then as many rates and two energies
     dense[:] = 0.0
+    field_of(block, "tried")[:] = 0.0, 1.0
     for k, motion in motions.items():
         dense[:, k] = coefficients(motion)
         dense[:, coordinates + k] = coefficients(motion.deriv())

@@ -20,6 +20,7 @@ from mechanism_fmu.model import (
     CamFlatFollower,
     CamFollower,
     CircularPattern,
+    ClearanceJoint,
     CompliantShaft,
     Damper,
     DCMotor,
@@ -44,6 +45,7 @@ from mechanism_fmu.model import (
     Revolute,
     RevoluteTranslational,
     Section,
+    SlotClearanceJoint,
     SpringDamper,
     Torque,
     TorsionSpring,
@@ -117,6 +119,26 @@ PAIRS: list[tuple[Any, Any]] = [
     (
         OutlineContact("x", ROD, CRANK, outline_i=Outline.circle(0.1), outline_j=Outline.circle(0.2)),
         OutlineContact("x", "rod", "crank", outline_i=Outline.circle(0.1).moved(-0.1), outline_j=Outline.circle(0.2)),
+    ),
+    (
+        ClearanceJoint("x", ROD, CRANK.at(0.1, 0.2), pin_radius=0.1, clearance=0.01),
+        ClearanceJoint("x", "rod", "crank", point_i=(-0.1, 0.0), point_j=(0.1, 0.2), pin_radius=0.1, clearance=0.01),
+    ),
+    (
+        SlotClearanceJoint(
+            "x", ROD, CRANK.line((0.1, 0.2), (1.0, 0.0)), travel=0.3, pin_radius=0.1, hole_radius="110 mm"
+        ),
+        SlotClearanceJoint(
+            "x",
+            "rod",
+            "crank",
+            point_i=(-0.1, 0.0),
+            point_j=(0.1, 0.2),
+            axis_j=(1.0, 0.0),
+            travel=0.3,
+            pin_radius=0.1,
+            hole_radius=0.11,
+        ),
     ),
     (AngleLock("x", ROD, CRANK, angle=0.1, pitch=0.2, closed_while="f"), AngleLock("x", "rod", "crank", 0.1, 0.2, "f")),
     (

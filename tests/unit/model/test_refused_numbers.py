@@ -17,6 +17,7 @@ from mechanism_fmu.model import (
     CamFlatFollower,
     CamFollower,
     CircularPattern,
+    ClearanceJoint,
     CompliantShaft,
     Curve,
     Damper,
@@ -46,6 +47,7 @@ from mechanism_fmu.model import (
     RevoluteTranslational,
     Section,
     Settings,
+    SlotClearanceJoint,
     SpringDamper,
     Term,
     Torque,
@@ -73,6 +75,8 @@ LOCK = AngleLock("x", "a", "b", 0.1, 0.2, "f")
 LIMIT = LogicalFunction("f", "b.angle", 0.1)
 LINE = PointLineContact("c", "a", HERE, "b", HERE, EAST)
 
+PLAY = {"pin_radius": 0.1, "clearance": 0.01}
+
 #: A sound part of each kind, and the place of a mechanism that it stands in.
 PARTS: list[tuple[Any, str]] = [
     (Body("x", 1.0, 1.0, tooth_length=0.1), "bodies"),
@@ -94,6 +98,9 @@ PARTS: list[tuple[Any, str]] = [
     (CamFollower("x", "a", circle(0.1), "b", circle(0.2)), "contacts"),
     (PointFollower("x", "a", HERE, "b", circle(0.2)), "contacts"),
     (CamFlatFollower("x", "a", circle(0.1), "b", HERE, EAST), "contacts"),
+    (ClearanceJoint("x", A.at(0, 0), B.at(-1, 0), pin_radius=0.1, clearance=0.01), "contacts"),
+    (ClearanceJoint("x", A.at(0, 0), B.at(-1, 0), pin_radius=0.1, hole_radius=0.11), "contacts"),
+    (SlotClearanceJoint("x", A.at(0, 0), B.line((-1, 0), (1, 0)), travel=0.1, **PLAY), "contacts"),
     (Torque("x", "a"), "forces"),
     (TorsionSpring("x", "a"), "forces"),
     (Damper("x", "a"), "forces"),
@@ -115,8 +122,20 @@ PARTS: list[tuple[Any, str]] = [
     (Settings(), "settings"),
 ]
 #: What the docstrings allow besides "finite": of force elements their classes say it, else the argument's name.
-POSITIVE = ("mass", "inertia", "tooth_length", "distance", "radius_i", "radius_j", "young")
-NOT_NEGATIVE = ("friction", "friction_radius")
+POSITIVE = (
+    "pin_radius",
+    "hole_radius",
+    "clearance",
+    "travel",
+    "mass",
+    "inertia",
+    "tooth_length",
+    "distance",
+    "radius_i",
+    "radius_j",
+    "young",
+)
+NOT_NEGATIVE = ("friction", "friction_radius", "wear_coefficient")
 SWITCHES = ("enabled", "closed", "guided", "unilateral")
 DIRECTIONS = ("axis_i", "axis_j", "direction_j", "normal", "boundary_normal")
 #: Arguments that a message calls otherwise.

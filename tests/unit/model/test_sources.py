@@ -4,11 +4,22 @@ from types import SimpleNamespace
 
 import pytest
 
-from mechanism_fmu.model import DCMotor, Distance, Revolute
+from mechanism_fmu.model import ClearanceJoint, DCMotor, Distance, Revolute
 from mechanism_fmu.model.sources import output_factor
 
+PLAY = ClearanceJoint(
+    "play",
+    "arm",
+    "ground",
+    point_i=(0.0, 0.0),
+    point_j=(0.0, 0.0),
+    pin_radius=0.1,
+    clearance=0.5,
+    wear_coefficient=3.0,
+)
 MECHANISM = SimpleNamespace(
     members=(SimpleNamespace(name="bar"),),
+    contacts=(PLAY,),
     forces=(DCMotor("motor", "arm", constant=0.05),),
     joints=(
         Revolute("pin", "ground", "arm", (0.0, 0.0), (0.0, 0.0)),
@@ -27,6 +38,10 @@ MECHANISM = SimpleNamespace(
         ("pin.nothing", 0.0),
         ("arm.angle", 0.0),
         ("nobody.force", 0.0),
+        ("play.eccentricity", 2.0),
+        ("play.sliding_work", 1.0),
+        ("play.wear_volume", 3.0),
+        ("play.force", 0.0),
     ],
 )
 def test_factors_of_outputs(source: str, factor: float) -> None:
