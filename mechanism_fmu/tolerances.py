@@ -13,6 +13,11 @@ RESTS_BELOW = 1e-9
 STICK_SPEED = 1e-6
 #: What slips more slowly than this, at an event, may stick or slip either way [m/s, rad/s].
 SLIPS_ABOVE = 1e-11
+#: From so many events on that follow each other without progress in time, what comes apart or slips more slowly than
+#: this is at rest [m/s, rad/s]: where forces are large, rounding alone gives speeds above those bounds.
+PILED = 100
+RESTS_WHERE_PILED = 1e-4
+SLIPS_WHERE_PILED = 1e-7
 #: What sticks goes on to do so while its slip speed is below this [m/s, rad/s]: rows may drift so far.
 STUCK_BELOW = 1e-9
 #: A gap that is zero and does not change may go below zero by this before it counts [m, rad].

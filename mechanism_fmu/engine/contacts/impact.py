@@ -7,7 +7,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rows, Strikes
 from ...tables.parts import Bodies, Contacts, Patterns
 from ...tables.sizes import Sizes
-from ...tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
+from ...tolerances import PILED, RESTS_BELOW, RESTS_WHERE_PILED, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
@@ -28,10 +28,6 @@ from .trial import ABSENT, COUNT, DECIDED, KEPT
 
 #: From this round at the same instant on, all impacts are plastic and all touching contacts take part: that ends it.
 _PLASTIC_FROM = 32
-#: From so many events on that follow each other without progress, what comes apart more slowly than this stays closed
-#: [m/s, rad/s]: where forces are large, rounding of a gap alone gives speeds above `STICK_SPEED`.
-_PILED = 100
-_STICK_SPEED_WHERE_PILED = 1e-4
 MOST_ROUNDS = 40
 
 
@@ -81,8 +77,8 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
     taking_part = Strikes(block)
     approached = False
     sticks_below = STICK_SPEED
-    if Course(block).counters[codes.PILE] >= _PILED:
-        sticks_below = _STICK_SPEED_WHERE_PILED
+    if Course(block).counters[codes.PILE] >= PILED:
+        sticks_below = RESTS_WHERE_PILED
     for c in range(table.mode.shape[0]):
         taking_part.role[c] = ABSENT
         taking_part.closing[c] = 0.0

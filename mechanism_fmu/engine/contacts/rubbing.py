@@ -6,7 +6,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rows, Rubs
 from ...tables.sizes import Sizes
-from ...tolerances import SLIPS_ABOVE, STUCK_BELOW
+from ...tolerances import PILED, SLIPS_ABOVE, SLIPS_WHERE_PILED, STUCK_BELOW
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, sticks, touches
 from ..constraints.kinematics import place_bodies
@@ -36,6 +36,9 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     keep_small()
     table = Rubs(block)
     spare = spare_row(block)
+    slips_above = SLIPS_ABOVE
+    if Course(block).counters[codes.PILE] >= PILED:
+        slips_above = SLIPS_WHERE_PILED
     for k in range(table.slip.shape[0]):
         let_go = table.free[k] == codes.LET_GO
         table.free[k] = codes.BOUND
@@ -48,7 +51,7 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
         if begins:  # also where it slips: an impact may end that
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
-        if abs(speed) > (SLIPS_ABOVE if begins else STUCK_BELOW) and k != stopped:
+        if abs(speed) > (slips_above if begins else max(slips_above, STUCK_BELOW)) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE
