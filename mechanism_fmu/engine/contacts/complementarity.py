@@ -20,7 +20,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Pose, Rubs, Strikes
 from ...tables.parts import Contacts
-from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN
+from ...tolerances import PILED, PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, holding, rubs, touches
@@ -34,6 +34,8 @@ from .trial import COUNT, FORCES, IMPULSES, KIND, excess, slip_change, try_modes
 #: An impulse may be missing this share of the largest one.
 _IMPULSE_SHARE = 1e-11
 _MOST_PIVOTS = 64
+#: Where events pile up, a force that lacks this part of its tolerance pulls.
+_HARDLY = 1e-3
 #: With friction, before modes of all are proposed at once, and behind it.
 _FEW_PIVOTS = 3
 #: All combinations of more contacts than these, or more combinations than theirs, are not tried.
@@ -187,6 +189,9 @@ def _first_wrong(block: Array, at: Pose) -> int:
     candidates = Strikes(block).candidates
     impulses = Strikes(block).problem[KIND] == IMPULSES
     active = try_modes(block, at)
+    pulls_below = -1.0
+    if Course(block).counters[codes.PILE] >= PILED:  # what hardly pulls at this instant does so more at the same one
+        pulls_below = -_HARDLY
     for k in range(Strikes(block).problem[COUNT]):
         c = candidates[k]
         if mode[c] == codes.CLOSED:
@@ -194,7 +199,7 @@ def _first_wrong(block: Array, at: Pose) -> int:
                 multiplier = LinearSystem(block).multiplier
                 pulls = multiplier[Contacts(block).row[c]] < -_IMPULSE_SHARE * largest(multiplier, active)
             else:
-                pulls = push_ratio(block, c, active) < -1.0
+                pulls = push_ratio(block, c, active) < pulls_below
             if pulls or _comes_off(block, c):
                 return k
         elif _goes_in(block, at, c):
