@@ -231,7 +231,7 @@ def numbered_outlines(contacts: Sequence[Any]) -> NumberedOutlines:
                 return place
         found.all.append((outline, copies))
         found.owners.append(contact.name)
-        found.features.append([*features(outline)])
+        found.features.append([*features(outline, None if copies is None else copies.data())])
         return len(found.all) - 1
 
     for contact in contacts:

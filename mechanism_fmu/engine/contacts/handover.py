@@ -17,7 +17,7 @@ from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.outline_row import outline_row, place_feature, radius_of, turning_of
 from ..constraints.point_line import spare_row
-from ..outlines.features import FAR, beside, inside_range, is_corner, is_hollow_corner, over_arc
+from ..outlines.features import FAR, beside, inside_range, is_corner, is_hollow_corner, over_arc, over_seam
 from ..outlines.nearest import FREE, look_no_deeper, nearest
 
 #: Outlines that reach farther into each other than this do not touch, but overlap [m].
@@ -237,6 +237,8 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
             follows = beside(block, outline, follows, way)
         elif Features(block).kind[partner] == codes.VERTEX:
             follows = codes.NONE
+    if follows == codes.NONE and side == 1 and _cross_seam(block, at, contact, way):
+        return
     if follows != codes.NONE and _fits(block, follows, partner):
         if side == 0:
             table.feature_i[contact] = follows
@@ -248,6 +250,30 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
     table.mode[contact] = codes.OPEN
     table.touching[contact] = 0
     let_loose(block, contact)
+
+
+@jit
+def _cross_seam(block: Array, at: Pose, contact: int, way: int) -> bool:
+    """Go on with the copy of outline j that joins there; whether there is one."""
+    keep_apart()
+    table = Contacts(block)
+    leaves, copy = table.feature_j[contact], table.copy[contact]
+    follows = over_seam(block, table.outline_j[contact], leaves, way)
+    partner = table.feature_i[contact]
+    if follows == codes.NONE or not _fits(block, follows, partner):
+        return False
+    if Features(block).kind[follows] == codes.VERTEX and Features(block).kind[partner] == codes.VERTEX:
+        return False
+    table.feature_j[contact] = follows
+    for step in range(-1, 2, 2):
+        table.copy[contact] = copy + step
+        outline_row(block, at, contact, spare_row(block), False)
+        is_there = left_to_go(block, at, contact)[0] >= -TOUCHES_WITHIN
+        if is_there and abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN:
+            return True
+    table.feature_j[contact] = leaves
+    table.copy[contact] = copy
+    return False
 
 
 @jit

@@ -19,6 +19,9 @@ from ..elementary import atan2
 FAR = 1e30
 #: Two corners touch when they are this near [m]: those of two blocks on one floor would else pass through each other.
 CORNERS_TOUCH = 1e-9
+#: So far beyond its end something may still be over a feature [m]; less than where a contact hands over, so that what
+#: has come to its end is not found there again.
+BEYOND = 0.5 * MARGIN
 #: Elements whose directions differ by less than this where they meet go on smoothly: there is no corner [rad].
 _SMOOTH = 1e-9
 
@@ -35,6 +38,26 @@ def beside(block: Array, outline: int, feature: int, way: int) -> int:
         place = (place + count) % count
     found: int = table.first[outline] + place
     return found
+
+
+@jit
+def over_seam(block: Array, outline: int, feature: int, way: int) -> int:
+    """The feature behind the end of an open chain, in the next copy, where copies join there; else `codes.NONE`.
+
+    That is the corner between them, which the first vertex is, or the element. `feature` is an end, or next to it.
+    """
+    table = Outlines(block)
+    first = table.first[outline]
+    last = first + table.count[outline] - 1
+    if table.closed[outline] != 0 or Features(block).data[first, codes.FEATURE_TURN] == codes.FREE_END:
+        return codes.NONE
+    if way < 0:
+        return int(last) - 1 if feature - first <= 1 else codes.NONE
+    if last - feature > 1:
+        return codes.NONE
+    if is_corner(block, first):
+        return int(first)
+    return int(first) + 1
 
 
 @jit
@@ -67,10 +90,15 @@ def disc_radius(block: Array, outline: int, feature: int) -> float:
     if is_corner(block, feature):
         return 0.0
     if not is_hollow_corner(block, feature):
+        hollow = 0
         for way in range(-1, 2, 2):
             element = beside(block, outline, feature, way)
+            if element == codes.NONE:
+                element = over_seam(block, outline, feature, way)
             if table.kind[element] == codes.ARC and table.data[element, codes.FEATURE_RADIUS] < 0.0:
-                return 0.0
+                hollow += 1
+        if hollow == 1:
+            return 0.0
     return -1.0
 
 
@@ -145,4 +173,4 @@ def is_over(block: Array, feature: int, x: float, y: float) -> bool:
     if Features(block).kind[feature] == codes.VERTEX and not is_corner(block, feature):
         return False
     before, behind = inside_range(block, feature, x, y)
-    return before >= -MARGIN and behind >= -MARGIN
+    return before >= -BEYOND and behind >= -BEYOND

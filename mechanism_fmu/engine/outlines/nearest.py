@@ -17,7 +17,18 @@ from ...tolerances import MARGIN, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2, sine_cosine
 from .crossing import crossing
-from .features import CORNERS_TOUCH, FAR, apart, beside, disc_radius, is_hollow_corner, is_over, over_arc
+from .features import (
+    BEYOND,
+    CORNERS_TOUCH,
+    FAR,
+    apart,
+    beside,
+    disc_radius,
+    is_hollow_corner,
+    is_over,
+    over_arc,
+    over_seam,
+)
 
 # What a search counts (`mode`).
 #: Whatever touches nothing yet, as far as two circles around the outlines say that it may matter; and, as what comes
@@ -207,8 +218,11 @@ def _of_disc(
     deepest = outlines.depth[0]
     if outlines.closed[other] == 0 and deepest == FAR:
         deepest = TOUCHES_WITHIN  # an open chain has no inside
+    # a hollow corner is where the element behind it begins, which is not what the one before touches
+    is_end = features.kind[disc] == codes.VERTEX and is_hollow_corner(block, disc)
     front, crossed, closest = codes.NONE, codes.NONE, codes.NONE
     gap, depth, least = FAR, 0.0, FAR
+    is_cut = False
     for g in range(outlines.first[other], outlines.first[other] + outlines.count[other]):
         if features.kind[g] == codes.ARC and 0.0 > features.data[g, codes.FEATURE_RADIUS] >= -radius:
             continue  # it does not fit in
@@ -219,18 +233,22 @@ def _of_disc(
             continue
         if not is_over(block, g, px, py):
             continue
-        if mode < EVERY and _is_held(block, contact, copy, side, one, other, disc, g):
+        if mode < EVERY and not is_end and _is_held(block, contact, copy, side, one, other, disc, g):
             continue
         faces = True
         if radius > 0.0:  # the place on the disc, seen from its body
             before, behind = over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
-            faces = before >= -MARGIN and behind >= -MARGIN
+            faces = before >= -BEYOND and behind >= -BEYOND
             if faces and distance < -TOUCHES_WITHIN:  # where it touches, rounding would say
                 faces = _is_inside(block, other, px - radius * nx, py - radius * ny)
+        if mode >= EVERY and faces and -radius < distance < depth:  # its centre is in front, and too near
+            crossed = g
+            depth = distance
+            is_cut = True
         if abs(distance) < least:
             least = abs(distance)
             closest = g
-            if distance < 0.0 and faces:
+            if distance < 0.0 and faces and not is_cut:
                 crossed = g
                 depth = distance
         if faces and 0.0 <= distance < gap:
@@ -239,11 +257,12 @@ def _of_disc(
         if faces and mode < EVERY and distance < 0.0 and g != closest and not _is_one_with(block, other, g, closest):
             crossed = g
             depth = distance
-    if crossed != codes.NONE and crossed != closest and (mode >= EVERY or _is_one_with(block, other, crossed, closest)):
-        crossed = codes.NONE
-    if crossed != codes.NONE:
-        return crossed, depth
-    return front, gap
+    if crossed == codes.NONE:
+        return front, gap
+    behind_another = crossed != closest and not is_cut
+    if behind_another and (mode >= EVERY or _is_one_with(block, other, crossed, closest)):
+        return front, gap
+    return crossed, depth
 
 
 @jit
@@ -278,13 +297,49 @@ def _is_held(block: Array, contact: int, copy: int, side: int, one: int, other: 
     for k in range(group, table.mode.shape[0]):
         if table.group[k] != group:
             break
-        if table.feature_i[k] == codes.NONE or table.copy[k] != copy:
+        if table.feature_i[k] == codes.NONE:
             continue
         own, its = table.feature_i[k], table.feature_j[k]
         if side == 1:
             own, its = its, own
+        if table.copy[k] != copy:  # what it is in another copy is another thing
+            same = own == disc if side == 0 else its == feature
+            goes_on = (same or disc_radius(block, one, own) >= 0.0) and _goes_on_in_copy(
+                block, contact, copy, side, disc, feature, k
+            )
+            if goes_on:
+                return True
+            continue
         same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, one, own) >= 0.0
         if same and _is_one_with(block, one, disc, own) and _is_one_with(block, other, feature, its):
+            return True
+    return False
+
+
+@jit
+def _goes_on_in_copy(block: Array, contact: int, copy: int, side: int, disc: int, feature: int, held: int) -> bool:
+    """Whether what the contact `held` touches goes on in a copy as one of two features, the other being the same."""
+    table = Contacts(block)
+    of_i, of_j = disc, feature
+    if side == 1:
+        of_i, of_j = feature, disc
+    over = _is_over_seam(block, table.outline_j[contact], of_j, copy, table.feature_j[held], table.copy[held])
+    return over and _is_one_with(block, table.outline_i[contact], of_i, table.feature_i[held])
+
+
+@jit
+def _is_over_seam(block: Array, outline: int, feature: int, copy: int, held: int, held_copy: int) -> bool:
+    """Whether a feature follows upon one that is touched in the copy before or behind, around no hollow corner."""
+    keep_small()
+    away = abs(copy - held_copy)
+    if away != 1 and away != Outlines(block).copies[outline] - 1:
+        return False
+    first = Outlines(block).first[outline]
+    if is_hollow_corner(block, first):
+        return False
+    for way in range(-1, 2, 2):
+        begins = over_seam(block, outline, held, way)
+        if begins != codes.NONE and abs(feature - begins) <= 1:
             return True
     return False
 

@@ -101,10 +101,7 @@ def take_step(block: Array) -> int:
     step = accurate_step(block, start)
     if step == 0.0:
         return _shock_or_fail(block)
-    if is_singular(block):
-        now.clock[codes.NEXT_STEP] = wanted  # a step that is refused changes nothing
-        return status.SINGULAR
-    keep_independence(block)
+    singular = is_singular(block)
     guard, subject, fraction = first_event(block)
     if guard != codes.GUARD_NONE:
         step *= fraction
@@ -112,8 +109,14 @@ def take_step(block: Array) -> int:
             step = _end_at_event(block, guard, subject, start, step)
             if math.isnan(s.y_new[Sizes(block).y_loss]):
                 return _shock_or_fail(block)
+            singular = singular and is_singular(block)  # what the event ends may be what depends on something there
         else:
             step = 0.0  # it happens here and now
+            singular = False
+    if singular:
+        now.clock[codes.NEXT_STEP] = wanted  # a step that is refused changes nothing
+        return status.SINGULAR
+    keep_independence(block)
     now.counters[codes.PENDING_GUARD] = guard
     now.counters[codes.PENDING_SUBJECT] = subject
     if step == 0.0:
