@@ -80,14 +80,15 @@ def test_the_wrapper_of_pythonfmu_discards_too(ratchet):
         one.step(0.1)
 
 
-def test_the_slow_geneva_ends_in_a_second_instead_of_eight(native_geneva):
+def test_the_slow_geneva_comes_to_rest_on_its_backstop(native_geneva):
+    """Hops below the noise of its gap used to take 8 s of processor time, then were given up after one."""
     with Instance(native_geneva) as one:
         one.begin(SLOW)
         one.set({"drive_speed": -12.0})
         begun = time.process_time()
-        assert discarded(one.step, 0.05) == fmi2Discard
-        assert time.process_time() - begun < 4
-        assert "limited by the speed of driver (drive, shaft, slot, backstop act on it)" in said(one).text
+        one.step(0.05)
+        assert time.process_time() - begun < 1
+        assert one["driver_speed"] == pytest.approx(0.0, abs=1e-9)
 
 
 def test_the_budget_is_adjustable(native_ratchet):
