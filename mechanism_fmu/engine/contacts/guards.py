@@ -9,7 +9,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose, Rows, Rubs, Strikes
 from ...tables.parts import Contacts, Functions, Patterns
 from ...tables.sizes import Sizes
-from ...tolerances import MARGIN
+from ...tolerances import MARGIN, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import friction_row, slips
 from ..constraints.point_line import point_line, spare_row, tangent_row
@@ -189,7 +189,7 @@ def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
     guard, subject = guard_of(block, number)
     if guard == codes.GUARD_GAP:
         if is_free(block, subject):
-            return nearest(block, at, subject, NEXT), 0.0
+            return min(nearest(block, at, subject, NEXT), _least_open(block, at, subject)), 0.0
         return gap(block, at, subject)
     if guard == codes.GUARD_HANDOVER:
         return left_to_go(block, at, subject)[0] + MARGIN, 0.0
@@ -208,6 +208,23 @@ def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
         return MARGIN - value, -rate
     value, rate = _beyond(block, at, subject, Patterns(block).line[subject, 4:])
     return value + MARGIN, rate
+
+
+@jit
+def _least_open(block: Array, at: Pose, contact: int) -> float:
+    """How far what has come off in a group of contacts is from touching beside where it did, at least [m], above zero.
+
+    It is off by its gap, and what follows there begins at the end of the feature that it touched.
+    """
+    keep_small()
+    table = Contacts(block)
+    least = math.inf
+    for c in range(table.group[contact], table.mode.shape[0]):
+        if table.group[c] != table.group[contact]:
+            break
+        if table.mode[c] == codes.OPEN and table.feature_i[c] != codes.NONE:
+            least = min(least, max(gap(block, at, c)[0], left_to_go(block, at, c)[0]))
+    return max(least, TOUCHES_WITHIN)
 
 
 @jit

@@ -233,7 +233,7 @@ def _of_disc(
             continue
         if not is_over(block, g, px, py):
             continue
-        if mode < EVERY and not is_end and _is_held(block, contact, copy, side, one, other, disc, g):
+        if mode < EVERY and not is_end and _is_held(block, contact, mode, copy, side, one, other, disc, g):
             continue
         faces = True
         if radius > 0.0:  # the place on the disc, seen from its body
@@ -285,11 +285,14 @@ def _is_inside(block: Array, outline: int, x: float, y: float) -> bool:
 
 
 @jit
-def _is_held(block: Array, contact: int, copy: int, side: int, one: int, other: int, disc: int, feature: int) -> bool:
+def _is_held(
+    block: Array, contact: int, mode: int, copy: int, side: int, one: int, other: int, disc: int, feature: int
+) -> bool:
     """Whether a disc touches a feature already, or what it touches goes on there.
 
     Features that follow upon each other, smoothly or around a corner that sticks out, touch the same feature at one
-    place at most: where the one hands over to the other.
+    place at most: where the one hands over to the other. A rounding that comes off hands over no more: what follows
+    upon the feature that it touched may be the next.
     """
     keep_apart()
     table = Contacts(block)
@@ -302,6 +305,9 @@ def _is_held(block: Array, contact: int, copy: int, side: int, one: int, other: 
         own, its = table.feature_i[k], table.feature_j[k]
         if side == 1:
             own, its = its, own
+        comes_off = mode == NEXT and table.mode[k] == codes.OPEN
+        if comes_off and own == disc and its != feature and disc_radius(block, one, disc) > 0.0:
+            continue
         if table.copy[k] != copy:  # what it is in another copy is another thing
             same = own == disc if side == 0 else its == feature
             goes_on = (same or disc_radius(block, one, own) >= 0.0) and _goes_on_in_copy(

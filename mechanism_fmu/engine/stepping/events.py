@@ -29,7 +29,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for_search
-from ..contacts.handover import bind, is_free
+from ..contacts.handover import bind, is_free, let_loose
 from .letting_go import first_to_let_go
 from .looks import BISECTIONS, bisect, place_at, value_at
 from .meeting import meets_before
@@ -67,7 +67,9 @@ def refine(block: Array, contact: int, step_size: float) -> float:
     start = s.tried[0]
     limit = 2.0 * step_size
     if is_free(block, contact):
-        bind(block, place_at(block, step_size / s.tried[1]), contact)
+        at = place_at(block, step_size / s.tried[1])
+        _let_loose_what_is_off(block, at, contact)
+        bind(block, at, contact)
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, step_size)
         at = place_bodies(block, s.y_new)
@@ -80,6 +82,18 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         step_size += move
     try_step(block, start, step_size)
     return step_size
+
+
+@jit
+def _let_loose_what_is_off(block: Array, at: Pose, contact: int) -> None:
+    """What has come off since the step began, in the group of a contact that strikes now, touches no more."""
+    keep_small()
+    table = Contacts(block)
+    for c in range(table.mode.shape[0]):
+        opens = table.group[c] == table.group[contact] and table.mode[c] == codes.OPEN and table.touching[c] != 0
+        if opens and gap(block, at, c)[0] > GAP_NOISE:
+            table.touching[c] = 0
+            let_loose(block, c)
 
 
 @jit
