@@ -304,6 +304,13 @@ def test_linkages_with_play_run_on(which: str, friction: float) -> None:
         assert friction * work <= result["lost"][-1] * (1.0 + 1e-9)
 
 
+@pytest.mark.slow
+def test_plastic_impacts_without_friction_run_on() -> None:
+    """At 9 s a force falls to where it hardly pulls, and once stopped the run there."""
+    result = simulate(with_joints(four_bar_with_play(0.0)), 10.0, step=0.1)
+    assert result["time"][-1] == 10.0
+
+
 def test_work_of_sliding_of_each_turn() -> None:
     """Per turn of the crank, from the table of a run."""
     made = with_joints(slider_crank_with_play(0.4, 1), 0.01)
