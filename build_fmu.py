@@ -217,6 +217,9 @@ def _refuse(text: str) -> NoReturn:
 def _loaded(model: str, what: str, native: bool) -> Iterator[_Loaded]:
     """A model's module, the file if it is the user's own, what shows how far the engine is compiled, what warns.
 
+    Of bodies that overlap at the start a picture is written into the current folder: a build that fails leaves nothing
+    where its FMU would be.
+
     Raises:
         typer.Exit: it cannot be loaded, or what the block makes of it cannot be made; the reason has been said.
     """
@@ -225,6 +228,7 @@ def _loaded(model: str, what: str, native: bool) -> Iterator[_Loaded]:
     from mechanism_fmu.fmu.own.mistakes import explained_in_fmu
     from mechanism_fmu.fmu.own.prepare import prepare
     from mechanism_fmu.model import MechanismError
+    from mechanism_fmu.model.errors import picture_of
 
     messages = _messages()
     try:
@@ -244,6 +248,11 @@ def _loaded(model: str, what: str, native: bool) -> Iterator[_Loaded]:
                 yield module, file, report, warn
     except (MechanismError, OSError) as error:
         messages.print(str(error), style="red", markup=False)
+        picture = picture_of(error)
+        if picture:
+            shown = Path(f"{Path(model).stem}_overlap.svg")
+            shown.write_text(picture, encoding="utf-8")
+            messages.print(f"The bodies are drawn in {shown}.", style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR if isinstance(error, WrongUseError) else 1) from None
 
 

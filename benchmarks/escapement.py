@@ -16,8 +16,10 @@ from mechanism_fmu.model import (
     CircularCopies,
     Damper,
     Mechanism,
+    Oscillation,
     Outline,
     OutlineContact,
+    Output,
     Revolute,
     Settings,
     Torque,
@@ -26,11 +28,11 @@ from mechanism_fmu.model import (
     rigid_body,
 )
 from mechanism_fmu.model.functions import cos, sin, tan
-from mechanism_fmu.simulation import simulate
+from mechanism_fmu.simulation import Simulation
 
 _DAY = 86400.0
-#: Ticks until the swing is steady, and the time of one [s].
-_SETTLED, _TICK = 100, 0.2
+#: Ticks until the swing is steady, the time of one, and a communication step [s].
+_SETTLED, _TICK, _STEP = 100, 0.2, 60.0
 
 
 def _polar(radius: float, angle: float) -> tuple[float, float]:
@@ -38,7 +40,7 @@ def _polar(radius: float, angle: float) -> tuple[float, float]:
 
 
 def pin_pallet(teeth: int, tolerance: float) -> Mechanism:
-    """As in the gallery, with teeth of the same size, and the same forces, on a wheel that is as large as they need.
+    """With teeth of one size, and the same forces, on a wheel that is as large as they need.
 
     Args:
         teeth: how many the wheel has.
@@ -68,8 +70,17 @@ def pin_pallet(teeth: int, tolerance: float) -> Mechanism:
         TorsionSpring("hairspring", lever, stiffness=inertia * swing * swing),
         Damper("air", lever, damping=0.1 * inertia * swing),
     )
-    settings = Settings(relative_tolerance=tolerance)
-    return Mechanism((wheel, lever), joints, forces, tuple(contacts), settings=settings)
+    beat = Oscillation("beat", lever, nominal_period=2 * _TICK)
+    outputs = tuple(Output(name, f"beat.{name}", "", "1") for name in ("passages", "last_passage"))
+    return Mechanism(
+        (wheel, lever),
+        joints,
+        forces,
+        tuple(contacts),
+        outputs=outputs,
+        settings=Settings(relative_tolerance=tolerance),
+        oscillations=(beat,),
+    )
 
 
 class Run(NamedTuple):
@@ -81,25 +92,28 @@ class Run(NamedTuple):
 
 
 def run(teeth: int, tolerance: float, ticks: int) -> Run:
-    """Let it tick.
+    """Let it tick, and time it as a watchmaker does: by the passages of its lever through the middle.
 
     Args:
         teeth: as of `pin_pallet`.
         tolerance: likewise.
         ticks: how many, about.
     """
-    mechanism = pin_pallet(teeth, tolerance)
-    simulate(mechanism, 1.0, (), step=1.0)
+    simulation = Simulation(pin_pallet(teeth, tolerance))
     begun = time.process_time()
-    result = simulate(mechanism, _TICK * ticks, (), step=60.0)
+    settled = _passages(simulation, _TICK * _SETTLED)
+    ended = _passages(simulation, _TICK * ticks)
     seconds = time.process_time() - begun
-    # a tick is where the pin that was out catches a tooth
-    times = [
-        impact.time
-        for before, impact in zip(result.impacts, result.impacts[1:], strict=False)
-        if impact.contact.partition("_")[0] != before.contact.partition("_")[0]
-    ]
-    return Run(len(times), (times[-1] - times[_SETTLED]) / (len(times) - 1 - _SETTLED), seconds)
+    swings = ended[0] - settled[0]
+    return Run(round(2 * ended[0]), 0.5 * (ended[1] - settled[1]) / swings, seconds)
+
+
+def _passages(simulation: Simulation, until: float) -> tuple[float, float]:
+    """How often the lever has passed its middle upwards at a time [s], and when it did last [s]."""
+    while simulation.time < until:
+        simulation.advance(min(simulation.time + _STEP, until))
+    values = simulation.read()
+    return values["passages"], values["last_passage"]
 
 
 def main() -> None:

@@ -2,19 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
 
 from . import codes
 from .engine import status
-from .model import Contact, Mechanism
+from .model import GROUND, Contact, Mechanism
 from .model.compile import unknown_names
+from .model.overlap_picture import Pose, overlap_picture
 from .tables.layout import field_of
 from .tolerances import RATES_WITHIN
 
 Array = np.ndarray[Any, np.dtype[Any]]
+
+#: Of many contacts, a message has the names of so many.
+MOST_NAMED = 24
+
+
+def named(names: Sequence[str], between: str) -> str:
+    """Names for a message: of many, the first, and how many more there are.
+
+    Args:
+        names: in their order.
+        between: two of them.
+    """
+    more = (f"{len(names) - MOST_NAMED} more",) if len(names) > MOST_NAMED else ()
+    return between.join((*names[:MOST_NAMED], *more))
+
 
 # Failures of a motion.
 
@@ -44,12 +60,12 @@ def failure_details(mechanism: Mechanism, block: Array, outcome: int, contacts: 
     if outcome in (*status.OUT_OF_STEPS, status.STEP_TOO_SMALL):
         return _stiffest(mechanism, block)
     if outcome == status.PENETRATED:
-        return _penetration(mechanism.contacts[field_of(block, "stage_stiffest").item(0)], block, "")
+        return _penetration(mechanism.contacts[_which_is_inside(block, outcome)], block, "")
     if outcome == status.OUT_OF_REACH:
         return _driven_too_far(mechanism, block)
     if outcome not in _ABOUT_CONTACTS:
         return ""
-    about = f" Contacts: {', '.join(sorted(contacts))}." if contacts else ""
+    about = f" Contacts: {named(sorted(contacts), ', ')}." if contacts else ""
     return about + (_friction(mechanism, block) if outcome in (status.JAMMED, status.NO_CHOICE) else "")
 
 
@@ -110,10 +126,41 @@ def start_details(mechanism: Mechanism, block: Array, outcome: int, closed: Coll
         return _contradictions(mechanism, block, closed)
     if outcome not in (status.START_INSIDE, status.OVERLAP, status.AT_CENTRE):
         return ""
-    contact = mechanism.contacts[field_of(block, "counters").item(codes.PENDING_SUBJECT)]
+    contact = mechanism.contacts[_which_is_inside(block, outcome)]
     if outcome == status.AT_CENTRE:
         return f" Contact {contact.name!r}."
     return _penetration(contact, block, "; change the start angles or the lengths")
+
+
+# Bodies inside each other, at the start or in a motion.
+
+
+def picture_of_overlap(mechanism: Mechanism, block: Array, outcome: int) -> str:
+    """An SVG picture of two bodies that have gone into each other, as text; "" of all other failures.
+
+    Args:
+        mechanism: whose motion it is.
+        block: its numbers, shape (words,).
+        outcome: status of the engine.
+    """
+    if outcome not in (status.PENETRATED, status.START_INSIDE, status.OVERLAP):
+        return ""
+    which = _which_is_inside(block, outcome)
+    y = field_of(block, "y_end").tolist()
+    poses: dict[str, Pose] = {GROUND: (0.0, 0.0, 0.0)}
+    for i, body in enumerate(mechanism.bodies):
+        poses[body.name] = (y[3 * i], y[3 * i + 1], y[3 * i + 2])
+    line = field_of(block, "contact_line")[which].tolist()
+    depth = -field_of(block, "residual").item(-1)
+    time = field_of(block, "clock").item(codes.STEP_END)
+    return overlap_picture(mechanism.contacts[which], poses, line, depth, time)
+
+
+def _which_is_inside(block: Array, outcome: int) -> int:
+    """The number of the contact that a penetration is about."""
+    if outcome == status.PENETRATED:
+        return int(field_of(block, "stage_stiffest").item(0))
+    return int(field_of(block, "counters").item(codes.PENDING_SUBJECT))
 
 
 def _penetration(contact: Contact, block: Array, way_out: str) -> str:

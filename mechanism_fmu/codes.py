@@ -114,6 +114,20 @@ BEAM_MODULUS = 5  # section modulus 2 I / h [m3]
 BEAM_SIDE = 6  # of the hinge: 1 where the body is its body i, else -1
 BEAM_COLUMNS = 7
 
+# oscillation_swing columns (state): what is known of an oscillation
+SWING_SEEN = 0  # up to this time [s]
+SWING_SIDE = 1  # 1 where the angle is above its middle, else -1
+SWING_SENSE = 2  # 1 where the angle grows, else -1
+SWING_REACH = 3  # how far from the middle it has turned since the last passage [rad]
+SWING_ABOVE = 4  # that of the last half swing above the middle, and below it; 0: there was none
+SWING_BELOW = 5
+SWING_PASSAGES = 6  # of the middle, upwards
+SWING_TIME = 7  # of the last of them [s]
+SWING_WORK = 8  # done on the mechanism until then [J]
+SWING_PERIOD = 9  # the last one [s]; 0: there was none
+SWING_POWER = 10  # mean of it [W]
+SWING_COLUMNS = 11
+
 # settings columns
 RELATIVE_TOLERANCE = 0
 BAUMGARTE_ALPHA = 1
@@ -210,10 +224,12 @@ STOP_BEFORE_EVENT = 4  # ... or at an event that has not happened yet: outputs a
 EVENT_TIME = 0
 EVENT_GUARD = 1
 EVENT_SUBJECT = 2  # number of the contact, pattern or logical function; of friction, contacts, joints, and elements
-EVENT_OLD_MODE = 3  # sum of 2^c over closed contacts c
-EVENT_NEW_MODE = 4
-EVENT_IMPULSE = 5  # total normal impulse over all contacts [N s]
-EVENT_COLUMNS = 6
+EVENT_IMPULSE = 3  # total normal impulse over all contacts [N s]
+EVENT_OLD_MODE = 4  # sum of 2^c over closed contacts c, of the first `MODE_BITS`
+EVENT_NEW_MODE = 5
+EVENT_COLUMNS = 6  # and for each `MODE_BITS` more contacts two columns more, of their old and of their new mode
+#: So many contacts have their modes in one number, which is exact.
+MODE_BITS = 50
 
 #: So many events of one communication step are kept, the last ones, where outputs do not ask for more.
 EVENT_BUFFER_LENGTH = 16

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import codes
-from .advice import failure_details, start_details
+from .advice import failure_details, picture_of_overlap, start_details
 from .engine import status
 from .engine.run import NotCompiledError, engine_for
 from .model import Input, Mechanism, MechanismError, compile_mechanism
@@ -26,7 +26,13 @@ Array = np.ndarray[Any, np.dtype[Any]]
 
 
 class SimulationError(RuntimeError):
-    """The motion cannot go on; the message gives the time, the reason and what to do."""
+    """The motion cannot go on; the message gives the time, the reason and what to do.
+
+    Attributes:
+        picture: where two bodies have gone into each other, an SVG file as text that shows them; else "".
+    """
+
+    picture = ""
 
 
 class StepBudgetError(SimulationError):
@@ -196,7 +202,10 @@ class MovingMechanism:
         outcome = self._engine.begin(float(time)) or self._engine.advance(float(time))
         if outcome == status.OK:
             return
-        raise MechanismError(status.ADVICE[outcome] + start_details(self._mechanism, self._block, outcome, self.mode()))
+        text = status.ADVICE[outcome] + start_details(self._mechanism, self._block, outcome, self.mode())
+        error = MechanismError(text)
+        error.picture = picture_of_overlap(self._mechanism, self._block, outcome)
+        raise error
 
     def advance(self, target: float) -> None:
         """Go on to time `target` [s] with the inputs held.
@@ -324,8 +333,8 @@ class MovingMechanism:
             Event(
                 record[codes.EVENT_TIME],
                 self._event_name(int(record[codes.EVENT_GUARD]), int(record[codes.EVENT_SUBJECT])),
-                self._closed(record[codes.EVENT_OLD_MODE]),
-                self._closed(record[codes.EVENT_NEW_MODE]),
+                self._closed(tuple(record[codes.EVENT_OLD_MODE :: 2])),
+                self._closed(tuple(record[codes.EVENT_NEW_MODE :: 2])),
                 record[codes.EVENT_IMPULSE],
             )
             for record in records
@@ -336,8 +345,9 @@ class MovingMechanism:
         modes = field_of(self._block, "contact_mode").tolist()
         return tuple(c.name for c, mode in zip(self._mechanism.contacts, modes, strict=True) if mode == codes.CLOSED)
 
-    def _closed_in(self, mode: float) -> tuple[str, ...]:
-        return tuple(name for c, name in enumerate(self._contacts) if int(mode) >> c & 1)
+    def _closed_in(self, modes: tuple[float, ...]) -> tuple[str, ...]:
+        mode = sum(int(word) << codes.MODE_BITS * k for k, word in enumerate(modes))
+        return tuple(name for c, name in enumerate(self._contacts) if mode >> c & 1)
 
     def _require_later(self, target: float) -> None:
         if not self.time <= target < math.inf:
@@ -352,7 +362,9 @@ class MovingMechanism:
     def _require(self, outcome: int) -> None:
         if outcome != status.OK:
             kind = StepBudgetError if outcome in status.OUT_OF_STEPS else SimulationError
-            raise kind(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._details(outcome)}")
+            error = kind(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._details(outcome)}")
+            error.picture = picture_of_overlap(self._mechanism, self._block, outcome)
+            raise error
 
 
 def _first(count: int, last: int | None) -> int:

@@ -22,6 +22,9 @@ SLIPS_WHERE_PILED = 1e-7
 STUCK_BELOW = 1e-9
 #: A gap that is zero and does not change may go below zero by this before it counts [m, rad].
 GAP_NOISE = 1e-12
+#: An open gap that is farther below zero is a penetration, and nothing goes on from there [m, rad]: what touches, and
+#: the noise by which it may have come deeper; far from the origin and at high speed, more (`contacts.inside`).
+DEEPEST = TOUCHES_WITHIN + 2.0 * GAP_NOISE
 #: How far a boundary, a pitch or a limit is passed before it counts [m, rad].
 MARGIN = 1e-10
 #: The instant of an event is found when one more Newton step would move it by less than this [s].

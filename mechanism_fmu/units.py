@@ -46,7 +46,7 @@ def _base(**exponents: int) -> tuple[int, ...]:
     return tuple(exponents.get(name, 0) for name in BASE_UNITS)
 
 
-#: What symbols mean; all but "1" and "kg" take prefixes in an FMU.
+#: What symbols mean; all but "1", "kg" and "d" take prefixes in an FMU.
 SYMBOLS = {
     "1": Unit(),
     **{name: Unit(1.0, _base(**{name: 1})) for name in BASE_UNITS},
@@ -59,6 +59,7 @@ SYMBOLS = {
     "ohm": Unit(1.0, _base(kg=1, m=2, s=-3, A=-2)),
     "H": Unit(1.0, _base(kg=1, m=2, s=-2, A=-2)),
     "Hz": Unit(1.0, _base(s=-1)),
+    "d": Unit(86400.0, _base(s=1)),
     "deg": Unit(math.pi / 180, _base(rad=1)),
     "rpm": Unit(math.pi / 30, _base(rad=1, s=-1)),
 }
@@ -132,4 +133,4 @@ class Grammar:
 
 
 #: Of what FMUs declare.
-FMI = Grammar(SYMBOLS, ("1", "kg"))
+FMI = Grammar(SYMBOLS, ("1", "kg", "d"))

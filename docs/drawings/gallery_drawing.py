@@ -105,7 +105,11 @@ def coil(start: complex, end: complex) -> list[complex]:
 
 def svg(name: str) -> str:
     """The picture of an example, as SVG text."""
-    shown = model(name)
+    return picture(model(name))
+
+
+def picture(shown: Model) -> str:
+    """The picture of a model, as SVG text: its default drawing."""
     shapes = shown.shapes
     simulation = Simulation(shown.build(shown.values()))
     fixed = vars(shown.values())

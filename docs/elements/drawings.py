@@ -16,13 +16,14 @@ from .contact_drawings import (
     outline_contact,
     point_line_contact,
 )
-from .force_drawings import bushing, force, marker, nonlinear_spring, spring_damper, torque, torsion_spring
+from .force_drawings import bushing, force, marker, nonlinear_spring, oscillation, spring_damper, torque, torsion_spring
 from .shaft_drawings import brake, compliant_shaft, dc_motor
 
 DRAWINGS = {
     "torque": torque,
     "force": force,
     "marker": marker,
+    "oscillation": oscillation,
     "spring_damper": spring_damper,
     "torsion_spring": torsion_spring,
     "bushing": bushing,

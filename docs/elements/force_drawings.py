@@ -69,6 +69,23 @@ def marker() -> str:
     )
 
 
+def oscillation() -> str:
+    """A pendulum at its extremes and at its middle."""
+    s = element_sketch()
+    o, middle, reach = (2.2, 2.3), math.radians(-90), math.radians(32)
+    ends = [polar(o, 1.75, middle + side * reach) for side in (-1, 0, 1)]
+    return element_sheet(
+        "Oscillation",
+        [
+            *(s.path([o, end], AXIS if k == 1 else THIN) for k, end in enumerate(ends)),
+            *(s.disc(end, 0.2, f'fill="{BODY_I}" fill-opacity="0.75" {EDGE}') for end in (ends[0], ends[2])),
+            s.pin(o),
+            s.angle(o, 1.2, middle, middle + reach, "amplitude", 30),
+            s.note(ends[1], "middle", -14),
+        ],
+    )
+
+
 def spring_damper() -> str:
     """Two bodies with a spring and a damper between them."""
     s = element_sketch()

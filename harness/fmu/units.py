@@ -12,7 +12,7 @@ from mechanism_fmu.units import BASE_UNITS as BASE_UNITS, SYMBOLS, Grammar, Unit
 
 #: As people write them: with minutes, and with prefixes only where they are usual, so that "min" is a minute.
 _WRITTEN = Grammar(
-    {**SYMBOLS, "min": Unit(60.0, SYMBOLS["s"].exponents)}, without_prefix=("1", "kg", "cd", "min", "deg", "rpm")
+    {**SYMBOLS, "min": Unit(60.0, SYMBOLS["s"].exponents)}, without_prefix=("1", "kg", "cd", "d", "min", "deg", "rpm")
 )
 _OTHER_SPELLINGS = str.maketrans({" ": "", "*": ".", "·": ".", "µ": "u", "μ": "u", "°": "deg"})
 

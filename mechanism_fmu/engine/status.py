@@ -22,7 +22,7 @@ MANY_TOUCH = 18
 PENETRATED = 19
 
 #: How an event can fail, after which nothing goes on (see `codes.GUARD_FAILED`).
-EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY, MANY_TOUCH)
+EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY, MANY_TOUCH, PENETRATED)
 #: A communication step that ended early; the next one goes on from the time reached.
 OUT_OF_STEPS = (TOO_MANY_STEPS, NO_PROGRESS)
 
@@ -42,9 +42,10 @@ ADVICE = {
     "paradox). Change lengths or start positions a little; give less friction, or the mechanism tangential_shock=True.",
     MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Give an OutlineContact more points; let "
     "less of them meet at one instant: change lengths or start positions a little.",
-    PENETRATED: "Two outlines have gone into each other: a corner was grazed between two looks, an outline came in "
-    "past the open end of another, or two that no contact keeps apart carried a third along. Give a smaller "
-    "relative_tolerance, close the outline, or add the contact that is missing.",
+    PENETRATED: "Two bodies that may touch have gone into each other: a corner was grazed between two looks, an "
+    "outline came in past the open end of another, a pattern went on to a copy whose line the point was behind, or two "
+    "that no contact keeps apart carried a third along. Give a smaller relative_tolerance, close the outline, let the "
+    "pattern's boundary run through the apex of its lines, or add the contact that is missing.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
     JAMMED: "No finite forces agree with friction from here on (Painleve's paradox; A/G, what a normal force does to "

@@ -75,7 +75,8 @@ def build_fmu(
     sources. Without either, it is compiled on the way for this machine alone.
 
     Args:
-        module: what holds `MODEL`, e.g. `models.ratchet.model`; it may import its neighbours and `mechanism_fmu`.
+        module: what holds `MODEL`, e.g. `models.ratchet.model`; it may import its neighbours, models in folders beside
+            its own (`from ..ratchet.start import ...`), and `mechanism_fmu`.
         destination: folder, made if need be, for "<model name>.fmu".
         report: see `native.objects.compiled_engine`.
         baked: numbers that this FMU has as its own.
@@ -92,7 +93,7 @@ def build_fmu(
     path = file_in(destination, f"{model.name}.fmu")
     place = f"models.{model.name.lower()}"
     home = Home(module.__name__.rpartition(".")[0], folder, place, is_package=not origin.own)
-    homes = (Home("mechanism_fmu", _LIBRARY, ""), home)
+    homes = (Home("mechanism_fmu", _LIBRARY, ""), home, *(() if origin.own else _beside(home)))
     main = f"{place}.{module.__name__.rpartition('.')[2]}"
     sources = closure(homes, ("fmu.instance.slave", *(() if baked == NOTHING_BAKED else ("model.baked",)), main))
     code = {name: text.encode() for name, text in sources.files.items()}
@@ -123,6 +124,15 @@ def build_fmu(
     follows |= bytecode({name: entries[name] for name in early if name.endswith(".py")})
     write_archive(with_guid(entries) | follows, path)
     return record_build(path)
+
+
+def _beside(home: Home) -> Iterator[Home]:
+    """Models in the folders beside that of a model: it may share their geometry."""
+    parent = home.name.rpartition(".")[0]
+    for path in sorted(home.folder.parent.glob("*/model.py")):
+        name = path.parent.name
+        if path.parent != home.folder and f"models.{name}" != home.place:
+            yield Home(f"{parent}.{name}", path.parent, f"models.{name}")
 
 
 def _as_arguments(baked: Baked) -> str:

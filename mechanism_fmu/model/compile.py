@@ -15,6 +15,7 @@ from .beams import beam_data, beam_members, hinge
 from .body import GROUND
 from .checks.check import check
 from .curves import Curve
+from .elimination import elimination_order
 from .functions import is_plain, sqrt
 from .logic import resolve_function, switch
 from .mechanism import Mechanism, curve_owners
@@ -149,6 +150,10 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                     mechanism.bodies,
                     inverse_mass=[*(1 / m for m in masses), 0.0, 0.0, 0.0],
                     inverse_root_mass=[*(1 / sqrt(m) for m in masses), 0.0, 0.0, 0.0],
+                    rank=elimination_order(
+                        [bodies[body.name] for body in mechanism.bodies],
+                        [(bodies[p.body_i], bodies[p.body_j]) for p in (*mechanism.joints, *contacts)],
+                    ),
                     tooth_length=[0.0 if b.tooth_length is None else b.tooth_length for b in mechanism.bodies],
                 ),
                 columns(
@@ -280,6 +285,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
             "contact_rows": int(first_contact_rows[-1]),
             "alphas": int(first_alphas[-1]),
             "own": int(first_own[-1]),
+            "oscillations": len(mechanism.oscillations),
             "wears": sum(c.wears for c in contacts),
             "buffer": kept("impacts", mechanism, codes.IMPACT_BUFFER_LENGTH),
             "event_buffer": kept("events", mechanism, codes.EVENT_BUFFER_LENGTH),

@@ -25,10 +25,10 @@ _DISPLAYED = {"rad": "deg", "rad/s": "rpm"}
 def default_outputs(mechanism: Mechanism, taken: Collection[str] = ()) -> tuple[Output, ...]:
     """Outputs of all bodies, force elements, markers, joints and contacts, of energies, impacts and events.
 
-    Of bodies: <body>_x, _y [m] of the centre of mass, _angle [rad] and _speed [rad/s]; of force elements, markers
-    and joints: <part>_<quantity>, with the unit of the quantity; of contacts: <contact>_force [N, or N.m of stops and
-    locks], _gap [m, rad] and _active; of what may rub: <part>_slip_speed [m/s, rad/s], _friction_force [N, N.m] and
-    _sticks; the energies [J]; where there are contacts, impacts and events as
+    Of bodies: <body>_x, _y [m] of the centre of mass, _angle [rad] and _speed [rad/s]; of force elements, markers,
+    oscillations and joints: <part>_<quantity>, with the unit of the quantity; of contacts: <contact>_force [N, or N.m
+    of stops and locks], _gap [m, rad] and _active; of what may rub: <part>_slip_speed [m/s, rad/s], _friction_force
+    [N, N.m] and _sticks; the energies [J]; where there are contacts, impacts and events as
     `impact_outputs` and `event_buffer_outputs` have them; with friction, too, impacts_by_poisson.
 
     Args:
@@ -76,7 +76,7 @@ def _outputs(mechanism: Mechanism) -> Iterator[Output]:
 
 
 def _of_forces(mechanism: Mechanism) -> Iterator[Output]:
-    for force in (*mechanism.forces, *mechanism.markers):
+    for force in (*mechanism.forces, *mechanism.sensors):
         for name, quantity in force.quantities.items():
             entries = {f"{force.name}.{entry}" for entry in quantity.feedthrough}
             yield Output(

@@ -8,7 +8,26 @@ class MechanismError(ValueError):
     """A mechanism or a parameter that cannot be right.
 
     The message names the part, the value and the limit, and says what to do; it is meant for the user as it is.
+
+    Attributes:
+        picture: of two bodies that overlap at the start, an SVG file as text; "" where it is about something else.
     """
+
+    picture = ""
+
+
+def picture_of(error: BaseException | None) -> str:
+    """The picture that an error has, or one that it came from; "" where none has.
+
+    Args:
+        error: e.g. one that says in which file the mistake is.
+    """
+    while error is not None:
+        picture: str = getattr(error, "picture", "")
+        if picture:
+            return picture
+        error = error.__cause__
+    return ""
 
 
 def place_of(error: Exception) -> str:

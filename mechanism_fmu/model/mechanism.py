@@ -12,7 +12,7 @@ from .. import codes
 from .body import Body
 from .contacts import Contact
 from .curves import Curve
-from .forces import Force, ForceElement, Marker
+from .forces import Force, ForceElement, Marker, Oscillation
 from .functions import Number, is_plain
 from .joints import Joint
 from .logic import LogicalFunction
@@ -76,6 +76,7 @@ class Mechanism:
             outputs that read them; the motion does without. The mechanism becomes a structure when its held and driven
             coordinates stand still.
         markers: points whose place and velocity outputs read.
+        oscillations: bodies that swing, whose period, amplitude and rate outputs read.
         impact_law: of impacts where there is friction: "newton" (Moreau and Glocker), "poisson", or "stronge" (of one
             contact alone).
         energy_guard: whether an impact that would add energy, as it may by Newton's law with friction, is repeated
@@ -103,6 +104,7 @@ class Mechanism:
     members: tuple[Member, ...] = ()
     lumped_masses: tuple[LumpedMass, ...] = ()
     markers: tuple[Marker, ...] = ()
+    oscillations: tuple[Oscillation, ...] = ()
     impact_law: Literal["newton", "poisson", "stronge"] = "newton"
     energy_guard: bool = True
     tangential_shock: bool = False
@@ -116,12 +118,17 @@ class Mechanism:
 
     @cached_property
     def elements(self) -> tuple[ForceElement, ...]:
-        """The force elements; behind them the weights of all bodies where there is gravity, and the markers."""
+        """The force elements; behind them the weights of all bodies where there is gravity, and what is only read."""
         if self.gravity is None:
-            return (*self.forces, *self.markers)
+            return (*self.forces, *self.sensors)
         x, y = self.gravity
         weights = [Force(f"{body.name}.weight", body.name, (body.mass * x, body.mass * y)) for body in self.bodies]
-        return (*self.forces, *weights, *self.markers)
+        return (*self.forces, *weights, *self.sensors)
+
+    @property
+    def sensors(self) -> tuple[Marker | Oscillation, ...]:
+        """What exerts nothing and is read: the markers, and behind them the oscillations."""
+        return (*self.markers, *self.oscillations)
 
     @property
     def rubbing(self) -> tuple[Contact | Joint | ForceElement, ...]:

@@ -112,7 +112,7 @@ class _Completed:
 
 def _is_readable(mechanism: Mechanism) -> bool:
     """Whether the parts are tuples of parts: what is not, is objected to elsewhere."""
-    names = ("bodies", "joints", "forces", "markers", "contacts", "inputs", "calculated")
+    names = ("bodies", "joints", "forces", "markers", "oscillations", "contacts", "inputs", "calculated")
     parts = [getattr(mechanism, name) for name in names]
     return all(isinstance(entries, tuple) and all(hasattr(entry, "name") for entry in entries) for entries in parts)
 

@@ -62,6 +62,7 @@ FORCES = Kinds(
     nonlinear_torsion_spring="",
     marker="point.x point.y",
     brake="limit",
+    oscillation="middle nominal_period",
 )
 
 JOINTS = Kinds(

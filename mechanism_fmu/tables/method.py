@@ -31,7 +31,7 @@ class Method:
         a: weights of the earlier derivatives in each stage, shape (stages, stages), strictly lower triangular.
         error: weights of the derivatives in the error estimate, shape (stages,).
         dense: weights of the derivatives in the dense output's rows beyond the cubic, shape (rows - 4, stages); see
-            `engine.stepping.interpolation`.
+            `engine.interpolation`.
         order: of the result; the local error is of one order more.
         error_order: of the embedded result.
         dense_order: of the dense output.

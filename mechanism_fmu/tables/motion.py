@@ -45,7 +45,7 @@ _COUNTERS = {
     "RUBBING": whole(0, 1, "rubs"),
     "SENSE": FLAG,
 }
-#: Columns of an impact record, the last one for all behind it, and of an event record.
+#: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {
     "RECORD_TIME": FINITE,
     "RECORD_CONTACT": index_of("contacts"),
@@ -61,9 +61,9 @@ _EVENT = {
     "EVENT_TIME": FINITE,
     "EVENT_GUARD": whole(codes.GUARD_NONE, codes.GUARD_HANDOVER),
     "EVENT_SUBJECT": _SUBJECT,
+    "EVENT_IMPULSE": FINITE,
     "EVENT_OLD_MODE": COUNT,
     "EVENT_NEW_MODE": COUNT,
-    "EVENT_IMPULSE": FINITE,
 }
 
 
@@ -84,7 +84,7 @@ class Course(Table):
     independence_end = real(1, holds=ANY)
     last_impact = real("record", holds=_RECORD)
     impacts = real("buffer", "record", holds=_RECORD)
-    events = real("event_buffer", codes.EVENT_COLUMNS, holds=_EVENT)
+    events = real("event_buffer", "event", holds=_EVENT)
 
 
 class Pose(Table):
@@ -110,8 +110,8 @@ class Pose(Table):
 class Rows(Table):
     """The constraint rows at the instant that is looked at: Phi, Phi', gamma (with Baumgarte's terms), nu, Phi_q.
 
-    The entries of `nu` count for drivers only. Columns of contact coordinates, behind those of the ground, are written
-    only where these count as coordinates (see `textbook`).
+    `body` are the two bodies of which a row has entries. The entries of `nu` count for drivers only. Columns of contact
+    coordinates, behind those of the ground, are written only where these count as coordinates (see `textbook`).
     """
 
     residual = real("rows", work=True)
@@ -119,16 +119,33 @@ class Rows(Table):
     gamma = real("rows", work=True)
     nu = real("rows", work=True)
     jacobian = real("rows", "wide", work=True)
+    body = integer("rows", 2, name="row_body", work=True)
 
 
 class LinearSystem(Table):
     """The minimum-norm problem D z = b, with D^T multiplier = z, and the scratch of its solution.
 
     `rank` is that of D, and `independence` says how far its least independent row is from depending on the others: the
-    share of its squared length that is left after projection.
+    share of its squared length that is left after projection. A row of `scaled` has entries of the bodies in
+    `scaled_body`. The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies
+    `plan_body`; `fill` are the earlier places with which a row has entries, `fill_count` many, in `triangle`. The dense
+    one, `by_pivots`, has a basis of orthonormal rows.
     """
 
     scaled = real("rows", "columns", work=True)
+    scaled_body = integer("rows", 2, work=True)
+    planned = integer(1, work=True)
+    plan_body = integer("rows", 2, work=True)
+    place = integer("rows", work=True)
+    parent = integer("rows", work=True)
+    seen = integer("rows", work=True)
+    chain = integer("rows", 2, work=True)
+    last_of_body = integer("frames", work=True)
+    fill = integer("rows", "rows", work=True)
+    fill_count = integer("rows", work=True)
+    pivot = real("rows", work=True)
+    spread = real("rows", work=True)
+    by_pivots = integer(1, work=True)
     right_side = real("rows", work=True)
     solution = real("columns", work=True)
     multiplier = real("rows", work=True)
@@ -187,7 +204,8 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     What each contact is in it (`impact.ABSENT` ...), by how much its gap rate must rise at least (v of eq (6)), its
     closing speed and impulse; the contacts that a complementarity problem decides about, and which problem it is
     (columns in `complementarity`); all rates before the impact, and before its present round; whether each contact is
-    closed for that; its coefficient of restitution and impulse of compression; the line along which a point slides.
+    closed for that; its coefficient of restitution and impulse of compression; the line along which a point slides; its
+    mode before the event, and before what happens within it.
     """
 
     role = integer(work=True)
@@ -202,6 +220,7 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     restitution = real(work=True)
     compression = real(work=True)
     tangent_line = real(4, alone=True, name="tangent_line", work=True)
+    earlier = integer(2, work=True)
 
 
 class Watch(Table, rows="guards", prefix="guard_"):

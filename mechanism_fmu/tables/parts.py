@@ -8,13 +8,17 @@ from .kinds import FORCES, JOINTS
 
 
 class Bodies(Table, prefix="body_"):
-    """The bodies: inverse masses, 3 a body and zeros for the ground [1/kg, 1/(kg m2)], and where they start."""
+    """The bodies: inverse masses, 3 a body and zeros for the ground [1/kg, 1/(kg m2)], and where they start.
+
+    Rows are eliminated in the order of their bodies' `rank`.
+    """
 
     inverse_mass = real("columns", name="inverse_mass")
     inverse_root_mass = real("columns", name="inverse_root_mass")
     start = real("bodies", 3)
     start_rate = real("bodies", 3)
     tooth_length = real("bodies")
+    rank = integer("bodies")
 
 
 class Joints(Table, rows="joints", prefix="joint_"):
@@ -66,6 +70,29 @@ class Operations(Table, rows="operations", prefix="operation_"):
     operands = integer(3)
     value = real()
     result = real(work=True)
+
+
+#: Columns of what is known of an oscillation, in the order of `codes`.
+_SWING = {
+    "SWING_SEEN": FINITE,
+    "SWING_SIDE": whole(-1, 1),
+    "SWING_SENSE": whole(-1, 1),
+    "SWING_REACH": NOT_NEGATIVE,
+    "SWING_ABOVE": NOT_NEGATIVE,
+    "SWING_BELOW": NOT_NEGATIVE,
+    "SWING_PASSAGES": COUNT,
+    "SWING_TIME": FINITE,
+    "SWING_WORK": FINITE,
+    "SWING_PERIOD": NOT_NEGATIVE,
+    "SWING_POWER": FINITE,
+}
+
+
+class Oscillations(Table, rows="oscillations", prefix="oscillation_"):
+    """What is known of the oscillations (columns in `codes`): state, and as it is at the instant that is looked at."""
+
+    swing = real(codes.SWING_COLUMNS, holds=_SWING)
+    shown = real(codes.SWING_COLUMNS, work=True)
 
 
 class Contacts(Table, rows="contacts", prefix="contact_"):

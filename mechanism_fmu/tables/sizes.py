@@ -41,6 +41,7 @@ class Sizes:
     outlines = _given()
     alphas = _given()  # contact coordinates
     own = _given()  # states of force elements' own
+    oscillations = _given()  # the last force elements
     wears = _given()  # contacts whose work of sliding is added up
     operations = _given()  # of laws of force
     held = _given()
@@ -76,6 +77,8 @@ class Sizes:
     problem_columns = _follows(lambda n: 2 * n["problem"] + 2)
     # columns of an impact record
     record = _follows(lambda n: codes.RECORD_CONTACT_IMPULSES + n["contacts"] + 2 * n["coordinates"])
+    # columns of an event record: the modes of many contacts take several numbers
+    event = _follows(lambda n: codes.EVENT_COLUMNS + 2 * (max(n["contacts"] - 1, 0) // codes.MODE_BITS))
     buffer = _given()  # impacts that are kept of one communication step
     event_buffer = _given()  # and events
     displacements = _follows(lambda n: 3 * n["nodes"])

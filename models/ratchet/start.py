@@ -119,7 +119,7 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
     """Why the ratchet cannot be built or cannot start: value, limit and way out; at most one applies."""
     # A start position has a meaning only on teeth that exist.
     return first(
-        *_profile(values),
+        *profile_findings(values),
         *where(values.guided, *_start(values)),
         *where(1 - values.guided, *_free_start(values)),
     )
@@ -151,9 +151,13 @@ def warnings(values: SimpleNamespace) -> tuple[Finding, ...]:
     )
 
 
-def _profile(values: SimpleNamespace) -> tuple[Finding, ...]:
+def profile_findings(values: SimpleNamespace) -> tuple[Finding, ...]:
+    """Why the numbers of the teeth give no sawteeth: flat, blunt, or without a notch between them."""
     flattest = math.pi / 2 - math.pi / values.tooth_count
-    bluntest = cos(tooth(values).chord_angle)
+    shape = tooth(values)
+    bluntest = cos(shape.chord_angle)
+    # the face there is that of the tooth turned by the pitch; with four teeth or more, blunt teeth come first
+    at_root, shallowest = shape.apex_angle + shape.pitch, sin(shape.pitch - shape.chord_angle) / sin(shape.pitch)
     return (
         Finding(
             at_most(values.tooth_slope_angle, flattest + _FLAT),
@@ -166,7 +170,14 @@ def _profile(values: SimpleNamespace) -> tuple[Finding, ...]:
             "slope_ratio = {:.6g} gives blunt teeth (apex angle "
             "{:.6g} deg, not below 90 deg), of which no length is left as a beam: "
             "give more than {:.6g}.",
-            (values.slope_ratio, _degrees(tooth(values).apex_angle), bluntest),
+            (values.slope_ratio, _degrees(shape.apex_angle), bluntest),
+        ),
+        Finding(
+            at_most(math.pi, at_root),
+            "slope_ratio = {:.6g} leaves no notch: where slope and face meet, the free angle is {:.6g} deg, not below "
+            "180 deg, so that a tip on the slope is behind the face. With tooth_count = {:g} give more than {:.6g}, or "
+            "more teeth.",
+            (values.slope_ratio, _degrees(at_root), values.tooth_count, shallowest),
         ),
     )
 

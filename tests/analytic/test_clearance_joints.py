@@ -21,7 +21,7 @@ from mechanism_fmu.model import (
     compile_mechanism,
 )
 from mechanism_fmu.simulation import Simulation, simulate
-from tests.analytic.test_shapes_oracle import four_bar_with_play, slider_crank_with_play
+from tests.analytic.linkages_with_play import four_bar_with_play, slider_crank_in_guide, slider_crank_with_play
 
 R, C, G = 0.01, 0.002, 9.81  # pin, clearance, gravity
 READINGS = ("force", "gap", "eccentricity", "contact_angle", "sliding_work", "wear_volume", "slip_speed")
@@ -302,6 +302,21 @@ def test_linkages_with_play_run_on(which: str, friction: float) -> None:
     if friction > 0.0:
         work = sum(result[f"{name}.sliding_work"][-1] for name in joints)
         assert friction * work <= result["lost"][-1] * (1.0 + 1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("friction", [0.0, 0.01, 0.1, 0.3])
+@pytest.mark.parametrize(("e", "spin"), [(0.0, 0.0), (0.4, 0.0), (0.4, 5.0), (0.9, 0.0)])
+def test_a_slider_in_a_guide_with_play_runs_on(e: float, spin: float, friction: float) -> None:
+    """Ten seconds without a fault; the corners of the block stay between the guides."""
+    shown = [Output(what, f"energy.{what}", "") for what in ("kinetic", "work", "lost")]
+    shown += [Output("y", "slider.y", ""), Output("turned", "slider.angle", "", "rad")]
+    result = simulate(replace(slider_crank_in_guide(e, spin, friction), outputs=tuple(shown)), 10.0, step=0.01)
+    balance = result["kinetic"] - result["work"] + result["lost"]
+    np.testing.assert_allclose(balance, balance[0], atol=1e-7 * balance[0])
+    corners = 0.025 * np.abs(np.cos(result["turned"])) + 0.05 * np.abs(np.sin(result["turned"]))
+    assert max(np.abs(result["y"]) + corners) < 0.026 + 1e-9
+    assert len(result.impacts) > 50
 
 
 @pytest.mark.slow

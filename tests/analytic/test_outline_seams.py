@@ -98,3 +98,29 @@ def test_a_ball_in_a_ring_of_arcs_rolls_as_in_a_hole() -> None:
     in_ring = moved(thrown, 1.5, outline_i=ball, outline_j=arc, copies=CircularCopies(count))
     for one, other in zip(in_hole, in_ring, strict=True):
         assert other == pytest.approx(one, abs=1e-7)
+
+
+def test_a_box_slides_in_a_hole_as_a_pendulum() -> None:
+    """On two corners, which cross a seam: it turns about the middle of the hole."""
+    half, swing, gravity = 0.3, 1.0, 9.81
+    far = math.sqrt(1.0 - half**2) - half
+    inertia = (2.0 * half) ** 2 / 6.0
+    start = (far * math.sin(swing), -far * math.cos(swing), swing)
+    box = Body("thrown", 1.0, inertia, start=start)
+    square = Outline.polygon([(half, half), (-half, half), (-half, -half), (half, -half)])
+    hole = Outline.circle(1.0, hole=True).moved(angle=-1.2)
+    touch = OutlineContact("touch", box, GROUND, outline_i=square, outline_j=hole)
+    outputs = (*OUTPUTS, Output("speed", "thrown.speed", ""))
+    simulation = Simulation(Mechanism((box,), contacts=(touch,), gravity=(0.0, -gravity), outputs=outputs))
+    least = swing
+    for k in range(1, 101):
+        simulation.advance(0.02 * k)
+        seen = simulation.read()
+        angle = seen["angle"]
+        least = min(least, angle)
+        assert seen["x"] == pytest.approx(far * math.sin(angle), abs=1e-8)
+        assert seen["y"] == pytest.approx(-far * math.cos(angle), abs=1e-8)
+        square_rate = 2.0 * gravity * far * (math.cos(angle) - math.cos(swing)) / (inertia + far**2)
+        assert seen["speed"] ** 2 == pytest.approx(square_rate, abs=1e-7)
+    assert least < -0.99
+    assert simulation.counters[0] == 0

@@ -13,7 +13,7 @@ import pytest
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.engine.dynamics.forces import set_time
-from mechanism_fmu.engine.stepping.interpolation import interpolate
+from mechanism_fmu.engine.interpolation import interpolate
 from mechanism_fmu.engine.stepping.runge_kutta import try_step
 from mechanism_fmu.engine.vectors import copy
 from mechanism_fmu.model import (

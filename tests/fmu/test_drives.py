@@ -14,6 +14,11 @@ REFERENCES = {
     "motor": {"relative_tolerance": 1e-11},
     "rotary_table": {"relative_tolerance": 1e-11},
     "cam_drive": {"cam_inertia": 1e6, "drive_damping": 0.0, "relative_tolerance": 1e-11},
+    "verge": {"relative_tolerance": 1e-12},
+    "recoil_anchor": {"relative_tolerance": 1e-12},
+    "graham": {"relative_tolerance": 1e-12},
+    "pin_pallet": {"relative_tolerance": 1e-12},
+    "lever_escapement": {"relative_tolerance": 1e-12},
 }
 
 

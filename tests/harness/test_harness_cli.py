@@ -123,7 +123,8 @@ def test_build_knows_its_models(tmp_path: Path) -> None:
     code, text = invoke("build", "gearbox", "-o", tmp_path)
     assert code == 2
     known = (
-        "cam_drive, four_bar, four_bar_path_generator, gear_train, geneva, motor, ratchet, rotary_table, slider_crank"
+        "cam_drive, four_bar, four_bar_path_generator, gear_train, geneva, geneva_clearance, graham, lever_escapement, "
+        "motor, pin_pallet, ratchet, ratchet_free, recoil_anchor, rotary_table, slider_crank, verge"
     )
     assert f"There is no model 'gearbox'; there are: {known}" in text
     code, text = invoke("build", "--list")

@@ -6,6 +6,7 @@ import os
 import sys
 from dataclasses import asdict
 from math import degrees
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.markup import escape
@@ -44,6 +45,10 @@ def check_mechanism(file: str) -> int:
         error_console.print(f"[yellow]Warning[/]: {escape(warning)}", soft_wrap=True)
     for mistake in report.mistakes:
         error_console.print(f"[bold red]Mistake[/]: {escape(mistake)}", soft_wrap=True)
+    if report.picture:
+        shown = Path(f"{Path(file).stem}_overlap.svg")
+        shown.write_text(report.picture, encoding="utf-8")
+        error_console.print(f"The bodies are drawn in [bold]{escape(str(shown))}[/].", soft_wrap=True)
     if report.mistakes:
         return FAILED
     console.print(f"No mistakes. Build it: mechanism-fmu build {escape(file)}", soft_wrap=True)

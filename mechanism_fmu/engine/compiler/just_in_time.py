@@ -10,7 +10,7 @@ from numba import types
 from numba.extending import lower_builtin, type_callable
 
 from . import bits as bits, views as views  # teach the compiler the tables, and what is exact on the bits of a number
-from .machine_code import InnerCompiler, check_files, refuse_python_calls
+from .machine_code import InnerCompiler, check_files, ignore_literals, refuse_python_calls
 from .marks import keep_apart, keep_small
 
 #: Numba does not notice a change in a callee, so a compilation is kept on disk only for the copy of the library that
@@ -50,6 +50,7 @@ def compiled_inner(function: _Function) -> _Function:
     inner = numba.njit(**_INNER_OPTIONS)(function)
     if inner is not function:  # which it is when NUMBA_DISABLE_JIT=1
         refuse_python_calls(inner)
+        ignore_literals(inner)
     return cast(_Function, inner)
 
 

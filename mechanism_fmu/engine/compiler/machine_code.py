@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from llvmlite.binding import Linkage
+from numba import types
 from numba.core.caching import IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
@@ -94,6 +95,17 @@ class InnerCompiler(CompilerBase):
         """Compile `func` into an inner library."""
         self.state.library = _InnerLibrary(self.state.targetctx.codegen(), func.__qualname__)
         return super().compile_extra(func)
+
+
+def ignore_literals(inner: Any) -> None:
+    """Compile a function once for each types of its arguments: numba would do so for each number that a call names."""
+    resolve = inner.get_call_template
+
+    def of_types(arguments: tuple[Any, ...], keywords: Mapping[str, Any]) -> Any:
+        plain = {name: types.unliteral(argument) for name, argument in keywords.items()}
+        return resolve(tuple(map(types.unliteral, arguments)), plain)
+
+    inner.get_call_template = of_types
 
 
 def refuse_python_calls(inner: Any) -> None:

@@ -16,7 +16,7 @@ from ...tables.motion import Course, Pose, Rows, Rubs, Strikes
 from ...tables.parts import Contacts, Forces, Joints, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..vectors import clear
+from .entries import begin_row
 from .outline_row import outline_row
 from .point_line import angle_row, point_line, tangent_line
 from .profile_row import slip_row
@@ -105,11 +105,11 @@ def friction_row(block: Array, at: Pose, rub: int, row: int) -> None:
     """Write the row along which a contact or joint slides; its residual counts from where it stuck first."""
     keep_small()
     out = Rows(block)
-    clear(out.jacobian[row])
     line = Strikes(block).tangent_line
     contacts = Sizes(block).contacts
     if rub < contacts:
         table = Contacts(block)
+        begin_row(out, row, table.body_i[rub], table.body_j[rub])
         if table.kind[rub] == codes.OUTLINE:
             outline_row(block, at, rub, row, True)
         elif table.alpha[rub] == codes.NONE:
@@ -121,12 +121,14 @@ def friction_row(block: Array, at: Pose, rub: int, row: int) -> None:
         element = Forces(block)
         k = rub - contacts - Sizes(block).joints
         line[0] = 0.0
+        begin_row(out, row, element.body[k], element.reaction[k])
         angle_row(at, out, row, element.body[k], element.reaction[k], line)
     else:
         joint = Joints(block)
         k = rub - contacts
         i = joint.body_i[k]
         j = joint.body_j[k]
+        begin_row(out, row, i, j)
         data = joint.data[k]
         if joint.kind[k] == REVOLUTE:
             line[0] = 0.0

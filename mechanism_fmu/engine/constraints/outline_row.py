@@ -20,8 +20,8 @@ from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import sine_cosine
-from ..outlines.features import CORNERS_TOUCH, FAR
-from ..vectors import clear
+from ..outlines.features import CORNERS_TOUCH, FAR, radius_of
+from .entries import begin_row
 
 
 @jit
@@ -52,15 +52,6 @@ def place_feature(
 
 
 @jit
-def radius_of(block: Array, feature: int) -> float:
-    """The radius of a disc [m]: 0 of a vertex, negative of a hollow arc."""
-    radius = 0.0
-    if Features(block).kind[feature] == codes.ARC:
-        radius = Features(block).data[feature, codes.FEATURE_RADIUS]
-    return radius
-
-
-@jit
 def outline_row(block: Array, at: Pose, contact: int, row: int, slides: bool) -> None:
     """Write the row of the gap of a bound contact of outlines, or the one along which it slides."""
     keep_apart()
@@ -68,14 +59,14 @@ def outline_row(block: Array, at: Pose, contact: int, row: int, slides: bool) ->
     i, j = table.body_i[contact], table.body_j[contact]
     f, g = table.feature_i[contact], table.feature_j[contact]
     if f == codes.NONE or g == codes.NONE:  # it is bound to nothing
-        clear(Rows(block).jacobian[row])
+        begin_row(Rows(block), row, i, j)
         Rows(block).residual[row] = FAR
         Rows(block).residual_rate[row] = 0.0
         Rows(block).gamma[row] = 0.0
         return
     ax, ay, tx, ty = place_feature(block, at, i, table.outline_i[contact], 0, f)
     bx, by, vx, vy = place_feature(block, at, j, table.outline_j[contact], table.copy[contact], g)
-    clear(Rows(block).jacobian[row])
+    begin_row(Rows(block), row, i, j)
     if Features(block).kind[g] == codes.SEGMENT:
         _disc_on_line(block, at, row, slides, i, j, ax, ay, radius_of(block, f), bx, by, vy, -vx)
     elif Features(block).kind[f] == codes.SEGMENT:

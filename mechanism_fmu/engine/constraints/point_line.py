@@ -7,7 +7,8 @@ from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..vectors import clear, turned
+from ..vectors import turned
+from .entries import begin_row
 
 # The relative angle of two bodies against a given one: one row.
 
@@ -85,5 +86,5 @@ def tangent_row(block: Array, at: Pose, contact: int, line: Array) -> None:
     tangent_line(table.line[contact], line)
     out = Rows(block)
     row = spare_row(block)
-    clear(out.jacobian[row])
+    begin_row(out, row, table.body_i[contact], table.body_j[contact])
     point_line(at, out, row, table.body_i[contact], table.body_j[contact], table.data[contact], line)

@@ -13,7 +13,6 @@ from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from ..profiles.touch import change, look
-from ..vectors import clear
 
 
 @jit
@@ -109,7 +108,6 @@ def slip_row(block: Array, at: Pose, contact: int, row: int) -> None:
     out.gamma[row] = -turning * (tx * wy - ty * wx)
     out.gamma[row] -= ui * (ty * ax_rate - tx * ay_rate) - uj * (ty * ex_rate - tx * ey_rate)
     entry = out.jacobian[row]
-    clear(entry)
     entry[3 * i] = tx
     entry[3 * i + 1] = ty
     entry[3 * i + 2] = ty * touch.ax - tx * touch.ay

@@ -12,7 +12,7 @@ from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
-from ..vectors import clear
+from .entries import begin_row
 from .friction_rows import rubs, stick_rows, stuck_count
 from .joints.drivers import angle_driver, distance_driver, translational_driver, x_driver, y_driver
 from .joints.gears import gears, internal_gears, rack_and_pinion
@@ -54,11 +54,12 @@ def joint_rows(block: Array, at: Pose) -> None:
     """Write the rows of all joints from the bodies' poses and rates (see `place_bodies`), and `pose.instant`."""
     table = Joints(block)
     out = Rows(block)
-    for r in range(Sizes(block).joint_rows):
-        clear(out.jacobian[r])
     for k in range(table.kind.shape[0]):
         row = table.row[k]
         i, j = table.body_i[k], table.body_j[k]
+        after = Sizes(block).joint_rows if k + 1 == table.kind.shape[0] else table.row[k + 1]
+        for r in range(row, after):
+            begin_row(out, r, i, j)
         if table.curve[k] == codes.NONE:
             _joint(table.kind[k], at, out, row, i, j, table.data[k])
         else:
@@ -81,8 +82,8 @@ def contact_row(block: Array, at: Pose, contact: int, row: int) -> None:
     keep_small()
     table = Contacts(block)
     out = Rows(block)
-    clear(out.jacobian[row])
     i, j = table.body_i[contact], table.body_j[contact]
+    begin_row(out, row, i, j)
     if table.kind[contact] == codes.POINT_LINE:
         point_line(at, out, row, i, j, table.data[contact], table.line[contact])
     elif table.alpha[contact] != codes.NONE:

@@ -13,6 +13,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import entry, jit, keep_small
 from ..profiles.curves import curve
 from ..vectors import clear
+from .entries import begin_row
 from .joints.cams import cam_flat_follower, cam_follower, point_follower
 from .kinematics import place_bodies, set_instant
 from .rows import contact_row, joint_rows
@@ -40,6 +41,13 @@ def textbook_rows(block: Array, time: float) -> None:
 
 
 @jit
+def _begin(out: Rows, row: int, i: int, j: int) -> None:
+    """Clear a row, its entries of contact coordinates too."""
+    clear(out.jacobian[row])
+    begin_row(out, row, i, j)
+
+
+@jit
 def _profile_rows(block: Array, at: Pose, contact: int, row: int) -> None:
     """Write the rows of a contact of profiles."""
     keep_small()
@@ -49,10 +57,10 @@ def _profile_rows(block: Array, at: Pose, contact: int, row: int) -> None:
     data = table.data[contact]
     first = table.alpha[contact]
     column = Sizes(block).columns + first
-    clear(out.jacobian[row])
-    clear(out.jacobian[row + 1])
+    _begin(out, row, i, j)
+    _begin(out, row + 1, i, j)
     if table.kind[contact] == codes.CAM_FOLLOWER:
-        clear(out.jacobian[row + 2])
+        _begin(out, row + 2, i, j)
         profile_i = curve(block, table.curve_i[contact], at.alpha[first])
         profile_j = curve(block, table.curve_j[contact], at.alpha[first + 1])
         cam_follower(at, out, row, i, j, data, first, column, profile_i, profile_j)

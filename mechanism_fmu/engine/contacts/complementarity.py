@@ -64,21 +64,24 @@ def push_forces(block: Array, at: Pose) -> int:
 
 
 @jit
-def push_ratio(block: Array, contact: int, count: int) -> float:
+def push_tolerance(block: Array, count: int) -> float:
+    """What a force may pull before it counts [N], by the forces along all `count` rows."""
+    tolerance: float = PUSHES_WITHIN + PUSHES_SHARE * largest(LinearSystem(block).multiplier, count)
+    return tolerance
+
+
+@jit
+def push_ratio(block: Array, contact: int, tolerance: float) -> float:
     """A closed contact's force over the tolerance; it pulls below -1, and opens below -2."""
-    keep_small()
-    multiplier = LinearSystem(block).multiplier
-    ratio: float = multiplier[Contacts(block).row[contact]] / (
-        PUSHES_WITHIN + PUSHES_SHARE * largest(multiplier, count)
-    )
+    ratio: float = LinearSystem(block).multiplier[Contacts(block).row[contact]] / tolerance
     return ratio
 
 
 @jit
-def hold_ratio(block: Array, rub: int, count: int) -> float:
+def hold_ratio(block: Array, rub: int, tolerance: float) -> float:
     """What friction of what sticks could hold more, over the tolerance; it slips below -2."""
     keep_small()
-    ratio: float = hold(block, rub) / (PUSHES_WITHIN + PUSHES_SHARE * largest(LinearSystem(block).multiplier, count))
+    ratio: float = hold(block, rub) / tolerance
     return ratio
 
 
@@ -189,6 +192,7 @@ def _first_wrong(block: Array, at: Pose) -> int:
     candidates = Strikes(block).candidates
     impulses = Strikes(block).problem[KIND] == IMPULSES
     active = try_modes(block, at)
+    tolerance = push_tolerance(block, active)
     pulls_below = -1.0
     if Course(block).counters[codes.PILE] >= PILED:  # what hardly pulls at this instant does so more at the same one
         pulls_below = -_HARDLY
@@ -199,7 +203,7 @@ def _first_wrong(block: Array, at: Pose) -> int:
                 multiplier = LinearSystem(block).multiplier
                 pulls = multiplier[Contacts(block).row[c]] < -_IMPULSE_SHARE * largest(multiplier, active)
             else:
-                pulls = push_ratio(block, c, active) < pulls_below
+                pulls = push_ratio(block, c, tolerance) < pulls_below
             if pulls or _comes_off(block, c):
                 return k
         elif _goes_in(block, at, c):

@@ -10,6 +10,7 @@ from ...tables.motion import Pose, Rows, Rubs, Stages
 from ...tables.sizes import Sizes
 from ...tolerances import SLIPS_ABOVE
 from ..compiler.subset import jit, keep_small
+from ..constraints.entries import along_row
 from ..constraints.friction_rows import friction_row, meets, sticks, touches
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
@@ -55,10 +56,8 @@ def _along_spare(block: Array) -> float:
     """The second derivative of the spare row at the accelerations of the last solve."""
     n = Sizes(block).coordinates
     spare = spare_row(block)
-    total = -Rows(block).gamma[spare]
-    for k in range(n):
-        total += Rows(block).jacobian[spare, k] * Stages(block).dy_at[n + k]
-    return float(total)
+    rates = Stages(block).dy_at[n:]
+    return float(along_row(Rows(block), spare, rates, Sizes(block).bodies, -Rows(block).gamma[spare]))
 
 
 @jit

@@ -15,9 +15,19 @@ from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..constraints.outline_row import outline_row, place_feature, radius_of, turning_of
+from ..constraints.outline_row import outline_row, place_feature, turning_of
 from ..constraints.point_line import spare_row
-from ..outlines.features import FAR, beside, inside_range, is_corner, is_hollow_corner, over_arc, over_seam
+from ..outlines.features import (
+    FAR,
+    beside,
+    fits,
+    inside_range,
+    is_corner,
+    is_hollow_corner,
+    over_arc,
+    over_seam,
+    radius_of,
+)
 from ..outlines.nearest import FREE, look_no_deeper, nearest
 
 #: Outlines that reach farther into each other than this do not touch, but overlap [m].
@@ -161,14 +171,19 @@ def left_to_go(block: Array, at: Pose, contact: int) -> tuple[float, int, int]:
     dy = at.y[i] + ay - at.y[j] - by
     kind_i, kind_j = Features(block).kind[f], Features(block).kind[g]
     nx, ny = dx, dy  # out of j, whatever its length
+    # as long as what turns with it moves at least: how far a corner may tilt is then no more than its points move
+    data = Outlines(block).data
+    long = min(
+        data[table.outline_i[contact], codes.OUTLINE_RADIUS], data[table.outline_j[contact], codes.OUTLINE_RADIUS]
+    )
     if kind_j == codes.SEGMENT:
-        nx, ny = vy, -vx
+        nx, ny = long * vy, -long * vx
     elif kind_i == codes.SEGMENT:
-        nx, ny = -ty, tx
+        nx, ny = -long * ty, long * tx
     elif radius_of(block, f) < 0.0 or radius_of(block, g) < 0.0:
         nx, ny = -dx, -dy
-    way_i, value_i = _end(block, at, table.outline_i[contact], i, 0, f, kind_j, -dx, -dy, -nx, -ny)
-    way_j, value_j = _end(block, at, table.outline_j[contact], j, copy, g, kind_i, dx, dy, nx, ny)
+    way_i, value_i = _end(block, at, table.outline_i[contact], i, 0, f, g, -dx, -dy, -nx, -ny)
+    way_j, value_j = _end(block, at, table.outline_j[contact], j, copy, g, f, dx, dy, nx, ny)
     if value_i < value_j:
         return value_i, 0, way_i
     return value_j, 1, way_j
@@ -201,18 +216,47 @@ def _end(
     if kind == codes.ARC:
         side = 1.0 if data[codes.FEATURE_RADIUS] > 0.0 else -1.0
         before, behind = over_arc(block, feature, side * (c * nx + s * ny), side * (c * ny - s * nx))
-    elif kind == codes.SEGMENT or partner == codes.ARC:
+    elif kind == codes.SEGMENT or Features(block).kind[partner] != codes.VERTEX:
+        if kind == codes.VERTEX:  # by the normal: a hollow arc's centre is on the other side
+            dx, dy = nx, ny
         x = data[codes.FEATURE_X] + c * dx + s * dy
         y = data[codes.FEATURE_Y] + c * dy - s * dx
         before, behind = inside_range(block, feature, x, y)
-    if kind == codes.VERTEX and data[codes.FEATURE_TURN] == codes.FREE_END:
-        if data[codes.FEATURE_DX] == 0.0 and data[codes.FEATURE_DY] == 0.0:
+    if kind == codes.VERTEX:
+        if not _goes_on(block, outline, feature, -1, partner):
             before = math.inf
-        else:
+        if not _goes_on(block, outline, feature, 1, partner):
             behind = math.inf
     if before < behind:
         return -1, before
     return 1, behind
+
+
+@jit
+def _goes_on(block: Array, outline: int, corner: int, way: int, partner: int) -> bool:
+    """Whether what is beside a corner can touch what the corner touches: an arc, on a side; a side, on an arc.
+
+    A side that comes to lie on a side does not take over: its other end, or that of the other one, strikes. Nor does a
+    hollow take over, which the corner goes on to bridge.
+    """
+    keep_small()
+    follows = beside(block, outline, corner, way)
+    if follows == codes.NONE:
+        follows = over_seam(block, outline, corner, way)
+    goes_on: bool = follows != codes.NONE and fits(block, follows, partner)
+    return goes_on
+
+
+@jit
+def ends_in_hollow(block: Array, at: Pose, contact: int) -> bool:
+    """Whether the nearest end of the features that touch is a hollow corner."""
+    keep_small()
+    table = Contacts(block)
+    _, side, way = left_to_go(block, at, contact)
+    outline = table.outline_i[contact] if side == 0 else table.outline_j[contact]
+    leaves = table.feature_i[contact] if side == 0 else table.feature_j[contact]
+    corner = beside(block, outline, leaves, way)
+    return corner != codes.NONE and is_hollow_corner(block, corner)
 
 
 @jit
@@ -239,7 +283,7 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
             follows = codes.NONE
     if follows == codes.NONE and side == 1 and _cross_seam(block, at, contact, way):
         return
-    if follows != codes.NONE and _fits(block, follows, partner):
+    if follows != codes.NONE and fits(block, follows, partner):
         if side == 0:
             table.feature_i[contact] = follows
         else:
@@ -260,7 +304,7 @@ def _cross_seam(block: Array, at: Pose, contact: int, way: int) -> bool:
     leaves, copy = table.feature_j[contact], table.copy[contact]
     follows = over_seam(block, table.outline_j[contact], leaves, way)
     partner = table.feature_i[contact]
-    if follows == codes.NONE or not _fits(block, follows, partner):
+    if follows == codes.NONE or not fits(block, follows, partner):
         return False
     if Features(block).kind[follows] == codes.VERTEX and Features(block).kind[partner] == codes.VERTEX:
         return False
@@ -274,18 +318,3 @@ def _cross_seam(block: Array, at: Pose, contact: int, way: int) -> bool:
     table.feature_j[contact] = leaves
     table.copy[contact] = copy
     return False
-
-
-@jit
-def _fits(block: Array, feature: int, other: int) -> bool:
-    """Whether two features can touch: not two segments, nor a hollow arc and what is flatter than it."""
-    keep_small()
-    if Features(block).kind[feature] == codes.SEGMENT and Features(block).kind[other] == codes.SEGMENT:
-        return False
-    one = radius_of(block, feature)
-    two = radius_of(block, other)
-    if one < 0.0 or two < 0.0:
-        if Features(block).kind[feature] == codes.SEGMENT or Features(block).kind[other] == codes.SEGMENT:
-            return False
-        return one + two < 0.0 and max(one, two) >= 0.0
-    return True

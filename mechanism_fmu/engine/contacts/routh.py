@@ -16,11 +16,12 @@ from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
+from ..constraints.entries import along_row
 from ..constraints.friction_rows import coefficient, friction_row, holding
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows, contact_row, driver_power
 from ..dynamics.acceleration import scale_rows
-from ..dynamics.minimum_norm import orthogonalise
+from ..dynamics.linear_solve import factorise
 from ..dynamics.sliding import respond
 
 #: The path of one impact has at most two changes of slip, and the end of compression.
@@ -101,7 +102,7 @@ def _respond(block: Array, count: int, place: int) -> float:
     for k in range(n):
         impulse[k] = Rows(block).jacobian[spare, k]
     scale_rows(block, count)
-    orthogonalise(block, count, n)
+    factorise(block, count, n)
     respond(block, count, impulse, Rubs(block).solution[place])
     for k in range(n):
         Rubs(block).solution[place, k] *= Bodies(block).inverse_root_mass[k]
@@ -111,11 +112,7 @@ def _respond(block: Array, count: int, place: int) -> float:
 @jit
 def _along(block: Array, place: int) -> float:
     """Change of the spare row's rate by `rubs.solution[place]`."""
-    total = 0.0
-    spare = spare_row(block)
-    for k in range(Sizes(block).coordinates):
-        total += Rows(block).jacobian[spare, k] * Rubs(block).solution[place, k]
-    return total
+    return along_row(Rows(block), spare_row(block), Rubs(block).solution[place], Sizes(block).bodies, 0.0)
 
 
 @jit

@@ -1,4 +1,4 @@
-"""Transition at an event, the record of it, and contacts that no longer touch behind a step."""
+"""Transition at an event, and contacts that no longer touch behind a step."""
 
 from __future__ import annotations
 
@@ -17,10 +17,12 @@ from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import kinetic_energy, set_time
 from .complementarity import push_forces
 from .doubts import other_choice, undetermined
+from .event_record import EVENT, WITHIN, has_changed, keep_event, note_mode
 from .guards import can_open, gap, place_contact, place_pattern
 from .handover import bind_what_touches, hand_over, let_loose
-from .impact import MOST_ROUNDS, complete_impacts, keep_impact, make_space, strike
+from .impact import MOST_ROUNDS, complete_impacts, keep_impact, strike
 from .impact_laws import shock
+from .inside import is_one_inside
 from .rubbing import let_slip, look_at_slip, note_sticks, part, set_noted
 from .trial import COUNT
 
@@ -68,7 +70,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     now = Course(block)
     rate = now.y_end[n:]
     inverse_mass = Bodies(block).inverse_mass
-    old_mode = mode_number(block)
+    note_mode(block, EVENT)
     energy = kinetic_energy(inverse_mass, rate, n)
     work = now.y_end[Sizes(block).y_work]
     if guard == codes.GUARD_INPUT:
@@ -104,23 +106,23 @@ def transit(block: Array, guard: int, subject: int) -> int:
     if outcome != status.OK:
         return outcome
     now.ledger[codes.LEDGER_LOST] += lost
-    if not (only_choose or shocks) or (guard == codes.GUARD_INPUT and mode_number(block) != old_mode):
-        keep_event(block, guard, subject, old_mode, impulse)
+    if not (only_choose or shocks) or (guard == codes.GUARD_INPUT and has_changed(block)):
+        keep_event(block, guard, subject, EVENT, impulse)
     if guard == codes.GUARD_INPUT:
-        _record_slips(block, old_mode)
+        _record_slips(block)
     if only_choose:
         return status.OK
     return _progress(block)
 
 
 @jit
-def _record_slips(block: Array, old_mode: float) -> None:
+def _record_slips(block: Array) -> None:
     """Record what stuck before an input changed, and slips now."""
     keep_small()
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
         if rub.stuck[k] == 1 and slips(block, k):
-            keep_event(block, codes.GUARD_SLIP, k, old_mode, 0.0)
+            keep_event(block, codes.GUARD_SLIP, k, EVENT, 0.0)
 
 
 @jit
@@ -155,6 +157,8 @@ def _take_effect(block: Array, guard: int, subject: int) -> int:
             if table.pattern[c] == subject and table.function[c] == codes.NONE:
                 table.mode[c] = codes.OPEN
                 table.touching[c] = 0
+        if is_one_inside(block):
+            return status.PENETRATED
     elif guard == codes.GUARD_CLICK:
         table.clicks[subject] += 1
         place_contact(block, at, subject)
@@ -261,7 +265,7 @@ def _shock(block: Array, count: int) -> int:
         return status.NO_CHOICE
     for k in range(n):
         Strikes(block).rates_before[k] = now.y_end[n + k]
-    old_mode = mode_number(block)
+    note_mode(block, WITHIN)
     outcome = shock(block, place_bodies(block, now.y_end))
     if outcome != status.OK:
         return outcome
@@ -273,7 +277,7 @@ def _shock(block: Array, count: int) -> int:
             keep_impact(block, k)
         if first == codes.NONE and touches(block, k) and abs(Rubs(block).force[k]) > 0.0:
             first = k
-    keep_event(block, codes.GUARD_SHOCK, first, old_mode, total)
+    keep_event(block, codes.GUARD_SHOCK, first, WITHIN, total)
     for k in range(count):
         Contacts(block).mode[Strikes(block).candidates[k]] = codes.CLOSED
     Strikes(block).problem[COUNT] = count
@@ -286,14 +290,14 @@ def _shock(block: Array, count: int) -> int:
 def _record_doubts(block: Array, at: Pose) -> None:
     """Record that the choice just made is one of several, or does not determine the motion."""
     keep_small()
-    mode = mode_number(block)
+    note_mode(block, WITHIN)
     what = undetermined(block, row_count(block))
     if what != codes.NONE:
-        keep_event(block, codes.GUARD_UNDETERMINED, what, mode, 0.0)
+        keep_event(block, codes.GUARD_UNDETERMINED, what, WITHIN, 0.0)
         return
     what = other_choice(block, at)
     if what != codes.NONE:
-        keep_event(block, codes.GUARD_SEVERAL, what, mode, 0.0)
+        keep_event(block, codes.GUARD_SEVERAL, what, WITHIN, 0.0)
 
 
 @jit
@@ -309,40 +313,3 @@ def _progress(block: Array) -> int:
     if now.counters[codes.PILE] > MOST_PILED:
         return status.CHATTERING
     return status.OK
-
-
-# Records of events within the communication step.
-
-
-@jit
-def keep_event(block: Array, guard: int, subject: int, old_mode: float, impulse: float) -> None:
-    """Record an event at STEP_END; when the buffer is full, the oldest is lost."""
-    keep_small()
-    now = Course(block)
-    now.counters[codes.COUNT_EVENTS] += 1
-    place = now.counters[codes.EVENTS_IN_STEP]
-    if place == now.events.shape[0]:
-        make_space(now.events)
-        place -= 1
-    else:
-        now.counters[codes.EVENTS_IN_STEP] = place + 1
-    record = now.events[place]
-    record[codes.EVENT_TIME] = now.clock[codes.STEP_END]
-    record[codes.EVENT_GUARD] = guard
-    record[codes.EVENT_SUBJECT] = subject
-    record[codes.EVENT_OLD_MODE] = old_mode
-    record[codes.EVENT_NEW_MODE] = mode_number(block)
-    record[codes.EVENT_IMPULSE] = impulse
-
-
-@jit
-def mode_number(block: Array) -> float:
-    """The mode of the mechanism: the sum of 2^c over its closed contacts c."""
-    mode = Contacts(block).mode
-    number = 0.0
-    bit = 1.0
-    for c in range(mode.shape[0]):
-        if mode[c] == codes.CLOSED:
-            number += bit
-        bit *= 2.0
-    return number

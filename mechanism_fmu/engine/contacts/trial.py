@@ -8,11 +8,12 @@ from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows, Rubs, Stri
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
+from ..constraints.entries import along_row
 from ..constraints.friction_rows import rubs
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows, contact_row, row_count
 from ..dynamics.acceleration import derivative, scale_rows
-from ..dynamics.minimum_norm import minimum_norm
+from ..dynamics.linear_solve import solve
 from ..dynamics.sliding import slide
 from ..vectors import clear
 
@@ -59,14 +60,14 @@ def _try_impulses(block: Array, at: Pose) -> int:
         if table.mode[c] == codes.CLOSED:
             system.right_side[table.row[c]] = strike.target[c]
     if not rubs(block):
-        minimum_norm(block, count, Sizes(block).coordinates)
+        solve(block, count, Sizes(block).coordinates)
         return count
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
         if rub.row[k] >= 0:
             system.right_side[rub.row[k]] = -Rows(block).residual_rate[rub.row[k]]
     gives = _given_impulses(block, at, count)
-    minimum_norm(block, count, Sizes(block).coordinates)
+    solve(block, count, Sizes(block).coordinates)
     if gives:
         for k in range(Sizes(block).coordinates):
             system.solution[k] += Bodies(block).inverse_root_mass[k] * Loads(block).applied[k]
@@ -93,10 +94,12 @@ def _given_impulses(block: Array, at: Pose, count: int) -> bool:
             for k in range(n):
                 impulse[k] += given[c] * row.jacobian[spare, k]
     if gives:
+        change = Loads(block).weight  # scratch: of the start, which is over
+        for k in range(n):
+            change[k] = Bodies(block).inverse_mass[k] * impulse[k]
         for r in range(count):
-            for k in range(n):
-                change = Bodies(block).inverse_mass[k] * impulse[k]
-                LinearSystem(block).right_side[r] -= row.jacobian[r, k] * change
+            right = LinearSystem(block).right_side[r]
+            LinearSystem(block).right_side[r] = -along_row(row, r, change, Sizes(block).bodies, -right)
     return gives
 
 
@@ -127,10 +130,12 @@ def _change(block: Array, r: int, left: float) -> tuple[float, float]:
     impulses = Strikes(block).problem[KIND] == IMPULSES
     tolerance = _SPEED if impulses else _ACCELERATION
     size = abs(left)
-    for k in range(n):
-        change = Course(block).dy_end[n + k]
-        if impulses:
-            change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
-        left += Rows(block).jacobian[r, k] * change
-        size += abs(Rows(block).jacobian[r, k] * change)
+    for end in range(2):
+        first = 3 * Rows(block).body[r, end]
+        for k in range(first, min(first + 3, n)):  # the ground has no rates
+            change = Course(block).dy_end[n + k]
+            if impulses:
+                change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
+            left += Rows(block).jacobian[r, k] * change
+            size += abs(Rows(block).jacobian[r, k] * change)
     return left, tolerance + _SHARE * size

@@ -7,6 +7,7 @@ from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows
 from ...tables.parts import Bodies
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
+from ..constraints.entries import along_row
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, driver_power, follow_open_contacts, stabilise
@@ -14,7 +15,7 @@ from ..constraints.wear import wear_by_sliding
 from ..profiles.nearest import settle_contact_points
 from ..vectors import largest
 from .forces import apply_forces
-from .minimum_norm import minimum_norm
+from .linear_solve import solve, write_matrix
 from .sliding import slide
 
 
@@ -63,24 +64,16 @@ def accelerate(block: Array, count: int) -> None:
     scale_rows(block, count)
     row = Rows(block)
     system = LinearSystem(block)
+    ground = Sizes(block).bodies
     for r in range(count):
-        right = row.gamma[r]
-        for k in range(n):
-            right -= row.jacobian[r, k] * load.free_acceleration[k]
-        system.right_side[r] = right
-    minimum_norm(block, count, n)
+        system.right_side[r] = -along_row(row, r, load.free_acceleration, ground, -row.gamma[r])
+    solve(block, count, n)
 
 
 @jit
 def scale_rows(block: Array, count: int) -> None:
     """D = Phi_q M^-1/2, eq (2)."""
-    n = Sizes(block).coordinates
-    root = Bodies(block).inverse_root_mass
-    row = Rows(block)
-    system = LinearSystem(block)
-    for r in range(count):
-        for k in range(n):
-            system.scaled[r, k] = row.jacobian[r, k] * root[k]
+    write_matrix(block, count, Bodies(block).inverse_root_mass)
 
 
 # Back to the constraints, when integration has drifted off them.
@@ -127,6 +120,6 @@ def _correct(block: Array, count: int, left: Array, values: Array) -> None:
     scale_rows(block, count)
     for r in range(count):
         system.right_side[r] = -left[r]
-    minimum_norm(block, count, n)
+    solve(block, count, n)
     for k in range(n):
         values[k] += root[k] * system.solution[k]

@@ -16,7 +16,7 @@ from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import set_instant
 from ..vectors import clear
-from . import bushing, markers, own_states, point_forces, torsional
+from . import bushing, markers, oscillation, own_states, point_forces, torsional
 from .element import Element
 
 #: Every force element of the engine, by the name of its kind.
@@ -26,6 +26,7 @@ ELEMENTS: dict[str, Element] = {
     **bushing.ELEMENTS,
     **own_states.ELEMENTS,
     **markers.ELEMENTS,
+    **oscillation.ELEMENTS,
 }
 
 

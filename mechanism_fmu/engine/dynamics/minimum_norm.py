@@ -22,34 +22,11 @@ _RECOMPUTE_BELOW = 1e-4
 
 
 @jit
-def minimum_norm(block: Array, count: int, width: int) -> None:
-    """Solve D z = b in the minimum-norm least-squares sense.
-
-    Reads D = `scaled`[:count, :width] and b = `right_side`[:count] of the linear system; writes z = D^+ b to
-    `solution`[:width], the minimum-norm solution of D^T multiplier = z to `multiplier`[:count], and the rank of D.
-    """
-    orthogonalise(block, count, width)
-    solve_again(block, count, width)
-
-
-@jit
-def solve_again(block: Array, count: int, width: int) -> None:
-    """As `minimum_norm`, with the D that was orthogonalised last."""
-    system = LinearSystem(block)
-    rank = system.rank[0]
-    if rank == count:
-        _solve_full_rank(block, count)
-    else:
-        _solve_deficient(block, count, rank)
-    for k in range(width):
-        system.solution[k] = 0.0
-    for r in range(rank):
-        _add_multiple(system.solution, system.coefficient[r], system.basis[system.order[r]], width)
-
-
-@jit
 def orthogonalise(block: Array, count: int, width: int) -> int:
-    """D = L Q; row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i. Return the rank."""
+    """D = L Q, with D = `scaled`[:count, :width] of the linear system; return its rank, which is left in `rank`, too.
+
+    Row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i.
+    """
     system = LinearSystem(block)
     basis = system.basis
     system.rank[0] = count
@@ -94,6 +71,25 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
                 left = _dot(basis[i], basis[i], width)
             system.row_norm[i, 1] = left
     return count
+
+
+@jit
+def solve_orthogonalised(block: Array, count: int, width: int) -> None:
+    """Solve D z = b in the minimum-norm least-squares sense, with the D that was orthogonalised last.
+
+    Reads b = `right_side`[:count] of the linear system; writes z = D^+ b to `solution`[:width] and the minimum-norm
+    solution of D^T multiplier = z to `multiplier`[:count].
+    """
+    system = LinearSystem(block)
+    rank = system.rank[0]
+    if rank == count:
+        _solve_full_rank(block, count)
+    else:
+        _solve_deficient(block, count, rank)
+    for k in range(width):
+        system.solution[k] = 0.0
+    for r in range(rank):
+        _add_multiple(system.solution, system.coefficient[r], system.basis[system.order[r]], width)
 
 
 @jit

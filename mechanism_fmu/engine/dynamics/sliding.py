@@ -18,7 +18,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, friction_row, holding, slips, sticks
 from ..constraints.point_line import spare_row
-from .minimum_norm import solve_again
+from .linear_solve import solve_again
 
 #: Newton's method ends when no friction changes by more than this part of the largest.
 _AGREE = 1e-14
@@ -111,10 +111,13 @@ def respond(block: Array, count: int, direction: Array, solution: Array) -> None
     keep_small()
     n = Sizes(block).coordinates
     system = LinearSystem(block)
+    row = Rows(block)
     for r in range(count):
         right = 0.0
-        for i in range(n):
-            right -= Rows(block).jacobian[r, i] * Bodies(block).inverse_mass[i] * direction[i]
+        for end in range(2):
+            first = 3 * row.body[r, end]
+            for i in range(first, min(first + 3, n)):
+                right -= row.jacobian[r, i] * Bodies(block).inverse_mass[i] * direction[i]
         system.right_side[r] = right
     solve_again(block, count, n)
     for i in range(n):

@@ -103,6 +103,30 @@ def disc_radius(block: Array, outline: int, feature: int) -> float:
 
 
 @jit
+def radius_of(block: Array, feature: int) -> float:
+    """The radius of a disc [m]: 0 of a vertex, negative of a hollow arc."""
+    radius = 0.0
+    if Features(block).kind[feature] == codes.ARC:
+        radius = Features(block).data[feature, codes.FEATURE_RADIUS]
+    return radius
+
+
+@jit
+def fits(block: Array, feature: int, other: int) -> bool:
+    """Whether two features can touch: not two segments, nor a hollow arc and what is flatter than it."""
+    keep_small()
+    if Features(block).kind[feature] == codes.SEGMENT and Features(block).kind[other] == codes.SEGMENT:
+        return False
+    one = radius_of(block, feature)
+    two = radius_of(block, other)
+    if one < 0.0 or two < 0.0:
+        if Features(block).kind[feature] == codes.SEGMENT or Features(block).kind[other] == codes.SEGMENT:
+            return False
+        return one + two < 0.0 and max(one, two) >= 0.0
+    return True
+
+
+@jit
 def apart(block: Array, feature: int, x: float, y: float, radius: float) -> tuple[float, float, float]:
     """How far a disc about (x, y) is from a feature, whatever part of it; and the normal out of the material."""
     keep_small()

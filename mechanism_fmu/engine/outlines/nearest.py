@@ -13,7 +13,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose
 from ...tables.parts import Contacts, Features, Outlines
-from ...tolerances import MARGIN, TOUCHES_WITHIN
+from ...tolerances import GAP_NOISE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2, sine_cosine
 from .crossing import crossing
@@ -22,13 +22,12 @@ from .features import (
     CORNERS_TOUCH,
     FAR,
     apart,
-    beside,
     disc_radius,
     is_hollow_corner,
     is_over,
     over_arc,
-    over_seam,
 )
+from .held import is_held, is_one_with
 
 # What a search counts (`mode`).
 #: Whatever touches nothing yet, as far as two circles around the outlines say that it may matter; and, as what comes
@@ -178,12 +177,12 @@ def _of_discs(
         if dx * dx + dy * dy > within * within:
             continue
         found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius)
-        if smooth and found != codes.NONE and gap < best:
+        # where two arcs and the side between them lie flat, all are as near but for rounding: what can touch counts
+        if smooth and found != codes.NONE and gap < best - GAP_NOISE:
             best = max(gap, TOUCHES_WITHIN)
-            found = codes.NONE
             outlines.found[0] = codes.NONE
             outlines.found[1] = codes.NONE
-        if found != codes.NONE and gap < best:
+        if not smooth and found != codes.NONE and gap < best:
             best = gap
             outlines.found[side] = f
             outlines.found[1 - side] = found
@@ -233,7 +232,7 @@ def _of_disc(
             continue
         if not is_over(block, g, px, py):
             continue
-        if mode < EVERY and not is_end and _is_held(block, contact, mode, copy, side, one, other, disc, g):
+        if mode < EVERY and not is_end and is_held(block, contact, mode == NEXT, copy, side, one, other, disc, g):
             continue
         faces = True
         if radius > 0.0:  # the place on the disc, seen from its body
@@ -254,13 +253,13 @@ def _of_disc(
         if faces and 0.0 <= distance < gap:
             gap = distance
             front = g
-        if faces and mode < EVERY and distance < 0.0 and g != closest and not _is_one_with(block, other, g, closest):
+        if faces and mode < EVERY and distance < 0.0 and g != closest and not is_one_with(block, other, g, closest):
             crossed = g
             depth = distance
     if crossed == codes.NONE:
         return front, gap
     behind_another = crossed != closest and not is_cut
-    if behind_another and (mode >= EVERY or _is_one_with(block, other, crossed, closest)):
+    if behind_another and (mode >= EVERY or is_one_with(block, other, crossed, closest)):
         return front, gap
     return crossed, depth
 
@@ -282,109 +281,6 @@ def _is_inside(block: Array, outline: int, x: float, y: float) -> bool:
             least = abs(distance)
             inside = distance < 0.0
     return inside
-
-
-@jit
-def _is_held(
-    block: Array, contact: int, mode: int, copy: int, side: int, one: int, other: int, disc: int, feature: int
-) -> bool:
-    """Whether a disc touches a feature already, or what it touches goes on there.
-
-    Features that follow upon each other, smoothly or around a corner that sticks out, touch the same feature at one
-    place at most: where the one hands over to the other. A rounding that comes off hands over no more: what follows
-    upon the feature that it touched may be the next.
-    """
-    keep_apart()
-    table = Contacts(block)
-    group = table.group[contact]
-    for k in range(group, table.mode.shape[0]):
-        if table.group[k] != group:
-            break
-        if table.feature_i[k] == codes.NONE:
-            continue
-        own, its = table.feature_i[k], table.feature_j[k]
-        if side == 1:
-            own, its = its, own
-        comes_off = mode == NEXT and table.mode[k] == codes.OPEN
-        if comes_off and own == disc and its != feature and disc_radius(block, one, disc) > 0.0:
-            continue
-        if table.copy[k] != copy:  # what it is in another copy is another thing
-            same = own == disc if side == 0 else its == feature
-            goes_on = (same or disc_radius(block, one, own) >= 0.0) and _goes_on_in_copy(
-                block, contact, copy, side, disc, feature, k
-            )
-            if goes_on:
-                return True
-            continue
-        same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, one, own) >= 0.0
-        if same and _is_one_with(block, one, disc, own) and _is_one_with(block, other, feature, its):
-            return True
-    return False
-
-
-@jit
-def _goes_on_in_copy(block: Array, contact: int, copy: int, side: int, disc: int, feature: int, held: int) -> bool:
-    """Whether what the contact `held` touches goes on in a copy as one of two features, the other being the same."""
-    table = Contacts(block)
-    of_i, of_j = disc, feature
-    if side == 1:
-        of_i, of_j = feature, disc
-    over = _is_over_seam(block, table.outline_j[contact], of_j, copy, table.feature_j[held], table.copy[held])
-    return over and _is_one_with(block, table.outline_i[contact], of_i, table.feature_i[held])
-
-
-@jit
-def _is_over_seam(block: Array, outline: int, feature: int, copy: int, held: int, held_copy: int) -> bool:
-    """Whether a feature follows upon one that is touched in the copy before or behind, around no hollow corner."""
-    keep_small()
-    away = abs(copy - held_copy)
-    if away != 1 and away != Outlines(block).copies[outline] - 1:
-        return False
-    first = Outlines(block).first[outline]
-    if is_hollow_corner(block, first):
-        return False
-    for way in range(-1, 2, 2):
-        begins = over_seam(block, outline, held, way)
-        if begins != codes.NONE and abs(feature - begins) <= 1:
-            return True
-    return False
-
-
-@jit
-def _is_one_circle(block: Array, one: int, other: int) -> bool:
-    """Whether two features are the same, or arcs of the same circle."""
-    keep_small()
-    if one == other:
-        return True
-    features = Features(block)
-    if features.kind[one] != codes.ARC or features.kind[other] != codes.ARC:
-        return False
-    a, b = features.data[one], features.data[other]
-    dx: float = a[codes.FEATURE_X] - b[codes.FEATURE_X]
-    dy: float = a[codes.FEATURE_Y] - b[codes.FEATURE_Y]
-    wider: float = a[codes.FEATURE_RADIUS] - b[codes.FEATURE_RADIUS]
-    return max(abs(dx), abs(dy), abs(wider)) <= MARGIN
-
-
-@jit
-def _is_one_with(block: Array, outline: int, feature: int, held: int) -> bool:
-    """Whether a feature is the one that is touched, or follows upon it without a hollow corner between."""
-    keep_small()
-    if feature == held:
-        return True
-    for way in range(-1, 2, 2):
-        corner = held
-        if Features(block).kind[held] != codes.VERTEX:
-            corner = beside(block, outline, held, way)
-            if corner == codes.NONE:
-                continue
-            if corner == feature:
-                return True
-            if is_hollow_corner(block, corner):
-                continue
-        if beside(block, outline, corner, way) == feature:
-            return True
-    return False
 
 
 @jit

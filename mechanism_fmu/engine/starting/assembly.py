@@ -18,7 +18,7 @@ from ..contacts.guards import function_value, gap, guard_value, place_contact, p
 from ..contacts.handover import let_loose
 from ..contacts.rubbing import part_all
 from ..contacts.transition import switch_contacts
-from ..dynamics.minimum_norm import minimum_norm
+from ..dynamics.linear_solve import solve, write_matrix
 from ..profiles.nearest import find_contact_points, settle_contact_points
 from ..vectors import copy
 
@@ -78,14 +78,11 @@ def newton_direction(block: Array, count: int, left: Array) -> None:
     """Minimum-norm solution of Phi_q dq = -left over the coordinates that are not held; left is Phi, or Phi'."""
     keep_small()
     n = Sizes(block).coordinates
-    row = Rows(block)
-    weight = Loads(block).weight
     system = LinearSystem(block)
     for r in range(count):
         system.right_side[r] = -left[r]
-        for k in range(n):
-            system.scaled[r, k] = row.jacobian[r, k] * weight[k]
-    minimum_norm(block, count, n)
+    write_matrix(block, count, Loads(block).weight)
+    solve(block, count, n)
 
 
 @jit

@@ -20,6 +20,7 @@ from ..contacts.guards import gap
 from ..contacts.handover import bind_what_touches, deepest_overlap, is_free
 from ..contacts.impact import clear_impact, clear_records
 from ..dynamics.forces import set_time, take_inputs
+from ..dynamics.oscillation import begin_oscillations
 from ..outlines.nearest import START
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
@@ -85,6 +86,7 @@ def _begin_at_zero(block: Array, time: float) -> None:
     now.y_end[Sizes(block).y_loss] = 0.0
     for k in range(Sizes(block).y_own, Sizes(block).unknowns):
         now.y_end[k] = 0.0
+    begin_oscillations(block)
 
 
 @jit

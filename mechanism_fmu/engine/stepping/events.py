@@ -4,12 +4,16 @@ The rule. On a step from t0 to t1, a guard w fires at the first t in (t0, t1] at
 Open at t0: what has fired at the end of one step does not fire again at the start of the next. Closed at t1: no zero
 falls between two steps. Only this way round counts. Of several guards the earliest fires. Exceptions at t0:
 
-- a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at;
+- a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at; but the end
+  of a feature in a hollow corner, where nothing takes over, counts when it is passed by another MARGIN;
 - a gap that is not positive at t0, or whose contact touched there (`contacts.touching`): closing (w' < -RESTS_BELOW),
   it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then where it
   comes back to min(w(t0), 0), at the top of its hop where rounding hides that, or below by GAP_NOISE where there is
   none; at rest, it counts below -GAP_NOISE until it has been above GAP_NOISE, and where rows that contradict each other
-  by rounding have left it inside (`codes.LEFT_INSIDE`), that much further below.
+  by rounding have left it inside (`codes.LEFT_INSIDE`), that much further below;
+- a gap that is farther below zero than what touches is a penetration, which no event mends: the step is refused. What
+  is open here comes to its end no deeper than it has begun, since a gap that comes down to zero fires; so one look, at
+  the start of each step, sees what pins, guides and events have left inside.
 
 Guards of the position are looked at on the dense output, the forces of closed contacts at the step's stages. The root
 of a gap is then refined with true Runge-Kutta steps, so that its accuracy is the integrator's and not the
@@ -24,12 +28,13 @@ from ...tables.declare import Array
 from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
-from ...tolerances import GAP_NOISE, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, TOUCHES_WITHIN
+from ...tolerances import GAP_NOISE, MARGIN, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for_search
-from ..contacts.handover import bind, is_free, let_loose
+from ..contacts.handover import bind, ends_in_hollow, is_free, is_outline, let_loose
+from ..contacts.inside import is_too_deep
 from .letting_go import first_to_let_go
 from .looks import BISECTIONS, bisect, place_at, value_at
 from .meeting import meets_before
@@ -39,13 +44,16 @@ from .step_size import smallest_step
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
 _NEWTON_STEPS = 12
+#: What a guard does at the start of a step, as the fraction at which it fires: nothing yet; it stands inside.
+_NOT_YET = 2.0
+_INSIDE = -1.0
 
 
 @jit
 def first_event(block: Array) -> tuple[int, int, float]:
     """The first event within the step in `new_dense`: its guard, contact (pattern, function), and fraction of the step.
 
-    (`codes.GUARD_NONE`, `codes.NONE`, 2.0) when there is none.
+    (`codes.GUARD_NONE`, `codes.NONE`, 2.0) when there is none; a negative fraction where its contact is inside already.
     """
     keep_small()
     number, fraction = _first_zero(block)
@@ -53,6 +61,8 @@ def first_event(block: Array) -> tuple[int, int, float]:
     subject = codes.NONE
     if fraction <= 1.0:
         guard, subject = guard_of(block, number)
+    if fraction < 0.0:
+        return guard, subject, fraction
     lets_go, what, when = first_to_let_go(block, fraction)
     if when < fraction:
         return lets_go, what, when
@@ -74,7 +84,7 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         try_step(block, start, step_size)
         at = place_bodies(block, s.y_new)
         distance, rate = gap(block, at, contact)
-        if not rate < 0.0:
+        if not rate < -RESTS_BELOW:  # of what slides in front of something flat, rounding has either sign
             return step_size
         move = -distance / rate
         if abs(move) <= ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
@@ -108,8 +118,9 @@ def _first_zero(block: Array) -> tuple[int, float]:
         guards -= Sizes(block).rubs
     for g in range(guards):
         if is_watched(block, g):
-            if _begin(block, at, g):
-                return g, 0.0
+            fraction = _begin(block, at, g)
+            if fraction <= 0.0:
+                return g, fraction
             look_at.watched[count] = g
             count += 1
     if count == 0:
@@ -146,13 +157,13 @@ def _first_zero(block: Array) -> tuple[int, float]:
 
 
 @jit
-def _begin(block: Array, at: Pose, number: int) -> bool:
-    """Note a guard's value at the step's start; True when it fires right there."""
+def _begin(block: Array, at: Pose, number: int) -> float:
+    """Note a guard's value at the step's start; 0.0 when it fires right there, `_INSIDE` where it is too late."""
     keep_small()
     look_at = Watch(block)
     if stands_for_search(block, number):
         look_at.reached[number] = 0.0
-        return False
+        return _NOT_YET
     value, rate = guard_value(block, at, number)
     look_at.rate[number] = rate
     look_at.armed[number] = 1
@@ -162,21 +173,25 @@ def _begin(block: Array, at: Pose, number: int) -> bool:
         if value <= SLIPS_ABOVE:  # it begins to slip
             look_at.armed[number] = 0
             look_at.floor[number] = min(value, 0.0) - SLIPS_ABOVE
-        return False
+        return _NOT_YET
+    if guard == codes.GUARD_HANDOVER and value <= 0.0 and ends_in_hollow(block, at, subject):
+        look_at.floor[number] = value - MARGIN  # nothing takes over there: what is beyond has been looked at
+        return _NOT_YET
     if guard != codes.GUARD_GAP:
-        return value <= 0.0
+        return 0.0 if value <= 0.0 else _NOT_YET
+    if value < 0.0 and not is_outline(block, subject) and is_too_deep(block, at, subject, value, rate):
+        return _INSIDE
     if value > 0.0 and Contacts(block).touching[subject] == 0:
-        return False
+        return _NOT_YET
     if rate < -RESTS_BELOW:
-        return True
+        return 0.0
     look_at.floor[number] = -GAP_NOISE
     opens = rate > RESTS_BELOW
     if opens:
         look_at.armed[number] = 0
     if opens or (Contacts(block).touching[subject] == codes.LEFT_INSIDE and value > -TOUCHES_WITHIN):
         look_at.floor[number] += min(value, 0.0)
-    fires: bool = value <= look_at.floor[number]
-    return fires
+    return 0.0 if value <= look_at.floor[number] else _NOT_YET
 
 
 @jit

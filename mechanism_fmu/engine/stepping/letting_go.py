@@ -14,15 +14,16 @@ from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import ROOT_TOLERANCE
 from ..compiler.subset import jit, keep_small
+from ..constraints.entries import along_row
 from ..constraints.friction_rows import friction_row, rubs, sticks
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import row_count
-from ..contacts.complementarity import hold_ratio, push_ratio
+from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
 from ..contacts.guards import can_open
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
-from .interpolation import interpolate
+from ..interpolation import interpolate
 from .runge_kutta import try_step
 
 _LAST = METHOD.last
@@ -101,8 +102,8 @@ def _spare_at(block: Array, guard: int, subject: int, fraction: float) -> float:
     set_time(block, s.tried[0] + fraction * s.tried[1])
     derivative(block, s.y_at, s.dy_at)
     if guard == codes.GUARD_PUSH:
-        return push_ratio(block, subject, row_count(block))
-    return hold_ratio(block, subject, row_count(block))
+        return push_ratio(block, subject, push_tolerance(block, row_count(block)))
+    return hold_ratio(block, subject, push_tolerance(block, row_count(block)))
 
 
 @jit
@@ -119,9 +120,7 @@ def refine_slip(block: Array, rub: int, step_size: float) -> float:
         try_step(block, start, step_size)
         at = place_bodies(block, s.y_new)
         friction_row(block, at, rub, spare)
-        rate = -row.gamma[spare]
-        for k in range(n):
-            rate += row.jacobian[spare, k] * s.derivatives[_LAST, n + k]
+        rate = along_row(row, spare, s.derivatives[_LAST, n:], Sizes(block).bodies, -row.gamma[spare])
         if rate == 0.0:
             return step_size
         move = -row.residual_rate[spare] / rate
@@ -173,4 +172,4 @@ def _hold_behind(block: Array, rub: int) -> float:
     s = Stages(block)
     set_time(block, s.tried[0] + s.tried[1])
     derivative(block, s.y_new, s.dy_at)
-    return hold_ratio(block, rub, row_count(block))
+    return hold_ratio(block, rub, push_tolerance(block, row_count(block)))

@@ -7,7 +7,7 @@ from ...tables.motion import Pose, Stages
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..contacts.guards import guard_value
-from .interpolation import interpolate
+from ..interpolation import interpolate
 
 #: Bisections of a bracket: 2^-60 of a step is below rounding.
 BISECTIONS = 60

@@ -13,12 +13,12 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs, sticks
 from ..constraints.rows import row_count
-from ..contacts.complementarity import hold_ratio, push_ratio
+from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
 from ..elementary import power
+from ..interpolation import write_dense
 from ..vectors import clear
-from .interpolation import write_dense
 from .singular import independence
 
 _STAGES = METHOD.stages
@@ -103,16 +103,16 @@ def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
 def _note_pushes(block: Array) -> None:
     """After an acceleration: keep the least force of every closed contact."""
     table = Contacts(block)
-    count = row_count(block)
+    tolerance = push_tolerance(block, row_count(block))
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
-            table.least_push[c] = min(table.least_push[c], push_ratio(block, c, count))
+            table.least_push[c] = min(table.least_push[c], push_ratio(block, c, tolerance))
     if not rubs(block):
         return
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
         if sticks(block, k):
-            rub.least_hold[k] = min(rub.least_hold[k], hold_ratio(block, k, count))
+            rub.least_hold[k] = min(rub.least_hold[k], hold_ratio(block, k, tolerance))
 
 
 @jit

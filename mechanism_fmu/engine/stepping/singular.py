@@ -10,15 +10,16 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, LinearSystem, Rows, Rubs, Stages
+from ...tables.motion import Course, LinearSystem, Loads, Rubs, Stages
+from ...tables.parts import Bodies
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from ..dynamics.forces import set_time
-from ..dynamics.minimum_norm import orthogonalise
-from .interpolation import interpolate
+from ..dynamics.linear_solve import factorise, write_matrix
+from ..interpolation import interpolate
 
 _LAST = METHOD.last
 _INTERIOR = METHOD.interior
@@ -123,9 +124,11 @@ def _independence_at(block: Array, fraction: float) -> float:
     set_time(block, s.tried[0] + fraction * s.tried[1])
     at = place_bodies(block, s.y_at)
     count = active_rows(block, at)
-    n = Sizes(block).coordinates
-    for r in range(count):
-        for k in range(n):
-            LinearSystem(block).scaled[r, k] = Rows(block).jacobian[r, k]
-    orthogonalise(block, count, n)
+    weight = Loads(block).weight
+    root = Bodies(block).inverse_root_mass
+    for k in range(Sizes(block).coordinates):
+        # One, in scratch of the start, which is over. A loop of ones becomes a call of what only macOS has.
+        weight[k] = root[k] / root[k]
+    write_matrix(block, count, weight)
+    factorise(block, count, Sizes(block).coordinates)
     return independence(block)

@@ -7,23 +7,23 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, LinearSystem, Rows, Stages
+from ...tables.motion import Course, LinearSystem, Stages
 from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
-from ..constraints.point_line import spare_row
 from ..contacts.handover import deepest_overlap
+from ..contacts.inside import blame, is_one_inside
 from ..contacts.transition import release
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
+from ..interpolation import interpolate
 from ..outlines.nearest import EVERY
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import clear, copy
 from .events import first_event, refine
-from .interpolation import interpolate
 from .letting_go import refine_hold, refine_slip
 from .meeting import refine_end
 from .runge_kutta import try_step
@@ -103,6 +103,10 @@ def take_step(block: Array) -> int:
         return _shock_or_fail(block)
     singular = is_singular(block)
     guard, subject, fraction = first_event(block)
+    if fraction < 0.0:
+        now.clock[codes.NEXT_STEP] = wanted  # a step that is refused changes nothing
+        is_one_inside(block)
+        return status.PENETRATED
     if guard != codes.GUARD_NONE:
         step *= fraction
         if step > smallest_step(start):
@@ -185,8 +189,7 @@ def _mend_and_check(block: Array) -> int:
     if Sizes(block).outlines > 0:
         contact, depth = deepest_overlap(block, place_bodies(block, now.y_end), EVERY)
         if contact != codes.NONE:
-            Stages(block).stiffest[0] = contact
-            Rows(block).residual[spare_row(block)] = -depth
+            blame(block, contact, -depth)
             return status.PENETRATED
     if Sizes(block).alphas > 0:
         at = place_bodies(block, now.y_end)

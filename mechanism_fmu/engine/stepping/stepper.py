@@ -17,11 +17,13 @@ from ...tables.parts import Contacts, Options, Ports
 from .. import status
 from ..compiler.subset import entry, jit, keep_small
 from ..contacts.impact import clear_records
+from ..contacts.inside import is_one_inside
 from ..contacts.transition import release, transit
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import feed, inputs_changed, set_time, show_reached, take_inputs
+from ..dynamics.oscillation import observe
+from ..interpolation import interpolate
 from ..vectors import copy
-from .interpolation import interpolate
 from .runge_kutta import initial_step_size, try_step
 from .singular import keep_independence, note_rank
 from .step import take_step, watch_at
@@ -97,6 +99,8 @@ def _why_ended(block: Array) -> int:
     counters = Course(block).counters
     if counters[codes.PENDING_GUARD] == codes.GUARD_FAILED:
         failed: int = counters[codes.PENDING_SUBJECT]
+        if failed == status.PENETRATED:
+            is_one_inside(block)  # outputs read meanwhile have overwritten which
         return failed
     return status.OK
 
@@ -123,6 +127,7 @@ def _move(block: Array, target: float, rule: int) -> int:
             now.clock[codes.TIME] = target
             return status.OK
         now.clock[codes.TIME] = now.clock[codes.STEP_END]
+        observe(block)
         impacts = now.counters[codes.COUNT_IMPACTS]
         guard = now.counters[codes.PENDING_GUARD]
         if guard != codes.GUARD_NONE:
@@ -180,6 +185,7 @@ def resume(block: Array) -> int:
     now = Course(block)
     table = Contacts(block)
     time = now.clock[codes.TIME]
+    observe(block)
     if time < now.clock[codes.STEP_END]:
         _step_back(block)
         release(block, codes.NONE)

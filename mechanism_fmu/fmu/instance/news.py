@@ -8,6 +8,7 @@ from typing import NamedTuple
 from pythonfmu.enums import Fmi2Status
 
 from ... import codes
+from ...advice import named
 from ...moving import MovingMechanism
 
 
@@ -88,7 +89,7 @@ def _events(simulation: MovingMechanism, new: int) -> Iterator[Message]:
 
 
 def _mode(closed: tuple[str, ...]) -> str:
-    return "+".join(closed) or "all open"
+    return named(closed, "+") or "all open"
 
 
 def pulls(contact: str, time: float) -> Message:

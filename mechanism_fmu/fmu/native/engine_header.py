@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ... import codes
+from ...advice import MOST_NAMED
 from ...engine import status
 from ...tables.layout import FIELDS, size_slot, slot
 from ...tables.sizes import SIZES
@@ -43,6 +44,7 @@ def engine_header() -> str:
     for prefix, entries in enums.items():
         lines += ["enum {", *(f"    {prefix}_{name} = {value}," for name, value in entries.items()), "};"]
     lines += [f"#define {name} {getattr(protocol, name)!r} /* as in protocol.py */" for name in limits]
+    lines += [f"#define MOST_NAMED {MOST_NAMED} /* as in advice.py */"]
     lines += [f"#define RATES_WITHIN {RATES_WITHIN!r} /* as in tolerances.py */"]
     lines += [f"#define EVENT_FAILURES {{{', '.join(map(str, status.EVENT_FAILURES))}}}"]
     lines += [f"#define LOG_CATEGORIES {{{', '.join(map(c_text, LOG_CATEGORIES))}}}"]

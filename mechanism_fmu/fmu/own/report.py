@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output, Parameter, compile_mechanism
+from ...model.errors import picture_of
 from ...moving import MovingMechanism
 from ..instance.self_check import start_explained
 from ..native.objects import has_libraries, library_of
@@ -57,6 +58,7 @@ class FileReport:
         singular: whether the motion can branch at the start.
         warnings: what looks like a mistake.
         mistakes: what has to be changed before the FMU can be built, with the line where it is known.
+        picture: of bodies that overlap at the start, an SVG file as text; "" where none do.
     """
 
     file: str
@@ -77,6 +79,7 @@ class FileReport:
     singular: bool = False
     warnings: tuple[str, ...] = ()
     mistakes: tuple[str, ...] = ()
+    picture: str = ""
 
 
 def report_on(text: str) -> FileReport:
@@ -134,7 +137,7 @@ def _started(model: Model, path: Path) -> tuple[dict[str, Any], list[str]]:
             moving = MovingMechanism(mechanism)
             free = freedoms(mechanism, library_of() if has_libraries() else None)
     except MechanismError as error:
-        return {}, [str(error)]
+        return {"picture": picture_of(error)}, [str(error)]
     q = moving.field("y_end")[: 3 * len(mechanism.bodies)].reshape(-1, 3)
     poses = {body.name: row for body, row in zip(mechanism.bodies, q, strict=True)}
     found = {

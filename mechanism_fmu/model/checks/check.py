@@ -20,14 +20,9 @@ from .check_numbers import check_members, number_findings
 
 # What cannot be right of the structure of contacts and logical functions.
 
-#: Most contacts of a mechanism: their modes are written as one number.
-MOST_CONTACTS = 50
-
 
 def check_contacts(mechanism: Mechanism) -> Iterator[str]:
     """Every problem of the contacts and logical functions of a mechanism but for their numbers, one sentence each."""
-    if len(mechanism.contacts) > MOST_CONTACTS:
-        yield f"The mechanism has {len(mechanism.contacts)} contacts; there may be at most {MOST_CONTACTS}."
     for contact in mechanism.contacts:
         yield from _links(contact, mechanism)
     yield from _functions(mechanism)
@@ -116,7 +111,7 @@ def _names(mechanism: Mechanism) -> Iterator[str]:
     if not mechanism.bodies:
         yield "The mechanism has no body; give at least one."
     seen: dict[str, str] = {GROUND: "the fixed frame"}
-    parts = (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.markers, *mechanism.contacts)
+    parts = (*mechanism.bodies, *mechanism.joints, *mechanism.forces, *mechanism.sensors, *mechanism.contacts)
     for part in (*parts, *mechanism.patterns, *mechanism.functions, *mechanism.members, *mechanism.lumped_masses):
         what = type(part).__name__
         if not part.name or "." in part.name or ":" in part.name:
@@ -138,7 +133,7 @@ def _references(mechanism: Mechanism) -> Iterator[str]:
     known = [body.name for body in mechanism.bodies]
     pairs = (*mechanism.joints, *mechanism.contacts, *mechanism.patterns)
     users = [(p, (p.body_i, p.body_j)) for p in pairs]
-    forces = [(f, (f.body, f.reaction)) for f in (*mechanism.forces, *mechanism.markers)]
+    forces = [(f, (f.body, f.reaction)) for f in (*mechanism.forces, *mechanism.sensors)]
     for part, bodies in (*users, *forces):
         label = f"{type(part).__name__} {part.name!r}"
         for name in bodies:

@@ -5,6 +5,7 @@ from .base import Element as Element, Quantity as Quantity
 from .by_law import NonlinearSpring, NonlinearTorsionSpring
 from .driven import Brake, DCMotor
 from .markers import Marker
+from .oscillation import Oscillation
 from .torsional import CompliantShaft, Damper, Torque, TorsionSpring, TorsionSpringDamper
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "Marker",
     "NonlinearSpring",
     "NonlinearTorsionSpring",
+    "Oscillation",
     "PointForce",
     "SpringDamper",
     "Torque",
@@ -40,4 +42,5 @@ ForceElement = (
     | NonlinearSpring
     | NonlinearTorsionSpring
     | Marker
+    | Oscillation
 )

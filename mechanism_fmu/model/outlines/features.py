@@ -68,7 +68,8 @@ def _last_end(at: Point, arrives: Point, first: Point, leaves: Point, step: Step
 
 
 def _if_joined(one: Point, other: Point, then: tuple[Number, ...], otherwise: tuple[Number, ...]) -> tuple[Number, ...]:
-    left = _JOIN_WITHIN * _JOIN_WITHIN - (one[0] - other[0]) ** 2 - (one[1] - other[1]) ** 2
+    dx, dy = one[0] - other[0], one[1] - other[1]
+    left = _JOIN_WITHIN * _JOIN_WITHIN - dx * dx - dy * dy
     return tuple(where_positive(left, a, b) for a, b in zip(then, otherwise, strict=True))
 
 

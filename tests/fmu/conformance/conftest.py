@@ -22,6 +22,20 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "until": 2.0,
         "impossible": {"pawl_length": 0.03},
     },
+    # The pawl bounces into the notch, and the shaft swings it back over the tips.
+    "ratchet_free": {
+        "rough": {
+            "restitution": 0.5,
+            "crank_angle_start": 1.3,
+            "drive_stiffness": 2.0,
+            "drive_damping": 0.01,
+            "pawl_spring_torque": 5e-3,
+            "friction": 0.1,
+        },
+        "inputs": {"drive_torque": (-5e-3, 2e-2), "drive_angle": (1.2, 1.7), "load_torque": (-1e-2, 1e-2)},
+        "until": 2.0,
+        "impossible": {"pawl_length": 0.03},
+    },
     # A spring pulls the driver back, through its slot, on a backstop, where it bounces.
     "geneva": {
         "rough": {
@@ -34,6 +48,13 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         },
         "inputs": {"drive_torque": (-0.05, 0.05), "load_torque": (-0.01, 0.01), "drive_speed": (3.0, 7.0)},
         "until": 2.0,
+        "impossible": {"pin_diameter": 0.05},
+    },
+    # The pin strikes both walls of its slot, and the wheel bounces in its arc.
+    "geneva_clearance": {
+        "rough": {"restitution": 0.5, "driver_angle_start": 1.5, "slot_clearance": 5e-4, "wheel_damping": 1e-3},
+        "inputs": {"drive_torque": (-0.05, 0.05), "load_torque": (-0.01, 0.01), "drive_speed": (3.0, 7.0)},
+        "until": 1.0,
         "impossible": {"pin_diameter": 0.05},
     },
     # Without contacts there are no impacts: weight, friction and a soft shaft or a spring make the run uneven.
@@ -125,6 +146,37 @@ SUBJECTS: dict[str, dict[str, Any]] = {
         "until": 2.0,
         "impacts": False,
         "sticks": True,
+    },
+    # Escapements, with more torque than by default.
+    "verge": {
+        "rough": {"foliot_inertia": 1e-5, "wheel_inertia": 1e-5, "tip_radius": 3e-4},
+        "inputs": {"drive_torque": (5e-4, 2e-3), "load_torque": (-2e-4, 2e-4)},
+        "until": 2.0,
+        "impossible": {"tip_radius": 1e-3},
+    },
+    "recoil_anchor": {
+        "rough": {"pendulum_length": 0.25, "pendulum_damping": 5e-3, "pendulum_angle_start": -0.12},
+        "inputs": {"drive_torque": (0.012, 0.03), "load_torque": (-5e-3, 5e-3)},
+        "until": 2.0,
+        "impossible": {"tip_radius": 1e-3},
+    },
+    "graham": {
+        "rough": {"pendulum_length": 0.25, "pendulum_damping": 5e-3, "pendulum_angle_start": -0.08},
+        "inputs": {"drive_torque": (0.012, 0.03), "load_torque": (-5e-3, 5e-3)},
+        "until": 2.0,
+        "impossible": {"tip_radius": 3e-4},
+    },
+    "pin_pallet": {
+        "rough": {"frequency": 4.0, "quality": 20.0, "balance_angle_start": -0.12},
+        "inputs": {"drive_torque": (5e-4, 1.2e-3), "load_torque": (-2e-4, 2e-4)},
+        "until": 2.0,
+        "impossible": {"pin_radius": 8e-4},
+    },
+    "lever_escapement": {
+        "rough": {"quality": 50.0, "draw_angle": 0.25, "balance_angle_start": 1.5},
+        "inputs": {"drive_torque": (2e-3, 6e-3), "load_torque": (-1e-3, 1e-3)},
+        "until": 2.0,
+        "impossible": {"pallet_thickness": 6e-3},
     },
 }
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechanism_fmu.engine.compiler.subset import entry
-from mechanism_fmu.engine.dynamics.minimum_norm import minimum_norm
+from mechanism_fmu.engine.dynamics.minimum_norm import orthogonalise, solve_orthogonalised
 from mechanism_fmu.tables.layout import allocate, field_of
 from mechanism_fmu.tables.motion import LinearSystem
 from mechanism_fmu.tables.sizes import GIVEN_SIZES
@@ -19,7 +19,8 @@ BLOCK = allocate(dict.fromkeys(GIVEN_SIZES, 0) | {"bodies": 4, "joint_rows": 12}
 
 @entry
 def _solve_in(block: Array, count: int, width: int) -> int:
-    minimum_norm(block, count, width)
+    orthogonalise(block, count, width)
+    solve_orthogonalised(block, count, width)
     return LinearSystem(block).rank[0]
 
 

@@ -21,6 +21,7 @@ GIVEN = {
     "terms": 9,
     "alphas": 3,
     "own": 2,
+    "oscillations": 2,
     "wears": 3,
     "operations": 3,
     "held": 1,

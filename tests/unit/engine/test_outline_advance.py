@@ -8,7 +8,7 @@ from mechanism_fmu.tables.method import METHOD
 
 
 def multiplied(row: int, t: np.ndarray) -> np.ndarray:
-    """What a row of the dense output is multiplied by at parts of the step (`engine.stepping.interpolation`)."""
+    """What a row of the dense output is multiplied by at parts of the step (`engine.interpolation`)."""
     powers = row - 1
     return t * t ** (powers // 2) * (1.0 - t) ** ((powers + 1) // 2)
 

@@ -52,6 +52,8 @@ def test_a_ball_flies_into_a_corner_along_its_middle_line_and_comes_back_with_e_
 @settings(deadline=None, max_examples=40)
 @given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.1, 10.0))
 def test_walls_at_right_angles_do_not_know_of_each_other(e_floor, e_wall, speed):
+    # right at the speed of rest, rounding decides
+    assume(all(abs(e * speed - 1e-6) > 1e-12 for e in (e_wall, e_floor)))
     walls = [wall("floor", math.pi / 2, e_floor), wall("wall", 0.0, e_wall)]
     simulation = ball_into_corner(walls, (1.0, 1.0), (-speed, -speed))
     simulation.advance(1.5 / speed)

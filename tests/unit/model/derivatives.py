@@ -54,7 +54,8 @@ class Dual:
         return Dual(math.cos(self.a), -math.sin(self.a) * self.b)
 
     def sqrt(self):
-        return Dual(math.sqrt(self.a), self.b / (2 * math.sqrt(self.a)))
+        root = math.sqrt(self.a)
+        return Dual(root, self.b / (2 * root) if self.b else 0.0)  # what does not change may be the root of 0
 
     def arctan2(self, x):
         x = dual(x)

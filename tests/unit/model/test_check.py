@@ -106,10 +106,6 @@ REFUSALS = {
     "tolerance too small": ({"settings": Settings(relative_tolerance=1e-16)}, ["1e-16", "1e-13..1e-3"]),
     "tolerance not a number": ({"settings": Settings(relative_tolerance=math.nan)}, ["relative_tolerance = nan"]),
     "negative gain": ({"settings": Settings(baumgarte_alpha=-1.0)}, ["baumgarte_alpha = -1", "not negative"]),
-    "too many contacts": (
-        {"contacts": tuple(replace(STOP, name=f"stop{k}") for k in range(51))},
-        ["has 51 contacts", "at most 50"],
-    ),
     "negative friction of a contact": ({"contacts": (replace(STOP, friction=-0.1),)}, ["'stop'", "friction = -0.1"]),
     "infinite friction of a contact": ({"contacts": (replace(STOP, friction=math.inf),)}, ["'stop'", "friction = inf"]),
     "unknown pattern": (

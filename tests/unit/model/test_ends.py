@@ -36,6 +36,7 @@ from mechanism_fmu.model import (
     Member,
     NonlinearSpring,
     NonlinearTorsionSpring,
+    Oscillation,
     Outline,
     OutlineContact,
     PointFollower,
@@ -154,6 +155,7 @@ PAIRS: list[tuple[Any, Any]] = [
     (DCMotor("x", CRANK, constant=2.0), DCMotor("x", "crank", GROUND, 2.0)),
     (Force("x", CRANK, force=(1.0, 2.0)), Force("x", "crank", (1.0, 2.0))),
     (Marker("x", ROD.at(0.0, 0.2)), Marker("x", "rod", (-0.1, 0.2))),
+    (Oscillation("x", ROD, middle=0.1), Oscillation("x", "rod", 0.1)),
     (
         PointForce("x", ROD.at(0.0, 0.2), force=(1.0, 2.0), frame="body"),
         PointForce("x", "rod", (-0.1, 0.2), (1.0, 2.0), "body"),

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -13,11 +14,14 @@ from mechanism_fmu.model import (
     LinearCopies,
     Mechanism,
     MechanismError,
+    Model,
     Outline,
     OutlineContact,
     Output,
+    Parameter,
     compile_mechanism,
 )
+from mechanism_fmu.model.trace import trace
 from mechanism_fmu.simulation import Simulation, SimulationError
 
 BODY = Body("body", 1.0, 0.01, start=(0.0, 1.0, 0.0))
@@ -66,6 +70,20 @@ def test_an_outline_that_several_contacts_share_stands_once() -> None:
 def test_copies_have_a_pitch() -> None:
     assert CircularCopies(4).data() == (math.pi / 2, 0.0, 0.0)
     assert LinearCopies(("5 mm", 0.0)).data() == (0.0, 0.005, 0.0)
+
+
+def test_copies_of_an_open_outline_may_follow_from_parameters() -> None:
+    """Whether the ends of copies join is asked of symbols, too: a model of them has a native FMU."""
+
+    def made(values: SimpleNamespace) -> Mechanism:
+        step = Outline.chain([(values.step, 0.0), (0.5 * values.step, values.height), (0.0, 0.0)])
+        return mechanism(outline_j=step, copies=LinearCopies((values.step, 0.0)))
+
+    parameters = Parameter("step", 0.2, "", minimum=0.1, maximum=1.0), Parameter("height", 0.05, "", maximum=0.1)
+    model = Model("Steps", "", parameters, made, drawing=())
+    values = model.values(step=0.3)
+    found, wanted = trace(model).evaluate(values), compile_mechanism(model.build(values))
+    assert found.columns["feature_data"].tobytes() == wanted.feature_data.tobytes()
 
 
 def test_an_outline_is_given_where_its_body_is_drawn() -> None:

@@ -65,7 +65,9 @@ def test_models_read_the_friction_of_all_that_may_rub_but_for_pins() -> None:
     assert {name: sources for name, sources in found.items() if sources} == {
         "cam_drive": {"contact.sticks"},
         "geneva": {"slot.sticks"},
+        "geneva_clearance": {"slot.sticks", "locking_disc.sticks"},
         "ratchet": {"slope.sticks", "face.sticks"},
+        "ratchet_free": {"tooth.sticks"},
         "rotary_table": {"brake.sticks"},
         "slider_crank": {"guide.sticks"},
     }

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import example, given, settings, strategies as st
 from ratchet_cases import PAPER, gap, paper_values, refused
 
 from docs.drawings import ratchet_drawing
@@ -90,6 +90,18 @@ def test_blunt_teeth_are_refused_with_the_least_slope_ratio():
     assert MODEL.refused(MODEL.values(slope_ratio=0.952)) == []
 
 
+def test_teeth_without_a_notch_are_refused_with_the_least_slope_ratio():
+    """Three teeth, whose apex has less than 90 deg, but whose roots stick out: 206 deg are free there."""
+    values, message = refused(tooth_count=3, slope_ratio=0.5575)
+    assert gap(values, tooth(values).face_normal) == pytest.approx(-0.014, abs=1e-5)
+    for fragment in ("slope_ratio = 0.5575 leaves no notch", "206.201 deg", "tooth_count = 3 give more than 1, or"):
+        assert fragment in message
+    assert MODEL.refused(MODEL.values(tooth_count=3, slope_ratio=1.001)) == []
+    # with four teeth, the face is at a right angle to the slope where both limits meet
+    _, message = refused(tooth_count=4, slope_ratio=0.7)
+    assert "blunt teeth" in message
+
+
 def test_short_pawl_is_refused_with_the_missing_length():
     height = crank_pin(MODEL.values()).height
     _, message = refused(pawl_length=height - 0.01)
@@ -172,6 +184,7 @@ def any_within_limits():
 
 @settings(deadline=None)
 @given(any_within_limits())
+@example({"tooth_count": 3, "slope_ratio": 0.5575})
 def test_values_within_limits_are_refused_in_words_or_start_on_the_slope(changes):
     try:
         values = MODEL.values(**changes)

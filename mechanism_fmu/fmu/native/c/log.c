@@ -77,14 +77,34 @@ static void append(char *text, size_t size, const char *more) {
     snprintf(text + length, size - length, "%s", more);
 }
 
-/* Names of the closed contacts of a mode, the sum of 2^c over them. */
-static const char *mode_name(const Instance *x, double mode, char *text, size_t size) {
+/* How many more there are than are named. */
+static void append_more(char *text, size_t size, const char *between, int count) {
+    char more[40];
+    snprintf(more, sizeof more, "%s%d more", between, count - MOST_NAMED);
+    if (count > MOST_NAMED) append(text, size, more);
+}
+
+/* Whether a contact is closed in a mode of an event record, CODE_EVENT_OLD_MODE or CODE_EVENT_NEW_MODE. */
+static int is_closed_in(const double *record, int mode, size_t contact) {
+    return (int64_t)record[mode + 2 * (contact / CODE_MODE_BITS)] >> contact % CODE_MODE_BITS & 1;
+}
+
+static int mode_changes(const Instance *x, const double *record) {
+    for (size_t k = CODE_EVENT_OLD_MODE; k < SIZE(x, event); k += 2)
+        if (record[k] != record[k + 1]) return 1;
+    return 0;
+}
+
+/* Names of the closed contacts of a mode: of many, the first, and how many more there are. */
+static const char *mode_name(const Instance *x, const double *record, int mode, char *text, size_t size) {
+    int count = 0;
     *text = 0;
     for (size_t c = 0; c < SIZE(x, contacts); c++)
-        if ((int64_t)mode >> c & 1) {
+        if (is_closed_in(record, mode, c) && count++ < MOST_NAMED) {
             if (*text) append(text, size, "+");
             append(text, size, model.contacts[c].name);
         }
+    append_more(text, size, "+", count);
     return *text ? text : "all open";
 }
 
@@ -121,15 +141,14 @@ static void log_events(Instance *x, int64_t new_events) {
             "%lld events of the step to t = %.9g s are not listed one by one; the last %lld follow.",
             (long long)(new_events - known), time_of(x), (long long)known);
     for (int64_t k = 0; k < known; k++) {
-        const double *record = FIELD(x, events) + k * CODE_EVENT_COLUMNS;
-        double before = record[CODE_EVENT_OLD_MODE], after = record[CODE_EVENT_NEW_MODE];
+        const double *record = FIELD(x, events) + (size_t)k * SIZE(x, event);
         double impulse = record[CODE_EVENT_IMPULSE];
         char event[200], old_mode[600], new_mode[600], change[1300] = "";
         name_event((int)record[CODE_EVENT_GUARD], (int)record[CODE_EVENT_SUBJECT], event, sizeof event);
-        if (before != after || impulse != 0) /* of friction, and of teeth, there is often none */
+        if (mode_changes(x, record) || impulse != 0) /* of friction, and of teeth, there is often none */
             snprintf(change, sizeof change, ": %s -> %s, total impulse %.6g N.s",
-                     mode_name(x, before, old_mode, sizeof old_mode), mode_name(x, after, new_mode, sizeof new_mode),
-                     impulse);
+                     mode_name(x, record, CODE_EVENT_OLD_MODE, old_mode, sizeof old_mode),
+                     mode_name(x, record, CODE_EVENT_NEW_MODE, new_mode, sizeof new_mode), impulse);
         say(x, OK, "logEvents", "Event %s at t = %.12g s%s.", event, record[CODE_EVENT_TIME], change);
     }
 }
@@ -228,20 +247,19 @@ static void penetration(Instance *x, int64_t which, const char *way_out, char *t
 
 /* The contacts that a failed event is about: those of the step's events, and the closed ones. */
 static void involved_contacts(Instance *x, char *text, size_t size) {
-    int64_t mode = 0;
-    for (int64_t k = 0; k < COUNTERS(x)[CODE_EVENTS_IN_STEP]; k++) {
-        const double *record = FIELD(x, events) + k * CODE_EVENT_COLUMNS;
-        mode |= (int64_t)record[CODE_EVENT_OLD_MODE] | (int64_t)record[CODE_EVENT_NEW_MODE];
-    }
-    int first = 1;
+    int count = 0;
     for (size_t c = 0; c < SIZE(x, contacts); c++) {
         int closed = ((const int64_t *)FIELD(x, contact_mode))[c] == CODE_CLOSED;
-        if (!closed && !(mode >> c & 1)) continue;
-        append(text, size, first ? " Contacts: " : ", ");
+        for (int64_t k = 0; k < COUNTERS(x)[CODE_EVENTS_IN_STEP] && !closed; k++) {
+            const double *record = FIELD(x, events) + (size_t)k * SIZE(x, event);
+            closed = is_closed_in(record, CODE_EVENT_OLD_MODE, c) || is_closed_in(record, CODE_EVENT_NEW_MODE, c);
+        }
+        if (!closed || count++ >= MOST_NAMED) continue;
+        append(text, size, count == 1 ? " Contacts: " : ", ");
         append(text, size, model.contacts[c].name);
-        first = 0;
     }
-    if (!first) append(text, size, ".");
+    append_more(text, size, ", ", count);
+    if (count) append(text, size, ".");
 }
 
 /* What rubs: coefficient, the angle of its bodies to each other, and Painleve's criterion where it slips. */

@@ -65,8 +65,8 @@ static Status check_together(const Instance *x, const double *state) {
         if (impacts[k * SIZE(x, record) + CODE_RECORD_CONTACT] < 0)
             return refuse(x, "%sit counts an impact without a contact.", CHANGED);
     for (size_t k = 0; k < (size_t)counters[CODE_EVENTS_IN_STEP]; k++) {
-        guard = (int64_t)events[k * CODE_EVENT_COLUMNS + CODE_EVENT_GUARD];
-        subject = (int64_t)events[k * CODE_EVENT_COLUMNS + CODE_EVENT_SUBJECT];
+        guard = (int64_t)events[k * SIZE(x, event) + CODE_EVENT_GUARD];
+        subject = (int64_t)events[k * SIZE(x, event) + CODE_EVENT_SUBJECT];
         if (!(has_subject(guard) || guard == CODE_GUARD_INPUT) || !fits(x, guard, subject))
             return refuse(x, "%sits event %lld cannot be about %lld.", CHANGED, (long long)guard, (long long)subject);
     }

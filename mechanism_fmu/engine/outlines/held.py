@@ -1,0 +1,118 @@
+"""Whether two outlines touch already where a search has found them near each other."""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.parts import Contacts, Features, Outlines
+from ...tolerances import MARGIN
+from ..compiler.subset import jit, keep_apart, keep_small
+from .features import beside, disc_radius, fits, is_hollow_corner, over_seam, radius_of
+
+
+@jit
+def is_held(
+    block: Array, contact: int, is_next: bool, copy: int, side: int, one: int, other: int, disc: int, feature: int
+) -> bool:
+    """Whether a disc touches a feature already, or what it touches goes on there.
+
+    Features that follow upon each other, smoothly or around a corner that sticks out, touch the same feature at one
+    place at most: where the one hands over to the other. Where an outline goes over into a hollow arc in which the
+    other does not fit, there may be two. Where something round comes off, nothing hands over any more: what follows
+    there may be the next, if that is what is looked for. Of corners and sides, rounding would say.
+    """
+    keep_apart()
+    table = Contacts(block)
+    group = table.group[contact]
+    for k in range(group, table.mode.shape[0]):
+        if table.group[k] != group:
+            break
+        if table.feature_i[k] == codes.NONE:
+            continue
+        own, its = table.feature_i[k], table.feature_j[k]
+        if side == 1:
+            own, its = its, own
+        comes_off = is_next and table.mode[k] == codes.OPEN
+        is_round = max(radius_of(block, disc), radius_of(block, own), -radius_of(block, feature)) > 0.0
+        same_circles = _is_one_circle(block, its, feature) and _is_one_circle(block, own, disc)
+        if comes_off and is_round and not same_circles:
+            continue
+        if table.copy[k] != copy:  # what it is in another copy is another thing
+            same = own == disc if side == 0 else its == feature
+            goes_on = (same or disc_radius(block, one, own) >= 0.0) and _goes_on_in_copy(
+                block, contact, copy, side, disc, feature, k
+            )
+            if goes_on:
+                return True
+            continue
+        same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, one, own) >= 0.0
+        if not (fits(block, own, feature) and fits(block, disc, its)):
+            continue  # a hollow arc, which something flatter bridges
+        if same and is_one_with(block, one, disc, own) and is_one_with(block, other, feature, its):
+            return True
+    return False
+
+
+@jit
+def _goes_on_in_copy(block: Array, contact: int, copy: int, side: int, disc: int, feature: int, held: int) -> bool:
+    """Whether what the contact `held` touches goes on in a copy as one of two features, the other being the same."""
+    table = Contacts(block)
+    of_i, of_j = disc, feature
+    if side == 1:
+        of_i, of_j = feature, disc
+    over = _is_over_seam(block, table.outline_j[contact], of_j, copy, table.feature_j[held], table.copy[held])
+    return over and is_one_with(block, table.outline_i[contact], of_i, table.feature_i[held])
+
+
+@jit
+def _is_over_seam(block: Array, outline: int, feature: int, copy: int, held: int, held_copy: int) -> bool:
+    """Whether a feature follows upon one that is touched in the copy before or behind, around no hollow corner."""
+    keep_small()
+    away = abs(copy - held_copy)
+    if away != 1 and away != Outlines(block).copies[outline] - 1:
+        return False
+    first = Outlines(block).first[outline]
+    if is_hollow_corner(block, first):
+        return False
+    for way in range(-1, 2, 2):
+        begins = over_seam(block, outline, held, way)
+        if begins != codes.NONE and abs(feature - begins) <= 1:
+            return True
+    return False
+
+
+@jit
+def _is_one_circle(block: Array, one: int, other: int) -> bool:
+    """Whether two features are the same, or arcs of the same circle."""
+    keep_small()
+    if one == other:
+        return True
+    features = Features(block)
+    if features.kind[one] != codes.ARC or features.kind[other] != codes.ARC:
+        return False
+    a, b = features.data[one], features.data[other]
+    dx: float = a[codes.FEATURE_X] - b[codes.FEATURE_X]
+    dy: float = a[codes.FEATURE_Y] - b[codes.FEATURE_Y]
+    wider: float = a[codes.FEATURE_RADIUS] - b[codes.FEATURE_RADIUS]
+    return max(abs(dx), abs(dy), abs(wider)) <= MARGIN
+
+
+@jit
+def is_one_with(block: Array, outline: int, feature: int, held: int) -> bool:
+    """Whether a feature is the one that is touched, or follows upon it without a hollow corner between."""
+    keep_small()
+    if feature == held:
+        return True
+    for way in range(-1, 2, 2):
+        corner = held
+        if Features(block).kind[held] != codes.VERTEX:
+            corner = beside(block, outline, held, way)
+            if corner == codes.NONE:
+                continue
+            if corner == feature:
+                return True
+            if is_hollow_corner(block, corner):
+                continue
+        if beside(block, outline, corner, way) == feature:
+            return True
+    return False

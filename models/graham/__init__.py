@@ -1,0 +1,1 @@
+"""Graham's dead-beat escapement: an anchor with a pendulum on whose dead arcs a tooth rests without turning it."""

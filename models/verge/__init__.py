@@ -1,0 +1,1 @@
+"""Verge and foliot, the oldest escapement of clocks: only the wheel's torque swings it."""
