@@ -12,7 +12,7 @@ def near_defaults(model):
     """Values that are the default or near it (within 1 of a default 0): often accepted."""
 
     def choice(parameter):
-        low, high = (0.8 * parameter.start, 1.25 * parameter.start) if parameter.start else (-1.0, 1.0)
+        low, high = sorted((0.8 * parameter.start, 1.25 * parameter.start)) if parameter.start else (-1.0, 1.0)
         low, high = max(low, parameter.minimum), min(high, parameter.maximum)
         return st.just(parameter.start) | st.floats(low, high)
 
