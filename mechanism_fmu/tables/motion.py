@@ -154,7 +154,7 @@ class LinearSystem(Table):
     column_basis = real("rows", "rows", work=True)
     column_triangle = real("rows", "rows", work=True)
     order = integer("rows", work=True)
-    row_norm = real("rows", 2, work=True)
+    row_norm = real("rows", 3, work=True)
     coefficient = real("rows", work=True)
     dual = real("rows", work=True)
     rank = integer(1, work=True)
@@ -181,12 +181,14 @@ class Loads(Table):
 class Stages(Table, prefix="stage_"):
     """Scratch of one Runge-Kutta step.
 
-    `tried`: start and size of the one last tried [s]; `independence` of the rows at each of its stages, of which
+    `tried`: start and size of the one last tried [s]; `drift`: the most that an active row is off at its end, and a
+    rate; `independence` of the rows at each of its stages, of which
     `stage` is the one computed last; `stiffest` is the unknown that limited the steps, once that was asked.
     """
 
     derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
     tried = real(2, name="tried", work=True)
+    drift = real(2, work=True)
     y_start = real("unknowns", name="y_start", work=True)
     y_stage = real("unknowns", name="y_stage", work=True)
     y_new = real("unknowns", name="y_new", work=True)
@@ -227,7 +229,8 @@ class Watch(Table, rows="guards", prefix="guard_"):
     """Scratch of the search for events.
 
     Which guards are looked at, whether each is armed and what it must come down to; its rate at the last look; value
-    and rate at the next; of the distance of two outlines, up to which part of the step it has been looked at.
+    and rate at the next; of the distance of two outlines, up to which part of the step it has been looked at, and a
+    bound of how fast it changes [m per step].
     """
 
     watched = integer(work=True)
@@ -236,6 +239,7 @@ class Watch(Table, rows="guards", prefix="guard_"):
     rate = real(work=True)
     next = real(2, work=True)
     reached = real(work=True)
+    most = real(work=True)
 
 
 class Rubs(Table, rows="rubs", prefix="rub_"):

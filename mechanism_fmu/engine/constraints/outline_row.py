@@ -19,8 +19,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..elementary import sine_cosine
-from ..outlines.features import CORNERS_TOUCH, FAR, radius_of
+from ..outlines.features import CORNERS_TOUCH, FAR, radius_of, turning_of_copy
 from .entries import begin_row
 
 
@@ -29,11 +28,10 @@ def turning_of(block: Array, at: Pose, body: int, outline: int, copy: int) -> tu
     """Cosine and sine of the angle of a copy of an outline."""
     keep_small()
     c, s = at.cosine[body], at.sine[body]
-    pitch = Outlines(block).data[outline, codes.OUTLINE_PITCH]
-    if copy != 0 and pitch != 0.0:
-        st, ct = sine_cosine(copy * pitch)
-        return c * ct - s * st, s * ct + c * st
-    return c, s
+    if copy == 0:
+        return c, s
+    st, ct = turning_of_copy(block, outline, copy)
+    return c * ct - s * st, s * ct + c * st
 
 
 @jit

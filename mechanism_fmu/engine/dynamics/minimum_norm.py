@@ -19,6 +19,8 @@ RANK_TOLERANCE = 1e-10
 _REORTHOGONALISE_BELOW = 0.25
 #: Below this fraction, the squared length left of a row is computed afresh, because subtraction has cancelled it.
 _RECOMPUTE_BELOW = 1e-4
+#: Columns of two bodies.
+_TWO_BODIES = 6
 
 
 @jit
@@ -38,6 +40,7 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
         square = _dot(basis[i], basis[i], width)
         system.row_norm[i, 0] = square
         system.row_norm[i, 1] = square
+        system.row_norm[i, 2] = 1.0 if square > 0.0 else 0.0
     for r in range(count):
         fraction = _choose_pivot(system, r, count)
         if not fraction > RANK_TOLERANCE * RANK_TOLERANCE:
@@ -70,6 +73,7 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
             if left < _RECOMPUTE_BELOW * system.row_norm[i, 0]:
                 left = _dot(basis[i], basis[i], width)
             system.row_norm[i, 1] = left
+            system.row_norm[i, 2] = left / system.row_norm[i, 0]
     return count
 
 
@@ -98,8 +102,7 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
     best = r
     best_fraction = -1.0
     for s in range(r, count):
-        i = system.order[s]
-        fraction = system.row_norm[i, 1] / system.row_norm[i, 0] if system.row_norm[i, 0] > 0.0 else 0.0
+        fraction = system.row_norm[system.order[s], 2]
         if fraction > best_fraction:
             best_fraction = fraction
             best = s
@@ -171,6 +174,9 @@ def _solve_deficient(block: Array, count: int, rank: int) -> None:
 @jit
 def _dot(a: Array, b: Array, length: int) -> float:
     """Scalar product of the first `length` entries, in four sums: one would wait for each addition."""
+    if length == _TWO_BODIES:  # the same without a loop, whose overhead would be most of the work
+        total: float = (a[0] * b[0] + a[4] * b[4] + a[5] * b[5] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+        return total
     first = second = third = fourth = 0.0
     whole = length - length % 4
     for k in range(0, whole, 4):
@@ -186,5 +192,13 @@ def _dot(a: Array, b: Array, length: int) -> float:
 @jit
 def _add_multiple(target: Array, factor: float, source: Array, length: int) -> None:
     """Target += factor * source, in the first `length` entries."""
+    if length == _TWO_BODIES:
+        target[0] += factor * source[0]
+        target[1] += factor * source[1]
+        target[2] += factor * source[2]
+        target[3] += factor * source[3]
+        target[4] += factor * source[4]
+        target[5] += factor * source[5]
+        return
     for k in range(length):
         target[k] += factor * source[k]

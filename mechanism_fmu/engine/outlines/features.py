@@ -13,7 +13,7 @@ from ...tables.declare import Array
 from ...tables.parts import Features, Outlines
 from ...tolerances import MARGIN
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..elementary import atan2
+from ..elementary import atan2, sine_cosine
 
 #: The gap where there is nothing to touch [m].
 FAR = 1e30
@@ -24,6 +24,20 @@ CORNERS_TOUCH = 1e-9
 BEYOND = 0.5 * MARGIN
 #: Elements whose directions differ by less than this where they meet go on smoothly: there is no corner [rad].
 _SMOOTH = 1e-9
+
+
+@jit
+def turning_of_copy(block: Array, outline: int, copy: int) -> tuple[float, float]:
+    """Sine and cosine of the angle by which a copy of an outline is turned about the origin of its body."""
+    keep_small()
+    angle = copy * Outlines(block).data[outline, codes.OUTLINE_PITCH]
+    if angle == 0.0:
+        return 0.0, 1.0
+    last = Outlines(block).turning[outline, 3 * (copy % 2) :]
+    if last[0] != angle:
+        last[0] = angle
+        last[1], last[2] = sine_cosine(angle)
+    return last[1], last[2]
 
 
 @jit

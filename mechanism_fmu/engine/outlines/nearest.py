@@ -15,7 +15,7 @@ from ...tables.motion import Pose
 from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import GAP_NOISE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..elementary import atan2, sine_cosine
+from ..elementary import atan2
 from .crossing import crossing
 from .features import (
     BEYOND,
@@ -26,6 +26,7 @@ from .features import (
     is_hollow_corner,
     is_over,
     over_arc,
+    turning_of_copy,
 )
 from .held import is_held, is_one_with
 
@@ -85,7 +86,7 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
                 block, contact, mode, k, c, s, x - k * data[codes.OUTLINE_DX], y - k * data[codes.OUTLINE_DY], best
             )
         else:
-            st, ct = sine_cosine(k * data[codes.OUTLINE_PITCH])
+            st, ct = turning_of_copy(block, other, k)
             best = _of_copy(
                 block, contact, mode, k, ct * c + st * s, ct * s - st * c, ct * x + st * y, ct * y - st * x, best
             )
@@ -176,7 +177,7 @@ def _of_discs(
         within = best + radius + around[codes.OUTLINE_RADIUS]
         if dx * dx + dy * dy > within * within:
             continue
-        found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius)
+        found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius, best)
         # where two arcs and the side between them lie flat, all are as near but for rounding: what can touch counts
         if smooth and found != codes.NONE and gap < best - GAP_NOISE:
             best = max(gap, TOUCHES_WITHIN)
@@ -205,8 +206,11 @@ def _of_disc(
     px: float,
     py: float,
     radius: float,
+    best: float,
 ) -> tuple[int, float]:
     """What a disc about (px, py) touches first of an outline, but for what it touches already; and its gap.
+
+    What is not nearer than `best` need not be found.
 
     In front of a feature, that with the least gap; behind one, only if it is the nearest of all, or no neighbour of
     that and no deeper than what may have happened since the last look.
@@ -219,6 +223,8 @@ def _of_disc(
         deepest = TOUCHES_WITHIN  # an open chain has no inside
     # a hollow corner is where the element behind it begins, which is not what the one before touches
     is_end = features.kind[disc] == codes.VERTEX and is_hollow_corner(block, disc)
+    # what is farther away cannot be what is found, nor nearer than what is crossed
+    farthest = max(best, deepest)
     front, crossed, closest = codes.NONE, codes.NONE, codes.NONE
     gap, depth, least = FAR, 0.0, FAR
     is_cut = False
@@ -228,7 +234,7 @@ def _of_disc(
         distance, nx, ny = apart(block, g, px, py, radius)
         if mode <= FREE and features.kind[g] == codes.VERTEX and features.kind[disc] == codes.VERTEX:
             distance -= CORNERS_TOUCH
-        if distance < -deepest or (distance >= gap and abs(distance) >= least):
+        if distance < -deepest or distance >= farthest or (distance >= gap and abs(distance) >= least):
             continue
         if not is_over(block, g, px, py):
             continue

@@ -36,16 +36,20 @@ from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for
 from ..contacts.handover import bind, ends_in_hollow, is_free, is_outline, let_loose
 from ..contacts.inside import is_too_deep
 from .letting_go import first_to_let_go
-from .looks import BISECTIONS, bisect, place_at, value_at
-from .meeting import meets_before
+from .looks import BISECTIONS, bisect, falls_between, place_at, value_at
+from .meeting import cannot_meet, may_leave, meets_before
 from .runge_kutta import try_step
 from .step_size import smallest_step
 
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
 _NEWTON_STEPS = 12
-#: What a guard does at the start of a step, as the fraction at which it fires: nothing yet; it stands inside.
+#: How closely it is found on the dense output where a feature ends, in parts of a step; `refine_end` does the rest.
+_HANDS_OVER_WITHIN = 1e-12
+#: What a guard does at the start of a step, as the fraction at which it fires: nothing yet; nothing in this step; it
+#: stands inside.
 _NOT_YET = 2.0
+_NOT_WITHIN = 3.0
 _INSIDE = -1.0
 
 
@@ -121,6 +125,8 @@ def _first_zero(block: Array) -> tuple[int, float]:
             fraction = _begin(block, at, g)
             if fraction <= 0.0:
                 return g, fraction
+            if fraction == _NOT_WITHIN:
+                continue
             look_at.watched[count] = g
             count += 1
     if count == 0:
@@ -128,10 +134,13 @@ def _first_zero(block: Array) -> tuple[int, float]:
     before = 0.0
     for look in range(1, _LOOKS + 1):
         after = look / _LOOKS
-        at = place_at(block, after)
+        is_placed = False
         for k in range(count):
             g = look_at.watched[k]
             if not stands_for_search(block, g):
+                if not is_placed:
+                    at = place_at(block, after)
+                    is_placed = True
                 look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, at, g)
         which = codes.NONE
         earliest = 2.0
@@ -162,8 +171,7 @@ def _begin(block: Array, at: Pose, number: int) -> float:
     keep_small()
     look_at = Watch(block)
     if stands_for_search(block, number):
-        look_at.reached[number] = 0.0
-        return _NOT_YET
+        return _NOT_WITHIN if cannot_meet(block, at, number) else _NOT_YET
     value, rate = guard_value(block, at, number)
     look_at.rate[number] = rate
     look_at.armed[number] = 1
@@ -177,6 +185,8 @@ def _begin(block: Array, at: Pose, number: int) -> float:
     if guard == codes.GUARD_HANDOVER and value <= 0.0 and ends_in_hollow(block, at, subject):
         look_at.floor[number] = value - MARGIN  # nothing takes over there: what is beyond has been looked at
         return _NOT_YET
+    if guard == codes.GUARD_HANDOVER and value > 0.0 and not may_leave(block, at, subject, value):
+        return _NOT_WITHIN
     if guard != codes.GUARD_GAP:
         return 0.0 if value <= 0.0 else _NOT_YET
     if value < 0.0 and not is_outline(block, subject) and is_too_deep(block, at, subject, value, rate):
@@ -226,6 +236,9 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
                 fraction = bisect(block, number, before, after, level)
             elif next_value <= floor:
                 fraction = bisect(block, number, before, after, floor)
+    elif next_value <= floor and guard_of(block, number)[0] == codes.GUARD_HANDOVER:
+        above = value_at(block, number, before)[0] - floor
+        fraction = falls_between(block, number, before, above, after, next_value - floor, floor, _HANDS_OVER_WITHIN)
     elif next_value <= floor:
         fraction = bisect(block, number, before, after, floor)
     elif rate < 0.0 < next_rate and floor == 0.0:

@@ -6,6 +6,8 @@ Runge-Kutta steps, as gaps are (`events`).
 
 from __future__ import annotations
 
+import math
+
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
@@ -29,14 +31,20 @@ from .runge_kutta import try_step
 _LAST = METHOD.last
 #: Points of a step at which each force is looked at.
 _LOOKS = 8
-#: Bisections of a bracket: of a contact's force, what follows does not depend on the last digits of when.
+#: How close, in parts of a step, it is found when a force is at its limit: of a contact's, what follows does not depend
+#: on the last digits of when.
+_CLOSE = 1e-15
+_PUSH_CLOSE = 2e-12
+#: After so many false positions, bisections.
+_FALSE_POSITIONS = 24
 _BISECTIONS = 60
-_PUSH_BISECTIONS = 36
 _NEWTON_STEPS = 12
 #: By this share of a step the dense output may misplace an event, where it is found anew on true steps.
 _MISPLACED = 1e-3
-#: A closed contact opens, and what sticks slips, when its force is less than this times the tolerance.
+#: A closed contact opens, and what sticks slips, when its force is less than this times the tolerance; a contact opens
+#: from the second of these on when it is looked at anew.
 _LETS_GO = -2.0
+_OPENS = -1.0
 
 
 @jit
@@ -52,7 +60,7 @@ def first_to_let_go(block: Array, latest: float) -> tuple[int, int, float]:
     table = Contacts(block)
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED and can_open(block, c) and table.least_push[c] < _LETS_GO:
-            lets_go = _first_below(block, codes.GUARD_PUSH, c, min(latest, fraction), _LETS_GO, _PUSH_BISECTIONS)
+            lets_go = _first_below(block, codes.GUARD_PUSH, c, min(latest, fraction), _LETS_GO, _PUSH_CLOSE)
             if lets_go < min(latest, fraction):
                 guard = codes.GUARD_PUSH
                 subject = c
@@ -64,7 +72,7 @@ def first_to_let_go(block: Array, latest: float) -> tuple[int, int, float]:
         if rub.least_hold[k] < _LETS_GO and sticks(block, k):
             # where it has more than none to spare at first, that is where it has none left
             limit = 0.0 if _spare_at(block, codes.GUARD_SLIP, k, 0.0) > 1.0 else _LETS_GO
-            lets_go = _first_below(block, codes.GUARD_SLIP, k, min(latest, fraction), limit, _BISECTIONS)
+            lets_go = _first_below(block, codes.GUARD_SLIP, k, min(latest, fraction), limit, _CLOSE)
             if lets_go < min(latest, fraction):
                 guard = codes.GUARD_SLIP
                 subject = k
@@ -73,24 +81,65 @@ def first_to_let_go(block: Array, latest: float) -> tuple[int, int, float]:
 
 
 @jit
-def _first_below(block: Array, guard: int, subject: int, latest: float, limit: float, bisections: int) -> float:
+def _first_below(block: Array, guard: int, subject: int, latest: float, limit: float, close: float) -> float:
     """Where before `latest` a force falls to its limit; 2.0 when the dense output does not show it."""
     keep_small()
     before = 0.0
+    above = math.inf
     for look in range(1, _LOOKS + 1):
         after = min(latest, look / _LOOKS)
-        if _spare_at(block, guard, subject, after) < _LETS_GO:
-            for _ in range(bisections):
-                middle = 0.5 * (before + after)
-                if _spare_at(block, guard, subject, middle) < limit:
-                    after = middle
-                else:
-                    before = middle
-            return after
+        spare = _spare_at(block, guard, subject, after)
+        if spare < _LETS_GO:
+            if look == 1:
+                above = _spare_at(block, guard, subject, before)
+            return _falls_between(block, guard, subject, before, above - limit, after, spare - limit, limit, close)
         if after >= latest:
             return 2.0
         before = after
+        above = spare
     return 2.0
+
+
+@jit
+def _falls_between(
+    block: Array,
+    guard: int,
+    subject: int,
+    before: float,
+    above: float,
+    after: float,
+    below: float,
+    limit: float,
+    close: float,
+) -> float:
+    """Where a force, more than its limit by `above` and `below` at two fractions of the step, comes down to it.
+
+    The end of an interval no longer than `close`. By false position, where the value at an end that
+    stays counts half (Illinois); by bisection where it is no number, or that leads nowhere.
+    """
+    keep_small()
+    stayed = 0
+    for look in range(_FALSE_POSITIONS + _BISECTIONS):
+        middle = 0.5 * (before + after)
+        if look < _FALSE_POSITIONS and 0.0 < above < math.inf:
+            place = (before * below - after * above) / (below - above)
+            middle = max(min(place, after - 0.5 * close), before + 0.5 * close)
+        if after - before <= close or not before < middle < after:
+            break
+        value = _spare_at(block, guard, subject, middle) - limit
+        if value < 0.0:
+            after = middle
+            below = value
+            if stayed < 0:
+                above *= 0.5
+            stayed = -1
+        else:
+            before = middle
+            above = value
+            if stayed > 0:
+                below *= 0.5
+            stayed = 1
+    return after
 
 
 @jit
@@ -104,6 +153,34 @@ def _spare_at(block: Array, guard: int, subject: int, fraction: float) -> float:
     if guard == codes.GUARD_PUSH:
         return push_ratio(block, subject, push_tolerance(block, row_count(block)))
     return hold_ratio(block, subject, push_tolerance(block, row_count(block)))
+
+
+@jit
+def refine_push(block: Array, contact: int, step_size: float) -> float:
+    """The step size at which the true step ends where a contact pulls, as it does on the dense output.
+
+    By secants, until it is seen to pull: one that hardly pushes yet would stay closed there, and let go in a further
+    event right behind. That step is the last one tried.
+    """
+    keep_small()
+    s = Stages(block)
+    start = s.tried[0]
+    fraction = step_size / s.tried[1]
+    before = (1.0 - _MISPLACED) * step_size
+    pushed = _spare_at(block, codes.GUARD_PUSH, contact, (1.0 - _MISPLACED) * fraction)
+    size = step_size
+    for _ in range(_NEWTON_STEPS):
+        try_step(block, start, size)
+        value = push_ratio(block, contact, push_tolerance(block, row_count(block)))
+        if not _OPENS < value < pushed:
+            return size
+        move = (value - _LETS_GO) * (size - before) / (pushed - value)
+        if not abs(size + move - step_size) <= _MISPLACED * step_size:
+            return size
+        before = size
+        pushed = value
+        size += move
+    return float(s.tried[1])
 
 
 @jit

@@ -11,6 +11,8 @@ from ..interpolation import interpolate
 
 #: Bisections of a bracket: 2^-60 of a step is below rounding.
 BISECTIONS = 60
+#: After so many false positions, bisections.
+_FALSE_POSITIONS = 16
 
 
 @jit
@@ -42,4 +44,38 @@ def bisect(block: Array, number: int, before: float, after: float, floor: float)
             before = middle
         else:
             after = middle
+    return after
+
+
+@jit
+def falls_between(
+    block: Array, number: int, before: float, above: float, after: float, below: float, floor: float, close: float
+) -> float:
+    """As `bisect`, where a guard is more than `floor` by `above` and `below` at the two fractions of the step.
+
+    The end of an interval no longer than `close`. By false position, where the value at an end that stays counts half
+    (Illinois); where the value jumps, as behind two corners that meet, false positions lead nowhere: by bisection.
+    """
+    keep_small()
+    stayed = 0
+    for look in range(2 * BISECTIONS):
+        middle = 0.5 * (before + after)
+        if above > 0.0 and look < _FALSE_POSITIONS and look % 4 < 3:
+            middle = (before * below - after * above) / (below - above)
+            middle = max(min(middle, after - 0.5 * close), before + 0.5 * close)
+        if after - before <= close or not before < middle < after:
+            break
+        value = value_at(block, number, middle)[0] - floor
+        if value > 0.0:
+            before = middle
+            above = value
+            if stayed > 0:
+                below *= 0.5
+            stayed = 1
+        else:
+            after = middle
+            below = value
+            if stayed < 0:
+                above *= 0.5
+            stayed = -1
     return after

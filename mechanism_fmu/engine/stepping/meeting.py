@@ -2,26 +2,48 @@
 
 from __future__ import annotations
 
+import math
+
+from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Stages, Watch
-from ...tables.parts import Contacts
+from ...tables.motion import Pose, Stages, Watch
+from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import GAP_NOISE, MARGIN
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
+from ..constraints.outline_row import place_feature
 from ..contacts.guards import guard_of
 from ..contacts.handover import left_to_go
-from ..outlines.advance import FINEST, fastest
+from ..outlines.advance import FINEST, fastest, speed, turn
+from ..outlines.features import radius_of
 from ..outlines.nearest import look_no_deeper
-from .looks import BISECTIONS, place_at, value_at
+from .looks import falls_between, place_at, value_at
 from .runge_kutta import try_step
 
-#: After so many false positions, bisections.
-_FALSE_POSITIONS = 16
 _NEWTON_STEPS = 12
 #: So near to it a place of contact is at the end of a feature [m]: what follows there goes on smoothly.
 _AT_THE_END = 0.1 * MARGIN
 #: The part of the way to the end of a feature from which on the slope there is measured.
 _CLOSE = 0.999
+
+
+@jit
+def cannot_meet(block: Array, at: Pose, number: int) -> bool:
+    """Whether two outlines are known to be so far apart that they cannot meet in the step that begins at `at`.
+
+    Else the step is yet to be looked at.
+    """
+    keep_small()
+    look_at = Watch(block)
+    contact = guard_of(block, number)[1]
+    group = Contacts(block).group[contact]
+    apart = Contacts(block).apart
+    look_at.reached[number] = 0.0
+    look_at.most[number] = fastest(block, at, contact)
+    if not apart[group] > look_at.most[number]:
+        return False
+    apart[group] -= look_at.most[number]
+    return True
 
 
 @jit
@@ -32,26 +54,23 @@ def meets_before(block: Array, number: int, after: float) -> float:
     contact = guard_of(block, number)[1]
     group = Contacts(block).group[contact]
     apart = Contacts(block).apart
-    speed = fastest(block, place_at(block, look_at.reached[number]), contact)
-    if look_at.reached[number] == 0.0 and apart[group] > speed:
-        apart[group] -= speed
-        look_at.reached[number] = 2.0
-        return 2.0
-    look_no_deeper(block, speed * FINEST)
+    most = look_at.most[number]
+    look_no_deeper(block, most * FINEST)
     found = 2.0
     while look_at.reached[number] <= after:
         now = look_at.reached[number]
         value = value_at(block, number, now)[0] - GAP_NOISE
         if value <= 0.0 and now > 0.0:
             before = look_at.next[number, 1]
-            found = _meeting(block, number, before, look_at.next[number, 0], now, value, GAP_NOISE / speed)
+            above = look_at.next[number, 0]
+            found = falls_between(block, number, before, above, now, value, GAP_NOISE, GAP_NOISE / most)
             break
         look_at.next[number, 0] = value
         look_at.next[number, 1] = now
         look_at.reached[number] = 2.0
-        apart[group] = max(value - speed * (1.0 - now), 0.0)
-        if value <= speed * (1.0 - now):
-            look_at.reached[number] = now + max(value / speed, FINEST)
+        apart[group] = max(value - most * (1.0 - now), 0.0)
+        if value <= most * (1.0 - now):
+            look_at.reached[number] = now + max(value / most, FINEST)
             if now < 1.0 < look_at.reached[number]:
                 look_at.reached[number] = 1.0
     look_no_deeper(block, 0.0)
@@ -59,35 +78,37 @@ def meets_before(block: Array, number: int, after: float) -> float:
 
 
 @jit
-def _meeting(block: Array, number: int, before: float, above: float, after: float, below: float, close: float) -> float:
-    """Where two outlines that were apart at `before`, by `above` [m], have met: just before `after`, where `below` is.
+def may_leave(block: Array, at: Pose, contact: int, left: float) -> bool:
+    """Whether, of a contact with `left` to go at the step's start, the place may come to an end within the step.
 
-    The end of an interval shorter than `close`. By false position, where the value at an end that stays counts half
-    (Illinois); where the distance jumps, as behind two corners that meet, false positions lead nowhere: by bisection.
+    No, where it cannot go so far even with a bound of its speed. With D from disc to disc, or from the start of a
+    segment to the disc on it, that of D in the frame of either body is at most |D'| + |D| |u|; the direction of D turns
+    by that over |D|, the normal of a segment with its body. Each range is measured as `left_to_go` does.
     """
-    keep_small()
-    stayed = 0
-    for look in range(2 * BISECTIONS):
-        middle = 0.5 * (before + after)
-        if above > 0.0 and look < _FALSE_POSITIONS and look % 4 < 3:
-            middle = (before * below - after * above) / (below - above)
-            middle = max(min(middle, after - 0.5 * close), before + 0.5 * close)
-        if after - before <= close or not before < middle < after:
-            break
-        value = value_at(block, number, middle)[0] - GAP_NOISE
-        if value > 0.0:
-            before = middle
-            above = value
-            if stayed > 0:
-                below *= 0.5
-            stayed = 1
-        else:
-            after = middle
-            below = value
-            if stayed < 0:
-                above *= 0.5
-            stayed = -1
-    return after
+    keep_apart()
+    table = Contacts(block)
+    i, j = table.body_i[contact], table.body_j[contact]
+    f, g = table.feature_i[contact], table.feature_j[contact]
+    one, other = table.outline_i[contact], table.outline_j[contact]
+    ax, ay, _, _ = place_feature(block, at, i, one, 0, f)
+    bx, by, _, _ = place_feature(block, at, j, other, table.copy[contact], g)
+    moves = speed(block, i, math.sqrt(ax * ax + ay * ay)) + speed(block, j, math.sqrt(bx * bx + by * by))
+    dx = at.x[i] + ax - at.x[j] - bx
+    dy = at.y[i] + ay - at.y[j] - by
+    distance = math.sqrt(dx * dx + dy * dy)
+    turn_i, turn_j = turn(block, i), turn(block, j)
+    along = moves + (distance + moves) * max(turn_i, turn_j)
+    radius = max(abs(radius_of(block, f)), abs(radius_of(block, g)))
+    kind = Features(block).kind
+    if kind[f] == codes.SEGMENT or kind[g] == codes.SEGMENT:
+        data = Outlines(block).data
+        long = min(data[one, codes.OUTLINE_RADIUS], data[other, codes.OUTLINE_RADIUS])
+        along = max(along, max(long, radius) * (turn_i + turn_j))
+    elif distance > moves:
+        along *= max(1.0, radius / (distance - moves))
+    else:
+        along = math.inf
+    return not left > along
 
 
 @jit

@@ -7,7 +7,7 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, Rubs, Stages
+from ...tables.motion import Course, Rows, Rubs, Stages
 from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
@@ -18,7 +18,7 @@ from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
 from ..elementary import power
 from ..interpolation import write_dense
-from ..vectors import clear
+from ..vectors import clear, largest
 from .singular import independence
 
 _STAGES = METHOD.stages
@@ -38,7 +38,8 @@ def try_step(block: Array, start: float, size_: float) -> float:
 
     The step is accurate enough when that is at most 1.
 
-    Writes y_new, all derivatives (the last one belongs to y_new), the dense output, and `contacts.least_push`.
+    Writes y_new, all derivatives (the last one belongs to y_new), the dense output, `contacts.least_push`,
+    and by how much active rows are off at its end.
     """
     s = Stages(block)
     k = s.derivatives
@@ -60,6 +61,9 @@ def try_step(block: Array, start: float, size_: float) -> float:
         _stage(block, start + h * _C[r], s.y_stage, k[r])
     _weighted(k, _A[_LAST], y, h, s.y_new)
     _stage(block, start + h, s.y_new, k[_LAST])
+    count = row_count(block)
+    s.drift[0] = largest(Rows(block).residual, count)
+    s.drift[1] = largest(Rows(block).residual_rate, count)
     write_dense(block, h)
     return _error_norm(block, h)
 

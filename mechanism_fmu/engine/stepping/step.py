@@ -24,7 +24,7 @@ from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import clear, copy
 from .events import first_event, refine
-from .letting_go import refine_hold, refine_slip
+from .letting_go import refine_hold, refine_push, refine_slip
 from .meeting import refine_end
 from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
@@ -155,6 +155,8 @@ def _end_at_event(block: Array, guard: int, subject: int, start: float, step: fl
         return refine_slip(block, subject, step)
     if guard == codes.GUARD_SLIP:
         return refine_hold(block, subject, step)
+    if guard == codes.GUARD_PUSH:
+        return refine_push(block, subject, step)
     try_step(block, start, step)
     return step
 
@@ -183,7 +185,9 @@ def _mend_and_check(block: Array) -> int:
     keep_small()
     now = Course(block)
     set_time(block, now.clock[codes.STEP_END])
-    if mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
+    drift = Stages(block).drift
+    drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT)
+    if (drifted or Sizes(block).alphas > 0) and mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
         clear(Contacts(block).apart)
     if Sizes(block).outlines > 0:
