@@ -54,15 +54,16 @@ def icon(model: Model, path: Path) -> None:
         for shape in model.shapes:
             if isinstance(shape, Disc):
                 centre, radius = now.place(shape.at), now.number(shape.radius)
-                points = [centre + radius * 1j ** (k / 6) for k in range(24)]
+                chains = [[centre + radius * 1j ** (k / 6) for k in range(24)]]
             elif isinstance(shape, Polyline):
-                points = now.points(shape)
+                chains = now.chains(shape)
             elif isinstance(shape, Wheel):
-                points = now.rim(shape)
+                chains = [now.rim(shape)]
             else:
                 continue
-            places = [(p.real, p.imag) for p in points]
-            axes.fill(*zip(*places, strict=True), facecolor=METAL, edgecolor=INK, linewidth=0.6)
+            for points in chains:
+                places = [(p.real, p.imag) for p in points]
+                axes.fill(*zip(*places, strict=True), facecolor=METAL, edgecolor=INK, linewidth=0.6)
 
 
 def redraw(one: Swung) -> None:

@@ -69,6 +69,16 @@ class Moment:
         turn = cmath.exp(1j * self.number(shape.angle))
         return [self.place(shape.at) + turn * complex(*map(self.number, point)) for point in shape.points]
 
+    def chains(self, shape: Polyline) -> list[list[complex]]:
+        """The points of a line and those of each of its copies, x + i y [m]."""
+        start, points = self.place(shape.at), self.points(shape)
+        turn = cmath.exp(1j * self.number(shape.angle))
+        found = [points]
+        for copy in shape.copies:
+            x, y, angle = map(self.number, copy)
+            found.append([start + turn * complex(x, y) + cmath.exp(1j * angle) * (point - start) for point in points])
+        return found
+
     def rim(self, shape: Wheel) -> list[complex]:
         """The points of a wheel's rim, x + i y [m]."""
         count, way = round(self.number(shape.count)), -1 if shape.clockwise else 1
@@ -144,6 +154,8 @@ def _view(shapes: tuple[Shape, ...], now: Moment, paths: Mapping[str, list[compl
             points += [now.place(shape.at) + now.number(shape.radius) * 1j**k for k in range(4)]
         if isinstance(shape, Wheel):
             points += now.rim(shape)
+        if isinstance(shape, Polyline):
+            points += [point for chain in now.chains(shape) for point in chain]
     left, right = min(p.real for p in points), max(p.real for p in points)
     low, high = min(p.imag for p in points), max(p.imag for p in points)
     wide, tall = max(right - left, 1e-9), max(high - low, 1e-9)
@@ -164,7 +176,8 @@ def _drawn(shape: Shape, now: Moment, view: View, colours: cycle[str]) -> str:
         case Polyline():
             closed = len(shape.points) > 2
             style = f'fill="{"#e2e8f0" if closed else "none"}" stroke="#718096" stroke-width="1.5"'
-            return view.path([*map(_pair, _thinned(now.points(shape), NEAR / view.scale))], style, closed)
+            chains = (_thinned(points, NEAR / view.scale) for points in now.chains(shape))
+            return "\n".join(view.path([*map(_pair, points)], style, closed) for points in chains)
         case Disc():
             size = now.number(shape.radius) * view.scale
             return view.circle(_pair(now.place(shape.at)), size, 'fill="#e2e8f0" stroke="#718096" stroke-width="1.5"')

@@ -34,6 +34,7 @@ var SCENE = (function () {
         record.outline = pairs(shape.outline);
       }
       if (shape.points) record.points = pairs(shape.points);
+      if (shape.copies) record.copies = pairs(shape.copies);
       if (shape.kind === "link") record.hull = hull(record.points);
       if (shape.to !== undefined) record.to = place(shape.to);
       if (shape.colour) record.colour = shape.colour;
@@ -87,11 +88,21 @@ var SCENE = (function () {
       return { x: far(from.x, Math.cos), y: far(from.y, Math.sin), slack: from.slack };
     }
 
+    // The points of a link or outline, and those of each of its copies.
+    function chains(shape) {
+      const points = pairs(shape.points);
+      const turned = ([x, y, angle]) => {
+        const c = Math.cos(angle), s = Math.sin(angle);
+        return points.map(([u, v]) => [x + c * u - s * v, y + s * u + c * v]);
+      };
+      return [points, ...pairs(shape.copies || []).map(turned)];
+    }
+
     const largest = (values) => Math.max(...extent(values).map(Math.abs));
 
     function radiusOf(shape) {
       if (shape.kind === "disc") return largest(values(shape.radius));
-      if (shape.points) return Math.max(...pairs(shape.points).map(([x, y]) => Math.hypot(x, y)));
+      if (shape.points) return Math.max(...chains(shape).flat().map(([x, y]) => Math.hypot(x, y)));
       return shape.outline ? Math.max(...pairs(shape.outline).map(([radius]) => Math.abs(radius))) : 0;
     }
 

@@ -72,10 +72,15 @@ var ANIMATION = (function () {
     },
     polyline(shape, layer, scale) {
       const closed = shape.points.length > 2;
-      const line = element(closed ? "polygon" : "polyline", { points: pixels(shape.points, scale),
+      const draw = (points, into) => element(closed ? "polygon" : "polyline", { points: pixels(points, scale),
         fill: closed ? shape.colour : "none", "fill-opacity": 0.6, stroke: INK, "stroke-width": closed ? 1.5 : 2,
-        "stroke-linejoin": "round" }, layer);
-      return (place, value) => line.setAttribute("transform", place + turn(value(shape.angle)));
+        "stroke-linejoin": "round" }, into);
+      const all = shape.copies ? element("g", {}, layer) : null, line = draw(shape.points, all || layer);
+      for (const [x, y, angle] of shape.copies || []) {
+        const c = Math.cos(angle), s = Math.sin(angle);
+        draw(shape.points.map(([a, b]) => [x + c * a - s * b, y + s * a + c * b]), all);
+      }
+      return (place, value) => (all || line).setAttribute("transform", place + turn(value(shape.angle)));
     },
     spring(shape, layer) {
       const line = element("path", { fill: "none", stroke: INK, "stroke-width": 1.5, "stroke-linejoin": "round" }, layer);

@@ -16,7 +16,7 @@ from ..run.experiment import Run
 from .motion import Contact, contacts
 from .page import section
 from .plot import FloatArray, frame_rows, strongest
-from .scene import Scene, bounds, hull, names_of, points_of
+from .scene import Scene, bounds, copies_of, hull, names_of, points_of
 from .style import COLOURS, IMPACT_COLOUR, WHEEL, themed
 
 # The player of mechanisms in motion: what `animation.js` brings to life, whatever the pictures are of.
@@ -169,6 +169,8 @@ def _shapes(scene: Scene) -> list[dict[str, Any]]:
             record["outline"] = [[scene.at_start(radius), scene.at_start(angle)] for radius, angle in shape.outline]
         if shape.kind in WITH_POINTS:
             record["points"] = points_of(shape, scene)
+        if shape.copies:
+            record["copies"] = copies_of(shape, scene)
         if shape.kind == "link":
             record["hull"] = hull(record["points"])
         if shape.to is not None:

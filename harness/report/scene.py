@@ -56,7 +56,7 @@ def names_of(shapes: Sequence[Shape]) -> set[str]:
     quantities: list[Quantity] = []
     for shape in shapes:
         quantities += shape.quantities.values()
-        quantities += [quantity for point in shape.outline for quantity in point]
+        quantities += [quantity for point in (*shape.outline, *shape.copies) for quantity in point]
         for place in (shape.at, shape.to):
             quantities += [] if place is None or isinstance(place, str) else place
     return {quantity.removeprefix("-") for quantity in quantities if isinstance(quantity, str)}
@@ -102,13 +102,25 @@ def _radius(shape: Shape, scene: Scene) -> float:
     if shape.kind == "disc":
         return float(np.max(np.abs(scene.value(shape.quantities["radius"]))))
     if shape.kind in WITH_POINTS:
-        return max(math.hypot(x, y) for x, y in points_of(shape, scene))
+        return max(math.hypot(x, y) for points in chains_of(shape, scene) for x, y in points)
     return max((abs(scene.at_start(radius)) for radius, _ in shape.outline), default=0.0)
 
 
 def points_of(shape: Shape, scene: Scene) -> list[tuple[float, float]]:
     """The points of a link or outline, in its own frame [m]."""
     return [(scene.at_start(x), scene.at_start(y)) for x, y in shape.outline]
+
+
+def copies_of(shape: Shape, scene: Scene) -> list[tuple[float, float, float]]:
+    """Where a polyline is drawn once more in its own frame: x, y [m] and angle [rad]."""
+    return [(scene.at_start(x), scene.at_start(y), scene.at_start(angle)) for x, y, angle in shape.copies]
+
+
+def chains_of(shape: Shape, scene: Scene) -> list[list[tuple[float, float]]]:
+    """The points of a link or outline, and those of each of its copies, in its own frame [m]."""
+    points = points_of(shape, scene)
+    turned = [(x, y, math.cos(angle), math.sin(angle)) for x, y, angle in copies_of(shape, scene)]
+    return [points, *([(x + c * u - s * v, y + s * u + c * v) for u, v in points] for x, y, c, s in turned)]
 
 
 def _box(spot: _Spot, radius: float) -> tuple[float, float, float, float]:

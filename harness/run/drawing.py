@@ -54,6 +54,7 @@ class Shape:
             its points (x, y) [m] in its own frame.
         to: the other end of a spring or rod.
         clockwise: whether the outline of a wheel continues clockwise.
+        copies: where in its frame a polyline is drawn once more: x, y [m], and the angle [rad] by which it is turned.
     """
 
     kind: str
@@ -63,6 +64,7 @@ class Shape:
     outline: tuple[tuple[Quantity, Quantity], ...] = ()
     clockwise: bool = False
     to: Place | None = None
+    copies: tuple[tuple[Quantity, Quantity, Quantity], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -137,6 +139,7 @@ class _Reader:
             tuple(self._pair(point, f"outline of {label}") for point in outline),
             raw.get("clockwise") is True,
             self._place(raw.get("to"), label) if kind in BETWEEN else None,
+            tuple(self._copies(raw.get("copies", []), f"copies of {label}") if kind == "polyline" else ()),
         )
         if kind == "bar":
             self._bars.add(name)
@@ -150,6 +153,12 @@ class _Reader:
         if raw not in self._bars:
             raise FlawError(f"{label} starts from '{raw}', which is no bar before it")
         return raw
+
+    def _copies(self, raw: Any, label: str) -> Iterator[tuple[Quantity, Quantity, Quantity]]:
+        if not isinstance(raw, list) or any(not isinstance(one, list) or len(one) != 3 for one in raw):
+            raise FlawError(f"the {label} are no list of x, y and an angle each")
+        for x, y, angle in raw:
+            yield self._quantity(x, label), self._quantity(y, label), self._quantity(angle, label)
 
     def _pair(self, raw: Any, label: str) -> tuple[Quantity, Quantity]:
         if not isinstance(raw, list) or len(raw) != 2:

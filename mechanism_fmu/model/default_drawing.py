@@ -69,7 +69,13 @@ class Drawn:
     points: dict[str, list[tuple[Quantity, Quantity]]] = field(default_factory=dict)
     given: dict[str, list[tuple[Number, Number]]] = field(default_factory=dict)
     numbers: int = 0
-    named: set[str] = field(default_factory=set)
+    _taken: set[str] = field(init=False)  # names of parameters and ports, and of the drawing's numbers so far
+    _known: set[str] = field(init=False)  # names of the mechanism's own calculated parameters
+
+    def __post_init__(self) -> None:
+        ports: tuple[Input | Output, ...] = (*self.mechanism.inputs, *self.mechanism.outputs)
+        self._taken = {*self.taken, *(port.name for port in ports)}
+        self._known = {port.name for port in self.mechanism.calculated}
 
     def number(self, value: Number, name: str) -> Quantity:
         """A number of the drawing: itself, or the name of the calculated parameter that holds it."""
@@ -78,10 +84,9 @@ class Drawn:
         self.numbers += 1
         if not self.follows[self.numbers - 1]:
             return float(value) if is_plain(value) else 0.0
-        taken = {*self.taken, *self.named, *(port.name for port in self._ports())}
-        name = _free(f"drawing_{name}", taken)
-        self.named.add(name)
-        if any(known.name == name for known in self.mechanism.calculated):
+        name = _free(f"drawing_{name}", self._taken)
+        self._taken.add(name)
+        if name in self._known:
             return name  # of a mechanism that another model has drawn
         self.calculated.append(Calculated(name, value, "Drawing: a number of its shape", "m"))
         return name
@@ -116,14 +121,10 @@ class Drawn:
         for output in (*self.mechanism.outputs, *self.outputs):
             if output.source == source:
                 return output.name
-        calculated = (*self.mechanism.calculated, *self.calculated)
-        taken = {*self.taken, *(port.name for port in self._ports()), *(known.name for known in calculated)}
-        name = _free(f"{body}_{what}", taken)
+        name = _free(f"{body}_{what}", self._taken | self._known)
+        self._taken.add(name)
         self.outputs.append(Output(name, source, f"Drawing: {what} of {body}", unit))
         return name
-
-    def _ports(self) -> tuple[Input | Output, ...]:
-        return (*self.mechanism.inputs, *self.mechanism.outputs, *self.outputs)
 
 
 def _free(name: str, taken: Collection[str]) -> str:
@@ -229,7 +230,8 @@ def _springs(drawn: Drawn) -> Iterator[Shape]:
 
 
 def _outlines(drawn: Drawn) -> Iterator[Shape]:
-    """Discs, plates, and the straight lines of guides and contacts."""
+    """Discs, plates, the straight lines of guides and contacts, and outlines, each once though several touch it."""
+    known: list[tuple[str, Any, Any]] = []
     for body in drawn.mechanism.bodies:
         corners = [corner.point for corner in body.corners]
         if len(corners) == 1:
@@ -248,10 +250,14 @@ def _outlines(drawn: Drawn) -> Iterator[Shape]:
                 (contact.body_j, contact.outline_j, contact.copies),
             )
             for owner, outline, copies in sides:
+                if any(one == owner and of is outline and by is copies for one, of, by in known):
+                    continue
+                known.append((owner, outline, copies))
                 at, angle = drawn.pose(owner)
-                for k, points in enumerate(drawn_outline(outline, copies)):
-                    name = f"{contact.name}_{owner}_{k}"
-                    yield Polyline(name, at, angle, tuple(_points(drawn, points, name)))
+                points, others = drawn_outline(outline, copies)
+                name = f"{contact.name}_{owner}"
+                chain = tuple(_points(drawn, points, name))
+                yield Polyline(name, at, angle, chain, tuple(_copies(drawn, others, f"{name}_copy")))
     for joint in drawn.mechanism.joints:
         for side in ("i", "j"):
             axis, body = getattr(joint, f"axis_{side}", None), getattr(joint, f"body_{side}")
@@ -271,6 +277,13 @@ def _line(drawn: Drawn, name: str, body: str, point: tuple[Number, Number], alon
 def _points(drawn: Drawn, points: Sequence[tuple[Number, Number]], name: str) -> Iterator[tuple[Quantity, Quantity]]:
     for k, (x, y) in enumerate(points):
         yield drawn.number(x, f"{name}_{k}_x"), drawn.number(y, f"{name}_{k}_y")
+
+
+def _copies(
+    drawn: Drawn, copies: Sequence[tuple[Number, Number, Number]], name: str
+) -> Iterator[tuple[Quantity, Quantity, Quantity]]:
+    for k, (x, y, angle) in enumerate(copies, start=1):
+        yield drawn.number(x, f"{name}_{k}_x"), drawn.number(y, f"{name}_{k}_y"), float(angle)
 
 
 def _pitch_circles(drawn: Drawn) -> Iterator[Shape]:

@@ -125,7 +125,11 @@ class Polyline(_Points):
 
     Attributes:
         name, at, angle, points: as of `Link`.
+        copies: where in the frame it is drawn once more, such as teeth: turned by an angle [rad] about the origin, then
+            displaced by (x, y) [m], as (x, y, angle). Other shapes start from points of the line itself.
     """
+
+    copies: tuple[tuple[Quantity, Quantity, Quantity], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -230,7 +234,7 @@ def quantities(shape: Shape) -> Iterator[Quantity]:
         if not isinstance(place, str):
             yield from place
     for field in fields(shape):
-        if field.name in ("outline", "points"):
+        if field.name in ("outline", "points", "copies"):
             yield from (quantity for point in getattr(shape, field.name) for quantity in point)
         elif field.name not in ("name", "at", "to", "clockwise"):
             yield getattr(shape, field.name)

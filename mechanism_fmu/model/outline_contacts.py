@@ -175,26 +175,28 @@ class OutlineContact(OutlineFacts):
 _DRAWN_IN_A_ROW = 5
 
 
-def drawn_outline(outline: Outline, copies: CircularCopies | LinearCopies | None) -> Iterator[list[Point]]:
-    """Closed chains of points that show an outline and its copies in a drawing [m]; teeth around a wheel are one chain.
+def drawn_outline(
+    outline: Outline, copies: CircularCopies | LinearCopies | None
+) -> tuple[list[Point], list[tuple[Number, Number, Number]]]:
+    """A closed chain of points that shows an outline in a drawing [m], and where its copies are: x, y [m], angle [rad].
+
+    Open teeth around a wheel are one chain.
 
     Args:
         outline: in the frame of its body.
         copies: how it repeats there.
     """
+    others: list[tuple[Number, Number, Number]] = []
     if isinstance(copies, CircularCopies):
-        turned = [outline.moved(angle=2.0 * math.pi * k / copies.count) for k in range(copies.count)]
+        angles = [2.0 * math.pi * k / copies.count for k in range(copies.count)]
         if not outline.closed:
-            yield [point for one in turned for point in _open(one)]
-            return
-        repeated = turned
+            return [point for angle in angles for point in _open(outline.moved(angle=angle))], []
+        others = [(0.0, 0.0, angle) for angle in angles[1:]]
     elif isinstance(copies, LinearCopies):
         (x, y), half = copies.step, min(copies.count // 2, _DRAWN_IN_A_ROW)
-        repeated = [outline.moved(k * x, k * y) for k in range(-half, half + 1)]
-    else:
-        repeated = [outline]
-    for one in repeated:
-        yield one.drawn() if one.closed else [*_open(one), *_open(one)[-2:0:-1]]  # there and back
+        others = [(k * x, k * y, 0.0) for k in range(-half, half + 1) if k]
+    there = outline.drawn() if outline.closed else _open(outline)
+    return (there if outline.closed else [*there, *there[-2:0:-1]]), others  # there and back
 
 
 def _open(outline: Outline) -> list[Point]:

@@ -1,6 +1,7 @@
 """What the pages of docs/elements warn of is so: numbers, directions and rules that nobody could guess."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ from mechanism_fmu import tolerances
 from mechanism_fmu.model import (
     GROUND,
     AngleLock,
+    Brake,
     CircularPattern,
     LogicalFunction,
     Mechanism,
@@ -98,6 +100,28 @@ def test_a_function_follows_the_copy_of_the_pattern():
         simulation.advance(0.1 * step)
         assert simulation.read()["closed"] == 0.0
     assert simulation.read()["index"] == round(6.9 / deg(90))
+
+
+def test_a_pattern_is_nothing_to_friction_elsewhere():
+    """Each instant, its boundary is looked at; a brake of other bodies slows these, and a pattern's none.
+
+    Once, the brake turned the bead: what the boundary's row had written was taken for the brake's.
+    """
+    mechanism = patterned(-1.0, (0.2, 0.0), below=0.1)
+    disc = rigid_body("disc", (1.0, 0.0), mass=1.0, inertia=0.5, speed=3.0)
+    mechanism = replace(
+        mechanism,
+        bodies=(*mechanism.bodies, disc),
+        joints=(*mechanism.joints, Revolute("pin", disc.at(0, 0), GROUND.at(1, 0))),
+        forces=(Brake("brake", disc, limit=0.25),),
+        outputs=(*(Output(f"{name}.angle", f"{name}.angle", "") for name in ("wheel", "bead", "disc")),),
+    )
+    simulation = Simulation(mechanism)
+    simulation.advance(4.0)
+    found = simulation.read()
+    assert found["disc.angle"] == pytest.approx(3.0 * 4.0 - 0.5 * 4.0**2 / 2.0, rel=1e-9)
+    assert found["wheel.angle"] == pytest.approx(-4.0, rel=1e-9)
+    assert found["bead.angle"] == 0.0
 
 
 def test_a_boundary_is_a_whole_line():

@@ -10,6 +10,8 @@ from harness.run.drawing import Drawing, Shape, read_drawing
 ARM = {"kind": "bar", "name": "arm", "at": [0, "-tooth_pitch"], "angle": "wheel_angle", "length": 2}
 WHEEL = {"kind": "wheel", "name": "wheel", "at": [0, 0], "angle": 0, "count": "tooth_count", "outline": [[1, 0]]}
 
+TEETH = {"kind": "polyline", "name": "teeth", "at": [0, 0], "angle": 0, "points": [[1, 0], [2, 0]]}
+
 
 def read(folder: Path, text: str) -> Drawing:
     (folder / "resources").mkdir(exist_ok=True)
@@ -26,12 +28,21 @@ def test_an_fmu_without_a_drawing_is_no_trouble(tmp_path: Path) -> None:
 
 
 def test_shapes_are_read_in_their_order(tmp_path: Path) -> None:
-    drawing = read_shapes(tmp_path, ARM, WHEEL | {"clockwise": True}, {"kind": "striker", "at": "arm"})
+    teeth = TEETH | {"copies": [[0, "tooth_pitch", 1.5]]}
+    drawing = read_shapes(tmp_path, ARM, WHEEL | {"clockwise": True}, {"kind": "striker", "at": "arm"}, teeth)
     assert drawing.objection == ""
     assert drawing.shapes == (
         Shape("bar", (0.0, "-tooth_pitch"), "arm", {"angle": "wheel_angle", "length": 2.0}),
         Shape("wheel", (0.0, 0.0), "wheel", {"angle": 0.0, "count": "tooth_count"}, ((1.0, 0.0),), True),
         Shape("striker", "arm"),
+        Shape(
+            "polyline",
+            (0.0, 0.0),
+            "teeth",
+            {"angle": 0.0},
+            ((1.0, 0.0), (2.0, 0.0)),
+            copies=((0.0, "tooth_pitch", 1.5),),
+        ),
     )
 
 
@@ -51,6 +62,9 @@ def test_shapes_are_read_in_their_order(tmp_path: Path) -> None:
         (ARM | {"kind": ["bar"]}, "unknown kind"),
         (WHEEL | {"outline": []}, "wheel 'wheel' has no outline"),
         (WHEEL | {"outline": [1]}, "outline of wheel 'wheel' is no pair"),
+        (TEETH | {"copies": [[0, 0]]}, "copies of polyline 'teeth' are no list of x, y and an angle each"),
+        (TEETH | {"copies": {"0": 1}}, "copies of polyline 'teeth' are no list"),
+        (TEETH | {"copies": [[0, 0, "psi"]]}, "copies of polyline 'teeth' is the variable 'psi'"),
         ("arm", "shape 1 is of the unknown kind None"),
     ],
 )
@@ -84,7 +98,9 @@ JSON = st.recursive(
     st.none() | st.booleans() | st.floats() | st.sampled_from(["arm", "bar", "wheel", "wheel_angle"]),
     lambda inner: (
         st.lists(inner, max_size=3)
-        | st.dictionaries(st.sampled_from(["kind", "name", "at", "angle", "length", "count", "outline"]), inner)
+        | st.dictionaries(
+            st.sampled_from(["kind", "name", "at", "angle", "length", "count", "outline", "copies"]), inner
+        )
     ),
 )
 

@@ -21,6 +21,7 @@ SHAPES = (
     Shape("hinge", (0.0, 0.0)),
     Shape("link", ("x", 0.5), "plate", {"angle": "turn"}, ((0.0, 0.0), ("size", 0.1), (0.2, "y"), (0.1, 0.1))),
     Shape("polyline", (0.0, 0.0), "wall", {"angle": 0.3}, ((0.0, -1.0), (0.0, "size"))),
+    Shape("polyline", ("x", 0.0), "teeth", {"angle": "turn"}, ((1.0, 0.0), ("size", 0.1)), copies=((0.5, "y", 2.5),)),
     Shape("spring", "plate.1", "coil", to="wall.1"),
     Shape("rod", (0.0, "y"), "rod", to=("x", 3.0)),
     Shape("trace", "plate.2", "path"),
@@ -33,6 +34,7 @@ def raw(shape: Shape) -> dict[str, Any]:
     entry |= {"name": shape.name} if shape.name else {}
     entry |= {"points" if shape.kind in WITH_POINTS else "outline": shape.outline} if shape.outline else {}
     entry |= {"to": shape.to} if shape.to else {}
+    entry |= {"copies": shape.copies} if shape.copies else {}
     return entry | ({"clockwise": True} if shape.clockwise else {})
 
 

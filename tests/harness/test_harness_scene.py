@@ -37,6 +37,15 @@ def test_wheels_and_discs_reach_around_their_centres() -> None:
     assert bounds(scene(wheel, disc, phi=[0.0], a=2.0)) == (-2, -2, 5.25, 2)
 
 
+def test_a_line_reaches_as_far_as_its_copies() -> None:
+    """One is turned to (0, 1) ... (0, 2), one displaced to (3, 5) ... (4, 5): as the wheel turns, anywhere around."""
+    copies = ((0.0, 0.0, math.pi / 2), (2.0, "b", 0.0))
+    line = Shape("polyline", (1.0, 0.0), "teeth", {"angle": "phi"}, ((1.0, 0.0), ("a", 0.0)), copies=copies)
+    far = math.hypot(4.0, 5.0)
+    assert bounds(scene(line, phi=[0.0], a=2.0, b=5.0)) == pytest.approx((1 - far, -far, 1 + far, far))
+    assert names_of([line]) == {"phi", "a", "b"}
+
+
 def test_the_names_of_a_drawing_are_those_of_its_variables() -> None:
     wheel = Shape("wheel", ("x", 0.0), "w", {"angle": "-phi", "count": "n"}, (("r", 0.0), (1.0, "-o")))
     assert names_of([wheel, PAWL, Shape("striker", "pawl")]) == {"x", "phi", "n", "r", "o"}

@@ -11,6 +11,7 @@ from ...tables.parts import Contacts, Functions, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import MARGIN, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
+from ..constraints.entries import begin_row
 from ..constraints.friction_rows import friction_row, slips
 from ..constraints.point_line import point_line, spare_row, tangent_row
 from ..constraints.rows import contact_row
@@ -242,6 +243,7 @@ def _beyond(block: Array, at: Pose, pattern: int, boundary: Array) -> tuple[floa
     keep_small()
     table = Patterns(block)
     i, j = table.body_i[pattern], table.body_j[pattern]
+    begin_row(Rows(block), spare_row(block), i, j)
     point_line(at, Rows(block), spare_row(block), i, j, table.data[pattern], boundary)
     return _spare(block)
 

@@ -42,6 +42,7 @@ def drawing(model: Model) -> dict[str, bytes]:
     known = {v.name for v in variables_of(model) if v.causality != "input" and "[" not in v.name}
     check_drawing(model.shapes, known)
     shapes = [{"kind": type(shape).__name__.lower(), **asdict(shape)} for shape in model.shapes]
+    shapes = [{key: value for key, value in shape.items() if key != "copies" or value} for shape in shapes]
     text = json.dumps({"format": FORMAT, "shapes": shapes}, separators=(",", ":"), allow_nan=False)
     return {DRAWING: f"{text}\n".encode()}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 from ..areas import Area
@@ -77,7 +78,10 @@ class Element(NamedTuple):
         """Its start, and of an arc also points between its ends, near enough for a drawing [m]."""
         if self.is_straight:
             return [self.start]
-        return [self.start, *(self.point(k / _DRAWN) for k in range(1, _DRAWN))]
+        (x, y), (cx, cy) = self.start, self.centre
+        dx, dy = x - cx, y - cy
+        turns = _plain_turns(self.bulge) if is_plain(self.bulge) else _turns(self.bulge)
+        return [self.start, *((cx + c * dx - s * dy, cy + s * dx + c * dy) for c, s in turns)]
 
     def area(self) -> Area:
         """What it adds to the area that the outline encloses, seen from the origin.
@@ -104,6 +108,17 @@ class Element(NamedTuple):
         fx, fy = beta * square * dy, -beta * square * dx
         polar = about * square * square + 2.0 * (mx * fx + my * fy) + (mx * mx + my * my) * area
         return whole.with_more(Area(area, (fx + mx * area, fy + my * area), polar))
+
+
+def _turns(bulge: Number) -> tuple[Point, ...]:
+    """Cosine and sine of the angles by which the drawn points of an arc are turned from its start."""
+    sweep = 4.0 * atan2(bulge, 1.0)
+    angles = [k / _DRAWN * sweep for k in range(1, _DRAWN)]
+    return tuple((cos(angle), sin(angle)) for angle in angles)
+
+
+#: The copies of an outline, such as teeth, have the same arcs.
+_plain_turns = lru_cache(maxsize=256)(_turns)
 
 
 #: Up to this bulge the closed forms of `_moments` lose digits, as 1 / b^4, and their series are exact to rounding.

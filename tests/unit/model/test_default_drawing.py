@@ -1,5 +1,7 @@
 """The drawing that a model gets that gives none: its shapes, and the variables that they need."""
 
+import cmath
+import json
 import math
 from dataclasses import replace
 from types import SimpleNamespace
@@ -12,16 +14,20 @@ from mechanism_fmu.model import (
     GROUND,
     Body,
     CamFollower,
+    CircularCopies,
     Disc,
     Distance,
     Gears,
     Hinge,
+    LinearCopies,
     Link,
     Marker,
     Mechanism,
     Model,
     Move,
     NonlinearSpring,
+    Outline,
+    OutlineContact,
     Output,
     Parameter,
     PointLineContact,
@@ -218,3 +224,49 @@ def test_a_guide_is_drawn_by_its_direction_however_long_that_is(long: float) -> 
     guide = RevoluteTranslational("guide", GROUND.line((0.0, 0.5), (0.6 * long, 0.8 * long)), block)
     line = Model("Guided", "", (), lambda _: Mechanism((block,), (guide,))).shapes[0]
     assert [x for point in line.points for x in point] == pytest.approx([-0.15, 0.3, 0.15, 0.7], rel=1e-12)
+
+
+def toothed(copies: CircularCopies | LinearCopies, tooth: Outline | None = None) -> Model:
+    """Two pins that may meet the same teeth, whose size is a parameter."""
+
+    def mechanism(values: SimpleNamespace) -> Mechanism:
+        wheel, pin, other = (
+            Body("wheel", 1.0, 0.1),
+            Body("pin", 1.0, 0.1, (9.0, 0.0, 0.0)),
+            Body("other", 1.0, 0.1, (0.0, 9.0, 0.0)),
+        )
+        teeth = tooth or Outline.circle(0.1 * values.length, (values.length, 0.0))
+        contacts = (
+            OutlineContact("one", pin, wheel, outline_i=Outline.circle(0.1), outline_j=teeth, copies=copies),
+            OutlineContact("two", other, wheel, outline_i=Outline.circle(0.1), outline_j=teeth, copies=copies),
+        )
+        return Mechanism((wheel, pin, other), contacts=contacts)
+
+    return Model("Toothed", "", LENGTH, mechanism)
+
+
+def test_teeth_are_drawn_once_however_many_touch_them_and_copies_have_no_numbers_of_their_own() -> None:
+    model = toothed(CircularCopies(4))
+    (teeth,) = (shape for shape in model.shapes if shape.name.endswith("_wheel"))
+    assert teeth.name == "one_wheel"
+    assert teeth.copies == ((0.0, 0.0, 0.5 * math.pi), (0.0, 0.0, math.pi), (0.0, 0.0, 1.5 * math.pi))
+    found = {c.name: c.value for c in model.build(model.values(length=1.0)).calculated}
+    assert len(found) == 2 * len(teeth.points) - 2  # of two points y is 0 whatever the length is
+    assert all("wheel" in name for name in found)
+    points = [(found.get(x, x), found.get(y, y)) for x, y in teeth.points]
+    assert [math.hypot(x - 1.0, y) for x, y in points] == pytest.approx([0.1] * len(points), rel=1e-12)
+    (entry,) = (s for s in json.loads(drawing(model)[DRAWING])["shapes"] if s.get("name") == "one_wheel")
+    assert entry["copies"] == [[0.0, 0.0, 0.5 * math.pi], [0.0, 0.0, math.pi], [0.0, 0.0, 1.5 * math.pi]]
+    trace(model)
+
+
+def test_teeth_in_a_row_are_some_of_them_and_open_ones_around_a_wheel_one_line() -> None:
+    (row,) = (shape for shape in toothed(LinearCopies((0.5, 0.0))).shapes if shape.name == "one_wheel")
+    assert row.copies == tuple((0.5 * k, 0.0, 0.0) for k in (-5, -4, -3, -2, -1, 1, 2, 3, 4, 5))
+    tooth = Outline.chain([(1.0, -0.2), (1.2, 0.0), (1.0, 0.2)])
+    (rim,) = (shape for shape in toothed(CircularCopies(3), tooth).shapes if shape.name == "one_wheel")
+    assert rim.copies == ()
+    assert len(rim.points) == 9
+    turn = cmath.exp(2j * math.pi / 3)
+    second = [turn * complex(*point) for point in tooth.points]
+    assert [complex(*point) for point in rim.points[3:6]] == pytest.approx(second, rel=1e-12)

@@ -3,7 +3,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from mechanism_fmu.model import Bar, Disc, Hinge, MechanismError, Striker, Wheel
+from mechanism_fmu.model import Bar, Disc, Hinge, MechanismError, Polyline, Striker, Wheel
 from mechanism_fmu.model.drawing import check_drawing, quantities
 from mechanism_fmu.model.sawtooth import wheel_outline
 from models.ratchet.model import MODEL
@@ -28,6 +28,7 @@ def test_a_drawing_that_stands_on_its_own_is_accepted() -> None:
         ([Bar("crank", ("-d", 0.0), 0.0, 1.0)], "no variable 'd'"),
         ([Wheel("wheel", (0.0, 0.0), 0.0, 3, ((1.0, "apex"),))], "Wheel 'wheel': the model has no variable 'apex'"),
         ([Hinge((0.0, "y"))], r"Hinge \(shape 1\): the model has no variable 'y'"),
+        ([Polyline("teeth", (0.0, 0.0), 0.0, ((1.0, 0.0),), (("step", 0.0, 0.0),))], "no variable 'step'"),
         ([Disc("disc", (0.0, 0.0), math.nan)], "Disc 'disc': nan is not a finite number"),
         (
             [CRANK, Bar("pawl", "crnk", 0.0, 1.0)],
@@ -46,6 +47,8 @@ def test_what_does_not_exist_is_named(shapes: list[Bar], message: str) -> None:
 def test_quantities_are_all_numbers_of_a_shape_and_no_names() -> None:
     wheel = Wheel("wheel", (1.0, 2.0), "phi", "teeth", ((3.0, 4.0), (5.0, 6.0)), clockwise=True)
     assert list(quantities(wheel)) == [1.0, 2.0, "phi", "teeth", 3.0, 4.0, 5.0, 6.0]
+    teeth = Polyline("teeth", (1.0, 2.0), "phi", ((3.0, 4.0),), ((5.0, "step", 6.0),))
+    assert list(quantities(teeth)) == [1.0, 2.0, "phi", 3.0, 4.0, 5.0, "step", 6.0]
     assert list(quantities(CRANK)) == [0.0, 0.0, "phi", "length"]
     assert list(quantities(Hinge("crank"))) == []
 
