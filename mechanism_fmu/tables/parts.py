@@ -153,7 +153,8 @@ class Features(Table, rows="features", prefix="feature_"):
 class Outlines(Table, rows="outlines", prefix="outline_"):
     """The outlines: their features, whether the last one is followed by the first, and their copies (0: it alone).
 
-    Work: how deep behind a feature a point may be for it to count there [m]; what a search has found.
+    Work: how deep behind a feature a point may be for it to count there [m], and whether crossing elements do; what a
+    search has found.
     """
 
     first = integer()
@@ -161,7 +162,7 @@ class Outlines(Table, rows="outlines", prefix="outline_"):
     closed = integer()
     copies = integer()
     data = real(codes.OUTLINE_COLUMNS)
-    depth = real(1, name="outlines_depth", alone=True, work=True)
+    depth = real(2, name="outlines_depth", alone=True, work=True)
     found = integer(3, name="outlines_found", alone=True, work=True)
 
 
