@@ -88,8 +88,8 @@ class _Shape:
         p = p[..., None]
         with np.errstate(divide="ignore", invalid="ignore"):
             turns = np.nan_to_num(np.angle((self.end - p) / (self.start - p)))
-        beside = ((p - self.start) / (self.end - self.start)).imag * self.side
-        in_segment = (np.abs(p - self.centre) < self.radius) & (beside > 0.0)
+        # of a point right on the chord, rounding says on which side it is: the same for both terms
+        in_segment = (np.abs(p - self.centre) < self.radius) & ((turns > 0.0) == (self.side > 0.0)) & self.is_arc
         turns = turns + np.where(in_segment, -2.0 * np.pi * np.sign(self.side), 0.0)
         around = np.rint(turns.sum(axis=-1) / (2.0 * np.pi))
         return (around == 0) if self.hole else (around > 0)

@@ -153,8 +153,9 @@ class Features(Table, rows="features", prefix="feature_"):
 class Outlines(Table, rows="outlines", prefix="outline_"):
     """The outlines: their features, whether the last one is followed by the first, and their copies (0: it alone).
 
-    Work: how deep behind a feature a point may be for it to count there [m]; what a search has found; angle, sine and
-    cosine of the last copies that were looked at, one with an even number and one with an odd one.
+    Work: how deep behind a feature a point may be for it to count there [m], and whether crossing elements do; what a
+    search has found; angle, sine and cosine of the last copies that were looked at, one with an even number and one
+    with an odd one.
     """
 
     first = integer()
@@ -163,7 +164,7 @@ class Outlines(Table, rows="outlines", prefix="outline_"):
     copies = integer()
     data = real(codes.OUTLINE_COLUMNS)
     turning = real(6, work=True)
-    depth = real(1, name="outlines_depth", alone=True, work=True)
+    depth = real(2, name="outlines_depth", alone=True, work=True)
     found = integer(3, name="outlines_found", alone=True, work=True)
 
 

@@ -12,7 +12,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
-from ...tolerances import TOUCHES_WITHIN
+from ...tolerances import RESTS_BELOW, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.outline_row import outline_row, place_feature, turning_of
@@ -20,6 +20,7 @@ from ..constraints.point_line import spare_row
 from ..outlines.features import (
     FAR,
     beside,
+    faces_corner,
     fits,
     inside_range,
     is_corner,
@@ -28,7 +29,8 @@ from ..outlines.features import (
     over_seam,
     radius_of,
 )
-from ..outlines.nearest import FREE, look_no_deeper, nearest
+from ..outlines.held import is_one_with
+from ..outlines.nearest import EVERY, FREE, MEETS, look_no_deeper, nearest
 
 #: Outlines that reach farther into each other than this do not touch, but overlap [m].
 OVERLAPS = 1e-9
@@ -62,10 +64,23 @@ def free_place(block: Array, group: int) -> int:
 
 @jit
 def bind(block: Array, at: Pose, contact: int) -> None:
-    """Bind a free contact to the nearest features that touch nothing yet."""
+    """Bind a free contact to the nearest features that touch nothing yet, in place of what comes off beside them."""
     keep_small()
-    nearest(block, at, contact, FREE)
+    nearest(block, at, contact, MEETS)
     take_found(block, contact)
+    table = Contacts(block)
+    f, g = table.feature_i[contact], table.feature_j[contact]
+    if f == codes.NONE:
+        return
+    for k in range(table.group[contact], table.mode.shape[0]):
+        if table.group[k] != table.group[contact]:
+            break
+        opens = table.mode[k] == codes.OPEN and table.feature_i[k] != codes.NONE and k != contact
+        if opens and table.copy[k] == table.copy[contact]:
+            is_same = is_one_with(block, table.outline_i[k], f, table.feature_i[k])
+            if is_same and is_one_with(block, table.outline_j[k], g, table.feature_j[k]):
+                table.touching[k] = 0
+                let_loose(block, k)
 
 
 @jit
@@ -119,11 +134,11 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
 
 
 @jit
-def deepest_overlap(block: Array, at: Pose, mode: int) -> tuple[int, float]:
+def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
     """The contact of the outlines that reach deepest into each other, and how deep [m]; `codes.NONE` where none does.
 
-    A disc of one that is inside the other counts, and none in an open chain, which has no inside; with `nearest.START`
-    also elements that cross. Otherwise `mode` is `nearest.EVERY`.
+    A disc of one that is inside the other counts, and none in an open chain, which has no inside; and elements that
+    cross each other.
     """
     keep_apart()
     table = Contacts(block)
@@ -134,7 +149,7 @@ def deepest_overlap(block: Array, at: Pose, mode: int) -> tuple[int, float]:
         if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
             if table.apart[c] > 0.0 and not _is_bound(block, c):
                 continue
-            gap = nearest(block, at, c, mode)
+            gap = nearest(block, at, c, EVERY)
             if gap < least:
                 least = gap
                 found = c
@@ -216,7 +231,7 @@ def _end(
     if kind == codes.ARC:
         side = 1.0 if data[codes.FEATURE_RADIUS] > 0.0 else -1.0
         before, behind = over_arc(block, feature, side * (c * nx + s * ny), side * (c * ny - s * nx))
-    elif kind == codes.SEGMENT or Features(block).kind[partner] != codes.VERTEX:
+    else:
         if kind == codes.VERTEX:  # by the normal: a hollow arc's centre is on the other side
             dx, dy = nx, ny
         x = data[codes.FEATURE_X] + c * dx + s * dy
@@ -276,10 +291,15 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
     follows = beside(block, outline, leaves, way)
     if follows != codes.NONE and is_hollow_corner(block, follows):
         return
+    if Features(block).kind[leaves] == codes.VERTEX and Features(block).kind[partner] == codes.VERTEX:
+        _come_off_corner(block, contact, side, follows)
+        return
     if follows != codes.NONE and Features(block).kind[follows] == codes.VERTEX:
         if not is_corner(block, follows):
             follows = beside(block, outline, follows, way)
         elif Features(block).kind[partner] == codes.VERTEX:
+            if _around_corner(block, at, contact, side, way, follows):
+                return
             follows = codes.NONE
     if follows == codes.NONE and side == 1 and _cross_seam(block, at, contact, way):
         return
@@ -294,6 +314,99 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
     table.mode[contact] = codes.OPEN
     table.touching[contact] = 0
     let_loose(block, contact)
+
+
+@jit
+def _come_off_corner(block: Array, contact: int, side: int, follows: int) -> None:
+    """Two corners that touch, and of which one goes on along an element beside the other, come off there.
+
+    They are as far apart as where corners touch, along the normal of that element, and move across it.
+    """
+    keep_small()
+    table = Contacts(block)
+    table.mode[contact] = codes.OPEN
+    table.touching[contact] = 1
+    if follows == codes.NONE:
+        table.touching[contact] = 0
+        let_loose(block, contact)
+    elif side == 0:
+        table.feature_i[contact] = follows
+    else:
+        table.feature_j[contact] = follows
+
+
+@jit
+def _around_corner(block: Array, at: Pose, contact: int, side: int, way: int, corner: int) -> bool:
+    """Where a corner has come to a corner at the end of what it touches, what the contact goes on with, if anything.
+
+    That is a side of the one that comes over the other corner, or what is behind that, if the other elements there lie
+    on its free side; which comes over which is told by the rates, as places say nothing there. What lay flat goes on
+    to touch; the others come off.
+    """
+    keep_apart()
+    table = Contacts(block)
+    one, other = table.feature_i[contact], table.feature_j[contact]
+    if side == 0:
+        one = corner
+    else:
+        other = corner
+    i, j, copy = table.body_i[contact], table.body_j[contact], table.copy[contact]
+    outline_i, outline_j = table.outline_i[contact], table.outline_j[contact]
+    ax, ay, _, _ = place_feature(block, at, i, outline_i, 0, one)
+    bx, by, _, _ = place_feature(block, at, j, outline_j, copy, other)
+    # how the corner of i moves as seen from that of j
+    ux = at.x_rate[i] - ay * at.phi_rate[i] - at.x_rate[j] + by * at.phi_rate[j]
+    uy = at.y_rate[i] + ax * at.phi_rate[i] - at.y_rate[j] - bx * at.phi_rate[j]
+    c, s = turning_of(block, at, i, outline_i, 0)
+    ci, si = turning_of(block, at, j, outline_j, copy)
+    for of in range(2):
+        outline, vertex = (outline_i, one) if of == 0 else (outline_j, other)
+        for to in range(-1, 2, 2):
+            if of == side and to == -way:
+                continue  # it comes from there
+            element = beside(block, outline, vertex, to)
+            if element == codes.NONE:
+                continue
+            data = Features(block).data[vertex]
+            dx, dy = data[codes.FEATURE_DX], data[codes.FEATURE_DY]
+            if to > 0:
+                dx, dy = data[codes.FEATURE_LEAVES_X], data[codes.FEATURE_LEAVES_Y]
+            if of == 0:
+                dx, dy = c * dx - s * dy, s * dx + c * dy
+                enters = -to * (ux * dx + uy * dy)
+                # the normal out of the element, seen from the other outline
+                faces = faces_corner(block, other, ci * dy - si * dx, -ci * dx - si * dy)
+            else:
+                dx, dy = ci * dx - si * dy, si * dx + ci * dy
+                enters = to * (ux * dx + uy * dy)
+                faces = faces_corner(block, one, c * dy - s * dx, -c * dx - s * dy)
+            partner = other if of == 0 else one
+            if not (enters > 0.0 and faces and fits(block, element, partner)):
+                continue
+            table.feature_i[contact] = element if of == 0 else one
+            table.feature_j[contact] = element if of == 1 else other
+            outline_row(block, at, contact, spare_row(block), False)
+            if _is_bound_twice(block, contact):
+                return False
+            if abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN:
+                if abs(Rows(block).residual_rate[spare_row(block)]) >= RESTS_BELOW:
+                    table.mode[contact] = codes.OPEN
+                    table.touching[contact] = 1
+                return True
+    return False
+
+
+@jit
+def _is_bound_twice(block: Array, contact: int) -> bool:
+    """Whether another contact of the group is bound to the same features."""
+    table = Contacts(block)
+    for k in range(table.group[contact], table.mode.shape[0]):
+        if table.group[k] != table.group[contact]:
+            break
+        same = table.feature_i[k] == table.feature_i[contact] and table.feature_j[k] == table.feature_j[contact]
+        if k != contact and same and table.copy[k] == table.copy[contact]:
+            return True
+    return False
 
 
 @jit

@@ -11,7 +11,7 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.parts import Features, Outlines
-from ...tolerances import MARGIN
+from ...tolerances import MARGIN, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2, sine_cosine
 
@@ -22,6 +22,10 @@ CORNERS_TOUCH = 1e-9
 #: So far beyond its end something may still be over a feature [m]; less than where a contact hands over, so that what
 #: has come to its end is not found there again.
 BEYOND = 0.5 * MARGIN
+#: A corner that is nearer than this to a corner is at that corner [m].
+AT_A_CORNER = 10.0 * TOUCHES_WITHIN
+#: What a corner touches may be turned against the elements beside it by this [rad], as what lies flat there is.
+_TILT = 1e-6
 #: Elements whose directions differ by less than this where they meet go on smoothly: there is no corner [rad].
 _SMOOTH = 1e-9
 
@@ -202,6 +206,30 @@ def over_arc(block: Array, feature: int, dx: float, dy: float) -> tuple[float, f
         return math.inf, math.inf
     # a hollow arc runs clockwise, and its radius is negative
     return abs(radius) * half + radius * angle, abs(radius) * half - radius * angle
+
+
+@jit
+def is_at_end(block: Array, feature: int, x: float, y: float) -> bool:
+    """Whether a point over an element is right beside an end of it; no point over a vertex is."""
+    keep_small()
+    if Features(block).kind[feature] == codes.VERTEX:
+        return False
+    before, behind = inside_range(block, feature, x, y)
+    return min(before, behind) < AT_A_CORNER
+
+
+@jit
+def faces_corner(block: Array, corner: int, nx: float, ny: float) -> bool:
+    """Whether a corner can touch something with a normal (towards the corner): neither element beside it lies deeper.
+
+    Where a corner is at a corner, it is near both sides of that, and touches the one.
+    """
+    keep_small()
+    data = Features(block).data[corner]
+    before = data[codes.FEATURE_DX] * nx + data[codes.FEATURE_DY] * ny
+    behind = data[codes.FEATURE_LEAVES_X] * nx + data[codes.FEATURE_LEAVES_Y] * ny
+    faces: bool = before <= _TILT and behind >= -_TILT
+    return faces
 
 
 @jit

@@ -5,21 +5,31 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.parts import Contacts, Features, Outlines
-from ...tolerances import MARGIN
+from ...tolerances import MARGIN, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
-from .features import beside, disc_radius, fits, is_hollow_corner, over_seam, radius_of
+from .features import beside, disc_radius, fits, is_corner, is_hollow_corner, over_seam, radius_of
 
 
 @jit
 def is_held(
-    block: Array, contact: int, is_next: bool, copy: int, side: int, one: int, other: int, disc: int, feature: int
+    block: Array,
+    contact: int,
+    is_next: bool,
+    copy: int,
+    side: int,
+    one: int,
+    other: int,
+    disc: int,
+    feature: int,
+    px: float,
+    py: float,
 ) -> bool:
-    """Whether a disc touches a feature already, or what it touches goes on there.
+    """Whether a disc about (px, py) touches a feature already, or what it touches goes on there.
 
     Features that follow upon each other, smoothly or around a corner that sticks out, touch the same feature at one
     place at most: where the one hands over to the other. Where an outline goes over into a hollow arc in which the
-    other does not fit, there may be two. Where something round comes off, nothing hands over any more: what follows
-    there may be the next, if that is what is looked for. Of corners and sides, rounding would say.
+    other does not fit, there may be two. What comes off hands over no more: what follows there, where something is
+    round or around a corner, may be the next, if that is what is looked for. Two corners at one place touch once.
     """
     keep_apart()
     table = Contacts(block)
@@ -33,9 +43,8 @@ def is_held(
         if side == 1:
             own, its = its, own
         comes_off = is_next and table.mode[k] == codes.OPEN
-        is_round = max(radius_of(block, disc), radius_of(block, own), -radius_of(block, feature)) > 0.0
         same_circles = _is_one_circle(block, its, feature) and _is_one_circle(block, own, disc)
-        if comes_off and is_round and not same_circles:
+        if comes_off and not same_circles and _is_another(block, other, disc, feature, own, its):
             continue
         if table.copy[k] != copy:  # what it is in another copy is another thing
             same = own == disc if side == 0 else its == feature
@@ -48,9 +57,60 @@ def is_held(
         same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, one, own) >= 0.0
         if not (fits(block, own, feature) and fits(block, disc, its)):
             continue  # a hollow arc, which something flatter bridges
+        same = same or _is_at(block, disc, its, px, py)
         if same and is_one_with(block, one, disc, own) and is_one_with(block, other, feature, its):
             return True
     return False
+
+
+@jit
+def touches_there(block: Array, contact: int, copy: int, of_i: int, of_j: int) -> bool:
+    """Whether elements of two outlines touch, or are beside what touches."""
+    keep_small()
+    table = Contacts(block)
+    group = table.group[contact]
+    for k in range(group, table.mode.shape[0]):
+        if table.group[k] != group:
+            break
+        if table.feature_i[k] == codes.NONE:
+            continue
+        if table.copy[k] != copy and not _is_over_seam(
+            block, table.outline_j[contact], of_j, copy, table.feature_j[k], table.copy[k]
+        ):
+            continue
+        if not is_one_with(block, table.outline_i[contact], of_i, table.feature_i[k]):
+            continue
+        if table.copy[k] != copy or is_one_with(block, table.outline_j[contact], of_j, table.feature_j[k]):
+            return True
+    return False
+
+
+@jit
+def _is_another(block: Array, outline: int, disc: int, feature: int, own: int, its: int) -> bool:
+    """Whether what comes off may meet a feature that follows: something is round, or there is a corner between."""
+    keep_small()
+    is_round = radius_of(block, disc) != 0.0 or radius_of(block, own) != 0.0
+    if is_round or radius_of(block, feature) != 0.0 or radius_of(block, its) != 0.0:
+        return True
+    if feature == its or Features(block).kind[feature] == codes.VERTEX or Features(block).kind[its] == codes.VERTEX:
+        return False
+    for way in range(-1, 2, 2):
+        corner = beside(block, outline, its, way)
+        if corner != codes.NONE and is_corner(block, corner) and beside(block, outline, corner, way) == feature:
+            return True
+    return False
+
+
+@jit
+def _is_at(block: Array, disc: int, held: int, px: float, py: float) -> bool:
+    """Whether a corner about (px, py) is where a corner of the other outline is."""
+    keep_small()
+    features = Features(block)
+    if features.kind[disc] != codes.VERTEX or features.kind[held] != codes.VERTEX:
+        return False
+    dx: float = features.data[held, codes.FEATURE_X] - px
+    dy: float = features.data[held, codes.FEATURE_Y] - py
+    return max(abs(dx), abs(dy)) <= TOUCHES_WITHIN
 
 
 @jit

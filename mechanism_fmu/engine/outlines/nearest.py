@@ -18,11 +18,15 @@ from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2
 from .crossing import crossing
 from .features import (
+    AT_A_CORNER,
     BEYOND,
     CORNERS_TOUCH,
     FAR,
     apart,
     disc_radius,
+    faces_corner,
+    is_at_end,
+    is_corner,
     is_hollow_corner,
     is_over,
     over_arc,
@@ -31,6 +35,8 @@ from .features import (
 from .held import is_held, is_one_with
 
 # What a search counts (`mode`).
+#: As `NEXT`, without the places where an outline goes on smoothly: what it is that comes next.
+MEETS = -1
 #: Whatever touches nothing yet, as far as two circles around the outlines say that it may matter; and, as what comes
 #: next may be as near, places where an outline goes on smoothly.
 NEXT = 0
@@ -38,17 +44,15 @@ NEXT = 0
 FREE = 1
 #: The same, however far.
 EXACT = 2
-#: All, also what touches: for a look whether anything has gone through.
+#: All, also what touches, and elements that cross each other: for a look whether anything has gone through.
 EVERY = 3
-#: All, and elements that cross each other: at the start.
-START = 4
 
 
 @jit
 def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
     """The least gap of the outlines of a contact [m]; `outlines.found` are the features and the copy, or none.
 
-    Where none was found, the outlines are at least as far from each other.
+    Where none was found, the outlines are at least as far from each other; with `EVERY`, 0 where nothing is inside.
     """
     keep_apart()
     table = Contacts(block)
@@ -76,8 +80,14 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
         distance = math.sqrt(dx * dx + dy * dy)
         if mode <= FREE and distance > 2.0 * reach:
             return float(distance - reach)
-        return _of_copy(block, contact, mode, 0, c, s, x, y, FAR)
-    margin = FAR if mode == EXACT else reach
+        if mode == EVERY and distance > reach:
+            return 0.0
+        return _of_copy(block, contact, mode, 0, c, s, x, y, 0.0 if mode == EVERY else FAR)
+    margin = reach
+    if mode == EXACT:
+        margin = FAR
+    elif mode == EVERY:
+        margin = 0.0
     first, last = _copies(block, other, mx, my, reach + margin)
     best = margin
     for k in range(first, last + 1):
@@ -133,10 +143,16 @@ def _of_copy(
     """The least gap to one copy, or `best`; (x, y) and the turning (c, s) take points of body i to the copy's frame."""
     keep_small()
     one, other = Contacts(block).outline_i[contact], Contacts(block).outline_j[contact]
+    data = Outlines(block).data
+    dx = x + c * data[one, codes.OUTLINE_X] - s * data[one, codes.OUTLINE_Y] - data[other, codes.OUTLINE_X]
+    dy = y + s * data[one, codes.OUTLINE_X] + c * data[one, codes.OUTLINE_Y] - data[other, codes.OUTLINE_Y]
+    within = best + data[one, codes.OUTLINE_RADIUS] + data[other, codes.OUTLINE_RADIUS]
+    if dx * dx + dy * dy > within * within:
+        return best
     best = _of_discs(block, contact, mode, copy, 0, one, other, c, s, x, y, best)
     best = _of_discs(block, contact, mode, copy, 1, other, one, c, -s, -c * x - s * y, s * x - c * y, best)
-    if mode == START:
-        across = crossing(block, one, other, c, s, x, y)
+    if mode == EVERY or (mode == NEXT and Outlines(block).depth[1] > 0.0):
+        across = crossing(block, contact, copy, mode == NEXT, c, s, x, y)
         if across > 0.0:
             best = min(best, -across)
     return best
@@ -225,6 +241,7 @@ def _of_disc(
     is_end = features.kind[disc] == codes.VERTEX and is_hollow_corner(block, disc)
     # what is farther away cannot be what is found, nor nearer than what is crossed
     farthest = max(best, deepest)
+    sticks_out = features.kind[disc] == codes.VERTEX and is_corner(block, disc)
     front, crossed, closest = codes.NONE, codes.NONE, codes.NONE
     gap, depth, least = FAR, 0.0, FAR
     is_cut = False
@@ -238,9 +255,15 @@ def _of_disc(
             continue
         if not is_over(block, g, px, py):
             continue
-        if mode < EVERY and not is_end and is_held(block, contact, mode == NEXT, copy, side, one, other, disc, g):
+        if (
+            mode < EVERY
+            and not is_end
+            and is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, px, py)
+        ):
             continue
         faces = True
+        if sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py):
+            faces = faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx)
         if radius > 0.0:  # the place on the disc, seen from its body
             before, behind = over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
             faces = before >= -BEYOND and behind >= -BEYOND
@@ -293,3 +316,9 @@ def _is_inside(block: Array, outline: int, x: float, y: float) -> bool:
 def look_no_deeper(block: Array, depth: float) -> None:
     """From here on, features behind which a disc is deeper than this do not count [m]; at least what touches does."""
     Outlines(block).depth[0] = max(depth, TOUCHES_WITHIN)
+
+
+@jit
+def look_across(block: Array, yes: bool) -> None:
+    """Whether from here on elements that cross each other count as what comes next."""
+    Outlines(block).depth[1] = 1.0 if yes else 0.0

@@ -21,7 +21,6 @@ from ..contacts.handover import bind_what_touches, deepest_overlap, is_free
 from ..contacts.impact import clear_impact, clear_records
 from ..dynamics.forces import set_time, take_inputs
 from ..dynamics.oscillation import begin_oscillations
-from ..outlines.nearest import START
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
 from ..vectors import clear
@@ -48,7 +47,7 @@ def start(block: Array, time: float) -> int:
         return status.START_RATES
     at = place_bodies(block, Course(block).y_end)
     if Sizes(block).outlines > 0:
-        contact, depth = deepest_overlap(block, at, START)
+        contact, depth = deepest_overlap(block, at)
         if contact != codes.NONE:
             _blame(block, contact, -depth)
             return status.START_INSIDE

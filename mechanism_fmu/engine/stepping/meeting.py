@@ -16,7 +16,7 @@ from ..contacts.guards import guard_of
 from ..contacts.handover import left_to_go
 from ..outlines.advance import FINEST, fastest, speed, turn
 from ..outlines.features import radius_of
-from ..outlines.nearest import look_no_deeper
+from ..outlines.nearest import look_across, look_no_deeper
 from .looks import falls_between, place_at, value_at
 from .runge_kutta import try_step
 
@@ -59,6 +59,8 @@ def meets_before(block: Array, number: int, after: float) -> float:
     found = 2.0
     while look_at.reached[number] <= after:
         now = look_at.reached[number]
+        # who has had less to go than to the next look may have passed
+        look_across(block, now > 0.0 and look_at.next[number, 0] < most * FINEST)
         value = value_at(block, number, now)[0] - GAP_NOISE
         if value <= 0.0 and now > 0.0:
             before = look_at.next[number, 1]
@@ -74,6 +76,7 @@ def meets_before(block: Array, number: int, after: float) -> float:
             if now < 1.0 < look_at.reached[number]:
                 look_at.reached[number] = 1.0
     look_no_deeper(block, 0.0)
+    look_across(block, False)
     return found
 
 

@@ -19,7 +19,6 @@ from ..contacts.transition import release
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
-from ..outlines.nearest import EVERY
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import clear, copy
@@ -191,7 +190,7 @@ def _mend_and_check(block: Array) -> int:
         derivative(block, now.y_end, now.dy_end)
         clear(Contacts(block).apart)
     if Sizes(block).outlines > 0:
-        contact, depth = deepest_overlap(block, place_bodies(block, now.y_end), EVERY)
+        contact, depth = deepest_overlap(block, place_bodies(block, now.y_end))
         if contact != codes.NONE:
             blame(block, contact, -depth)
             return status.PENETRATED
