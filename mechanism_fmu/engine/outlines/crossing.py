@@ -1,7 +1,7 @@
 """Elements of two outlines that cross each other, though no corner of one may be inside the other.
 
 Corners that have passed each other leave elements crossed, and nothing else. Asked at the start, after every step of
-what is near, and in looks that may have come too late (`stepping.meeting`). What is open has no inside, but crosses, too.
+what is near, and in looks that may have come too late (`stepping.meeting`). What is open has no inside, but crosses.
 Depths are bounds from below of how far one would have to move to be across no more.
 """
 
@@ -96,8 +96,7 @@ def _lines(
     last = begin + second * turn
     if not (start * end < 0.0 and begin * last < 0.0):
         return 0.0
-    depth = min(min(abs(start), abs(end)), min(abs(begin), abs(last)))
-    return depth
+    return float(min(min(abs(start), abs(end)), min(abs(begin), abs(last))))
 
 
 @jit
@@ -120,6 +119,8 @@ def _line_and_arc(
     for side in range(-1, 2, 2):
         place = along + side * half
         rest = min(place, line[codes.FEATURE_LENGTH] - place)
+        if not rest > 0.0:
+            continue
         left = _left_on_arc(px + place * dx - cx, py + place * dy - cy, mx, my, arc)
         beyond = min(min(rest, left), half)
         deepest = max(deepest, beyond * (half - 0.5 * beyond) / radius)
@@ -156,6 +157,9 @@ def _arcs(
 def _left_on_arc(ux: float, uy: float, mx: float, my: float, arc: Array) -> float:
     """How far a direction from the centre of an arc is from the nearer end of that arc [m]; negative beyond it."""
     keep_small()
-    angle = atan2(mx * uy - my * ux, mx * ux + my * uy)
+    along = mx * ux + my * uy
+    if along < 0.0 and arc[codes.FEATURE_HALF] <= 0.5 * math.pi:
+        return along
+    angle = atan2(mx * uy - my * ux, along)
     left: float = abs(arc[codes.FEATURE_RADIUS]) * (arc[codes.FEATURE_HALF] - abs(angle))
     return left

@@ -28,6 +28,7 @@ AT_A_CORNER = 10.0 * TOUCHES_WITHIN
 _TILT = 1e-6
 #: Elements whose directions differ by less than this where they meet go on smoothly: there is no corner [rad].
 _SMOOTH = 1e-9
+_QUARTER_TURN = 0.5 * math.pi
 
 
 @jit
@@ -233,10 +234,29 @@ def faces_corner(block: Array, corner: int, nx: float, ny: float) -> bool:
 
 
 @jit
+def is_over_arc(block: Array, feature: int, dx: float, dy: float) -> bool:
+    """Whether a direction from the centre of an arc leads to it, or hardly beyond its ends."""
+    keep_small()
+    data = Features(block).data[feature]
+    along = data[codes.FEATURE_DX] * dx + data[codes.FEATURE_DY] * dy
+    half = data[codes.FEATURE_HALF]
+    # of arcs that are half circles or more, or not so much, a sign says it mostly
+    if half >= _QUARTER_TURN and along > 0.0:
+        return True
+    if half <= _QUARTER_TURN and -along * abs(data[codes.FEATURE_RADIUS]) > BEYOND * math.sqrt(dx * dx + dy * dy):
+        return False
+    before, behind = over_arc(block, feature, dx, dy)
+    return before >= -BEYOND and behind >= -BEYOND
+
+
+@jit
 def is_over(block: Array, feature: int, x: float, y: float) -> bool:
     """Whether a point at (x, y) stands over a feature, and may touch it; no point touches a hollow or smooth vertex."""
     keep_small()
     if Features(block).kind[feature] == codes.VERTEX and not is_corner(block, feature):
         return False
+    if Features(block).kind[feature] == codes.ARC:
+        data = Features(block).data[feature]
+        return is_over_arc(block, feature, x - data[codes.FEATURE_X], y - data[codes.FEATURE_Y])
     before, behind = inside_range(block, feature, x, y)
     return before >= -BEYOND and behind >= -BEYOND

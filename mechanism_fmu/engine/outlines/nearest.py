@@ -19,7 +19,6 @@ from ..elementary import atan2
 from .crossing import crossing
 from .features import (
     AT_A_CORNER,
-    BEYOND,
     CORNERS_TOUCH,
     FAR,
     apart,
@@ -29,7 +28,8 @@ from .features import (
     is_corner,
     is_hollow_corner,
     is_over,
-    over_arc,
+    is_over_arc,
+    radius_of,
     turning_of_copy,
 )
 from .held import is_held, is_one_with
@@ -89,7 +89,7 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
     elif mode == EVERY:
         margin = 0.0
     first, last = _copies(block, other, mx, my, reach + margin)
-    best = margin
+    best: float = margin
     for k in range(first, last + 1):
         if data[codes.OUTLINE_PITCH] == 0.0:
             best = _of_copy(
@@ -130,7 +130,9 @@ def _copies(block: Array, outline: int, x: float, y: float, reach: float) -> tup
         cosine = (own * own + far * far - reach * reach) / (2.0 * own * far)
         if cosine > 1.0:
             return 0, -1
-        if cosine > -1.0:
+        if cosine >= 0.0:  # no angle is less than this, and for few is it a tenth more
+            half = min(half, 0.5 * math.pi * math.sqrt(1.0 - cosine) / abs(pitch))
+        elif cosine > -1.0:
             half = min(half, atan2(math.sqrt(1.0 - cosine * cosine), cosine) / abs(pitch))
     first = math.ceil(middle - half)
     return first, min(math.floor(middle + half), first + count - 1)
@@ -179,10 +181,9 @@ def _of_discs(
     features = Features(block)
     around = outlines.data[other]
     for f in range(outlines.first[one], outlines.first[one] + outlines.count[one]):
-        radius = disc_radius(block, one, f)
-        smooth = radius < 0.0 and mode == NEXT and features.kind[f] == codes.VERTEX
-        if smooth:
-            radius = 0.0
+        if features.kind[f] == codes.SEGMENT:
+            continue
+        radius = radius_of(block, f)
         if radius < 0.0:
             continue
         u, v = features.data[f, codes.FEATURE_X], features.data[f, codes.FEATURE_Y]
@@ -192,6 +193,9 @@ def _of_discs(
         dy = py - around[codes.OUTLINE_Y]
         within = best + radius + around[codes.OUTLINE_RADIUS]
         if dx * dx + dy * dy > within * within:
+            continue
+        smooth = disc_radius(block, one, f) < 0.0
+        if smooth and mode != NEXT:
             continue
         found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius, best)
         # where two arcs and the side between them lie flat, all are as near but for rounding: what can touch counts
@@ -265,8 +269,7 @@ def _of_disc(
         if sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py):
             faces = faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx)
         if radius > 0.0:  # the place on the disc, seen from its body
-            before, behind = over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
-            faces = before >= -BEYOND and behind >= -BEYOND
+            faces = is_over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
             if faces and distance < -TOUCHES_WITHIN:  # where it touches, rounding would say
                 faces = _is_inside(block, other, px - radius * nx, py - radius * ny)
         if mode >= EVERY and faces and -radius < distance < depth:  # its centre is in front, and too near
