@@ -136,8 +136,8 @@ _ROOM = {
     1: (SOLIDS, 8, 8),
     2: (SOLIDS, 8, 8),
     3: (SOLIDS, 6, 6),
-    4: (SOLIDS, 5, 3),
-    5: (("disc", "disc", "polygon", "box", "rounded"), 3, 2),
+    4: (SOLIDS, 6, 5),
+    5: (("disc", "disc", "polygon", "box", "rounded"), 5, 4),
     6: (("disc",), 2, 1),
 }
 
@@ -153,7 +153,7 @@ def _loose(
     """Bodies that touch each other and what is around them, which has `material`."""
     surface = Surface.of(chance)
     fast, gravity, until = (float(more[key]) for key in ("fast", "gravity", "until"))
-    # a mechanism may have 50 contacts, so that many bodies must be such as touch at few places
+    # many bodies are such as touch at few places
     kinds, of_wall, of_pair = _ROOM[len(places)]
     bodies, outlines = [], {}
     for k, (x, y) in enumerate(places):

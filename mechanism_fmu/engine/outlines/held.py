@@ -89,11 +89,15 @@ def touches_there(block: Array, contact: int, copy: int, of_i: int, of_j: int) -
 def _is_another(block: Array, outline: int, disc: int, feature: int, own: int, its: int) -> bool:
     """Whether what comes off may meet a feature that follows: something is round, or there is a corner between."""
     keep_small()
+    features = Features(block)
     is_round = radius_of(block, disc) != 0.0 or radius_of(block, own) != 0.0
     if is_round or radius_of(block, feature) != 0.0 or radius_of(block, its) != 0.0:
         return True
-    if feature == its or Features(block).kind[feature] == codes.VERTEX or Features(block).kind[its] == codes.VERTEX:
+    kind = features.kind
+    if feature == its or kind[feature] == codes.VERTEX:
         return False
+    if kind[its] == codes.VERTEX:
+        return kind[own] == codes.VERTEX  # two corners, and a side of one
     for way in range(-1, 2, 2):
         corner = beside(block, outline, its, way)
         if corner != codes.NONE and is_corner(block, corner) and beside(block, outline, corner, way) == feature:

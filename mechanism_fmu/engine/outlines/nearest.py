@@ -264,6 +264,9 @@ def _of_disc(
             and not is_end
             and is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, px, py)
         ):
+            if abs(distance) < least:  # what is in front of it is not behind the next one
+                least = abs(distance)
+                closest = g
             continue
         faces = True
         if sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py):
