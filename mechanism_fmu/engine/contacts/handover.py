@@ -114,14 +114,17 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c):
             continue
-        table.apart[c] = 0.0
-        if table.mode[c] == codes.OPEN and table.touching[c] == 0 and c != struck:
-            let_loose(block, c)
         if c == struck:
             table.touching[c] = 1
+            table.apart[table.group[c]] = 0.0
+        elif table.feature_i[c] != codes.NONE and table.mode[c] == codes.OPEN and table.touching[c] == 0:
+            let_loose(block, c)
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c) or table.group[c] != c or table.value[c, codes.ENABLED] < 0.5:
             continue
+        if table.apart[c] > TOUCHES_WITHIN and not _is_bound(block, c):
+            continue  # as far as its outlines are apart, nothing that has happened concerns it
+        table.apart[c] = 0.0
         while nearest(block, at, c, FREE) <= TOUCHES_WITHIN:
             place = free_place(block, c)
             if place == codes.NONE:

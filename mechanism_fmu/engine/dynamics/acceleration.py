@@ -12,6 +12,7 @@ from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows, driver_power, follow_open_contacts, stabilise
 from ..constraints.wear import wear_by_sliding
+from ..outlines.advance import come_nearer
 from ..profiles.nearest import settle_contact_points
 from ..vectors import largest
 from .forces import apply_forces
@@ -99,7 +100,7 @@ def mend(block: Array, most: float, most_rate: float) -> bool:
     settle_contact_points(block, at, y)
     count = active_rows(block, at)
     if largest(Rows(block).residual, count) > most:
-        _correct(block, count, Rows(block).residual, y)
+        come_nearer(block, _correct(block, count, Rows(block).residual, y))
         at = place_bodies(block, y)
         settle_contact_points(block, at, y)
         active_rows(block, at)
@@ -111,8 +112,8 @@ def mend(block: Array, most: float, most_rate: float) -> bool:
 
 
 @jit
-def _correct(block: Array, count: int, left: Array, values: Array) -> None:
-    """Values += -M^-1/2 D^+ left."""
+def _correct(block: Array, count: int, left: Array, values: Array) -> float:
+    """Values += -M^-1/2 D^+ left; return the most by which one is changed."""
     keep_small()
     n = Sizes(block).coordinates
     root = Bodies(block).inverse_root_mass
@@ -121,5 +122,9 @@ def _correct(block: Array, count: int, left: Array, values: Array) -> None:
     for r in range(count):
         system.right_side[r] = -left[r]
     solve(block, count, n)
+    most = 0.0
     for k in range(n):
-        values[k] += root[k] * system.solution[k]
+        change = root[k] * system.solution[k]
+        values[k] += change
+        most = max(most, abs(change))
+    return most

@@ -27,6 +27,7 @@ from ...tables.motion import Pose, Stages
 from ...tables.parts import Contacts, Outlines
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
+from ..vectors import turned
 
 #: Looks are no closer than this, in parts of a step.
 FINEST = 1.0 / 512.0
@@ -40,11 +41,10 @@ def fastest(block: Array, at: Pose, contact: int) -> float:
     """A bound of how fast two outlines meet over the step in `new_dense`, which begins at `at` [m per step]."""
     keep_apart()
     table = Contacts(block)
-    outlines = Outlines(block)
     i, j = table.body_i[contact], table.body_j[contact]
     one, other = table.outline_i[contact], table.outline_j[contact]
-    most = _fastest_of(block, at, i, j, one)
-    if outlines.copies[other] == 0:
+    most: float = _fastest_of(block, at, i, j, one)
+    if Outlines(block).copies[other] == 0:
         most = min(most, _fastest_of(block, at, j, i, other))
     return most
 
@@ -54,9 +54,17 @@ def _fastest_of(block: Array, at: Pose, i: int, j: int, outline: int) -> float:
     """The bound L that the circle around an outline of body i gives against body j."""
     keep_small()
     data = Outlines(block).data[outline]
-    c, s = at.cosine[i], at.sine[i]
-    ax = c * data[codes.OUTLINE_X] - s * data[codes.OUTLINE_Y]
-    ay = s * data[codes.OUTLINE_X] + c * data[codes.OUTLINE_Y]
+    ax, ay = turned(at, i, data[codes.OUTLINE_X], data[codes.OUTLINE_Y])
+    return against(block, at, i, j, ax, ay) + data[codes.OUTLINE_RADIUS] * turns(block, i, j)
+
+
+@jit
+def against(block: Array, at: Pose, i: int, j: int, ax: float, ay: float) -> float:
+    """A bound, over the step, of the speed of a point of body i against the material of body j [m per step].
+
+    (ax, ay) leads from the origin of body i to the point, in the global frame.
+    """
+    keep_apart()
     bx = at.x[i] + ax - at.x[j]
     by = at.y[i] + ay - at.y[j]
     own = math.sqrt(ax * ax + ay * ay)
@@ -65,13 +73,20 @@ def _fastest_of(block: Array, at: Pose, i: int, j: int, outline: int) -> float:
     vx = _begins(block, i, 0) - ui * ay - _begins(block, j, 0) + uj * by
     vy = _begins(block, i, 1) + ui * ax - _begins(block, j, 1) - uj * bx
     # how much of it may change within the step
-    moved = speed(block, i, own) + speed(block, j, 0.0)
-    bend_i, bend_j = _bends(block, i, 2), _bends(block, j, 2)
+    moved = _speed(block, i, own) + _speed(block, j, 0.0)
+    turn_i, turn_j = _turn(block, i), _turn(block, j)
     changed = _bends(block, i, 0) + _bends(block, i, 1) + _bends(block, j, 0) + _bends(block, j, 1)
-    changed += bend_i * own + turn(block, i) * turn(block, i) * own
-    changed += bend_j * (far + moved) + turn(block, j) * moved
-    turns = data[codes.OUTLINE_RADIUS] * (abs(ui - uj) + bend_i + bend_j)
-    most: float = math.sqrt(vx * vx + vy * vy) + changed + turns
+    changed += (_bends(block, i, 2) + turn_i * turn_i) * own
+    changed += _bends(block, j, 2) * (far + moved) + turn_j * moved
+    most: float = math.sqrt(vx * vx + vy * vy) + changed
+    return most
+
+
+@jit
+def turns(block: Array, i: int, j: int) -> float:
+    """A bound of how fast two bodies turn against each other [rad per step]."""
+    keep_small()
+    most: float = abs(_begins(block, i, 2) - _begins(block, j, 2)) + _bends(block, i, 2) + _bends(block, j, 2)
     return most
 
 
@@ -100,7 +115,7 @@ def _bends(block: Array, body: int, which: int) -> float:
 
 
 @jit
-def speed(block: Array, body: int, reach: float) -> float:
+def _speed(block: Array, body: int, reach: float) -> float:
     """A bound of the speed of points of a body that are no farther from its origin than `reach` [m per step]."""
     keep_small()
     if body == Sizes(block).bodies:
@@ -111,7 +126,7 @@ def speed(block: Array, body: int, reach: float) -> float:
 
 
 @jit
-def turn(block: Array, body: int) -> float:
+def _turn(block: Array, body: int) -> float:
     """A bound of the angular speed of a body [rad per step]."""
     if body == Sizes(block).bodies:
         return 0.0
@@ -127,3 +142,21 @@ def _slope(block: Array, unknown: int) -> float:
     for row in range(4, _ROWS):
         found += _SLOPE * abs(dense[row, unknown])
     return found
+
+
+@jit
+def come_nearer(block: Array, most: float) -> None:
+    """Coordinates of bodies have been changed by `most` at most: what was known to be apart is so by less."""
+    keep_small()
+    table = Contacts(block)
+    data = Outlines(block).data
+    for c in range(table.apart.shape[0]):
+        if table.apart[c] > 0.0:
+            reach = 0.0
+            for side in range(2):
+                outline = table.outline_i[c] if side == 0 else table.outline_j[c]
+                x, y = data[outline, codes.OUTLINE_X], data[outline, codes.OUTLINE_Y]
+                dx, dy = data[outline, codes.OUTLINE_DX], data[outline, codes.OUTLINE_DY]
+                reach += math.sqrt(x * x + y * y) + data[outline, codes.OUTLINE_RADIUS]
+                reach += Outlines(block).copies[outline] * math.sqrt(dx * dx + dy * dy)
+            table.apart[c] = max(table.apart[c] - most * (4.0 + reach), 0.0)

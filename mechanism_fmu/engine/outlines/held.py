@@ -97,7 +97,7 @@ def _is_another(block: Array, outline: int, disc: int, feature: int, own: int, i
     if feature == its or kind[feature] == codes.VERTEX:
         return False
     if kind[its] == codes.VERTEX:
-        return kind[own] == codes.VERTEX  # two corners, and a side of one
+        return bool(kind[own] == codes.VERTEX)  # two corners, and a side of one
     for way in range(-1, 2, 2):
         corner = beside(block, outline, its, way)
         if corner != codes.NONE and is_corner(block, corner) and beside(block, outline, corner, way) == feature:

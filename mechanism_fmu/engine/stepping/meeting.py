@@ -14,7 +14,7 @@ from ..constraints.kinematics import place_bodies
 from ..constraints.outline_row import place_feature
 from ..contacts.guards import guard_of
 from ..contacts.handover import left_to_go
-from ..outlines.advance import FINEST, fastest, speed, turn
+from ..outlines.advance import FINEST, against, fastest, turns
 from ..outlines.features import radius_of
 from ..outlines.nearest import look_across, look_no_deeper
 from .looks import falls_between, place_at, value_at
@@ -84,9 +84,9 @@ def meets_before(block: Array, number: int, after: float) -> float:
 def may_leave(block: Array, at: Pose, contact: int, left: float) -> bool:
     """Whether, of a contact with `left` to go at the step's start, the place may come to an end within the step.
 
-    No, where it cannot go so far even with a bound of its speed. With D from disc to disc, or from the start of a
-    segment to the disc on it, that of D in the frame of either body is at most |D'| + |D| |u|; the direction of D turns
-    by that over |D|, the normal of a segment with its body. Each range is measured as `left_to_go` does.
+    No, where it cannot go so far even with a bound of its speed: that of a disc against the material of the body whose
+    segment, corner or arc it is on. On an arc, the place goes as the line between the centres turns; the normal of a
+    segment turns with its body. Each range is measured as `left_to_go` does.
     """
     keep_apart()
     table = Contacts(block)
@@ -95,23 +95,18 @@ def may_leave(block: Array, at: Pose, contact: int, left: float) -> bool:
     one, other = table.outline_i[contact], table.outline_j[contact]
     ax, ay, _, _ = place_feature(block, at, i, one, 0, f)
     bx, by, _, _ = place_feature(block, at, j, other, table.copy[contact], g)
-    moves = speed(block, i, math.sqrt(ax * ax + ay * ay)) + speed(block, j, math.sqrt(bx * bx + by * by))
-    dx = at.x[i] + ax - at.x[j] - bx
-    dy = at.y[i] + ay - at.y[j] - by
-    distance = math.sqrt(dx * dx + dy * dy)
-    turn_i, turn_j = turn(block, i), turn(block, j)
-    along = moves + (distance + moves) * max(turn_i, turn_j)
     radius = max(abs(radius_of(block, f)), abs(radius_of(block, g)))
     kind = Features(block).kind
     if kind[f] == codes.SEGMENT or kind[g] == codes.SEGMENT:
         data = Outlines(block).data
         long = min(data[one, codes.OUTLINE_RADIUS], data[other, codes.OUTLINE_RADIUS])
-        along = max(along, max(long, radius) * (turn_i + turn_j))
-    elif distance > moves:
-        along *= max(1.0, radius / (distance - moves))
-    else:
-        along = math.inf
-    return not left > along
+        most = against(block, at, i, j, ax, ay) if kind[g] == codes.SEGMENT else against(block, at, j, i, bx, by)
+        return not left > max(most, max(long, radius) * turns(block, i, j))
+    most = max(against(block, at, i, j, ax, ay), against(block, at, j, i, bx, by))
+    dx = at.x[i] + ax - at.x[j] - bx
+    dy = at.y[i] + ay - at.y[j] - by
+    distance = math.sqrt(dx * dx + dy * dy)
+    return not (distance > most and left > most * max(1.0, radius / (distance - most)))
 
 
 @jit

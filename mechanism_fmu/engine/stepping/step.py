@@ -21,7 +21,7 @@ from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
-from ..vectors import clear, copy
+from ..vectors import copy
 from .events import first_event, refine
 from .letting_go import refine_hold, refine_push, refine_slip
 from .meeting import refine_end
@@ -188,7 +188,6 @@ def _mend_and_check(block: Array) -> int:
     drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT)
     if (drifted or Sizes(block).alphas > 0) and mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
-        clear(Contacts(block).apart)
     if Sizes(block).outlines > 0:
         contact, depth = deepest_overlap(block, place_bodies(block, now.y_end))
         if contact != codes.NONE:
