@@ -11,6 +11,7 @@ from ..constraints.kinematics import place_bodies
 from ..contacts.guards import guard_of
 from ..contacts.handover import left_to_go
 from ..outlines.advance import FINEST, fastest
+from ..outlines.features import CORNERS_TOUCH
 from ..outlines.nearest import look_across, look_no_deeper
 from .looks import BISECTIONS, place_at, value_at
 from .runge_kutta import try_step
@@ -18,6 +19,10 @@ from .runge_kutta import try_step
 #: After so many false positions, bisections.
 _FALSE_POSITIONS = 16
 _NEWTON_STEPS = 12
+#: Where corners that have passed each other touched is looked for in so many looks, so far apart at least, in parts of
+#: where corners touch.
+_CORNERS_LOOKS = 64
+_CORNERS_PART = 0.2
 #: So near to it a place of contact is at the end of a feature [m]: what follows there goes on smoothly.
 _AT_THE_END = 0.1 * MARGIN
 #: The part of the way to the end of a feature from which on the slope there is measured.
@@ -90,6 +95,22 @@ def _meeting(block: Array, number: int, before: float, above: float, after: floa
             if stayed < 0:
                 above *= 0.5
             stayed = -1
+    return _before_crossing(block, number, after, close)
+
+
+@jit
+def _before_crossing(block: Array, number: int, after: float, close: float) -> float:
+    """Where two corners touched, right before elements that cross were all that said so; or `after`."""
+    keep_small()
+    look_across(block, False)
+    if value_at(block, number, after)[0] <= GAP_NOISE:
+        return after
+    part = _CORNERS_PART * CORNERS_TOUCH / GAP_NOISE * close
+    for k in range(1, _CORNERS_LOOKS + 1):
+        if after - k * part <= 0.0:
+            break
+        if value_at(block, number, after - k * part)[0] <= GAP_NOISE:
+            return after - k * part
     return after
 
 
