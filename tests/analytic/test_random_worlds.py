@@ -5,8 +5,10 @@ import pytest
 from tests.analytic.random_worlds import world
 from tests.analytic.run_worlds import run
 
-#: Blocks that lie on each other at more places than a mechanism of so many bodies has contacts for: refused by name.
-MANY_TOUCH = (80, 121)
+#: Corners that passed each other or slid off corners, whose outlines went into each other or whose energy grew once.
+FAILED_ONCE = (422, 593, 710, 712, 759, 790, 847, 919, 947)
+#: The same, and blocks that lie on each other at more places than they had contacts for.
+FAILED_TOO = (80, 121, 200, 440, 475, 512, 632, 665, 760)
 
 
 def check(seed: int) -> None:
@@ -19,7 +21,12 @@ def test_random_worlds(seed: int) -> None:
     check(seed)
 
 
+@pytest.mark.parametrize("seed", FAILED_ONCE)
+def test_worlds_that_failed_once(seed: int) -> None:
+    check(seed)
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [seed for seed in range(24, 128) if seed not in MANY_TOUCH])
+@pytest.mark.parametrize("seed", [*range(24, 128), *(seed for seed in FAILED_TOO if seed >= 128)])
 def test_a_hundred_random_worlds(seed: int) -> None:
     check(seed)

@@ -82,14 +82,15 @@ def contact_row(block: Array, at: Pose, contact: int, row: int) -> None:
     keep_small()
     table = Contacts(block)
     out = Rows(block)
+    if table.kind[contact] == codes.OUTLINE:
+        outline_row(block, at, contact, row, False)
+        return
     i, j = table.body_i[contact], table.body_j[contact]
     begin_row(out, row, i, j)
     if table.kind[contact] == codes.POINT_LINE:
         point_line(at, out, row, i, j, table.data[contact], table.line[contact])
     elif table.alpha[contact] != codes.NONE:
         profile_row(block, at, contact, row)
-    elif table.kind[contact] == codes.OUTLINE:
-        outline_row(block, at, contact, row, False)
     else:
         angle_row(at, out, row, i, j, table.line[contact])
 

@@ -1,7 +1,7 @@
 """Elements of two outlines that cross each other, though no corner of one may be inside the other.
 
 Corners that have passed each other leave elements crossed, and nothing else. Asked at the start, after every step of
-what is near, and in looks that may have come too late (`stepping.meeting`). What is open has no inside, but crosses.
+what is near, and in looks that may have come too late (`stepping.meeting`). An open chain has no inside, but crosses.
 Depths are bounds from below of how far one would have to move to be across no more.
 """
 
@@ -96,7 +96,8 @@ def _lines(
     last = begin + second * turn
     if not (start * end < 0.0 and begin * last < 0.0):
         return 0.0
-    return float(min(min(abs(start), abs(end)), min(abs(begin), abs(last))))
+    depth: float = min(min(abs(start), abs(end)), min(abs(begin), abs(last)))
+    return depth
 
 
 @jit

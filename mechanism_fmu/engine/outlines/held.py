@@ -74,6 +74,10 @@ def touches_there(block: Array, contact: int, copy: int, of_i: int, of_j: int) -
             break
         if table.feature_i[k] == codes.NONE:
             continue
+        kind = Features(block).kind
+        corners = kind[table.feature_i[k]] == codes.VERTEX and kind[table.feature_j[k]] == codes.VERTEX
+        if corners and table.mode[k] == codes.OPEN:
+            continue  # two that come off each other may come back, and pass
         if table.copy[k] != copy and not _is_over_seam(
             block, table.outline_j[contact], of_j, copy, table.feature_j[k], table.copy[k]
         ):
@@ -97,7 +101,8 @@ def _is_another(block: Array, outline: int, disc: int, feature: int, own: int, i
     if feature == its or kind[feature] == codes.VERTEX:
         return False
     if kind[its] == codes.VERTEX:
-        return bool(kind[own] == codes.VERTEX)  # two corners, and a side of one
+        two_corners: bool = kind[own] == codes.VERTEX
+        return two_corners  # and a side of one
     for way in range(-1, 2, 2):
         corner = beside(block, outline, its, way)
         if corner != codes.NONE and is_corner(block, corner) and beside(block, outline, corner, way) == feature:

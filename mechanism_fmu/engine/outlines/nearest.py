@@ -82,8 +82,8 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
             return float(distance - reach)
         if mode == EVERY and distance > reach:
             return 0.0
-        return _of_copy(block, contact, mode, 0, c, s, x, y, 0.0 if mode == EVERY else FAR)
-    margin = reach
+        return float(_of_copy(block, contact, mode, 0, c, s, x, y, 0.0 if mode == EVERY else FAR))
+    margin: float = reach
     if mode == EXACT:
         margin = FAR
     elif mode == EVERY:
@@ -255,6 +255,8 @@ def _of_disc(
         distance, nx, ny = apart(block, g, px, py, radius)
         if mode <= FREE and features.kind[g] == codes.VERTEX and features.kind[disc] == codes.VERTEX:
             distance -= CORNERS_TOUCH
+            if distance < -0.5 * CORNERS_TOUCH:
+                continue  # too near to say which way: a side of one touches the other
         if distance < -deepest or distance >= farthest or (distance >= gap and abs(distance) >= least):
             continue
         if not is_over(block, g, px, py):

@@ -23,6 +23,8 @@ are not, nor one within the noise of a gap at rest.
 
 from __future__ import annotations
 
+import math
+
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose, Stages, Watch
@@ -37,7 +39,7 @@ from ..contacts.handover import bind, ends_in_hollow, is_free, is_outline, let_l
 from ..contacts.inside import is_too_deep
 from .letting_go import first_to_let_go
 from .looks import BISECTIONS, bisect, falls_between, place_at, value_at
-from .meeting import cannot_meet, may_leave, meets_before
+from .meeting import cannot_meet, fastest_to_end, meets_before
 from .runge_kutta import try_step
 from .step_size import smallest_step
 
@@ -137,11 +139,17 @@ def _first_zero(block: Array) -> tuple[int, float]:
         is_placed = False
         for k in range(count):
             g = look_at.watched[k]
-            if not stands_for_search(block, g):
-                if not is_placed:
-                    at = place_at(block, after)
-                    is_placed = True
-                look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, at, g)
+            if stands_for_search(block, g):
+                continue
+            if look_at.reached[g] > after:  # an end of a feature that is still too far to be reached by then
+                look_at.next[g, 0], look_at.next[g, 1] = math.inf, 0.0
+                continue
+            if not is_placed:
+                at = place_at(block, after)
+                is_placed = True
+            look_at.next[g, 0], look_at.next[g, 1] = guard_value(block, at, g)
+            if look_at.reached[g] > 0.0:
+                look_at.reached[g] = after + look_at.next[g, 0] / look_at.most[g]
         which = codes.NONE
         earliest = 2.0
         for k in range(count):
@@ -173,6 +181,7 @@ def _begin(block: Array, at: Pose, number: int) -> float:
     if stands_for_search(block, number):
         return _NOT_WITHIN if cannot_meet(block, at, number) else _NOT_YET
     value, rate = guard_value(block, at, number)
+    look_at.reached[number] = 0.0
     look_at.rate[number] = rate
     look_at.armed[number] = 1
     look_at.floor[number] = 0.0
@@ -185,8 +194,11 @@ def _begin(block: Array, at: Pose, number: int) -> float:
     if guard == codes.GUARD_HANDOVER and value <= 0.0 and ends_in_hollow(block, at, subject):
         look_at.floor[number] = value - MARGIN  # nothing takes over there: what is beyond has been looked at
         return _NOT_YET
-    if guard == codes.GUARD_HANDOVER and value > 0.0 and not may_leave(block, at, subject, value):
-        return _NOT_WITHIN
+    if guard == codes.GUARD_HANDOVER and value > 0.0:
+        look_at.most[number] = fastest_to_end(block, at, subject)
+        if value > look_at.most[number]:
+            return _NOT_WITHIN
+        look_at.reached[number] = value / look_at.most[number]
     if guard != codes.GUARD_GAP:
         return 0.0 if value <= 0.0 else _NOT_YET
     if value < 0.0 and not is_outline(block, subject) and is_too_deep(block, at, subject, value, rate):

@@ -15,12 +15,16 @@ from ..constraints.outline_row import place_feature
 from ..contacts.guards import guard_of
 from ..contacts.handover import left_to_go
 from ..outlines.advance import FINEST, against, fastest, turns
-from ..outlines.features import radius_of
+from ..outlines.features import CORNERS_TOUCH, radius_of
 from ..outlines.nearest import look_across, look_no_deeper
 from .looks import falls_between, place_at, value_at
 from .runge_kutta import try_step
 
 _NEWTON_STEPS = 12
+#: Where corners that have passed each other touched is looked for in so many looks, so far apart at least, in parts of
+#: where corners touch.
+_CORNERS_LOOKS = 64
+_CORNERS_PART = 0.2
 #: So near to it a place of contact is at the end of a feature [m]: what follows there goes on smoothly.
 _AT_THE_END = 0.1 * MARGIN
 #: The part of the way to the end of a feature from which on the slope there is measured.
@@ -66,6 +70,7 @@ def meets_before(block: Array, number: int, after: float) -> float:
             before = look_at.next[number, 1]
             above = look_at.next[number, 0]
             found = falls_between(block, number, before, above, now, value, GAP_NOISE, GAP_NOISE / most)
+            found = _before_crossing(block, number, found, GAP_NOISE / most)
             break
         look_at.next[number, 0] = value
         look_at.next[number, 1] = now
@@ -81,12 +86,27 @@ def meets_before(block: Array, number: int, after: float) -> float:
 
 
 @jit
-def may_leave(block: Array, at: Pose, contact: int, left: float) -> bool:
-    """Whether, of a contact with `left` to go at the step's start, the place may come to an end within the step.
+def _before_crossing(block: Array, number: int, after: float, close: float) -> float:
+    """Where two corners touched, right before elements that cross were all that said so; or `after`."""
+    keep_small()
+    look_across(block, False)
+    if value_at(block, number, after)[0] <= GAP_NOISE:
+        return after
+    part = _CORNERS_PART * CORNERS_TOUCH / GAP_NOISE * close
+    for k in range(1, _CORNERS_LOOKS + 1):
+        if after - k * part <= 0.0:
+            break
+        if value_at(block, number, after - k * part)[0] <= GAP_NOISE:
+            return after - k * part
+    return after
 
-    No, where it cannot go so far even with a bound of its speed: that of a disc against the material of the body whose
-    segment, corner or arc it is on. On an arc, the place goes as the line between the centres turns; the normal of a
-    segment turns with its body. Each range is measured as `left_to_go` does.
+
+@jit
+def fastest_to_end(block: Array, at: Pose, contact: int) -> float:
+    """A bound of how fast `left_to_go` changes over the step that begins at `at` [m per step].
+
+    That of a disc against the material of the body whose segment, corner or arc it is on. On an arc, the place goes as
+    the line between the centres turns; the normal of a segment turns with its body.
     """
     keep_apart()
     table = Contacts(block)
@@ -101,12 +121,14 @@ def may_leave(block: Array, at: Pose, contact: int, left: float) -> bool:
         data = Outlines(block).data
         long = min(data[one, codes.OUTLINE_RADIUS], data[other, codes.OUTLINE_RADIUS])
         most = against(block, at, i, j, ax, ay) if kind[g] == codes.SEGMENT else against(block, at, j, i, bx, by)
-        return not left > max(most, max(long, radius) * turns(block, i, j))
+        return max(most, max(long, radius) * turns(block, i, j))
     most = max(against(block, at, i, j, ax, ay), against(block, at, j, i, bx, by))
     dx = at.x[i] + ax - at.x[j] - bx
     dy = at.y[i] + ay - at.y[j] - by
     distance = math.sqrt(dx * dx + dy * dy)
-    return not (distance > most and left > most * max(1.0, radius / (distance - most)))
+    if not distance > most:
+        return math.inf
+    return most * max(1.0, radius / (distance - most))
 
 
 @jit
