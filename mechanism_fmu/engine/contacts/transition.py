@@ -37,13 +37,9 @@ def release(block: Array, struck: int) -> None:
     """
     keep_small()
     table = Contacts(block)
-    at = Pose(block)
-    is_placed = False
     for c in range(table.mode.shape[0]):
         if table.touching[c] != 0 and table.mode[c] == codes.OPEN and c != struck:
-            if not is_placed:
-                at = place_bodies(block, Course(block).y_end)
-                is_placed = True
+            at = place_bodies(block, Course(block).y_end)  # few touch, and mostly none does
             distance, rate = gap(block, at, c)
             if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
                 table.touching[c] = 0

@@ -55,7 +55,7 @@ def _fastest_of(block: Array, at: Pose, i: int, j: int, outline: int) -> float:
     keep_small()
     data = Outlines(block).data[outline]
     ax, ay = turned(at, i, data[codes.OUTLINE_X], data[codes.OUTLINE_Y])
-    return against(block, at, i, j, ax, ay) + data[codes.OUTLINE_RADIUS] * turns(block, i, j)
+    return float(against(block, at, i, j, ax, ay) + data[codes.OUTLINE_RADIUS] * turns(block, i, j))
 
 
 @jit

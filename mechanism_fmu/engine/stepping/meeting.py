@@ -121,14 +121,14 @@ def fastest_to_end(block: Array, at: Pose, contact: int) -> float:
         data = Outlines(block).data
         long = min(data[one, codes.OUTLINE_RADIUS], data[other, codes.OUTLINE_RADIUS])
         most = against(block, at, i, j, ax, ay) if kind[g] == codes.SEGMENT else against(block, at, j, i, bx, by)
-        return max(most, max(long, radius) * turns(block, i, j))
+        return float(max(most, max(long, radius) * turns(block, i, j)))
     most = max(against(block, at, i, j, ax, ay), against(block, at, j, i, bx, by))
     dx = at.x[i] + ax - at.x[j] - bx
     dy = at.y[i] + ay - at.y[j] - by
     distance = math.sqrt(dx * dx + dy * dy)
     if not distance > most:
         return math.inf
-    return most * max(1.0, radius / (distance - most))
+    return float(most * max(1.0, radius / (distance - most)))
 
 
 @jit
