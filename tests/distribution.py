@@ -17,7 +17,7 @@ from typing import Any
 
 import pytest
 
-#: Files and folders whose tests compile a part of the engine just in time, whatever lies ready. The last one compiles
+#: Files, folders and tests that compile a part of the engine just in time, whatever lies ready. The last one compiles
 #: the whole of it, and needs an FMU beside.
 JUST_IN_TIME = (
     "tests/unit/engine/test_contact_coordinates.py",
@@ -43,6 +43,7 @@ JUST_IN_TIME = (
     "tests/docs/test_elastodynamics_dynamics_page.py",
     "tests/docs/test_elastodynamics_page.py",
     "tests/docs/test_kinematics_page.py",
+    "tests/harness/test_harness_reproduce.py::test_joints_are_closed_where_hands_place_their_bodies",
     "tests/fmu/native/test_just_in_time_agrees.py",
 )
 #: Whose tests run the engine without saying so by a fixture.

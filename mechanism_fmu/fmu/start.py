@@ -37,6 +37,9 @@ _shipped: dict[str, Path] = {}
 #: Bytes of a SHA-256.
 _DIGEST_SIZE = 32
 
+#: How often the cache is tried that somebody deletes meanwhile.
+_TRIED = 2
+
 #: Oldest Python that the package runs on.
 _PYTHON = (3, 11)
 
@@ -66,32 +69,41 @@ def slave_class(
         needed = ".".join(map(str, _PYTHON))
         raise _refusal(f"it needs Python {needed} or later; this is {sys.version.split()[0]}.")
     try:
-        try:
-            made = _made(package, model, starts, inputs)
-        except (ModuleNotFoundError, FileNotFoundError) as error:
-            if isinstance(error, ModuleNotFoundError) and not (error.name or "").startswith(f"{package}."):
-                raise
+        for _ in range(_TRIED):
+            folder = _cached(_RESOURCES / package)
+            try:
+                made = _made(folder, package, model, starts, inputs)
+                if _has_engine(folder, _RESOURCES / package):
+                    return made
+            except (ImportError, FileNotFoundError) as error:
+                others = isinstance(error, ImportError) and f"{error.name}.".partition(".")[0] != package
+                if others and _has_engine(folder, _RESOURCES / package):
+                    raise
             # Somebody has deleted the cache while it was read: once more, from a folder that is written anew.
             for name in [name for name in sys.modules if name == package or name.startswith(f"{package}.")]:
                 del sys.modules[name]
-            made = _made(package, model, starts, inputs)
+        # It goes as fast as it is written, and takes long to go where the machine is busy: from the FMU itself.
+        return _made(_RESOURCES / package, package, model, starts, inputs)
     except ModuleNotFoundError as error:
         lines = (_RESOURCES / "requirements.txt").read_text(encoding="utf-8").splitlines()
         # Of the comments, those that are no sentence are packages for platforms without a compiled engine.
         requirements = [line.removeprefix("# ") for line in lines if not line.endswith(":")]
         install = f"python -m pip install {' '.join(map(repr, requirements))}"
         raise _refusal(f"there is no {error.name}. Install what it needs with: {install}") from error
-    return made
 
 
 def _made(
+    folder: Path,
     package: str,
     model: str,
     starts: tuple[tuple[str, float], ...],
     inputs: tuple[tuple[str, tuple[object, ...]], ...],
 ) -> type:
-    """As `slave_class`, from the package in the cache."""
-    folder = _cached(_RESOURCES / package)
+    """As `slave_class`, from the package in a folder.
+
+    Raises:
+        FileNotFoundError: the folder has gone meanwhile; or ImportError, of its modules.
+    """
     _shipped[str(folder)] = _RESOURCES / package
     _import_package(package, folder)
     slave = importlib.import_module(f"{package}.fmu.instance.slave")
@@ -102,6 +114,16 @@ def _made(
         described = baked.baked_model(described, baked.Baked(dict(starts), seen))
     made: type = slave.make_slave_class(described)
     return made
+
+
+def _has_engine(folder: Path, source: Path) -> bool:
+    """Whether a copy still has the compiled engine that its source has, if any.
+
+    If so after the class was made, the engine has been loaded, and stays; if not, it would be compiled, from sources
+    that have gone, too.
+    """
+    libraries = (source / "engine" / "compiled").glob("*")
+    return all((folder / library.relative_to(source)).is_file() for library in libraries)
 
 
 def _refusal(reason: str) -> ImportError:

@@ -35,7 +35,6 @@ from mechanism_fmu.tables.layout import pack
 
 _FLAGS = (
     "-std=gnu11",
-    "-O1",
     "-g",
     "-ffp-contract=off",
     "-fno-omit-frame-pointer",
@@ -44,6 +43,7 @@ _FLAGS = (
     "-fno-sanitize-recover=all",
 )
 _C = Path(native.__file__).with_name("c")
+_SURFACE = tuple(_C / file for file in SURFACE)
 _STANDARD = Path(fmpy.__file__).with_name("c-code")
 VERSIONS = (2, 3)
 
@@ -58,6 +58,21 @@ def has_clock(name: str) -> bool:
     return reports_impacts(variables_of(models.load(name).MODEL))
 
 
+def _compiled(source: Path, folder: Path, optimised: str) -> Path:
+    """The object file of a C source."""
+    engine = compiled_engine()
+    path = folder / f"{source.stem}.o"
+    headers = [f"-I{place}" for place in (_C, engine.headers, _STANDARD)]
+    subprocess.run(["gcc", *_FLAGS, optimised, *headers, "-c", str(source), "-o", str(path)], check=True)
+    return path
+
+
+@cache
+def _shared(folder: Path) -> list[Path]:
+    """The object files that the drivers of all models have in common."""
+    return [_compiled(source, folder, "-O1") for source in (Path(__file__).with_name("driver.c"), *_SURFACE)]
+
+
 def driver(name: str, folder: Path, clocks: bool = False) -> Path:
     """The program that calls the FMU of a model at random, compiled into a folder."""
     model = models.load(name).MODEL
@@ -65,13 +80,11 @@ def driver(name: str, folder: Path, clocks: bool = False) -> Path:
     source = folder / f"{name}{'_with_clock' if clocks else ''}.c"
     text = model_source(model, formulas(trace(model), block), "{fuzz}", bytes(range(16)), clocks)
     source.write_text(text, encoding="ascii")
-    engine = compiled_engine()
-    of_engine = engine.objects[f"{platform.machine().lower()}-linux"]
+    of_engine = compiled_engine().objects[f"{platform.machine().lower()}-linux"]
     program = source.with_suffix("")
-    inputs = [Path(__file__).with_name("driver.c"), *(_C / file for file in SURFACE), source, of_engine]
-    headers = [f"-I{place}" for place in (_C, engine.headers, _STANDARD)]
-    command = ["gcc", *_FLAGS, *headers, *map(str, inputs), "-lm", "-o", str(program)]
-    subprocess.run(command, check=True)
+    # A model's own source is data and one function of thousands of sums, which take long to optimise.
+    inputs = [*_shared(folder), _compiled(source, folder, "-O0"), of_engine]
+    subprocess.run(["gcc", *_FLAGS, *map(str, inputs), "-lm", "-o", str(program)], check=True)
     return program
 
 

@@ -36,6 +36,30 @@ def test_a_cache_that_is_deleted_while_it_is_read_is_written_anew(tmp_path: Path
     assert contents(cache / "mechanism_fmu_aaa") == sources
 
 
+def test_a_cache_that_goes_each_time_is_done_without(tmp_path: Path, cache: Path, load: Load) -> None:
+    """The FMU runs from where it was unzipped."""
+    always = VANISHING.replace(
+        'if not package.with_name("gone").exists():', f"if package.is_relative_to({str(cache)!r}):"
+    )
+    resources = write_resources(tmp_path / "unzipped", "aaa", SOURCES | {"fmu/__init__.py": always})
+    made = load(resources, "aaa").slave_class("mechanism_fmu_aaa", "models.tiny")
+    assert made.__name__ == "Tiny"
+    assert Path(sys.modules["mechanism_fmu_aaa"].__file__ or "").is_relative_to(resources)
+    assert not (cache / "mechanism_fmu_aaa").exists()
+
+
+def test_an_engine_that_has_gone_before_it_is_loaded_is_written_anew(tmp_path: Path, cache: Path, load: Load) -> None:
+    """Else it would be compiled, by a package that need not be there, from sources that have gone, too."""
+    vanishing = VANISHING.replace(
+        "shutil.rmtree(package)", '(package / "engine/compiled/some.so").unlink()\n    import nil'
+    )
+    sources = SOURCES | {"fmu/__init__.py": vanishing, "engine/compiled/some.so": "engine"}
+    start = load(write_resources(tmp_path / "unzipped", "aaa", sources), "aaa")
+    assert start.slave_class("mechanism_fmu_aaa", "models.tiny").__name__ == "Tiny"
+    assert (cache / "gone").is_file()
+    assert (cache / "mechanism_fmu_aaa" / "engine/compiled/some.so").is_file()
+
+
 @pytest.mark.parametrize("damage", ["truncated", "changed", "missing", "folder gone", "all gone"])
 def test_a_damaged_cache_is_repaired(damage: str, tmp_path: Path, cache: Path, load: Load) -> None:
     resources = write_resources(tmp_path / "unzipped", "aaa")
