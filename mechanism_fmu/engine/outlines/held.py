@@ -5,9 +5,9 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.parts import Contacts, Features, Outlines
-from ...tolerances import MARGIN, TOUCHES_WITHIN
+from ...tolerances import MARGIN
 from ..compiler.subset import jit, keep_apart, keep_small
-from .features import beside, disc_radius, fits, is_corner, is_hollow_corner, over_seam, radius_of
+from .features import AT_A_CORNER, beside, disc_radius, fits, is_corner, is_hollow_corner, over_seam, radius_of
 
 
 @jit
@@ -55,9 +55,10 @@ def is_held(
                 return True
             continue
         same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, one, own) >= 0.0
-        if not (fits(block, own, feature) and fits(block, disc, its)):
+        at_one_place = _is_at(block, disc, its, px, py)
+        if not at_one_place and not (fits(block, own, feature) and fits(block, disc, its)):
             continue  # a hollow arc, which something flatter bridges
-        same = same or _is_at(block, disc, its, px, py)
+        same = same or at_one_place
         if same and is_one_with(block, one, disc, own) and is_one_with(block, other, feature, its):
             return True
     return False
@@ -119,7 +120,7 @@ def _is_at(block: Array, disc: int, held: int, px: float, py: float) -> bool:
         return False
     dx: float = features.data[held, codes.FEATURE_X] - px
     dy: float = features.data[held, codes.FEATURE_Y] - py
-    return max(abs(dx), abs(dy)) <= TOUCHES_WITHIN
+    return max(abs(dx), abs(dy)) <= AT_A_CORNER
 
 
 @jit
