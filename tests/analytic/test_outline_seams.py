@@ -124,3 +124,38 @@ def test_a_box_slides_in_a_hole_as_a_pendulum() -> None:
         assert seen["speed"] ** 2 == pytest.approx(square_rate, abs=1e-7)
     assert least < -0.99
     assert simulation.counters[0] == 0
+
+
+@pytest.mark.parametrize("count", [5, 6])
+def test_no_copy_is_two(count: int) -> None:
+    """A disc slides over a tooth in the same way wherever that stands, and touches it once when a ball strikes far off.
+
+    The copy opposite to the first one is half a turn away in either sense. Known by two numbers, it was touched twice.
+    """
+    disc, outputs = Outline.circle(0.1), tuple(Output(what, f"thrown.{what}", "") for what in ("x", "y"))
+    tooth = Outline.circle(0.4, (1.0, 0.0))
+    found = []
+    for k in range(count):
+        c, s = math.cos(math.tau * k / count), math.sin(math.tau * k / count)
+
+        def turned(x: float, y: float, c: float = c, s: float = s) -> tuple[float, float]:
+            return c * x - s * y, s * x + c * y
+
+        start = turned(1.0 + 0.5 * math.cos(-0.15), 0.5 * math.sin(-0.15))
+        velocity = turned(-1.2 * math.sin(-0.15), 1.2 * math.cos(-0.15))
+        thrown = rigid_body("thrown", start, mass=1.0, inertia=0.005, velocity=velocity)
+        ball = rigid_body("ball", turned(9.0, 0.0), mass=1.0, inertia=0.005, velocity=turned(-1.0, 0.0))
+        touch = OutlineContact(
+            "touch", thrown, GROUND, outline_i=disc, outline_j=tooth, copies=CircularCopies(count), points=4
+        )
+        far = OutlineContact("far", ball, GROUND, outline_i=disc, outline_j=Outline.circle(0.1, turned(8.5, 0.0)))
+        gravity = turned(-9.81, 0.0)
+        mechanism = Mechanism((thrown, ball), contacts=(touch, far), gravity=gravity, outputs=outputs)
+        simulation = Simulation(mechanism)
+        simulation.advance(0.2)
+        (strikes,) = (event for event in simulation.events_in_step() if event.guard == "far.gap")
+        assert strikes.new_mode == ("touch", "far")
+        simulation.advance(0.6)
+        shown = simulation.read()
+        found += [c * shown["x"] + s * shown["y"], c * shown["y"] - s * shown["x"]]
+    assert found == pytest.approx(found[:2] * count, abs=1e-7)

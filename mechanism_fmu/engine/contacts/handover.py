@@ -28,6 +28,7 @@ from ..outlines.features import (
     over_arc,
     over_seam,
     radius_of,
+    wrapped,
 )
 from ..outlines.held import is_one_with
 from ..outlines.nearest import EVERY, FREE, MEETS, look_no_deeper, nearest
@@ -426,7 +427,7 @@ def _cross_seam(block: Array, at: Pose, contact: int, way: int) -> bool:
         return False
     table.feature_j[contact] = follows
     for step in range(-1, 2, 2):
-        table.copy[contact] = copy + step
+        table.copy[contact] = wrapped(block, table.outline_j[contact], copy + step)
         outline_row(block, at, contact, spare_row(block), False)
         is_there = left_to_go(block, at, contact)[0] >= -TOUCHES_WITHIN
         if is_there and abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN:

@@ -46,6 +46,23 @@ def turning_of_copy(block: Array, outline: int, copy: int) -> tuple[float, float
 
 
 @jit
+def wrapped(block: Array, outline: int, copy: int) -> int:
+    """The number under which a copy around the origin is known, of those a whole turn apart; one in a row has its own.
+
+    They stand at the same place, and what is bound to the one touches the other.
+    """
+    keep_small()
+    count = Outlines(block).copies[outline]
+    if Outlines(block).data[outline, codes.OUTLINE_PITCH] == 0.0:
+        return copy
+    if 2 * copy > count:
+        return copy - int(count)
+    if 2 * copy <= -count:
+        return copy + int(count)
+    return copy
+
+
+@jit
 def beside(block: Array, outline: int, feature: int, way: int) -> int:
     """The feature `way` places further along the chain, or `codes.NONE` beyond the end of an open one."""
     table = Outlines(block)

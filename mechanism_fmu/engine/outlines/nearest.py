@@ -31,6 +31,7 @@ from .features import (
     is_over_arc,
     radius_of,
     turning_of_copy,
+    wrapped,
 )
 from .held import is_held, is_one_with
 
@@ -96,9 +97,10 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
                 block, contact, mode, k, c, s, x - k * data[codes.OUTLINE_DX], y - k * data[codes.OUTLINE_DY], best
             )
         else:
-            st, ct = turning_of_copy(block, other, k)
+            copy = wrapped(block, other, k)
+            st, ct = turning_of_copy(block, other, copy)
             best = _of_copy(
-                block, contact, mode, k, ct * c + st * s, ct * s - st * c, ct * x + st * y, ct * y - st * x, best
+                block, contact, mode, copy, ct * c + st * s, ct * s - st * c, ct * x + st * y, ct * y - st * x, best
             )
     return best
 
