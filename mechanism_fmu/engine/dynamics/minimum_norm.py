@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import LinearSystem
 from ..compiler.subset import jit, keep_small
@@ -33,10 +34,10 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
     basis = system.basis
     system.rank[0] = count
     system.independence[0] = 1.0
+    system.alone_first[0] = 0
     for i in range(count):
         system.order[i] = i
-        for k in range(width):
-            basis[i, k] = system.scaled[i, k]
+        system.alone[i] = _copy_row(system, i, width)
         square = _dot(basis[i], basis[i], width)
         system.row_norm[i, 0] = square
         system.row_norm[i, 1] = square
@@ -47,6 +48,9 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
             system.rank[0] = r
             return r
         p = system.order[r]
+        if system.alone[p] != codes.NONE and fraction == 1.0:
+            _take_out(system, r, count, width)
+            continue
         square = _dot(basis[p], basis[p], width)
         if square < _REORTHOGONALISE_BELOW * system.row_norm[p, 0]:
             for j in range(r):
@@ -69,12 +73,59 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
             if share == 0.0:  # most rows have no body in common
                 continue
             _add_multiple(basis[i], -share, basis[p], width)
-            left = system.row_norm[i, 1] - share * share
-            if left < _RECOMPUTE_BELOW * system.row_norm[i, 0]:
-                left = _dot(basis[i], basis[i], width)
-            system.row_norm[i, 1] = left
-            system.row_norm[i, 2] = left / system.row_norm[i, 0]
+            _note_what_is_left(system, i, share, width)
     return count
+
+
+@jit
+def _copy_row(system: LinearSystem, row: int, width: int) -> int:
+    """Copy a row of D into the basis; return in which column its only entry is, `codes.NONE` where there are more."""
+    entry = system.scaled[row]
+    basis = system.basis[row]
+    for k in range(width):
+        basis[k] = entry[k]
+    found = codes.NONE
+    for k in range(width):
+        if entry[k] != 0.0:
+            if found != codes.NONE:
+                return codes.NONE
+            found = k
+    return found
+
+
+@jit
+def _take_out(system: LinearSystem, r: int, count: int, width: int) -> None:
+    """The r-th basis row has one entry alone: of the rows that follow, it takes that, and no more.
+
+    What the general way does, without the sums of zeros that make the most of it: rows of a pin at the middle of a
+    body, and of bodies that are guided along the axes, are such.
+    """
+    p = system.order[r]
+    column = system.alone[p]
+    system.independence[0] = 1.0
+    length = abs(system.basis[p, column])
+    system.triangle[p, r] = length
+    system.basis[p, column] /= length
+    unit = system.basis[p, column]
+    if system.alone_first[0] == r:
+        system.alone_first[0] = r + 1
+    for s in range(r + 1, count):
+        i = system.order[s]
+        share = unit * system.basis[i, column]
+        system.triangle[i, r] = share
+        if share != 0.0:
+            system.basis[i, column] -= share * unit
+            _note_what_is_left(system, i, share, width)
+
+
+@jit
+def _note_what_is_left(system: LinearSystem, row: int, share: float, width: int) -> None:
+    """A row has lost its share in a basis row: note its squared length now."""
+    left = system.row_norm[row, 1] - share * share
+    if left < _RECOMPUTE_BELOW * system.row_norm[row, 0]:
+        left = _dot(system.basis[row], system.basis[row], width)
+    system.row_norm[row, 1] = left
+    system.row_norm[row, 2] = left / system.row_norm[row, 0]
 
 
 @jit
@@ -92,7 +143,12 @@ def solve_orthogonalised(block: Array, count: int, width: int) -> None:
         _solve_deficient(block, count, rank)
     for k in range(width):
         system.solution[k] = 0.0
-    for r in range(rank):
+    alone = system.alone_first[0]
+    for r in range(alone):
+        p = system.order[r]
+        column = system.alone[p]
+        system.solution[column] += system.coefficient[r] * system.basis[p, column]
+    for r in range(alone, rank):
         _add_multiple(system.solution, system.coefficient[r], system.basis[system.order[r]], width)
 
 
@@ -106,6 +162,8 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
         if fraction > best_fraction:
             best_fraction = fraction
             best = s
+            if fraction == 1.0:  # there is no more
+                break
     chosen = system.order[best]
     system.order[best] = system.order[r]
     system.order[r] = chosen
@@ -116,7 +174,11 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
 def _solve_full_rank(block: Array, count: int) -> None:
     """L coefficient = b forwards, then L^T multiplier = coefficient backwards."""
     system = LinearSystem(block)
-    for r in range(count):
+    alone = system.alone_first[0]  # which have no share in each other
+    for r in range(alone):
+        p = system.order[r]
+        system.coefficient[r] = system.right_side[p] / system.triangle[p, r]
+    for r in range(alone, count):
         p = system.order[r]
         value = system.right_side[p]
         for j in range(r):
@@ -126,7 +188,7 @@ def _solve_full_rank(block: Array, count: int) -> None:
         r = count - 1 - back
         p = system.order[r]
         value = system.coefficient[r]
-        for s in range(r + 1, count):
+        for s in range(max(r + 1, alone), count):
             q = system.order[s]
             value -= system.triangle[q, r] * system.multiplier[q]
         system.multiplier[p] = value / system.triangle[p, r]
