@@ -187,6 +187,7 @@ def _mechanism(bodies: tuple[Body, ...], joints: tuple[Revolute, ...], contacts:
         gravity=(0.0, -gravity),
         outputs=tuple(shown),
         settings=Settings(max_internal_steps=20_000),
+        tangential_shock=True,  # where friction jams, an impact leads on
     )
 
 

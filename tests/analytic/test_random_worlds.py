@@ -5,8 +5,9 @@ import pytest
 from tests.analytic.random_worlds import world
 from tests.analytic.run_worlds import run
 
-#: Corners that passed each other or slid off corners, whose outlines went into each other or whose energy grew once.
-FAILED_ONCE = (422, 593, 710, 712, 759, 790, 847, 919, 947)
+#: Corners that passed each other or slid off corners, whose outlines went into each other or whose energy grew once; a
+#: link that jams on a peg, of which joints drifted by more than the rounding within which slip counts as stopped.
+FAILED_ONCE = (422, 452, 593, 710, 712, 759, 790, 847, 919, 947)
 #: The same, and blocks that lie on each other at more places than they had contacts for.
 FAILED_TOO = (80, 121, 200, 440, 475, 512, 632, 665, 760)
 
