@@ -129,8 +129,8 @@ class LinearSystem(Table):
     share of its squared length that is left after projection. A row of `scaled` has entries of the bodies in
     `scaled_body`. The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies
     `plan_body`; `fill` are the earlier places with which a row has entries, `fill_count` many, in `triangle`. The dense
-    one, `by_pivots`, has a basis of orthonormal rows, of which `alone` say in which column their only entry is, if there
-    is one alone; the first `alone_first` in order are such.
+    one, `by_pivots`, has a basis of orthonormal rows, of which `alone` say in which column their only entry is, if it
+    is alone; the first `alone_first` in order are such.
     """
 
     scaled = real("rows", "columns", work=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rows, Strikes
@@ -10,12 +12,15 @@ from ...tables.sizes import Sizes
 from ...tolerances import PILED, RESTS_BELOW, RESTS_WHERE_PILED, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
 from ..constraints.wear import wear_by_impact
+from ..dynamics.acceleration import LEAST_DRIFT, mend
 from .guards import gap
 from .impact_laws import exchange
+from .rubbing import note_sticks, set_noted
 from .trial import ABSENT, COUNT, DECIDED, KEPT
 
 # The impact law: velocity jump and impulses (Pennestrì et al., eqs (4), (6), (7)), for all touching contacts together.
@@ -46,6 +51,11 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     at = place_bodies(block, Course(block).y_end)
     if not _cast(block, at, struck, round_ >= _PLASTIC_FROM):
         return False, status.OK
+    if round_ == 0 and rubs(block):
+        _mend_rates(block)
+        at = place_bodies(block, Course(block).y_end)
+        if not _cast(block, at, struck, False):
+            return False, status.OK
     count = 0
     for c in range(table.mode.shape[0]):
         if taking_part.role[c] == DECIDED:
@@ -67,6 +77,19 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
             keep_impact(block, c)
     _open_what_leaves(block)
     return True, outcome
+
+
+@jit
+def _mend_rates(block: Array) -> None:
+    """Bring joints' rates back to zero before an impact with friction.
+
+    What may drift else is more than the rounding within which slip that stops is told from slip that goes on.
+    """
+    keep_small()
+    note_sticks(block)
+    set_noted(block, codes.APART)
+    mend(block, math.inf, LEAST_DRIFT)
+    set_noted(block, codes.STICKS)
 
 
 @jit

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rubs, Strikes
@@ -89,8 +87,6 @@ def transit(block: Array, guard: int, subject: int) -> int:
     hits = 0
     earlier = now.counters[codes.COUNT_IMPACTS]
     settled = only_choose or shocks
-    if rubs(block) and not settled:
-        _mend_rates(block)
     for round_ in range(MOST_ROUNDS):
         if settled:
             break
@@ -117,19 +113,6 @@ def transit(block: Array, guard: int, subject: int) -> int:
     if only_choose:
         return status.OK
     return _progress(block)
-
-
-@jit
-def _mend_rates(block: Array) -> None:
-    """Bring joints' rates back to zero before an impact with friction.
-
-    What may drift else is more than the rounding within which slip that stops is told from slip that goes on.
-    """
-    keep_small()
-    note_sticks(block)
-    set_noted(block, codes.APART)
-    mend(block, math.inf, LEAST_DRIFT)
-    set_noted(block, codes.STICKS)
 
 
 @jit
