@@ -106,3 +106,23 @@ def test_a_rounded_block_slides_along_a_slot_to_its_end(corner: float) -> None:
     energy = 0.5 * (seen["x_rate"] ** 2 + seen["y_rate"] ** 2) + 0.01 * seen["speed"] ** 2 + 9.81 * seen["y"]
     assert (np.diff(energy) < 1e-8).all()
     assert max(seen["x"]) > 0.09
+
+
+def test_a_disc_leaves_an_edge_once() -> None:
+    """Where nothing presses any more; there, dense output and true step differ, and it once let go twice."""
+    table = Outline.chain([(0.0, -1.0), (0.0, 0.0), (-1.0, 0.0)])
+    radius, speed, gravity = 0.1, 0.3, 9.81
+    body = Body("disc", 1.0, 0.005, start=(-0.2, radius, 0.0), start_rate=(speed, 0.0, 0.0))
+    touch = OutlineContact("touch", body, GROUND, outline_i=Outline.circle(radius), outline_j=table)
+    simulation = Simulation(
+        Mechanism((body,), contacts=(touch,), gravity=(0.0, -gravity), outputs=(Output("y", "disc.y", ""),))
+    )
+    simulation.advance(0.96)
+    hands_over, leaves = simulation.events_in_step()
+    assert (hands_over.guard, leaves.guard) == ("touch.handover", "touch.force")
+    assert hands_over.time == pytest.approx(0.2 / speed, abs=1e-10)
+    # speed^2 + 2 g r (1 - cos) = g r cos, where the disc slides without friction about the edge
+    again = Simulation(simulation._mechanism)
+    again.advance(leaves.time)
+    cosine = (speed**2 / (gravity * radius) + 2.0) / 3.0
+    assert again.read()["y"] == pytest.approx(radius * cosine, abs=1e-9)
