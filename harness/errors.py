@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -127,7 +128,10 @@ def exhaustion_reported() -> Iterator[None]:
         SystemExit: it is.
     """
     try:
-        yield
+        try:
+            yield
+        finally:
+            _print_the_rest()
     except MemoryError:
         _end("The memory is full.")
     except ImportError as error:
@@ -148,6 +152,18 @@ def exhaustion_reported() -> Iterator[None]:
         if error.errno in NO_ROOM:
             _end(f"There is no space for what is printed or written: {error}.")
         raise
+
+
+def _print_the_rest() -> None:
+    """What waits in the buffer is printed now: where it cannot be, that is known before the exit code is."""
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except OSError as error:
+        if error.errno in NO_ROOM:
+            with suppress(OSError):  # else the interpreter tries again at its end, with an exit code of its own
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            raise
 
 
 def _has_no_memory(error: BaseException | None) -> bool:

@@ -61,12 +61,20 @@ def test_other_errors_are_mistakes_of_the_program_and_pass(error: Exception) -> 
     assert result.exception is error
 
 
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
-def test_a_console_that_takes_nothing_more(tmp_path: Path) -> None:
+def test_a_console_that_takes_nothing_more(tmp_path: Path, unbuffered: str) -> None:
     fmu = sound(tmp_path / "Sound.fmu")
     command = [sys.executable, "-c", "from harness.app.cli import main; main()", "validate", str(fmu)]
     with open("/dev/full", "w") as full:
-        ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        ended = subprocess.run(
+            command,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+            env=os.environ | {"PYTHONUNBUFFERED": unbuffered},
+        )
     assert ended.returncode == 1
     assert "Error: There is no space for what is printed or written" in ended.stderr
     assert "Traceback" not in ended.stderr
