@@ -1,5 +1,7 @@
 """How one acceleration grows with the mechanism: chains of bars by the engine, and by MuJoCo's mj_forward.
 
+And accelerations of closed loops and of contacts, which MuJoCo has softly or not at all: of the engine alone.
+
     python -m benchmarks.growth [--rounds 7]        needs the extra "bench" (MuJoCo 4)
 
 The same chain hangs from a pin, at the same angles and speeds; MuJoCo has joint angles as coordinates, and no contacts.
@@ -16,7 +18,17 @@ import numpy as np
 
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
-from mechanism_fmu.model import GROUND, Mechanism, Revolute, compile_mechanism, rigid_body
+from mechanism_fmu.model import (
+    GROUND,
+    Gears,
+    InternalGears,
+    Mechanism,
+    PointLineContact,
+    Revolute,
+    compile_mechanism,
+    rigid_body,
+)
+from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tables.declare import Array
 from mechanism_fmu.tables.layout import field_of, pack
 
@@ -88,6 +100,79 @@ def mjcf(count: int) -> str:
     )
 
 
+def four_bars(count: int) -> Mechanism:
+    """N-four-bar of the IFToMM benchmark A02: rockers of 1 m side by side, leaning, and a rod from each to the next.
+
+    Args:
+        count: of rods; there is one rocker more.
+    """
+    lean = 0.3
+    tip = math.sin(lean), math.cos(lean)
+    rockers = [
+        rigid_body(f"rocker{k}", (k, 0.0), mass=1.0, inertia=1 / 12, centre=(0.5, 0.0), angle=0.5 * math.pi - lean)
+        for k in range(count + 1)
+    ]
+    rods = [
+        rigid_body(f"rod{k}", (k + tip[0], tip[1]), mass=1.0, inertia=1 / 12, centre=(0.5, 0.0)) for k in range(count)
+    ]
+    joints = [Revolute(f"ground{k}", rocker.at(0.0, 0.0), GROUND.at(k, 0.0)) for k, rocker in enumerate(rockers)]
+    for k, rod in enumerate(rods):
+        joints.append(Revolute(f"left{k}", rod.at(0.0, 0.0), rockers[k].at(1.0, 0.0)))
+        joints.append(Revolute(f"right{k}", rod.at(1.0, 0.0), rockers[k + 1].at(1.0, 0.0)))
+    return Mechanism((*rockers, *rods), tuple(joints), gravity=(0.0, -GRAVITY))
+
+
+def blocks(count: int) -> Mechanism:
+    """Blocks that stand beside each other, each on two points of a floor.
+
+    Args:
+        count: of blocks.
+    """
+    bodies = [rigid_body(f"block{k}", (0.3 * k, 0.05), mass=2.0, inertia=0.01) for k in range(count)]
+    floor = GROUND.line((0.0, 0.0), (1.0, 0.0))
+    contacts = [
+        PointLineContact(f"{side}_{body.name}", body.at(x, -0.05), floor)
+        for body in bodies
+        for side, x in (("left", -0.1), ("right", 0.1))
+    ]
+    return Mechanism(tuple(bodies), contacts=tuple(contacts), gravity=(0.0, -GRAVITY))
+
+
+def planetary(count: int) -> Mechanism:
+    """Planets on a carrier between a sun and a fixed ring: all but the first one's rows repeat each other.
+
+    Args:
+        count: of planets.
+    """
+    sun = rigid_body("sun", mass=1.0, inertia=1e-3, speed=2.0)
+    carrier = rigid_body("carrier", mass=1.0, inertia=1e-3, speed=0.6)
+    joints: list[Revolute | Gears | InternalGears] = [
+        Revolute("sun_pin", sun.at(0.0, 0.0), GROUND),
+        Revolute("carrier_pin", carrier.at(0.0, 0.0), GROUND),
+    ]
+    planets = []
+    for k in range(count):
+        angle = math.tau * k / count
+        x, y = 0.05 * math.cos(angle), 0.05 * math.sin(angle)
+        planet = rigid_body(f"planet{k}", (x, y), mass=0.1, inertia=1e-5, velocity=(-0.6 * y, 0.6 * x), speed=-1.5)
+        planets.append(planet)
+        joints.append(Revolute(f"pin{k}", planet.at(0.0, 0.0), carrier.at(x, y)))
+        meshes = {"radius_j": 0.02, "angle_i": angle}
+        joints.append(Gears(f"outside{k}", sun, planet, radius_i=0.03, angle_j=angle + math.pi, **meshes))
+        joints.append(InternalGears(f"inside{k}", GROUND, planet, radius_i=0.07, angle_j=angle, **meshes))
+    return Mechanism((sun, carrier, *planets), tuple(joints))
+
+
+#: What is timed besides, by name.
+_OTHERS = {
+    "planetary train, 3 planets": lambda: planetary(3),
+    "planetary train, 6 planets": lambda: planetary(6),
+    "N-four-bar, N = 10": lambda: four_bars(10),
+    "N-four-bar, N = 40": lambda: four_bars(40),
+    "25 blocks on 50 contacts": lambda: blocks(25),
+}
+
+
 @entry
 def _repeat(block: Array, y: Array, dy: Array, count: int) -> None:
     for _ in range(count):
@@ -126,6 +211,21 @@ def compare(count: int, rounds: int) -> tuple[float, float]:
     return median(engine_times), median(mujoco_times)
 
 
+def alone(mechanism: Mechanism, rounds: int) -> float:
+    """Time of one acceleration where a motion begins, with the contacts that are closed there [s].
+
+    Args:
+        mechanism: which.
+        rounds: whose median it is.
+    """
+    block = Simulation(mechanism)._block
+    y = field_of(block, "y_end").copy()
+    dy = np.zeros_like(y)
+    calls = max(20, _CALLS // len(mechanism.bodies))
+    _repeat(block, y, dy, 1)
+    return median(batch(lambda: _repeat(block, y, dy, calls), 1) / calls for _ in range(rounds))
+
+
 def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -137,6 +237,8 @@ def main() -> None:
         print(f"{count:4d} {1e6 * ours:7.2f} {1e6 * theirs:7.2f} {ours / theirs:6.2f}")
     exponent = math.log(found[100][0] / found[20][0]) / math.log(5.0)
     print(f"The engine's time grows as the number of bars to the power of {exponent:.2f}, from 20 to 100.")
+    for name, made in _OTHERS.items():
+        print(f"{name:27s} {1e6 * alone(made(), rounds):7.2f}")
 
 
 if __name__ == "__main__":
