@@ -11,7 +11,7 @@ from docs.drawings.woodpecker_drawing import PICTURE, PROGRAM, drawing
 
 PAGE = JOINTS.parent / "explanation" / "woodpecker.md"
 TEXT = PAGE.read_text(encoding="utf-8")
-_NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e-\d+)?")
+_NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]\d+)?")
 
 
 @pytest.mark.slow
