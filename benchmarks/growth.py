@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Callable
 from statistics import median
 
 import numpy as np
@@ -164,7 +165,7 @@ def planetary(count: int) -> Mechanism:
 
 
 #: What is timed besides, by name.
-_OTHERS = {
+_OTHERS: dict[str, Callable[[], Mechanism]] = {
     "planetary train, 3 planets": lambda: planetary(3),
     "planetary train, 6 planets": lambda: planetary(6),
     "N-four-bar, N = 10": lambda: four_bars(10),

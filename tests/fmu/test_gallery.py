@@ -33,6 +33,7 @@ FREEDOMS = {
     "peaucellier": (0, 21, 21),
     "roberts": (0, 9, 9),
     "rocking_block": (1, 3, 2),
+    "scissors": (0, 300, 300),
     "scotch_yoke": (1, 6, 5),
     "slider_crank_clearance": (3, 9, 6),
     "stephenson": (0, 15, 15),

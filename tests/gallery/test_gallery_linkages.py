@@ -114,3 +114,25 @@ def test_the_toggle_press_multiplies_force_as_its_speeds_say() -> None:
     slope = (8 * (press(step) - press(-step)) - (press(2 * step) - press(-2 * step))) / (12 * step)
     assert found["torque"][0] == pytest.approx(found["die_force"][0] * slope, rel=1e-8)
     assert abs(found["die_force"][0] * 0.08 / found["torque"][0]) > 10.0
+
+
+def test_lifts_of_a_hundred_bars_are_as_high_as_their_feet_say_and_as_heavy_as_virtual_work() -> None:
+    """All follows from the place of a foot, and the force on it from T, V and Lagrange's equation."""
+    stages, length, mass, gravity = 10, 0.5, 0.2, 9.81
+    times = np.linspace(0.0, 4.0, 81)
+    found = run("scissors", times)
+    foot, speed, change = 0.25 + 0.1 * np.sin(2 * times), 0.2 * np.cos(2 * times), -0.4 * np.sin(2 * times)
+    turned = np.arccos(foot / length)
+    sine, cosine = np.sin(turned), np.cos(turned)
+    assert off(found["height"], stages * length * sine) < 1e-10
+    beside = np.arccos((0.25 + 0.1 * np.sin(2 * times + math.tau / 5)) / length)
+    assert off(found["next_height"], stages * length * np.sin(beside)) < 1e-10
+    rate = -speed / (length * sine)
+    bend = -(change + length * cosine * rate**2) / (length * sine)
+    heights = np.arange(stages) + 0.5
+    # of two bars a stage: T = (1/2) inertia rate^2
+    inertia = 2 * mass * length**2 * (stages / 12 + stages / 4 * sine**2 + (heights**2).sum() * cosine**2)
+    slope = 4 * mass * length**2 * sine * cosine * (stages / 4 - (heights**2).sum())
+    moment = inertia * bend + 0.5 * slope * rate**2 + 2 * mass * gravity * length * cosine * heights.sum()
+    force = -moment / (length * sine)
+    assert off(found["force"], force) < 1e-9 * float(np.abs(force).max())

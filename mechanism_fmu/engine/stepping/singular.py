@@ -7,6 +7,8 @@ its stages is looked at: where it has a dip, the least value is sought, and that
 
 from __future__ import annotations
 
+import math
+
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
@@ -30,6 +32,9 @@ _SINGULAR_BELOW = 1e-10
 #: Dips above this are no sign of a singular configuration.
 _LOOK_BELOW = 0.1
 _SEARCH_STEPS = 60
+#: A sine that could fall so many times as steeply as has been seen, and would yet stay above this, falls to no zero.
+_STEEPER = 3.0
+_SINE_ABOVE = 1e-3
 #: A dip that seems to lie between two steps is sought from so much of a step before the second one on.
 _BACK = 0.5
 _GOLDEN = 0.3819660112501051
@@ -92,27 +97,36 @@ def keep_independence(block: Array) -> None:
 
 @jit
 def _least(block: Array, low: float) -> float:
-    """The least independence from `low` on within the step last tried, by golden section on its dense output."""
+    """The least independence from `low` on within the step last tried, by golden section on its dense output.
+
+    Or one that is not the least, where the least is none of a singular configuration: there, the sine, the root of the
+    independence, falls to zero and rises again, each nearly straight.
+    """
     keep_small()
     high = 1.0
     left = low + _GOLDEN * (high - low)
     right = high - _GOLDEN * (high - low)
-    at_left = _independence_at(block, left)
-    at_right = _independence_at(block, right)
+    at_left = math.sqrt(_independence_at(block, left))
+    at_right = math.sqrt(_independence_at(block, right))
+    steepest = abs(at_left - at_right) / (right - left)
     for _ in range(_SEARCH_STEPS):
         if at_left < at_right:
             high = right
             right = left
             at_right = at_left
             left = low + _GOLDEN * (high - low)
-            at_left = _independence_at(block, left)
+            at_left = math.sqrt(_independence_at(block, left))
         else:
             low = left
             left = right
             at_left = at_right
             right = high - _GOLDEN * (high - low)
-            at_right = _independence_at(block, right)
-    return min(at_left, at_right)
+            at_right = math.sqrt(_independence_at(block, right))
+        if right > left:
+            steepest = max(steepest, abs(at_left - at_right) / (right - left))
+        if min(at_left, at_right) > _STEEPER * steepest * (high - low) + _SINE_ABOVE:
+            break
+    return min(at_left, at_right) ** 2
 
 
 @jit
