@@ -10,6 +10,7 @@ import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from typing import NamedTuple
 
@@ -70,7 +71,8 @@ class _Placed(NamedTuple):
         return abs(math.remainder(cmath.phase(direction) - self.middle, math.tau)) <= self.half
 
 
-def placed(outline: Outline, pose: Pose) -> list[_Placed]:
+@lru_cache(maxsize=64)
+def placed(outline: Outline, pose: Pose) -> tuple[_Placed, ...]:
     """The elements of an outline of plain numbers, in the global frame."""
     turn, origin = cmath.rect(1.0, pose.angle), complex(pose.x, pose.y)
 
@@ -86,7 +88,7 @@ def placed(outline: Outline, pose: Pose) -> list[_Placed]:
         centre = seen(element.centre)
         middle = cmath.phase(seen(element.point(0.5)) - centre)
         found.append(_Placed(start, end, centre, abs(element.radius), middle, abs(element.sweep) / 2))
-    return found
+    return tuple(found)
 
 
 def nearest(a: Outline, pose_a: Pose, b: Outline, pose_b: Pose) -> Nearest:
