@@ -41,7 +41,7 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     """One round of impacts at y_end: x- becomes x+, and a record is kept of each contact that strikes.
 
     `struck` is the contact whose gap has just become zero, or `codes.NONE`. Return whether any contact approached (else
-    nothing is changed), and a status.
+    nothing is changed, but that joints' rates may have been mended), and a status.
     """
     keep_small()
     n = Sizes(block).coordinates

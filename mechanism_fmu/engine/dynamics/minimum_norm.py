@@ -73,6 +73,7 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
             if share == 0.0:  # most rows have no body in common
                 continue
             _add_multiple(basis[i], -share, basis[p], width)
+            system.alone[i] = codes.NONE
             _note_what_is_left(system, i, share, width)
     return count
 

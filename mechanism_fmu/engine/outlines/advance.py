@@ -153,10 +153,12 @@ def come_nearer(block: Array, most: float) -> None:
     for c in range(table.apart.shape[0]):
         if table.apart[c] > 0.0:
             reach = 0.0
+            in_a_row = False
             for side in range(2):
                 outline = table.outline_i[c] if side == 0 else table.outline_j[c]
                 x, y = data[outline, codes.OUTLINE_X], data[outline, codes.OUTLINE_Y]
-                dx, dy = data[outline, codes.OUTLINE_DX], data[outline, codes.OUTLINE_DY]
+                in_a_row = in_a_row or data[outline, codes.OUTLINE_DX] != 0.0 or data[outline, codes.OUTLINE_DY] != 0.0
                 reach += math.sqrt(x * x + y * y) + data[outline, codes.OUTLINE_RADIUS]
-                reach += Outlines(block).copies[outline] * math.sqrt(dx * dx + dy * dy)
             table.apart[c] = max(table.apart[c] - most * (4.0 + reach), 0.0)
+            if in_a_row:  # which has no end
+                table.apart[c] = 0.0

@@ -21,7 +21,7 @@ from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
-from ..vectors import copy
+from ..vectors import clear, copy
 from .events import first_event, refine
 from .letting_go import refine_hold, refine_push, refine_slip
 from .meeting import refine_end
@@ -102,6 +102,8 @@ def take_step(block: Array) -> int:
         return _shock_or_fail(block)
     singular = is_singular(block)
     guard, subject, fraction = first_event(block)
+    if guard != codes.GUARD_NONE or singular:
+        clear(Contacts(block).apart)  # what it says is of the end of a step that does not come to that
     if fraction < 0.0:
         now.clock[codes.NEXT_STEP] = wanted  # a step that is refused changes nothing
         is_one_inside(block)

@@ -23,7 +23,7 @@ from ..dynamics.acceleration import derivative
 from ..dynamics.forces import feed, inputs_changed, set_time, show_reached, take_inputs
 from ..dynamics.oscillation import observe
 from ..interpolation import interpolate
-from ..vectors import copy
+from ..vectors import clear, copy
 from .runge_kutta import initial_step_size, try_step
 from .singular import keep_independence, note_rank
 from .step import take_step, watch_at
@@ -190,6 +190,7 @@ def resume(block: Array) -> int:
         _step_back(block)
         release(block, codes.NONE)
         now.clock[codes.STEP_END] = time
+    clear(table.apart)  # it is of where the engine has been ahead, and of the motion without this input
     for c in range(table.mode.shape[0]):
         if time < table.pull_time[c] < math.inf:
             table.pull_time[c] = math.inf

@@ -51,3 +51,14 @@ def test_repeated_rows_of_other_scales_change_nothing(seed):
     assert found_rank == rank == exact.rank
     assert relative(z - exact.z, exact.z) < 1e-12
     assert relative(multiplier - exact.multiplier, exact.multiplier) < 1e-9
+
+
+@pytest.mark.parametrize("tilt", [0.0, 1e-12, 1e-10, 7e-9, 2e-8])
+def test_a_row_of_one_entry_that_is_hardly_turned_is_of_one_no_more(tilt):
+    """Its length is the same to the last digit; what is left of it beside the first row is not along one column."""
+    D = np.array([[1.0, tilt, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 1.0]])
+    b = np.array([1.0, 2.0, 7.0])
+    z, multiplier, rank = solve(D, b)
+    assert rank == 3
+    np.testing.assert_allclose(D @ z, b, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(D.T @ multiplier, z, rtol=0, atol=1e-14)
