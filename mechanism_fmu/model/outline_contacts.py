@@ -51,7 +51,8 @@ class LinearCopies:
 
     Attributes:
         step: from one copy to the next, in the frame of the body [m].
-        count: how many there are at most, half of them on either side; copy 0 is the outline as it is given.
+        count: how many there are, half of them on either side (of an even number, one more in the direction of the
+            step); copy 0 is the outline as it is given.
 
     Raises:
         MechanismError: there is none, or a text is no such quantity.

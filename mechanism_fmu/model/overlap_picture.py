@@ -145,8 +145,8 @@ def _copied(outline: Outline, copies: CircularCopies | LinearCopies | None) -> l
     if isinstance(copies, CircularCopies):
         return [outline.moved(angle=2.0 * math.pi * k / copies.count) for k in range(copies.count)]
     if isinstance(copies, LinearCopies):
-        half = min(copies.count // 2, _IN_A_ROW)
-        return [outline.moved(k * copies.step[0], k * copies.step[1]) for k in range(-half, half + 1)]
+        first, last = max(-((copies.count - 1) // 2), -_IN_A_ROW), min(copies.count // 2, _IN_A_ROW)
+        return [outline.moved(k * copies.step[0], k * copies.step[1]) for k in range(first, last + 1)]
     return [outline]
 
 

@@ -129,8 +129,8 @@ class LinearSystem(Table):
     share of its squared length that is left after projection. A row of `scaled` has entries of the bodies in
     `scaled_body`. The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies
     `plan_body`; `fill` are the earlier places with which a row has entries, `fill_count` many, in `triangle`. The dense
-    one, `by_pivots`, has a basis of orthonormal rows, of which `alone` say in which column their only entry is, if it
-    is alone; the first `alone_first` in order are such.
+    one, `by_pivots`, has a basis of orthonormal rows, of which `singleton` says in which column their only entry
+    is, if there is one only; the first `singletons` in order are such.
     """
 
     scaled = real("rows", "columns", work=True)
@@ -155,8 +155,8 @@ class LinearSystem(Table):
     column_basis = real("rows", "rows", work=True)
     column_triangle = real("rows", "rows", work=True)
     order = integer("rows", work=True)
-    alone = integer("rows", work=True)
-    alone_first = integer(1, work=True)
+    singleton = integer("rows", work=True)
+    singletons = integer(1, work=True)
     row_norm = real("rows", 3, work=True)
     coefficient = real("rows", work=True)
     dual = real("rows", work=True)

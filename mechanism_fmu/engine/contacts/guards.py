@@ -18,7 +18,8 @@ from ..constraints.rows import contact_row
 from ..elementary import sine_cosine
 from ..outlines.nearest import EXACT, NEXT, nearest
 from ..profiles.nearest import find_nearest, is_searched
-from .handover import free_place, is_free, is_outline, left_to_go, let_loose, take_found
+from .binding import free_place, is_free, is_outline, let_loose, take_found
+from .handover import left_to_go
 
 # Where the contacts stand now: the present copy of a pattern, the present angle of a stop or lock.
 

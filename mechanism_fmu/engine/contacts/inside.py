@@ -11,8 +11,8 @@ from ...tolerances import CLOSES_WITHIN, DEEPEST, ROOT_TOLERANCE
 from ..compiler.subset import jit, keep_apart
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
+from .binding import is_outline
 from .guards import gap, is_watched
-from .handover import is_outline
 
 #: What rounding leaves of a gap, in parts of what it is the difference of: a few times that of a number.
 _ROUNDING = 1e-15

@@ -15,11 +15,12 @@ from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import kinetic_energy, set_time
+from .binding import bind_what_touches, let_loose
 from .complementarity import push_forces
 from .doubts import other_choice, undetermined
 from .event_record import EVENT, WITHIN, has_changed, keep_event, note_mode
 from .guards import can_open, gap, place_contact, place_pattern
-from .handover import bind_what_touches, hand_over, let_loose
+from .handover import hand_over
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, strike
 from .impact_laws import shock
 from .inside import is_one_inside

@@ -34,10 +34,10 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
     basis = system.basis
     system.rank[0] = count
     system.independence[0] = 1.0
-    system.alone_first[0] = 0
+    system.singletons[0] = 0
     for i in range(count):
         system.order[i] = i
-        system.alone[i] = _copy_row(system, i, width)
+        system.singleton[i] = _copy_row(system, i, width)
         square = _dot(basis[i], basis[i], width)
         system.row_norm[i, 0] = square
         system.row_norm[i, 1] = square
@@ -48,8 +48,8 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
             system.rank[0] = r
             return r
         p = system.order[r]
-        if system.alone[p] != codes.NONE and fraction == 1.0:
-            _take_out(system, r, count, width)
+        if system.singleton[p] != codes.NONE and fraction == 1.0:
+            _eliminate_singleton(system, r, count, width)
             continue
         square = _dot(basis[p], basis[p], width)
         if square < _REORTHOGONALISE_BELOW * system.row_norm[p, 0]:
@@ -73,7 +73,7 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
             if share == 0.0:  # most rows have no body in common
                 continue
             _add_multiple(basis[i], -share, basis[p], width)
-            system.alone[i] = codes.NONE
+            system.singleton[i] = codes.NONE
             _note_what_is_left(system, i, share, width)
     return count
 
@@ -95,21 +95,21 @@ def _copy_row(system: LinearSystem, row: int, width: int) -> int:
 
 
 @jit
-def _take_out(system: LinearSystem, r: int, count: int, width: int) -> None:
-    """The r-th basis row has one entry alone: of the rows that follow, it takes that, and no more.
+def _eliminate_singleton(system: LinearSystem, r: int, count: int, width: int) -> None:
+    """The r-th basis row has one entry only: of the rows that follow, it takes that, and no more.
 
     What the general way does, without the sums of zeros that make the most of it: rows of a pin at the middle of a
     body, and of bodies that are guided along the axes, are such.
     """
     p = system.order[r]
-    column = system.alone[p]
+    column = system.singleton[p]
     system.independence[0] = 1.0
     length = abs(system.basis[p, column])
     system.triangle[p, r] = length
     system.basis[p, column] /= length
     unit = system.basis[p, column]
-    if system.alone_first[0] == r:
-        system.alone_first[0] = r + 1
+    if system.singletons[0] == r:
+        system.singletons[0] = r + 1
     for s in range(r + 1, count):
         i = system.order[s]
         share = unit * system.basis[i, column]
@@ -144,12 +144,12 @@ def solve_orthogonalised(block: Array, count: int, width: int) -> None:
         _solve_deficient(block, count, rank)
     for k in range(width):
         system.solution[k] = 0.0
-    alone = system.alone_first[0]
-    for r in range(alone):
+    singletons = system.singletons[0]
+    for r in range(singletons):
         p = system.order[r]
-        column = system.alone[p]
+        column = system.singleton[p]
         system.solution[column] += system.coefficient[r] * system.basis[p, column]
-    for r in range(alone, rank):
+    for r in range(singletons, rank):
         _add_multiple(system.solution, system.coefficient[r], system.basis[system.order[r]], width)
 
 
@@ -175,11 +175,11 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
 def _solve_full_rank(block: Array, count: int) -> None:
     """L coefficient = b forwards, then L^T multiplier = coefficient backwards."""
     system = LinearSystem(block)
-    alone = system.alone_first[0]  # which have no share in each other
-    for r in range(alone):
+    singletons = system.singletons[0]  # which have no share in each other
+    for r in range(singletons):
         p = system.order[r]
         system.coefficient[r] = system.right_side[p] / system.triangle[p, r]
-    for r in range(alone, count):
+    for r in range(singletons, count):
         p = system.order[r]
         value = system.right_side[p]
         for j in range(r):
@@ -189,7 +189,7 @@ def _solve_full_rank(block: Array, count: int) -> None:
         r = count - 1 - back
         p = system.order[r]
         value = system.coefficient[r]
-        for s in range(max(r + 1, alone), count):
+        for s in range(max(r + 1, singletons), count):
             q = system.order[s]
             value -= system.triangle[q, r] * system.multiplier[q]
         system.multiplier[p] = value / system.triangle[p, r]

@@ -3,8 +3,8 @@
 The distance of two outlines changes by no more than the fastest of their points moves against the other body. So from a
 look at which it is s, nothing happens for s/L, with L a bound of that speed over the whole step, which the coefficients
 of the dense output give: no meeting is jumped over (Mirtich, Impulse-based dynamic simulation, 1996). Only where s/L
-has become less than `FINEST` of the step, the next look is that far away: who grazes a corner by less than half of what
-L covers meanwhile may not be seen.
+has become less than `finest`, the next look is that far away: who grazes a corner by less than half of what L covers
+meanwhile may not be seen.
 
 With P the place of one outline that is nearest to the other, and n the normal there, s' = n.v(P), v the velocity of one
 body's material against the other's: that of the place opposite differs by a turn about P, which is across n. So L is
@@ -29,8 +29,9 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..vectors import turned
 
-#: Looks are no closer than this, in parts of a step.
-FINEST = 1.0 / 512.0
+#: Looks are no closer than this, in parts of a step; but where the step is long, than what is covered of the smaller
+#: circle around an outline meanwhile: what is not thinner than that is not passed through.
+_FINEST, _OF_RADIUS = 1.0 / 512.0, 1.0 / 32.0
 _ROWS = METHOD.dense_rows
 #: Largest slope in 0..1 of what the dense output's coefficients beyond the cubic's multiply.
 _SLOPE = 0.2
@@ -47,6 +48,20 @@ def fastest(block: Array, at: Pose, contact: int) -> float:
     if Outlines(block).copies[other] == 0:
         most = min(most, _fastest_of(block, at, j, i, other))
     return most
+
+
+@jit
+def finest(block: Array, contact: int, most: float) -> float:
+    """How close looks at two outlines are at least, in parts of a step in which they move by `most` at most [m]."""
+    keep_small()
+    table = Contacts(block)
+    data = Outlines(block).data
+    one: float = data[table.outline_i[contact], codes.OUTLINE_RADIUS]
+    other: float = data[table.outline_j[contact], codes.OUTLINE_RADIUS]
+    least = _OF_RADIUS * min(one, other)
+    if 0.0 < least < _FINEST * most:
+        return least / most
+    return _FINEST
 
 
 @jit

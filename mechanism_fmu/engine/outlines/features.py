@@ -63,6 +63,28 @@ def wrapped(block: Array, outline: int, copy: int) -> int:
 
 
 @jit
+def first_in_row(count: int) -> int:
+    """The number of the first one of so many copies in a row, of which half stand on either side of copy 0."""
+    return -((count - 1) // 2)
+
+
+@jit
+def last_in_row(count: int) -> int:
+    """That of the last one."""
+    return count // 2
+
+
+@jit
+def is_copy(block: Array, outline: int, copy: int) -> bool:
+    """Whether there is a copy of this number: around the origin always."""
+    keep_small()
+    if Outlines(block).data[outline, codes.OUTLINE_PITCH] != 0.0:
+        return True
+    count = int(Outlines(block).copies[outline])
+    return first_in_row(count) <= copy <= last_in_row(count)
+
+
+@jit
 def beside(block: Array, outline: int, feature: int, way: int) -> int:
     """The feature `way` places further along the chain, or `codes.NONE` beyond the end of an open one."""
     table = Outlines(block)

@@ -24,11 +24,13 @@ from .features import (
     apart,
     disc_radius,
     faces_corner,
+    first_in_row,
     is_at_end,
     is_corner,
     is_hollow_corner,
     is_over,
     is_over_arc,
+    last_in_row,
     radius_of,
     turning_of_copy,
     wrapped,
@@ -121,7 +123,7 @@ def _copies(block: Array, outline: int, x: float, y: float, reach: float) -> tup
         if across > reach * reach:
             return 0, -1
         half = min(math.sqrt((reach * reach - across) / square), 0.5 * count)
-        return math.ceil(middle - half), math.floor(middle + half)
+        return max(math.ceil(middle - half), first_in_row(count)), min(math.floor(middle + half), last_in_row(count))
     own = math.sqrt(ox * ox + oy * oy)
     far = math.sqrt(x * x + y * y)
     middle = 0.0

@@ -14,8 +14,8 @@ from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
+from ..contacts.binding import let_loose
 from ..contacts.guards import function_value, gap, guard_value, place_contact, place_pattern
-from ..contacts.handover import let_loose
 from ..contacts.rubbing import part_all
 from ..contacts.transition import switch_contacts
 from ..dynamics.linear_solve import solve, write_matrix

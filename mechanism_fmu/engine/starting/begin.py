@@ -16,8 +16,8 @@ from ..constraints.friction_rows import rubbing_count
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows
+from ..contacts.binding import bind_what_touches, deepest_overlap, is_free
 from ..contacts.guards import gap
-from ..contacts.handover import bind_what_touches, deepest_overlap, is_free
 from ..contacts.impact import clear_impact, clear_records
 from ..dynamics.forces import set_time, take_inputs
 from ..dynamics.oscillation import begin_oscillations

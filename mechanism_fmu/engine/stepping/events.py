@@ -34,8 +34,9 @@ from ...tolerances import GAP_NOISE, MARGIN, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
+from ..contacts.binding import bind, is_free, is_outline, let_loose
 from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for_search
-from ..contacts.handover import bind, ends_in_hollow, is_free, is_outline, let_loose
+from ..contacts.handover import ends_in_hollow
 from ..contacts.inside import is_too_deep
 from .letting_go import first_to_let_go
 from .looks import BISECTIONS, bisect, falls_between, place_at, value_at

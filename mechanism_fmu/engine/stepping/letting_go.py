@@ -26,6 +26,7 @@ from ..contacts.guards import can_open
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
+from .looks import falling
 from .runge_kutta import try_step
 
 _LAST = METHOD.last
@@ -35,9 +36,6 @@ _LOOKS = 8
 #: on the last digits of when.
 _CLOSE = 1e-15
 _PUSH_CLOSE = 2e-12
-#: After so many false positions, bisections.
-_FALSE_POSITIONS = 24
-_BISECTIONS = 60
 _NEWTON_STEPS = 12
 #: By this share of a step the dense output may misplace an event, where it is found anew on true steps.
 _MISPLACED = 1e-3
@@ -45,6 +43,23 @@ _MISPLACED = 1e-3
 #: from the second of these on when it is looked at anew.
 _LETS_GO = -2.0
 _OPENS = -1.0
+
+
+@jit
+def _spare_at(block: Array, guard: int, subject: int, fraction: float) -> float:
+    """A contact's force, or what friction could hold more, over its tolerance at `fraction` of the step."""
+    keep_small()
+    s = Stages(block)
+    interpolate(s.new_dense, fraction, s.y_at)
+    set_time(block, s.tried[0] + fraction * s.tried[1])
+    derivative(block, s.y_at, s.dy_at)
+    if guard == codes.GUARD_PUSH:
+        return push_ratio(block, subject, push_tolerance(block, row_count(block)))
+    return hold_ratio(block, subject, push_tolerance(block, row_count(block)))
+
+
+# a force goes on smoothly: no bisection among the false positions
+_falls = falling(_spare_at, false_positions=24, then_bisect=1000)
 
 
 @jit
@@ -92,67 +107,12 @@ def _first_below(block: Array, guard: int, subject: int, latest: float, limit: f
         if spare < _LETS_GO:
             if look == 1:
                 above = _spare_at(block, guard, subject, before)
-            return _falls_between(block, guard, subject, before, above - limit, after, spare - limit, limit, close)
+            return _falls(block, guard, subject, before, above - limit, after, spare - limit, limit, close)
         if after >= latest:
             return 2.0
         before = after
         above = spare
     return 2.0
-
-
-@jit
-def _falls_between(
-    block: Array,
-    guard: int,
-    subject: int,
-    before: float,
-    above: float,
-    after: float,
-    below: float,
-    limit: float,
-    close: float,
-) -> float:
-    """Where a force, more than its limit by `above` and `below` at two fractions of the step, comes down to it.
-
-    The end of an interval no longer than `close`. By false position, where the value at an end that
-    stays counts half (Illinois); by bisection where it is no number, or that leads nowhere.
-    """
-    keep_small()
-    stayed = 0
-    for look in range(_FALSE_POSITIONS + _BISECTIONS):
-        middle = 0.5 * (before + after)
-        if look < _FALSE_POSITIONS and 0.0 < above < math.inf:
-            place = (before * below - after * above) / (below - above)
-            middle = max(min(place, after - 0.5 * close), before + 0.5 * close)
-        if after - before <= close or not before < middle < after:
-            break
-        value = _spare_at(block, guard, subject, middle) - limit
-        if value < 0.0:
-            after = middle
-            below = value
-            if stayed < 0:
-                above *= 0.5
-            stayed = -1
-        else:
-            before = middle
-            above = value
-            if stayed > 0:
-                below *= 0.5
-            stayed = 1
-    return after
-
-
-@jit
-def _spare_at(block: Array, guard: int, subject: int, fraction: float) -> float:
-    """A contact's force, or what friction could hold more, over its tolerance at `fraction` of the step."""
-    keep_small()
-    s = Stages(block)
-    interpolate(s.new_dense, fraction, s.y_at)
-    set_time(block, s.tried[0] + fraction * s.tried[1])
-    derivative(block, s.y_at, s.dy_at)
-    if guard == codes.GUARD_PUSH:
-        return push_ratio(block, subject, push_tolerance(block, row_count(block)))
-    return hold_ratio(block, subject, push_tolerance(block, row_count(block)))
 
 
 @jit

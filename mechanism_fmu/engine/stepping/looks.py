@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
+from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose, Stages
 from ..compiler.subset import jit, keep_small
@@ -11,8 +15,6 @@ from ..interpolation import interpolate
 
 #: Bisections of a bracket: 2^-60 of a step is below rounding.
 BISECTIONS = 60
-#: After so many false positions, bisections.
-_FALSE_POSITIONS = 16
 
 
 @jit
@@ -47,35 +49,75 @@ def bisect(block: Array, number: int, before: float, after: float, floor: float)
     return after
 
 
+def falling(value: Any, false_positions: int, then_bisect: int) -> Any:
+    """Make the function that finds where a value comes down to its limit between two looks.
+
+    It takes (block, guard, number, before, above, after, below, limit, close): the value is more than its limit by
+    `above` and `below` at two fractions of the step; it returns the end of an interval no longer than `close`. By false
+    position, where the value at an end that stays counts half (Illinois); by bisection where it is no number at one
+    end, or that leads nowhere, as where the value jumps behind two corners that meet.
+
+    Args:
+        value: compiled, of (block, guard, number, fraction of the step).
+        false_positions: after so many looks, only bisections.
+        then_bisect: of so many looks, the last one is a bisection.
+    """
+
+    @jit
+    def falls(
+        block: Array,
+        guard: int,
+        number: int,
+        before: float,
+        above: float,
+        after: float,
+        below: float,
+        limit: float,
+        close: float,
+    ) -> float:
+        keep_small()
+        stayed = 0
+        for look in range(2 * BISECTIONS):
+            middle = 0.5 * (before + after)
+            if look < false_positions and look % then_bisect < then_bisect - 1 and 0.0 < above < math.inf:
+                place = (before * below - after * above) / (below - above)
+                middle = max(min(place, after - 0.5 * close), before + 0.5 * close)
+            if after - before <= close or not before < middle < after:
+                break
+            spare = value(block, guard, number, middle) - limit
+            if spare <= 0.0:
+                after = middle
+                below = spare
+                if stayed < 0:
+                    above *= 0.5
+                stayed = -1
+            else:
+                before = middle
+                above = spare
+                if stayed > 0:
+                    below *= 0.5
+                stayed = 1
+        return after
+
+    return falls
+
+
+@jit
+def _guard_at(block: Array, _guard: int, number: int, fraction: float) -> float:
+    return value_at(block, number, fraction)[0]
+
+
+# a gap jumps where corners meet
+_falls = falling(_guard_at, false_positions=16, then_bisect=4)
+
+
 @jit
 def falls_between(
     block: Array, number: int, before: float, above: float, after: float, below: float, floor: float, close: float
 ) -> float:
     """As `bisect`, where a guard is more than `floor` by `above` and `below` at the two fractions of the step.
 
-    The end of an interval no longer than `close`. By false position, where the value at an end that stays counts half
-    (Illinois); where the value jumps, as behind two corners that meet, false positions lead nowhere: by bisection.
+    The end of an interval no longer than `close` (see `falling`).
     """
-    keep_small()
-    stayed = 0
-    for look in range(2 * BISECTIONS):
-        middle = 0.5 * (before + after)
-        if above > 0.0 and look < _FALSE_POSITIONS and look % 4 < 3:
-            middle = (before * below - after * above) / (below - above)
-            middle = max(min(middle, after - 0.5 * close), before + 0.5 * close)
-        if after - before <= close or not before < middle < after:
-            break
-        value = value_at(block, number, middle)[0] - floor
-        if value > 0.0:
-            before = middle
-            above = value
-            if stayed > 0:
-                below *= 0.5
-            stayed = 1
-        else:
-            after = middle
-            below = value
-            if stayed < 0:
-                above *= 0.5
-            stayed = -1
-    return after
+    found: float = _falls(block, codes.GUARD_NONE, number, before, above, after, below, floor, close)
+    return found

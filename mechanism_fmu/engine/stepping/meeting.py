@@ -14,7 +14,7 @@ from ..constraints.kinematics import place_bodies
 from ..constraints.outline_row import place_feature
 from ..contacts.guards import guard_of
 from ..contacts.handover import left_to_go
-from ..outlines.advance import FINEST, against, fastest, turns
+from ..outlines.advance import against, fastest, finest, turns
 from ..outlines.features import CORNERS_TOUCH, radius_of
 from ..outlines.nearest import look_across, look_no_deeper
 from .looks import falls_between, place_at, value_at
@@ -59,12 +59,13 @@ def meets_before(block: Array, number: int, after: float) -> float:
     group = Contacts(block).group[contact]
     apart = Contacts(block).apart
     most = look_at.most[number]
-    look_no_deeper(block, most * FINEST)
+    closest = finest(block, contact, most)
+    look_no_deeper(block, most * closest)
     found = 2.0
     while look_at.reached[number] <= after:
         now = look_at.reached[number]
         # who has had less to go than to the next look may have passed
-        look_across(block, now > 0.0 and look_at.next[number, 0] < most * FINEST)
+        look_across(block, now > 0.0 and look_at.next[number, 0] < most * closest)
         value = value_at(block, number, now)[0] - GAP_NOISE
         if value <= 0.0 and now > 0.0:
             before = look_at.next[number, 1]
@@ -77,7 +78,7 @@ def meets_before(block: Array, number: int, after: float) -> float:
         look_at.reached[number] = 2.0
         apart[group] = max(value - most * (1.0 - now), 0.0)
         if value <= most * (1.0 - now):
-            look_at.reached[number] = now + max(value / most, FINEST)
+            look_at.reached[number] = now + max(value / most, closest)
             if now < 1.0 < look_at.reached[number]:
                 look_at.reached[number] = 1.0
     look_no_deeper(block, 0.0)

@@ -13,7 +13,7 @@ from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
-from ..contacts.handover import deepest_overlap
+from ..contacts.binding import deepest_overlap
 from ..contacts.inside import blame, is_one_inside
 from ..contacts.transition import release
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, derivative, mend

@@ -1,0 +1,157 @@
+"""Which contacts of two outlines are bound to which features: those that touch, and the one that strikes next.
+
+Two outlines have a group of contacts, one for each place where they may touch at once. Those that touch are bound; the
+first free one stands for the nearest pair of features that touch nothing yet (`engine.outlines.nearest`).
+"""
+
+from __future__ import annotations
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Pose
+from ...tables.parts import Contacts, Outlines
+from ...tolerances import TOUCHES_WITHIN
+from .. import status
+from ..compiler.subset import jit, keep_apart, keep_small
+from ..outlines.features import FAR
+from ..outlines.held import is_one_with
+from ..outlines.nearest import EVERY, FREE, MEETS, look_no_deeper, nearest
+
+#: Outlines that reach farther into each other than this do not touch, but overlap [m].
+OVERLAPS = 1e-9
+
+
+@jit
+def is_outline(block: Array, contact: int) -> bool:
+    """Whether a contact is one of outlines."""
+    found: bool = Contacts(block).kind[contact] == codes.OUTLINE
+    return found
+
+
+@jit
+def is_free(block: Array, contact: int) -> bool:
+    """Whether a contact of outlines is bound to nothing."""
+    free: bool = is_outline(block, contact) and Contacts(block).feature_i[contact] == codes.NONE
+    return free
+
+
+@jit
+def free_place(block: Array, group: int) -> int:
+    """The first free contact of a group, or `codes.NONE`."""
+    table = Contacts(block)
+    for k in range(group, table.mode.shape[0]):
+        if table.group[k] != group:
+            break
+        if table.feature_i[k] == codes.NONE:
+            return k
+    return codes.NONE
+
+
+@jit
+def bind(block: Array, at: Pose, contact: int) -> None:
+    """Bind a free contact to the nearest features that touch nothing yet, in place of what comes off beside them."""
+    keep_small()
+    nearest(block, at, contact, MEETS)
+    take_found(block, contact)
+    table = Contacts(block)
+    f, g = table.feature_i[contact], table.feature_j[contact]
+    if f == codes.NONE:
+        return
+    for k in range(table.group[contact], table.mode.shape[0]):
+        if table.group[k] != table.group[contact]:
+            break
+        opens = table.mode[k] == codes.OPEN and table.feature_i[k] != codes.NONE and k != contact
+        if opens and table.copy[k] == table.copy[contact]:
+            is_same = is_one_with(block, table.outline_i[k], f, table.feature_i[k])
+            if is_same and is_one_with(block, table.outline_j[k], g, table.feature_j[k]):
+                table.touching[k] = 0
+                let_loose(block, k)
+
+
+@jit
+def take_found(block: Array, contact: int) -> None:
+    """Bind a contact to what the last search has found."""
+    keep_small()
+    from_search = Outlines(block).found
+    table = Contacts(block)
+    table.feature_i[contact] = from_search[0]
+    table.feature_j[contact] = from_search[1]
+    table.copy[contact] = from_search[2]
+
+
+@jit
+def let_loose(block: Array, contact: int) -> None:
+    """An open contact that has come off is bound to no features any more; one that has no outlines never is."""
+    table = Contacts(block)
+    if is_outline(block, contact):
+        table.apart[table.group[contact]] = 0.0
+    table.feature_i[contact] = codes.NONE
+    table.feature_j[contact] = codes.NONE
+    table.copy[contact] = 0
+
+
+@jit
+def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
+    """Bind a contact to every pair of features that touches, and free those that do not but for `struck`; a status."""
+    keep_apart()
+    table = Contacts(block)
+    look_no_deeper(block, 0.0)
+    for c in range(table.mode.shape[0]):
+        if not is_outline(block, c):
+            continue
+        if c == struck:
+            table.touching[c] = 1
+            table.apart[table.group[c]] = 0.0
+        elif table.feature_i[c] != codes.NONE and table.mode[c] == codes.OPEN and table.touching[c] == 0:
+            let_loose(block, c)
+    for c in range(table.mode.shape[0]):
+        if not is_outline(block, c) or table.group[c] != c or table.value[c, codes.ENABLED] < 0.5:
+            continue
+        if table.apart[c] > TOUCHES_WITHIN and not _is_bound(block, c):
+            continue  # as far as its outlines are apart, nothing that has happened concerns it
+        table.apart[c] = 0.0
+        while nearest(block, at, c, FREE) <= TOUCHES_WITHIN:
+            place = free_place(block, c)
+            if place == codes.NONE:
+                return status.MANY_TOUCH
+            take_found(block, place)
+            table.touching[place] = 1
+        if free_place(block, c) == codes.NONE:  # the last one is there to tell
+            return status.MANY_TOUCH
+    return status.OK
+
+
+@jit
+def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
+    """The contact of the outlines that reach deepest into each other, and how deep [m]; `codes.NONE` where none does.
+
+    A disc of one that is inside the other counts, and none in an open chain, which has no inside; and elements that
+    cross each other.
+    """
+    keep_apart()
+    table = Contacts(block)
+    found = codes.NONE
+    least = -OVERLAPS
+    look_no_deeper(block, FAR)
+    for c in range(table.mode.shape[0]):
+        if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
+            if table.apart[c] > 0.0 and not _is_bound(block, c):
+                continue
+            gap = nearest(block, at, c, EVERY)
+            if gap < least:
+                least = gap
+                found = c
+    look_no_deeper(block, 0.0)
+    return found, -least
+
+
+@jit
+def _is_bound(block: Array, group: int) -> bool:
+    """Whether any contact of a group is bound to features."""
+    table = Contacts(block)
+    for k in range(group, table.mode.shape[0]):
+        if table.group[k] != group:
+            break
+        if table.feature_i[k] != codes.NONE:
+            return True
+    return False
