@@ -121,12 +121,13 @@ def limit_cycle(law: Law, tolerance: float, size: float = 1.0) -> tuple[Cycle, f
     """
     guess = (GUESS if size == 1.0 else GUESS_OF_SMALL_ANGLES)[law]
     first, second = (cycle(start, law, tolerance, size) for start in (guess, guess + APART))
-    slope = 0.0
     while abs(second.start - first.start) > 1e-10:
         slope = (second.end["bird"] - first.end["bird"]) / (second.start - first.start)
         start = second.start + (second.end["bird"] - second.start) / (1.0 - slope)
         first, second = second, cycle(start, law, tolerance, size)
-    return second, second.end["bird"] - second.start, slope
+    # the last of those two are so near to each other that rounding tells
+    before, behind = (cycle(second.start + side * APART, law, tolerance, size).end["bird"] for side in (-0.5, 0.5))
+    return second, second.end["bird"] - second.start, (behind - before) / APART
 
 
 def _rows() -> Iterator[str]:

@@ -107,7 +107,8 @@ def _first_below(block: Array, guard: int, subject: int, latest: float, limit: f
         if spare < _LETS_GO:
             if look == 1:
                 above = _spare_at(block, guard, subject, before)
-            return _falls(block, guard, subject, before, above - limit, after, spare - limit, limit, close)
+            found: float = _falls(block, guard, subject, before, above - limit, after, spare - limit, limit, close)
+            return found
         if after >= latest:
             return 2.0
         before = after
