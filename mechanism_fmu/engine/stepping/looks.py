@@ -85,7 +85,7 @@ def falling(value: Any, false_positions: int, then_bisect: int) -> Any:
             if after - before <= close or not before < middle < after:
                 break
             spare = value(block, guard, number, middle) - limit
-            if spare <= 0.0:
+            if spare < 0.0:
                 after = middle
                 below = spare
                 if stayed < 0:
