@@ -133,10 +133,16 @@ RELATIVE_TOLERANCE = 0
 BAUMGARTE_ALPHA = 1
 BAUMGARTE_BETA = 2
 MOST_STEPS = 3  # internal ones of one communication step
-IMPACT_LAW = 4
-ENERGY_GUARD = 5  # 1: an impact that would add energy is repeated by Poisson's law
-TANGENTIAL_SHOCK = 6  # 1: where no finite forces agree with friction, an impact without approach
-SETTINGS = 7
+METHOD = 4  # of integration: AUTOMATIC ...
+IMPACT_LAW = 5
+ENERGY_GUARD = 6  # 1: an impact that would add energy is repeated by Poisson's law
+TANGENTIAL_SHOCK = 7  # 1: where no finite forces agree with friction, an impact without approach
+SETTINGS = 8
+
+# method of integration
+AUTOMATIC = 0  # explicit, and implicit where the motion is stiff
+EXPLICIT = 1
+IMPLICIT_METHOD = 2
 
 # impact_law
 NEWTON = 0
@@ -267,7 +273,10 @@ COUNT_TRIES = 16  # steps since the start that were tried: accepted, rejected, o
 COUNT_BY_POISSON = 17  # rounds of impacts for which another law was to hold, but Poisson's did
 RUBBING = 18  # contacts, joints and brakes with friction (`friction_rows.rubbing_count`)
 SENSE = 19  # 1 where forces of what slips agree as those of little friction do, 0 beyond (see `sliding.slide`)
-COUNTERS_LENGTH = 20
+IMPLICIT = 20  # 1 while steps are linearly implicit
+STIFF = 21  # steps in turn that look stiff to the explicit method, or not stiff to the implicit one
+COUNT_IMPLICIT = 22  # accepted steps since the start that were linearly implicit
+COUNTERS_LENGTH = 23
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

@@ -6,6 +6,7 @@ import math
 
 from .. import codes
 from .declare import ANY, COUNT, FINITE, FLAG, MOST, NOT_NEGATIVE, WHOLE, Table, index_of, integer, real, whole
+from .implicit_method import RODAS5P
 from .method import METHOD
 
 #: Subject of a guard: a contact, pattern or logical function, or the status of a failure; the guard says which.
@@ -44,6 +45,9 @@ _COUNTERS = {
     "COUNT_BY_POISSON": COUNT,
     "RUBBING": whole(0, 1, "rubs"),
     "SENSE": FLAG,
+    "IMPLICIT": FLAG,
+    "STIFF": COUNT,
+    "COUNT_IMPLICIT": COUNT,
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {
@@ -186,7 +190,7 @@ class Stages(Table, prefix="stage_"):
 
     `tried`: start and size of the one last tried [s]; `drift`: the most that an active row is off at its end, and a
     rate; `independence` of the rows at each of its stages, of which
-    `stage` is the one computed last; `stiffest` is the unknown that limited the steps, once that was asked.
+    `stage` is the one computed last; `looks_stiff` says how stiff an explicit one found the motion; `stiffest` is the unknown that limited the steps, once that was asked.
     """
 
     derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
@@ -200,7 +204,25 @@ class Stages(Table, prefix="stage_"):
     new_dense = real(METHOD.dense_rows, "unknowns", name="new_dense", work=True)
     stage = integer(1, name="stage", work=True)
     independence = real(METHOD.stages, work=True)
+    looks_stiff = real(1, work=True)
     stiffest = integer(1, work=True)
+
+
+class Implicit(Table, prefix="implicit_"):
+    """Scratch of a linearly implicit step; none in mechanisms that are too large for it.
+
+    The Jacobian of the derivative at y_start and the change of that with time, and whether they are of this y_start;
+    L and U of the linear system, and its pivots; the increments of the stages; a right side, and one without q.
+    """
+
+    jacobian = real("implicit", "implicit", work=True)
+    by_time = real("implicit", work=True)
+    fresh = integer(1, work=True)
+    matrix = real("implicit_rates", "implicit_rates", work=True)
+    pivot = integer("implicit_rates", work=True)
+    increment = real(RODAS5P.stages, "implicit", work=True)
+    right = real("implicit", work=True)
+    rest = real("implicit_rates", work=True)
 
 
 class Strikes(Table, rows="contacts", prefix="contact_"):

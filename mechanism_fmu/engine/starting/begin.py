@@ -73,6 +73,7 @@ def _begin_at_zero(block: Array, time: float) -> None:
     take_inputs(block)
     for k in range(codes.COUNTERS_LENGTH):
         now.counters[k] = 0
+    now.counters[codes.IMPLICIT] = 1 if Options(block).settings[codes.METHOD] == codes.IMPLICIT_METHOD else 0
     now.counters[codes.COUNT_IN_STEP] = now.impacts.shape[0]  # all that may be there is cleared
     now.counters[codes.EVENTS_IN_STEP] = now.events.shape[0]
     clear_records(block)

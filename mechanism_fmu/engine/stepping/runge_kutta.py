@@ -1,4 +1,7 @@
-"""Explicit Runge-Kutta steps by the tableau of `METHOD` (Hairer, Nørsett, Wanner: Solving ODEs I, II.4 and II.5)."""
+"""One step: explicit by the tableau of `METHOD` (Hairer, Nørsett, Wanner: Solving ODEs I, II.4 and II.5), or implicit.
+
+And its error, and the size of a first one.
+"""
 
 from __future__ import annotations
 
@@ -11,15 +14,15 @@ from ...tables.motion import Course, Rows, Rubs, Stages
 from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import rubs, sticks
+from ..constraints.friction_rows import rubs
 from ..constraints.rows import row_count
-from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
 from ..elementary import power
 from ..interpolation import write_dense
 from ..vectors import clear, largest
-from .singular import independence
+from .rosenbrock import error_of_implicit, implicit_stages
+from .stage import evaluate_stage
 
 _STAGES = METHOD.stages
 _LAST = METHOD.last
@@ -36,14 +39,12 @@ ABSOLUTE_FRACTION = 1e-3
 def try_step(block: Array, start: float, size_: float) -> float:
     """One step of `size_` [s] from y_start at the time `start` [s], with derivatives[0] there; return the error norm.
 
-    The step is accurate enough when that is at most 1.
+    The step is accurate enough when that is at most 1. It is taken by the tableau of `METHOD`, or linearly implicit.
 
     Writes y_new, all derivatives (the last one belongs to y_new), the dense output, `contacts.least_push`,
     and by how much active rows are off at its end.
     """
     s = Stages(block)
-    k = s.derivatives
-    y = s.y_start
     h = size_
     s.tried[0] = start
     s.tried[1] = h
@@ -54,18 +55,34 @@ def try_step(block: Array, start: float, size_: float) -> float:
         least[c] = 0.0
     if rubs(block):
         clear(Rubs(block).least_hold)
-    _euler(y, k[0], h * _A[1, 0], s.y_stage)
-    _stage(block, start + h * _C[1], s.y_stage, k[1])
-    for r in range(2, _LAST):  # the last one apart: to choose the target in the loop costs 3 % of the whole motion
-        _weighted(k, _A[r], y, h, s.y_stage)
-        _stage(block, start + h * _C[r], s.y_stage, k[r])
-    _weighted(k, _A[_LAST], y, h, s.y_new)
-    _stage(block, start + h, s.y_new, k[_LAST])
+    implicit = Course(block).counters[codes.IMPLICIT] == 1
+    if implicit:
+        implicit_stages(block, start, h)
+        s.stage[0] = _LAST - 1
+    else:
+        _explicit_stages(block, start, h)
+    evaluate_stage(block, start + h, s.y_new, s.derivatives[_LAST])
     count = row_count(block)
     s.drift[0] = largest(Rows(block).residual, count)
     s.drift[1] = largest(Rows(block).residual_rate, count)
-    write_dense(block, h)
+    if not implicit:
+        write_dense(block, h)
     return _error_norm(block, h)
+
+
+@jit
+def _explicit_stages(block: Array, start: float, h: float) -> None:
+    """All stages of an explicit step but the last one, which is at y_new."""
+    keep_small()
+    s = Stages(block)
+    k = s.derivatives
+    y = s.y_start
+    _euler(y, k[0], h * _A[1, 0], s.y_stage)
+    evaluate_stage(block, start + h * _C[1], s.y_stage, k[1])
+    for r in range(2, _LAST):  # the last one apart: to choose the target in the loop costs 3 % of the whole motion
+        _weighted(k, _A[r], y, h, s.y_stage)
+        evaluate_stage(block, start + h * _C[r], s.y_stage, k[r])
+    _weighted(k, _A[_LAST], y, h, s.y_new)
 
 
 @jit
@@ -90,36 +107,6 @@ def _weighted(k: Array, weights: Array, y: Array, h: float, target: Array) -> No
 
 
 @jit
-def _stage(block: Array, time: float, y: Array, dy: Array) -> None:
-    """The derivative at one stage, with the inputs' values at its `time` [s]."""
-    keep_small()
-    set_time(block, time)
-    derivative(block, y, dy)
-    if rubs(block) and Rubs(block).sense[0] != Course(block).counters[codes.SENSE]:
-        dy[Sizes(block).y_loss] = math.nan  # on the way here they have been infinite
-    _note_pushes(block)
-    s = Stages(block)
-    s.stage[0] += 1
-    s.independence[s.stage[0]] = independence(block)
-
-
-@jit
-def _note_pushes(block: Array) -> None:
-    """After an acceleration: keep the least force of every closed contact."""
-    table = Contacts(block)
-    tolerance = push_tolerance(block, row_count(block))
-    for c in range(table.mode.shape[0]):
-        if table.mode[c] == codes.CLOSED:
-            table.least_push[c] = min(table.least_push[c], push_ratio(block, c, tolerance))
-    if not rubs(block):
-        return
-    rub = Rubs(block)
-    for k in range(rub.slip.shape[0]):
-        if sticks(block, k):
-            rub.least_hold[k] = min(rub.least_hold[k], hold_ratio(block, k, tolerance))
-
-
-@jit
 def _error_norm(block: Array, h: float) -> float:
     """Root mean square of the local error over its tolerance."""
     n = Sizes(block).y_wear
@@ -141,6 +128,8 @@ def scaled_error(block: Array, i: int, h: float) -> float:
         if _ERROR[j] != 0.0:
             error += _ERROR[j] * k[j, i]
     error *= h
+    if Course(block).counters[codes.IMPLICIT] == 1:
+        error = error_of_implicit(block, i)
     scale: float = relative * (ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i])))
     return error / scale
 

@@ -7,7 +7,7 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, LinearSystem, Stages
+from ...tables.motion import Course, Implicit, LinearSystem, Stages
 from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from .. import status
@@ -28,6 +28,7 @@ from .meeting import refine_end
 from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
 from .step_size import accurate_step, smallest_step, why_no_step
+from .stiffness import choose_method
 
 # When a closed contact first pulls: legal in the paper's guided model, impossible in a real one, so worth knowing.
 
@@ -96,6 +97,7 @@ def take_step(block: Array) -> int:
     start = now.clock[codes.STEP_END]
     copy(now.y_end, s.y_start)
     copy(now.dy_end, s.derivatives[0])
+    Implicit(block).fresh[0] = 0
     wanted = now.clock[codes.NEXT_STEP]
     step = accurate_step(block, start)
     if step == 0.0:
@@ -178,6 +180,7 @@ def _keep(block: Array, start: float, step: float) -> None:
     copy(s.derivatives[_LAST], now.dy_end)
     for r in range(now.dense.shape[0]):
         copy(s.new_dense[r], now.dense[r])
+    choose_method(block)
 
 
 @jit

@@ -19,6 +19,7 @@ from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
 from .reach import is_out_of_reach
 from .runge_kutta import scaled_error, try_step
+from .stiffness import look_stiff
 
 # How far a step may go, however accurate it is: to where slopes of inputs end, and not over what a driver does.
 #
@@ -112,6 +113,7 @@ def accurate_step(block: Array, start: float) -> float:
         if not step > smallest_step(start):
             return 0.0
         error = _try(block, start, step)
+    look_stiff(block)
     now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
     if now.counters[codes.RAMPING] != 0 and grow_most > 1.0 and step < wanted:  # cut short by the slopes' end alone
         now.clock[codes.NEXT_STEP] = max(now.clock[codes.NEXT_STEP], wanted)

@@ -12,7 +12,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Stages
+from ...tables.motion import Course, Implicit, Stages
 from ...tables.parts import Contacts, Options, Ports
 from .. import status
 from ..compiler.subset import entry, jit, keep_small
@@ -216,6 +216,7 @@ def _step_back(block: Array) -> None:
     set_time(block, start)
     copy(now.dense[0], s.y_start)
     derivative(block, s.y_start, s.derivatives[0])
+    Implicit(block).fresh[0] = 0
     try_step(block, start, now.clock[codes.TIME] - start)
     keep_independence(block)
     copy(s.y_new, now.y_end)

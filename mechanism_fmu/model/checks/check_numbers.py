@@ -16,6 +16,7 @@ from ..findings import (
     finite_not_negative,
     finite_positive,
     first,
+    is_zero,
     length,
     literal,
     refuse_unless,
@@ -151,6 +152,9 @@ def _settings(settings: Settings) -> Iterator[Finding]:
     yield refuse_unless(within(tolerance, 1e-13, 1e-3), text, tolerance)
     most = settings.max_internal_steps
     yield refuse_unless(within(most, 10, 1e9), "max_internal_steps = {:g} is outside 10..1e9.", most)
+    method = settings.integration_method
+    text = "integration_method = {:g} is none of 0 (by stiffness), 1 (explicit), 2 (implicit)."
+    yield refuse_unless(is_zero(method * (1.0 - method) * (2.0 - method)), text, method)
     for name in ("baumgarte_alpha", "baumgarte_beta"):
         value = getattr(settings, name)
         yield refuse_unless(finite_not_negative(value), f"{name} = {{:g}} must be finite and not negative.", value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ... import codes
 from ..ports import Input, Parameter, Range
 from ..quantities import quantity
 
@@ -236,7 +237,7 @@ def joint_friction_parameter(hinges: str = "all hinges") -> Parameter:
 
 
 def settings_parameters() -> tuple[Parameter, ...]:
-    """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s], tolerance, most steps."""
+    """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s], tolerance, most steps, method."""
     return (
         Parameter("baumgarte_alpha", 10.0, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
         Parameter("baumgarte_beta", 1.0, "Baumgarte gain on the constraints, squared in use", "1/s", 0.0, 1e4),
@@ -248,6 +249,15 @@ def settings_parameters() -> tuple[Parameter, ...]:
             "1",
             10,
             1e9,
+            "Integer",
+        ),
+        Parameter(
+            "integration_method",
+            codes.AUTOMATIC,
+            "0: explicit, and implicit where the motion is stiff; 1: explicit, 2: implicit",
+            "1",
+            codes.AUTOMATIC,
+            codes.IMPLICIT_METHOD,
             "Integer",
         ),
     )

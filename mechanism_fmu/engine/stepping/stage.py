@@ -1,0 +1,48 @@
+"""A stage of a step, by any method: the derivative at its time, and what is noted of it."""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, Rubs, Stages
+from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs, sticks
+from ..constraints.rows import row_count
+from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
+from ..dynamics.acceleration import derivative
+from ..dynamics.forces import set_time
+from .singular import independence
+
+
+@jit
+def evaluate_stage(block: Array, time: float, y: Array, dy: Array) -> None:
+    """The derivative at one stage, with the inputs' values at its `time` [s]; y and dy of shape (unknowns,)."""
+    keep_small()
+    set_time(block, time)
+    derivative(block, y, dy)
+    if rubs(block) and Rubs(block).sense[0] != Course(block).counters[codes.SENSE]:
+        dy[Sizes(block).y_loss] = math.nan  # on the way here they have been infinite
+    _note_pushes(block)
+    s = Stages(block)
+    s.stage[0] += 1
+    s.independence[s.stage[0]] = independence(block)
+
+
+@jit
+def _note_pushes(block: Array) -> None:
+    """After an acceleration: keep the least force of every closed contact."""
+    table = Contacts(block)
+    tolerance = push_tolerance(block, row_count(block))
+    for c in range(table.mode.shape[0]):
+        if table.mode[c] == codes.CLOSED:
+            table.least_push[c] = min(table.least_push[c], push_ratio(block, c, tolerance))
+    if not rubs(block):
+        return
+    rub = Rubs(block)
+    for k in range(rub.slip.shape[0]):
+        if sticks(block, k):
+            rub.least_hold[k] = min(rub.least_hold[k], hold_ratio(block, k, tolerance))
