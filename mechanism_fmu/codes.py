@@ -276,7 +276,8 @@ SENSE = 19  # 1 where forces of what slips agree as those of little friction do,
 IMPLICIT = 20  # 1 while steps are linearly implicit
 STIFF = 21  # steps in turn that look stiff to the explicit method, or not stiff to the implicit one
 COUNT_IMPLICIT = 22  # accepted steps since the start that were linearly implicit
-COUNTERS_LENGTH = 23
+COUNT_BACK = 23  # times that the explicit method has been taken again
+COUNTERS_LENGTH = 24
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

@@ -48,6 +48,7 @@ _COUNTERS = {
     "IMPLICIT": FLAG,
     "STIFF": COUNT,
     "COUNT_IMPLICIT": COUNT,
+    "COUNT_BACK": COUNT,
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {

@@ -92,6 +92,12 @@ def error_of_implicit(block: Array, i: int) -> float:
 
 
 @jit
+def evaluations(block: Array) -> int:
+    """How many times a step evaluates the derivative."""
+    return _STAGES + Sizes(block).coordinates + _order(block) + 1
+
+
+@jit
 def _unknown(block: Array, k: int) -> int:
     """Which unknown is number `k` of the linear system: rates, contact coordinates, own states."""
     n = Sizes(block).coordinates

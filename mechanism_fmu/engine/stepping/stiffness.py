@@ -16,18 +16,22 @@ from ...tables.motion import Course, Stages
 from ...tables.parts import Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from .rosenbrock import fastest
+from .rosenbrock import evaluations, fastest
 from .runge_kutta import ABSOLUTE_FRACTION
 
 _LAST = METHOD.last
 #: Whether the stage before the last one is at the end of the step, too.
 _TELLS = float(METHOD.c[METHOD.last - 1]) == 1.0
-#: Steps that look stiff in turn before the method is changed, and steps that do not before it is changed back.
+#: h times an eigenvalue is about 3.3 where stability limits the steps: it goes up and down by a tenth.
+_AT_BORDER = 2.75
+#: So many steps in turn must look stiff before the method is changed; twice as many each time that it was changed back.
 _IN_TURN = 15
-#: h times an eigenvalue is at the border of stability from here on.
-_AT_BORDER = 3.25
-#: And well within it below.
-_WITHIN = 1.6
+_DOUBLES_AT_MOST = 6
+#: The first steps after an event are short, whatever the motion is: so many must not be worth it to change back.
+_BACK_IN_TURN = 25
+#: The explicit method is taken for steps that it can do in so many times the evaluations, or less.
+_WORTH = 0.5
+_BORDER = 3.3
 
 
 @jit
@@ -53,22 +57,28 @@ def look_stiff(block: Array) -> None:
 def choose_method(block: Array) -> None:
     """After an accepted step: count what is stiff or is not, and change the method where that has gone on."""
     keep_small()
-    now = Course(block)
-    if now.counters[codes.IMPLICIT] == 1:
-        now.counters[codes.COUNT_IMPLICIT] += 1
+    counters = Course(block).counters
+    implicit = counters[codes.IMPLICIT] == 1
+    if implicit:
+        counters[codes.COUNT_IMPLICIT] += 1
     if not _may_change(block):
         return
-    if now.counters[codes.IMPLICIT] == 1:
-        changes = Stages(block).tried[1] * fastest(block) < _WITHIN
+    in_turn = _BACK_IN_TURN
+    if implicit:
+        explicit_steps = Stages(block).tried[1] * fastest(block) / _BORDER
+        changes = explicit_steps * _LAST < _WORTH * evaluations(block)
     else:
         changes = Stages(block).looks_stiff[0] > _AT_BORDER
+        in_turn = _IN_TURN << min(counters[codes.COUNT_BACK], _DOUBLES_AT_MOST)
     if not changes:
-        now.counters[codes.STIFF] = 0
+        counters[codes.STIFF] = 0
         return
-    now.counters[codes.STIFF] += 1
-    if now.counters[codes.STIFF] >= _IN_TURN:
-        now.counters[codes.STIFF] = 0
-        now.counters[codes.IMPLICIT] = 1 - now.counters[codes.IMPLICIT]
+    counters[codes.STIFF] += 1
+    if counters[codes.STIFF] >= in_turn:
+        counters[codes.STIFF] = 0
+        counters[codes.IMPLICIT] = 0 if implicit else 1
+        if implicit:
+            counters[codes.COUNT_BACK] += 1
 
 
 @jit
