@@ -42,7 +42,7 @@ _KEPT_AS[list(RODAS5P.inside)] = [METHOD.interior[min(k, len(METHOD.interior) - 
 _MOVES = 2.0**-26
 _MOVES_AT_LEAST = 1e-3
 #: And the time, by such a part of the step.
-_MOVES_TIME = 1e-4
+_MOVES_TIME = 1e-3
 #: Products with the Jacobian, and how many of them, an even number, tell how much it can grow in one.
 _PRODUCTS = 6
 _MEASURED = 4
@@ -94,7 +94,7 @@ def error_of_implicit(block: Array, i: int) -> float:
 @jit
 def evaluations(block: Array) -> int:
     """How many times a step evaluates the derivative."""
-    return _STAGES + Sizes(block).coordinates + _order(block) + 1
+    return _STAGES + Sizes(block).coordinates + _order(block) + 2
 
 
 @jit
@@ -132,11 +132,16 @@ def _differentiate(block: Array, start: float, h: float) -> None:
         s.y_stage[j] = there
         for i in range(Sizes(block).unknowns):
             table.jacobian[i, j] = (s.dy_at[i] - s.derivatives[0, i]) / move
-    later = start + _MOVES_TIME * h
-    set_time(block, later)
-    derivative(block, s.y_stage, s.dy_at)
+    # of second order and from this instant on: before it, another piece of a driver's motion may have held
     for i in range(Sizes(block).unknowns):
-        table.by_time[i] = (s.dy_at[i] - s.derivatives[0, i]) / (later - start) if later > start else 0.0
+        table.by_time[i] = -1.5 * s.derivatives[0, i]
+    for k in range(1, 3):
+        set_time(block, start + k * _MOVES_TIME * h)
+        derivative(block, s.y_stage, s.dy_at)
+        for i in range(Sizes(block).unknowns):
+            table.by_time[i] += 2.0 * s.dy_at[i] if k == 1 else -0.5 * s.dy_at[i]
+    for i in range(Sizes(block).unknowns):
+        table.by_time[i] /= _MOVES_TIME * h
 
 
 @jit
@@ -214,7 +219,7 @@ def _solve(block: Array, h: float, u: Array) -> None:
 def _added(block: Array, i: int, step: float, u: Array) -> float:
     """The increment of an unknown that acts on nothing."""
     table = Implicit(block)
-    total = table.right[i]
+    total: float = table.right[i]
     for j in range(Sizes(block).y_wear):
         total += table.jacobian[i, j] * u[j]
     return step * total
@@ -244,7 +249,7 @@ def _write_dense(block: Array) -> None:
 
 @jit
 def fastest(block: Array) -> float:
-    """A guess of the spectral radius of the Jacobian last made [1/s], by products with it: of what is stiff, a good one."""
+    """A guess of the spectral radius of the Jacobian last made [1/s], by products with it: good where it is stiff."""
     keep_apart()
     table = Implicit(block)
     s = Stages(block)

@@ -19,7 +19,7 @@ from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
 from .reach import is_out_of_reach
 from .runge_kutta import scaled_error, try_step
-from .stiffness import look_stiff
+from .stiffness import is_beyond_explicit, look_stiff
 
 # How far a step may go, however accurate it is: to where slopes of inputs end, and not over what a driver does.
 #
@@ -86,6 +86,8 @@ _FITS_BARELY = 0.01
 #: Where steps shrink to nothing and what a normal force does to its gap is this part of what it does without friction
 #: or less, forces grow without limit.
 _PARADOX = 1e-6
+#: The first step that is tried by the implicit method, as so many times the smallest one, or more.
+_FIRST_IMPLICIT = 1e5
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0
@@ -102,6 +104,8 @@ def accurate_step(block: Array, start: float) -> float:
     keep_small()
     now = Course(block)
     wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
+    if now.counters[codes.IMPLICIT] == 1:  # what a first step is guessed from may be what is stiff
+        wanted = max(wanted, _FIRST_IMPLICIT * smallest_step(start))
     step = representable(start, within_ramp(block, start, wanted))
     step = representable(start, within_motions(block, start, step))
     error = _try(block, start, step)
@@ -111,7 +115,9 @@ def accurate_step(block: Array, start: float) -> float:
         step = representable(start, step * _scale(error, 1.0))
         grow_most = 1.0
         if not step > smallest_step(start):
-            return 0.0
+            if not is_beyond_explicit(block):
+                return 0.0
+            step = representable(start, _FIRST_IMPLICIT * smallest_step(start))
         error = _try(block, start, step)
     look_stiff(block)
     now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)

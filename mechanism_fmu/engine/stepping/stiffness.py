@@ -25,8 +25,11 @@ _TELLS = float(METHOD.c[METHOD.last - 1]) == 1.0
 #: h times an eigenvalue is about 3.3 where stability limits the steps: it goes up and down by a tenth.
 _AT_BORDER = 2.75
 #: So many steps in turn must look stiff before the method is changed; twice as many each time that it was changed back.
-_IN_TURN = 15
-_DOUBLES_AT_MOST = 6
+#: DOPRI5 takes 15; an implicit step costs as much as five, so that it pays only for what stays stiff.
+_IN_TURN = 60
+_DOUBLES_AT_MOST = 4
+#: Where even the shortest step is so many times as long as stability allows, nothing but stiffness makes it fail.
+_FAR_BEYOND = 10.0
 #: The first steps after an event are short, whatever the motion is: so many must not be worth it to change back.
 _BACK_IN_TURN = 25
 #: The explicit method is taken for steps that it can do in so many times the evaluations, or less.
@@ -51,6 +54,19 @@ def look_stiff(block: Array) -> None:
             slopes += slope * slope
             places += place * place
     s.looks_stiff[0] = s.tried[1] * math.sqrt(slopes / places) if places > 0.0 else 0.0
+
+
+@jit
+def is_beyond_explicit(block: Array) -> bool:
+    """Whether the explicit step just tried, the shortest there is, has failed by stiffness alone; then goes implicit."""
+    keep_small()
+    look_stiff(block)
+    counters = Course(block).counters
+    if counters[codes.IMPLICIT] == 1 or not _may_change(block) or not Stages(block).looks_stiff[0] > _FAR_BEYOND:
+        return False
+    counters[codes.STIFF] = 0
+    counters[codes.IMPLICIT] = 1
+    return True
 
 
 @jit

@@ -153,7 +153,7 @@ def _settings(settings: Settings) -> Iterator[Finding]:
     most = settings.max_internal_steps
     yield refuse_unless(within(most, 10, 1e9), "max_internal_steps = {:g} is outside 10..1e9.", most)
     method = settings.integration_method
-    text = "integration_method = {:g} is none of 0 (by stiffness), 1 (explicit), 2 (implicit)."
+    text = "integration_method = {:g} is outside 0 (chosen by stiffness), 1 (explicit), 2 (implicit)."
     yield refuse_unless(is_zero(method * (1.0 - method) * (2.0 - method)), text, method)
     for name in ("baumgarte_alpha", "baumgarte_beta"):
         value = getattr(settings, name)
