@@ -24,6 +24,7 @@ from mechanism_fmu.model import (
     Settings,
     Torque,
 )
+from mechanism_fmu.model.functions import maximum
 from mechanism_fmu.simulation import Simulation, SimulationError
 
 INERTIA, TORQUE = 0.02, 3.0
@@ -193,7 +194,7 @@ STIFF = {
     "gear_train, shaft": {"drive_damping": 1e9},
     "rotary_table": {"drive_damping": 1e9, "table_inertia": 1e-12},
     "four_bar": {"crank_damping": 1e6, "crank_mass": 1e-12},
-    "cam_drive": {"cam_inertia": 1e-9, "drive_damping": 1e9},
+    "cam_drive": {"cam_inertia": 1e-9, "drive_damping": 1e6},
     "slider_crank": {"crank_damping": 1e6},
     "geneva": {"slot_friction": 0.59, "wheel_mass": 7e-6, "wheel_damping": 1e3},
     "ratchet_free": {"drive_damping": 1e9},
