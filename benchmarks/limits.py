@@ -41,9 +41,10 @@ class Run:
         model: its name.
         changed: values of the parameters that are not at their defaults, by name.
         seconds: processor time [s].
-        steps: the engine's own, and how many of them were implicit.
+        steps: the engine's own.
         implicit: how many of them were implicit.
-        reasons: turns, swings (of the velocity that changes its sense most often) and events together.
+        reasons: turns, swings (of the velocity that changes its sense most often) and events together; NaN where it was
+            fast.
         ending: "ran", or the first words of the message with which it ended.
     """
 
@@ -114,8 +115,7 @@ def _simulation(name: str, changed: dict[str, float]) -> Simulation:
 
 def _reasons(simulation: Simulation, steps: int) -> float:
     """Turns, swings and events of the first so many steps."""
-    rates = slice(simulation.field("y_end").size // 2 - 1, None)
-    count = 3 * simulation.field("mass").size
+    count = 3 * simulation.field("body_rank").size
     rates = slice(count, 2 * count)
     y = simulation.field("y_end")
     turned, changes = np.zeros(count), np.zeros(count)

@@ -10,9 +10,8 @@ import numpy as np
 from .. import codes
 from .declare import Array
 
-
-#: A mechanism with more unknowns has no room for a full Jacobian, and no linearly implicit steps.
-MOST_IMPLICIT = 700
+#: A mechanism with more bodies has no room for a full Jacobian, and no linearly implicit steps.
+MOST_IMPLICIT = 115
 
 
 class _Size(NamedTuple):
@@ -74,7 +73,7 @@ class Sizes:
     y_wear = _follows(lambda n: n["y_own"] + n["own"])  # from here on, accuracy of the steps is not asked
     unknowns = _follows(lambda n: n["y_wear"] + n["wears"])
     # for linearly implicit steps: unknowns, and those of the linear system, the rates, contact coordinates, own states
-    implicit = _follows(lambda n: n["unknowns"] if n["unknowns"] <= MOST_IMPLICIT else 0)
+    implicit = _follows(lambda n: n["unknowns"] if n["bodies"] <= MOST_IMPLICIT else 0)
     implicit_rates = _follows(lambda n: n["coordinates"] + n["y_wear"] - n["y_alpha"] if n["implicit"] > 0 else 0)
     # two a contact, two a pattern, one a logical function, one for each friction
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])

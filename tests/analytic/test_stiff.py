@@ -188,6 +188,13 @@ def test_a_method_that_there_is_not():
         Simulation(rotor(method=3))
 
 
+def test_a_full_matrix_is_for_so_many_bodies():
+    bodies = tuple(Body(f"disc {k}", 1.0, 1.0) for k in range(116))
+    with pytest.raises(MechanismError, match="is for 115 bodies at most, .* has 116: take 0 or 1"):
+        Simulation(Mechanism(bodies=bodies, settings=Settings(integration_method=IMPLICIT)))
+    advanced(Mechanism(bodies=bodies), 0.01)
+
+
 #: Designs at the limits of what the models' parameters allow, that took seconds or did not come to an end.
 STIFF = {
     "gear_train": {"pinion_damping": 1e6},

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import fields
 
+from ...tables.sizes import MOST_IMPLICIT
 from ..body import GROUND, Body
 from ..contact_facts import static_findings
 from ..contacts import Contact
@@ -111,7 +112,7 @@ def number_findings(mechanism: Mechanism) -> Iterator[Finding]:
         yield from member_findings(member)
     for lump in mechanism.lumped_masses:
         yield from lumped_mass_findings(lump)
-    yield from _settings(mechanism.settings)
+    yield from _settings(mechanism.settings, len(mechanism.bodies))
 
 
 def _not_finite(part: Joint | ForceElement | Contact | CircularPattern) -> tuple[Finding, ...]:
@@ -146,7 +147,7 @@ def _body(body: Body) -> Iterator[Finding]:
     yield refuse_unless(finite(*shape), text, *shape)
 
 
-def _settings(settings: Settings) -> Iterator[Finding]:
+def _settings(settings: Settings, bodies: int) -> Iterator[Finding]:
     tolerance = settings.relative_tolerance
     text = "relative_tolerance = {:g} is outside 1e-13..1e-3."
     yield refuse_unless(within(tolerance, 1e-13, 1e-3), text, tolerance)
@@ -155,6 +156,12 @@ def _settings(settings: Settings) -> Iterator[Finding]:
     method = settings.integration_method
     text = "integration_method = {:g} is outside 0 (chosen by stiffness), 1 (explicit), 2 (implicit)."
     yield refuse_unless(is_zero(method * (1.0 - method) * (2.0 - method)), text, method)
+    if bodies > MOST_IMPLICIT:
+        text = (
+            f"integration_method = 2, implicit, is for {MOST_IMPLICIT} bodies at most, because its matrix is full, and "
+            f"this mechanism has {bodies}: take 0 or 1, which are explicit then."
+        )
+        yield refuse_unless(is_zero(method * (1.0 - method)), text)
     for name in ("baumgarte_alpha", "baumgarte_beta"):
         value = getattr(settings, name)
         yield refuse_unless(finite_not_negative(value), f"{name} = {{:g}} must be finite and not negative.", value)
