@@ -130,7 +130,9 @@ class LinearSystem(Table):
     `scaled_body`. The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies
     `plan_body`; `fill` are the earlier places with which a row has entries, `fill_count` many, in `triangle`. The dense
     one, `by_pivots`, has a basis of orthonormal rows, of which `singleton` says in which column their only entry
-    is, if there is one only; the first `singletons` in order are such.
+    is, if there is one only. It goes island by island: the rows of one are `island_row` in `island_range` (`island_spot` says
+    where there a row is), its basis rows the first `island_rank` of `order` there, of which those before
+    `island_singletons` have one entry only; its bodies have the columns `island_column`, `island_width` in all.
     """
 
     scaled = real("rows", "columns", work=True)
@@ -156,7 +158,18 @@ class LinearSystem(Table):
     column_triangle = real("rows", "rows", work=True)
     order = integer("rows", work=True)
     singleton = integer("rows", work=True)
-    singletons = integer(1, work=True)
+    islands = integer(1, work=True)
+    island_range = integer("rows", 2, work=True)
+    island_width = integer("rows", work=True)
+    island_rank = integer("rows", work=True)
+    island_singletons = integer("rows", work=True)
+    island_row = integer("rows", work=True)
+    island_spot = integer("rows", work=True)
+    island_column = integer("frames", work=True)
+    island_of = integer("frames", work=True)
+    island_solution = real("columns", work=True)
+    leader = integer("frames", work=True)
+    gathered = real("rows", work=True)
     row_norm = real("rows", 3, work=True)
     coefficient = real("rows", work=True)
     dual = real("rows", work=True)

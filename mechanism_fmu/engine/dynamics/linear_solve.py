@@ -6,7 +6,7 @@ from ...tables.declare import Array
 from ...tables.motion import LinearSystem, Rows
 from ..compiler.subset import jit
 from ..constraints.entries import clear_entries
-from .minimum_norm import orthogonalise, solve_orthogonalised
+from .minimum_norm import orthogonalise, orthogonalise_islands, solve_orthogonalised
 from .sparse import factorise_sparse, solve_sparse
 
 #: From so many rows on; fewer gain little, and keep what is exact to the last digit, such as zeros along a guide.
@@ -40,9 +40,12 @@ def solve(block: Array, count: int, width: int) -> None:
 def factorise(block: Array, count: int, width: int) -> None:
     """Factorise D, for `solve_again`; write its rank and how independent its rows are."""
     LinearSystem(block).by_pivots[0] = 0
-    if count < _SPARSE_FROM or not factorise_sparse(block, count):
+    if count < _SPARSE_FROM:
         LinearSystem(block).by_pivots[0] = 1
         orthogonalise(block, count, width)
+    elif not factorise_sparse(block, count):
+        LinearSystem(block).by_pivots[0] = 1
+        orthogonalise_islands(block, count, width)
 
 
 @jit
@@ -53,5 +56,5 @@ def solve_again(block: Array, count: int, width: int) -> None:
         if solve_sparse(block, count, width):
             return
         system.by_pivots[0] = 1
-        orthogonalise(block, count, width)
+        orthogonalise_islands(block, count, width)
     solve_orthogonalised(block, count, width)
