@@ -30,9 +30,9 @@ _TWO_BODIES = 6
 
 @jit
 def orthogonalise(block: Array, count: int, width: int) -> int:
-    """D = L Q, with D = `scaled`[:count, :width] of the linear system; return its rank, which is left in `rank`, too.
+    """D = L Q, with D in `basis`[:count, :width] (see `expand`); return its rank, which is left in `rank`, too.
 
-    All rows make one island.
+    All rows make one island. D is lost.
     """
     system = LinearSystem(block)
     system.islands[0] = 1
@@ -41,7 +41,7 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
     for i in range(count):
         system.island_row[i] = i
         system.island_spot[i] = i
-        system.singleton[i] = _copy_row(system, i, width)
+        system.singleton[i] = _only_entry(system.basis[i], width)
     system.independence[0] = _orthogonalise_island(system, 0, width)
     system.rank[0] = system.island_rank[0]
     return system.rank[0]
@@ -49,9 +49,10 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
 
 @jit
 def orthogonalise_islands(block: Array, count: int, width: int) -> None:
-    """As `orthogonalise`, island by island."""
+    """As `expand` and `orthogonalise`, island by island."""
     keep_small()
     if find_islands(block, count) == 1:
+        expand(block, count, width)
         orthogonalise(block, count, width)
         return
     system = LinearSystem(block)
@@ -60,7 +61,8 @@ def orthogonalise_islands(block: Array, count: int, width: int) -> None:
     for island in range(system.islands[0]):
         for q in range(system.island_range[island, 0], system.island_range[island, 1]):
             row = system.island_row[q]
-            system.singleton[row] = _copy_entries(system, row, system.island_width[island], width)
+            _expand_in_island(system, row, system.island_width[island], width)
+            system.singleton[row] = _only_entry(system.basis[row], system.island_width[island])
         least = min(least, _orthogonalise_island(system, island, system.island_width[island]))
         system.rank[0] += system.island_rank[island]
     system.independence[0] = least
@@ -125,37 +127,42 @@ def _orthogonalise_island(system: LinearSystem, island: int, width: int) -> floa
 
 
 @jit
-def _copy_row(system: LinearSystem, row: int, width: int) -> int:
-    """Copy a row of D into the basis; return in which column its only entry is, `codes.NONE` where there are more."""
-    entry = system.scaled[row]
-    basis = system.basis[row]
-    for k in range(width):
-        basis[k] = entry[k]
-    found = codes.NONE
-    for k in range(width):
-        if entry[k] != 0.0:
-            if found != codes.NONE:
-                return codes.NONE
-            found = k
-    return found
+def expand(block: Array, count: int, width: int) -> None:
+    """Write D, of which `scaled` has the entries of two bodies a row, to the first `width` columns of `basis`."""
+    system = LinearSystem(block)
+    for i in range(count):
+        basis = system.basis[i]
+        for k in range(width):
+            basis[k] = 0.0
+        for end in range(2):
+            first = 3 * system.scaled_body[i, end]
+            if first < width:
+                basis[first] = system.scaled[i, 3 * end]
+                basis[first + 1] = system.scaled[i, 3 * end + 1]
+                basis[first + 2] = system.scaled[i, 3 * end + 2]
 
 
 @jit
-def _copy_entries(system: LinearSystem, row: int, width: int, ground: int) -> int:
-    """As `_copy_row`, with the columns of an island, of which each row has entries of two bodies."""
+def _expand_in_island(system: LinearSystem, row: int, width: int, ground: int) -> None:
+    """As `expand`, of one row, with the columns of its island."""
     keep_small()
     basis = system.basis[row]
     for k in range(width):
         basis[k] = 0.0
     for end in range(2):
-        first = 3 * system.scaled_body[row, end]
-        if first < ground:
-            column = system.island_column[system.scaled_body[row, end]]
+        body = system.scaled_body[row, end]
+        if 3 * body < ground:
+            column = system.island_column[body]
             for k in range(3):
-                basis[column + k] = system.scaled[row, first + k]
+                basis[column + k] = system.scaled[row, 3 * end + k]
+
+
+@jit
+def _only_entry(row: Array, width: int) -> int:
+    """In which column of a row its only entry is; `codes.NONE` where there are more, or none."""
     found = codes.NONE
     for k in range(width):
-        if basis[k] != 0.0:
+        if row[k] != 0.0:
             if found != codes.NONE:
                 return codes.NONE
             found = k
