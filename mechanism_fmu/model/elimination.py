@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from heapq import heapify, heappop, heappush
 
 
 def elimination_order(bodies: Sequence[int], pairs: Iterable[tuple[int, int]]) -> list[int]:
@@ -24,13 +25,17 @@ def elimination_order(bodies: Sequence[int], pairs: Iterable[tuple[int, int]]) -
         if first in near and second in near and first != second:
             near[first].add(second)
             near[second].add(first)
-    places = dict.fromkeys(bodies, 0)
-    left = set(bodies)
-    for place in range(len(bodies)):
-        body = min(left, key=lambda b: (len(near[b]), b))
-        left.remove(body)
-        places[body] = place
+    waiting = [(len(others), body) for body, others in near.items()]
+    heapify(waiting)
+    places: dict[int, int] = {}
+    while waiting:
+        degree, body = heappop(waiting)
+        if body in places or degree != len(near[body]):
+            continue  # it has another degree meanwhile, with which it waits, too
+        places[body] = len(places)
         around = near.pop(body)
         for other in around:
-            near[other] = (near[other] | around) - {body, other}
+            near[other] |= around
+            near[other] -= {body, other}
+            heappush(waiting, (len(near[other]), other))
     return [places[body] for body in bodies]

@@ -131,14 +131,16 @@ class LinearSystem(Table):
     """The minimum-norm problem D z = b, with D^T multiplier = z, and the scratch of its solution.
 
     `rank` is that of D, and `independence` says how far its least independent row is from depending on the others: the
-    share of its squared length that is left after projection. A row of `scaled` has entries of the bodies in
-    `scaled_body`. The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies
-    `plan_body`; `fill` are the earlier places with which a row has entries, `fill_count` many, in `triangle`. The dense
-    one, `by_pivots`, has a basis of orthonormal rows, of which `singleton` says in which column their only entry
-    is, if there is one only; the first `singletons` in order are such.
+    share of its squared length that is left after projection. A row of `scaled` has three entries of each of the
+    bodies in `scaled_body`. The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies
+    `plan_body`; `fill` are the earlier places with which a row has entries, `fill_count` many from `fill_start` on, and
+    `lower` these entries: what is behind the last one is never touched, and costs no memory. The dense one, `by_pivots`, has a basis of orthonormal rows, of which `singleton` says in which column their only entry
+    is, if there is one only. It goes island by island: the rows of one are `island_row` in `island_range` (`island_spot` says
+    where there a row is), its basis rows the first `island_rank` of `order` there, of which those before
+    `island_singletons` have one entry only; its bodies have the columns `island_column`, `island_width` in all.
     """
 
-    scaled = real("rows", "columns", work=True)
+    scaled = real("rows", 6, work=True)
     scaled_body = integer("rows", 2, work=True)
     planned = integer(1, work=True)
     plan_body = integer("rows", 2, work=True)
@@ -147,8 +149,10 @@ class LinearSystem(Table):
     seen = integer("rows", work=True)
     chain = integer("rows", 2, work=True)
     last_of_body = integer("frames", work=True)
-    fill = integer("rows", "rows", work=True)
+    fill = integer("squared_rows", work=True)
+    fill_start = integer("rows", work=True)
     fill_count = integer("rows", work=True)
+    lower = real("squared_rows", work=True)
     pivot = real("rows", work=True)
     spread = real("rows", work=True)
     by_pivots = integer(1, work=True)
@@ -161,7 +165,18 @@ class LinearSystem(Table):
     column_triangle = real("rows", "rows", work=True)
     order = integer("rows", work=True)
     singleton = integer("rows", work=True)
-    singletons = integer(1, work=True)
+    islands = integer(1, work=True)
+    island_range = integer("rows", 2, work=True)
+    island_width = integer("rows", work=True)
+    island_rank = integer("rows", work=True)
+    island_singletons = integer("rows", work=True)
+    island_row = integer("rows", work=True)
+    island_spot = integer("rows", work=True)
+    island_column = integer("frames", work=True)
+    island_of = integer("frames", work=True)
+    island_solution = real("columns", work=True)
+    leader = integer("frames", work=True)
+    gathered = real("rows", work=True)
     row_norm = real("rows", 3, work=True)
     coefficient = real("rows", work=True)
     dual = real("rows", work=True)

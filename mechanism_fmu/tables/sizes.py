@@ -65,6 +65,7 @@ class Sizes:
     wide = _follows(lambda n: n["columns"] + n["alphas"])
     frames = _follows(lambda n: n["bodies"] + 1)  # and the ground
     rows = _follows(lambda n: n["joint_rows"] + n["contact_rows"] + n["rubs"] + 1)  # and a spare one
+    squared_rows = _follows(lambda n: n["rows"] ** 2)
     # y = (q, qd, work, loss, alpha, own, wear): positions begin at 0, rates at `coordinates`, the others here
     y_work = _follows(lambda n: 2 * n["coordinates"])
     y_loss = _follows(lambda n: n["y_work"] + 1)

@@ -16,6 +16,19 @@ def set_instant(block: Array, time: float) -> None:
 
 
 @jit
+def _place(at: Pose, y: Array, body: int, bodies: int) -> None:
+    k = 3 * body
+    at.x[body] = y[k]
+    at.y[body] = y[k + 1]
+    at.phi[body] = y[k + 2]
+    at.sine[body], at.cosine[body] = sine_cosine(y[k + 2])
+    k += 3 * bodies
+    at.x_rate[body] = y[k]
+    at.y_rate[body] = y[k + 1]
+    at.phi_rate[body] = y[k + 2]
+
+
+@jit
 def place_bodies(block: Array, y: Array) -> Pose:
     """Poses and rates of y = (q, qd, work, loss, alpha, ...).
 
@@ -25,15 +38,7 @@ def place_bodies(block: Array, y: Array) -> Pose:
     bodies = Sizes(block).bodies
     at = Pose(block)
     for i in range(bodies):
-        k = 3 * i
-        at.x[i] = y[k]
-        at.y[i] = y[k + 1]
-        at.phi[i] = y[k + 2]
-        at.sine[i], at.cosine[i] = sine_cosine(y[k + 2])
-        k += 3 * bodies
-        at.x_rate[i] = y[k]
-        at.y_rate[i] = y[k + 1]
-        at.phi_rate[i] = y[k + 2]
+        _place(at, y, i, bodies)
     at.x[bodies] = 0.0
     at.y[bodies] = 0.0
     at.phi[bodies] = 0.0
@@ -45,4 +50,20 @@ def place_bodies(block: Array, y: Array) -> Pose:
     first = Sizes(block).y_alpha
     for k in range(Sizes(block).alphas):
         at.alpha[k] = y[first + k]
+    return at
+
+
+@jit
+def place_pair(block: Array, y: Array, i: int, j: int) -> Pose:
+    """As `place_bodies`, of two bodies alone; all others, and the contact coordinates, stay as they were placed last.
+
+    For whom looks at one pair again and again, so that the cost of a look does not grow with the mechanism.
+    """
+    keep_small()
+    bodies = Sizes(block).bodies
+    at = Pose(block)
+    if i < bodies:
+        _place(at, y, i, bodies)
+    if j < bodies:
+        _place(at, y, j, bodies)
     return at

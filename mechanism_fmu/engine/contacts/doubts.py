@@ -14,6 +14,7 @@ from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, slips
+from ..dynamics.minimum_norm import take_out_range
 from ..vectors import copy
 from .complementarity import agrees
 from .trial import COUNT
@@ -69,13 +70,12 @@ def undetermined(block: Array, count: int) -> int:
     """
     keep_apart()
     table = Rubs(block)
-    rank = LinearSystem(block).rank[0]
-    if rank >= count:
+    if LinearSystem(block).rank[0] >= count:
         return codes.NONE
     for k in range(table.slip.shape[0]):
         if slips(block, k) and k < Sizes(block).contacts + Sizes(block).joints:
             first = _first_row(block, k)
-            if _moves(block, first, rank, count) or (_is_pin(block, k) and _moves(block, first + 1, rank, count)):
+            if _moves(block, first, count) or (_is_pin(block, k) and _moves(block, first + 1, count)):
                 return k
     return codes.NONE
 
@@ -95,19 +95,12 @@ def _is_pin(block: Array, rub: int) -> bool:
 
 
 @jit
-def _moves(block: Array, row: int, rank: int, count: int) -> bool:
+def _moves(block: Array, row: int, count: int) -> bool:
     """Whether the share of the multiplier of a row that is free changes accelerations, by friction."""
     keep_apart()
-    system = LinearSystem(block)
     table = Rubs(block)
     free = Loads(block).last_multiplier
-    for r in range(count):
-        free[r] = 0.0
-    free[row] = 1.0
-    for j in range(rank):
-        share = system.column_basis[j, row]
-        for r in range(count):
-            free[r] -= share * system.column_basis[j, r]
+    take_out_range(block, row, count, free)
     if not free[row] > _DETERMINED:
         return False
     largest = 0.0

@@ -47,7 +47,7 @@ def keep_event(block: Array, guard: int, subject: int, which: int, impulse: floa
     now.counters[codes.COUNT_EVENTS] += 1
     place = now.counters[codes.EVENTS_IN_STEP]
     if place == now.events.shape[0]:
-        make_space(now.events)
+        make_space(now.events, place + 1 - now.events.shape[0])
         place -= 1
     else:
         now.counters[codes.EVENTS_IN_STEP] = place + 1

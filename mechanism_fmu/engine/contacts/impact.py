@@ -72,9 +72,7 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
         return False, outcome
     if Sizes(block).wears > 0:
         wear_by_impact(block, place_bodies(block, Course(block).y_end), Course(block).y_end)
-    for c in range(table.mode.shape[0]):
-        if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
-            keep_impact(block, c)
+    _keep_impacts(block)
     _open_what_leaves(block)
     return True, outcome
 
@@ -168,6 +166,36 @@ def _open_what_leaves(block: Array) -> None:
 
 
 @jit
+def _keep_impacts(block: Array) -> None:
+    """Record the impacts of all contacts that strike, in their order.
+
+    Of more than the buffer holds, as where hundreds land at once, the first ones are only counted, and space is made
+    for all others together: each on its own would move the whole buffer.
+    """
+    keep_small()
+    now = Course(block)
+    taking_part = Strikes(block)
+    strikes = 0
+    for c in range(taking_part.role.shape[0]):
+        if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
+            strikes += 1
+    passed = max(0, strikes - now.impacts.shape[0])
+    now.counters[codes.COUNT_IMPACTS] += passed
+    now.counters[codes.COUNT_LOST] += passed
+    over = max(0, now.counters[codes.COUNT_IN_STEP] + strikes - passed - now.impacts.shape[0])
+    if over > 0:
+        make_space(now.impacts, over)
+        now.counters[codes.COUNT_IN_STEP] -= over
+        now.counters[codes.COUNT_LOST] += over
+    for c in range(taking_part.role.shape[0]):
+        if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
+            if passed > 0:
+                passed -= 1
+            else:
+                keep_impact(block, c)
+
+
+@jit
 def keep_impact(block: Array, contact: int) -> None:
     """Record the impact of one contact from `strikes`; when the buffer is full, the oldest is lost.
 
@@ -194,7 +222,7 @@ def keep_impact(block: Array, contact: int) -> None:
     place = now.counters[codes.COUNT_IN_STEP]
     if place == now.impacts.shape[0]:
         now.counters[codes.COUNT_LOST] += 1
-        make_space(now.impacts)
+        make_space(now.impacts, place + 1 - now.impacts.shape[0])
         place -= 1
     else:
         now.counters[codes.COUNT_IN_STEP] = place + 1
@@ -282,8 +310,8 @@ def _copy(block: Array, contact: int) -> int:
 
 
 @jit
-def make_space(buffer: Array) -> None:
-    """Drop the first row and move the others up."""
-    for b in range(buffer.shape[0] - 1):
+def make_space(buffer: Array, rows: int) -> None:
+    """Drop the first rows and move the others up."""
+    for b in range(buffer.shape[0] - rows):
         for k in range(buffer.shape[1]):
-            buffer[b, k] = buffer[b + 1, k]
+            buffer[b, k] = buffer[b + rows, k]

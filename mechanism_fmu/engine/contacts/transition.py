@@ -38,13 +38,25 @@ def release(block: Array, struck: int) -> None:
     """
     keep_small()
     table = Contacts(block)
-    for c in range(table.mode.shape[0]):
-        if table.touching[c] != 0 and table.mode[c] == codes.OPEN and c != struck:
-            at = place_bodies(block, Course(block).y_end)  # few touch, and mostly none does
+    contacts = table.mode.shape[0]
+    first = 0
+    while first < contacts and not _may_have_come_off(table, first, struck):
+        first += 1
+    if first == contacts:  # mostly nothing touches
+        return
+    at = place_bodies(block, Course(block).y_end)
+    for c in range(first, contacts):
+        if _may_have_come_off(table, c, struck):
             distance, rate = gap(block, at, c)
             if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
                 table.touching[c] = 0
                 let_loose(block, c)
+
+
+@jit
+def _may_have_come_off(table: Contacts, contact: int, struck: int) -> bool:
+    touched: bool = table.touching[contact] != 0 and table.mode[contact] == codes.OPEN and contact != struck
+    return touched
 
 
 # What happens at an event: x- becomes x+, and the mechanism's mode changes.

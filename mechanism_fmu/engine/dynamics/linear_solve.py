@@ -5,8 +5,7 @@ from __future__ import annotations
 from ...tables.declare import Array
 from ...tables.motion import LinearSystem, Rows
 from ..compiler.subset import jit
-from ..constraints.entries import clear_entries
-from .minimum_norm import orthogonalise, solve_orthogonalised
+from .minimum_norm import expand, orthogonalise, orthogonalise_islands, solve_orthogonalised
 from .sparse import factorise_sparse, solve_sparse
 
 #: From so many rows on; fewer gain little, and keep what is exact to the last digit, such as zeros along a guide.
@@ -20,13 +19,13 @@ def write_matrix(block: Array, count: int, factor: Array) -> None:
     system = LinearSystem(block)
     for r in range(count):
         entry = system.scaled[r]
-        clear_entries(entry, system.scaled_body[r])
         for end in range(2):
             first = 3 * row.body[r, end]
+            k = 3 * end
             system.scaled_body[r, end] = row.body[r, end]
-            entry[first] = row.jacobian[r, first] * factor[first]
-            entry[first + 1] = row.jacobian[r, first + 1] * factor[first + 1]
-            entry[first + 2] = row.jacobian[r, first + 2] * factor[first + 2]
+            entry[k] = row.jacobian[r, first] * factor[first]
+            entry[k + 1] = row.jacobian[r, first + 1] * factor[first + 1]
+            entry[k + 2] = row.jacobian[r, first + 2] * factor[first + 2]
 
 
 @jit
@@ -40,9 +39,13 @@ def solve(block: Array, count: int, width: int) -> None:
 def factorise(block: Array, count: int, width: int) -> None:
     """Factorise D, for `solve_again`; write its rank and how independent its rows are."""
     LinearSystem(block).by_pivots[0] = 0
-    if count < _SPARSE_FROM or not factorise_sparse(block, count):
+    if count < _SPARSE_FROM:
         LinearSystem(block).by_pivots[0] = 1
+        expand(block, count, width)
         orthogonalise(block, count, width)
+    elif not factorise_sparse(block, count):
+        LinearSystem(block).by_pivots[0] = 1
+        orthogonalise_islands(block, count, width)
 
 
 @jit
@@ -53,5 +56,5 @@ def solve_again(block: Array, count: int, width: int) -> None:
         if solve_sparse(block, count, width):
             return
         system.by_pivots[0] = 1
-        orthogonalise(block, count, width)
+        orthogonalise_islands(block, count, width)
     solve_orthogonalised(block, count, width)

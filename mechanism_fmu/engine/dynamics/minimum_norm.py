@@ -3,6 +3,9 @@
 D = L Q by row-pivoted modified Gram-Schmidt with re-orthogonalisation: Q has orthonormal rows, L one column a basis
 row. When all rows are independent, L is triangular up to the order of rows; when some depend on others, a second
 Gram-Schmidt on the columns of L gives the least-squares answer, which is what the pseudoinverse of the papers means.
+
+Rows that share bodies, or are joined by others that do, make an island (`islands`): each is solved by itself, with
+columns of its own bodies alone, so that a hundred boxes on a floor cost a hundred times what one does.
 """
 
 from __future__ import annotations
@@ -13,6 +16,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import LinearSystem
 from ..compiler.subset import jit, keep_small
+from .islands import find_islands
 
 #: A row depends on the rows before it when less than this fraction of its length is left after projection.
 RANK_TOLERANCE = 1e-10
@@ -26,47 +30,90 @@ _TWO_BODIES = 6
 
 @jit
 def orthogonalise(block: Array, count: int, width: int) -> int:
-    """D = L Q, with D = `scaled`[:count, :width] of the linear system; return its rank, which is left in `rank`, too.
+    """D = L Q, with D in `basis`[:count, :width] (see `expand`); return its rank, which is left in `rank`, too.
 
-    Row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i.
+    All rows make one island. D is lost.
     """
     system = LinearSystem(block)
-    basis = system.basis
-    system.rank[0] = count
-    system.independence[0] = 1.0
-    system.singletons[0] = 0
+    system.islands[0] = 1
+    system.island_range[0, 0] = 0
+    system.island_range[0, 1] = count
     for i in range(count):
-        system.order[i] = i
-        system.singleton[i] = _copy_row(system, i, width)
+        system.island_row[i] = i
+        system.island_spot[i] = i
+        system.singleton[i] = _only_entry(system.basis[i], width)
+    system.independence[0] = _orthogonalise_island(system, 0, width)
+    system.rank[0] = system.island_rank[0]
+    return system.rank[0]
+
+
+@jit
+def orthogonalise_islands(block: Array, count: int, width: int) -> None:
+    """As `expand` and `orthogonalise`, island by island."""
+    keep_small()
+    if find_islands(block, count) == 1:
+        expand(block, count, width)
+        orthogonalise(block, count, width)
+        return
+    system = LinearSystem(block)
+    system.rank[0] = 0
+    least = 1.0
+    for island in range(system.islands[0]):
+        for q in range(system.island_range[island, 0], system.island_range[island, 1]):
+            row = system.island_row[q]
+            _expand_in_island(system, row, system.island_width[island], width)
+            system.singleton[row] = _only_entry(system.basis[row], system.island_width[island])
+        least = min(least, _orthogonalise_island(system, island, system.island_width[island]))
+        system.rank[0] += system.island_rank[island]
+    system.independence[0] = least
+
+
+@jit
+def _orthogonalise_island(system: LinearSystem, island: int, width: int) -> float:
+    """The rows of an island, which `basis` holds; write its rank, and return how independent its last basis row is.
+
+    Row order[r] of `basis` is the r-th basis row, `triangle`[i, r] its share in row i; the places r of an island begin
+    at `island_range`.
+    """
+    basis = system.basis
+    first = system.island_range[island, 0]
+    end = system.island_range[island, 1]
+    independence = 1.0
+    system.island_singletons[island] = first
+    for q in range(first, end):
+        i = system.island_row[q]
+        system.order[q] = i
         square = _dot(basis[i], basis[i], width)
         system.row_norm[i, 0] = square
         system.row_norm[i, 1] = square
         system.row_norm[i, 2] = 1.0 if square > 0.0 else 0.0
-    for r in range(count):
-        fraction = _choose_pivot(system, r, count)
+    for r in range(first, end):
+        system.island_rank[island] = r - first
+        fraction = _choose_pivot(system, r, end)
         if not fraction > RANK_TOLERANCE * RANK_TOLERANCE:
-            system.rank[0] = r
-            return r
+            return independence
         p = system.order[r]
         if system.singleton[p] != codes.NONE and fraction == 1.0:
-            _eliminate_singleton(system, r, count, width)
+            independence = 1.0
+            if system.island_singletons[island] == r:
+                system.island_singletons[island] = r + 1
+            _eliminate_singleton(system, r, end, width)
             continue
         square = _dot(basis[p], basis[p], width)
         if square < _REORTHOGONALISE_BELOW * system.row_norm[p, 0]:
-            for j in range(r):
+            for j in range(first, r):
                 share = _dot(basis[system.order[j]], basis[p], width)
                 system.triangle[p, j] += share
                 _add_multiple(basis[p], -share, basis[system.order[j]], width)
             square = _dot(basis[p], basis[p], width)
         if not square > RANK_TOLERANCE * RANK_TOLERANCE * system.row_norm[p, 0]:  # what rounding hid from the pivoting
-            system.rank[0] = r
-            return r
-        system.independence[0] = fraction
+            return independence
+        independence = fraction
         length = math.sqrt(square)
         system.triangle[p, r] = length
         for k in range(width):
             basis[p, k] /= length
-        for s in range(r + 1, count):
+        for s in range(r + 1, end):
             i = system.order[s]
             share = _dot(basis[p], basis[i], width)
             system.triangle[i, r] = share
@@ -75,19 +122,47 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
             _add_multiple(basis[i], -share, basis[p], width)
             system.singleton[i] = codes.NONE
             _note_what_is_left(system, i, share, width)
-    return count
+    system.island_rank[island] = end - first
+    return independence
 
 
 @jit
-def _copy_row(system: LinearSystem, row: int, width: int) -> int:
-    """Copy a row of D into the basis; return in which column its only entry is, `codes.NONE` where there are more."""
-    entry = system.scaled[row]
+def expand(block: Array, count: int, width: int) -> None:
+    """Write D, of which `scaled` has the entries of two bodies a row, to the first `width` columns of `basis`."""
+    system = LinearSystem(block)
+    for i in range(count):
+        basis = system.basis[i]
+        for k in range(width):
+            basis[k] = 0.0
+        for end in range(2):
+            first = 3 * system.scaled_body[i, end]
+            if first < width:
+                basis[first] = system.scaled[i, 3 * end]
+                basis[first + 1] = system.scaled[i, 3 * end + 1]
+                basis[first + 2] = system.scaled[i, 3 * end + 2]
+
+
+@jit
+def _expand_in_island(system: LinearSystem, row: int, width: int, ground: int) -> None:
+    """As `expand`, of one row, with the columns of its island."""
+    keep_small()
     basis = system.basis[row]
     for k in range(width):
-        basis[k] = entry[k]
+        basis[k] = 0.0
+    for end in range(2):
+        body = system.scaled_body[row, end]
+        if 3 * body < ground:
+            column = system.island_column[body]
+            for k in range(3):
+                basis[column + k] = system.scaled[row, 3 * end + k]
+
+
+@jit
+def _only_entry(row: Array, width: int) -> int:
+    """In which column of a row its only entry is; `codes.NONE` where there are more, or none."""
     found = codes.NONE
     for k in range(width):
-        if entry[k] != 0.0:
+        if row[k] != 0.0:
             if found != codes.NONE:
                 return codes.NONE
             found = k
@@ -95,7 +170,7 @@ def _copy_row(system: LinearSystem, row: int, width: int) -> int:
 
 
 @jit
-def _eliminate_singleton(system: LinearSystem, r: int, count: int, width: int) -> None:
+def _eliminate_singleton(system: LinearSystem, r: int, end: int, width: int) -> None:
     """The r-th basis row has one entry only: of the rows that follow, it takes that, and no more.
 
     What the general way does, without the sums of zeros that make the most of it: rows of a pin at the middle of a
@@ -103,14 +178,11 @@ def _eliminate_singleton(system: LinearSystem, r: int, count: int, width: int) -
     """
     p = system.order[r]
     column = system.singleton[p]
-    system.independence[0] = 1.0
     length = abs(system.basis[p, column])
     system.triangle[p, r] = length
     system.basis[p, column] /= length
     unit = system.basis[p, column]
-    if system.singletons[0] == r:
-        system.singletons[0] = r + 1
-    for s in range(r + 1, count):
+    for s in range(r + 1, end):
         i = system.order[s]
         share = unit * system.basis[i, column]
         system.triangle[i, r] = share
@@ -137,28 +209,94 @@ def solve_orthogonalised(block: Array, count: int, width: int) -> None:
     solution of D^T multiplier = z to `multiplier`[:count].
     """
     system = LinearSystem(block)
-    rank = system.rank[0]
-    if rank == count:
-        _solve_full_rank(block, count)
-    else:
-        _solve_deficient(block, count, rank)
     for k in range(width):
         system.solution[k] = 0.0
-    singletons = system.singletons[0]
-    for r in range(singletons):
-        p = system.order[r]
-        column = system.singleton[p]
-        system.solution[column] += system.coefficient[r] * system.basis[p, column]
-    for r in range(singletons, rank):
-        _add_multiple(system.solution, system.coefficient[r], system.basis[system.order[r]], width)
+    if system.islands[0] == 1:
+        _solve_island(block, 0)
+        _combine(system, 0, system.solution, width)
+        return
+    for island in range(system.islands[0]):
+        _solve_island(block, island)
+        own = system.island_solution
+        for k in range(system.island_width[island]):
+            own[k] = 0.0
+        _combine(system, island, own, system.island_width[island])
+        _scatter(system, island, width)
 
 
 @jit
-def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
+def _solve_island(block: Array, island: int) -> None:
+    """Coefficients of the basis rows of an island, and its multipliers."""
+    system = LinearSystem(block)
+    first = system.island_range[island, 0]
+    end = system.island_range[island, 1]
+    if system.island_rank[island] == end - first:
+        _solve_full_rank(block, first, end, system.island_singletons[island])
+    else:
+        _solve_deficient(block, first, end, first + system.island_rank[island])
+
+
+@jit
+def _combine(system: LinearSystem, island: int, solution: Array, width: int) -> None:
+    """Add the basis rows of an island times their coefficients."""
+    first = system.island_range[island, 0]
+    singletons = system.island_singletons[island]
+    for r in range(first, singletons):
+        p = system.order[r]
+        column = system.singleton[p]
+        solution[column] += system.coefficient[r] * system.basis[p, column]
+    for r in range(singletons, first + system.island_rank[island]):
+        _add_multiple(solution, system.coefficient[r], system.basis[system.order[r]], width)
+
+
+@jit
+def _scatter(system: LinearSystem, island: int, ground: int) -> None:
+    """What an island's columns hold, to those of the bodies."""
+    keep_small()
+    for q in range(system.island_range[island, 0], system.island_range[island, 1]):
+        row = system.island_row[q]
+        for end in range(2):
+            first = 3 * system.scaled_body[row, end]
+            if first < ground:
+                column = system.island_column[system.scaled_body[row, end]]
+                for k in range(3):
+                    system.solution[first + k] = system.island_solution[column + k]
+
+
+@jit
+def take_out_range(block: Array, row: int, count: int, left: Array) -> None:
+    """The part of a row's unit vector that is outside the range of all rows, into `left`, shape (count,).
+
+    That is by which multipliers may change without any change of the rates. Only behind a solution by pivots of rows
+    that depend on each other.
+    """
+    keep_small()
+    system = LinearSystem(block)
+    for r in range(count):
+        left[r] = 0.0
+    left[row] = 1.0
+    island = 0
+    while system.island_range[island, 1] <= system.island_spot[row]:
+        island += 1
+    first = system.island_range[island, 0]
+    rank = system.island_rank[island]
+    end = system.island_range[island, 1]
+    if rank == end - first:
+        left[row] = 0.0
+        return
+    spot = system.island_spot[row] - first
+    for j in range(first, first + rank):
+        share = system.column_basis[j, spot]
+        for q in range(first, end):
+            left[system.island_row[q]] -= share * system.column_basis[j, q - first]
+
+
+@jit
+def _choose_pivot(system: LinearSystem, r: int, end: int) -> float:
     """Move the row with the largest remaining fraction of its squared length to place r; return that fraction."""
     best = r
     best_fraction = -1.0
-    for s in range(r, count):
+    for s in range(r, end):
         fraction = system.row_norm[system.order[s], 2]
         if fraction > best_fraction:
             best_fraction = fraction
@@ -172,44 +310,51 @@ def _choose_pivot(system: LinearSystem, r: int, count: int) -> float:
 
 
 @jit
-def _solve_full_rank(block: Array, count: int) -> None:
-    """L coefficient = b forwards, then L^T multiplier = coefficient backwards."""
+def _solve_full_rank(block: Array, first: int, end: int, singletons: int) -> None:
+    """L coefficient = b forwards, then L^T multiplier = coefficient backwards; singletons have no share in each other."""
     system = LinearSystem(block)
-    singletons = system.singletons[0]  # which have no share in each other
-    for r in range(singletons):
+    for r in range(first, singletons):
         p = system.order[r]
         system.coefficient[r] = system.right_side[p] / system.triangle[p, r]
-    for r in range(singletons, count):
+    for r in range(singletons, end):
         p = system.order[r]
         value = system.right_side[p]
-        for j in range(r):
+        for j in range(first, r):
             value -= system.triangle[p, j] * system.coefficient[j]
         system.coefficient[r] = value / system.triangle[p, r]
-    for back in range(count):
-        r = count - 1 - back
+    for back in range(end - first):
+        r = end - 1 - back
         p = system.order[r]
         value = system.coefficient[r]
-        for s in range(max(r + 1, singletons), count):
+        for s in range(max(r + 1, singletons), end):
             q = system.order[s]
             value -= system.triangle[q, r] * system.multiplier[q]
         system.multiplier[p] = value / system.triangle[p, r]
 
 
 @jit
-def _solve_deficient(block: Array, count: int, rank: int) -> None:
-    """L = U R by columns; coefficient = R^-1 U^T b, multiplier = U R^-T coefficient."""
+def _solve_deficient(block: Array, first: int, end: int, after: int) -> None:
+    """L = U R by columns; coefficient = R^-1 U^T b, multiplier = U R^-T coefficient.
+
+    The basis rows are in the places from `first` to `after`. A row of `column_basis` has the entries of the island's
+    rows, in the order of `island_row`.
+    """
     keep_small()
     system = LinearSystem(block)
     u = system.column_basis
     triangle = system.column_triangle
-    for r in range(rank):
+    count = end - first
+    b = system.gathered
+    for i in range(count):
+        b[i] = system.right_side[system.island_row[first + i]]
+    for r in range(first, after):
         for i in range(count):
-            u[r, i] = system.triangle[i, r]
-        for i in range(r):
-            u[r, system.order[i]] = 0.0
+            u[r, i] = system.triangle[system.island_row[first + i], r]
+        for i in range(first, r):
+            u[r, system.island_spot[system.order[i]] - first] = 0.0
             triangle[i, r] = 0.0
         for _ in range(2):
-            for j in range(r):
+            for j in range(first, r):
                 share = _dot(u[j], u[r], count)
                 triangle[j, r] += share
                 _add_multiple(u[r], -share, u[j], count)
@@ -217,21 +362,23 @@ def _solve_deficient(block: Array, count: int, rank: int) -> None:
         triangle[r, r] = length
         for i in range(count):
             u[r, i] /= length
-    for r in range(rank):
-        system.coefficient[r] = _dot(u[r], system.right_side, count)
-    for back in range(rank):
-        r = rank - 1 - back
-        for s in range(r + 1, rank):
+    for r in range(first, after):
+        system.coefficient[r] = _dot(u[r], b, count)
+    for back in range(after - first):
+        r = after - 1 - back
+        for s in range(r + 1, after):
             system.coefficient[r] -= triangle[r, s] * system.coefficient[s]
         system.coefficient[r] /= triangle[r, r]
     for i in range(count):
-        system.multiplier[i] = 0.0
-    for r in range(rank):
+        b[i] = 0.0
+    for r in range(first, after):
         value = system.coefficient[r]
-        for j in range(r):
+        for j in range(first, r):
             value -= triangle[j, r] * system.dual[j]
         system.dual[r] = value / triangle[r, r]
-        _add_multiple(system.multiplier, system.dual[r], u[r], count)
+        _add_multiple(b, system.dual[r], u[r], count)
+    for i in range(count):
+        system.multiplier[system.island_row[first + i]] = b[i]
 
 
 @jit

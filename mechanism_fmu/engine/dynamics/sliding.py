@@ -265,10 +265,10 @@ def _eliminate(matrix: Array, number: int) -> float:
             return 0.0
         if best != c:
             determinant = -determinant
-        for k in range(c, number + 1):
-            matrix[c, k], matrix[best, k] = matrix[best, k], matrix[c, k]
+            for k in range(c, number + 1):
+                matrix[c, k], matrix[best, k] = matrix[best, k], matrix[c, k]
         for r in range(number):
-            if r != c:
+            if r != c and matrix[r, c] != 0.0:  # most do nothing to each other
                 share = matrix[r, c] / matrix[c, c]
                 for k in range(c, number + 1):
                     matrix[r, k] -= share * matrix[c, k]

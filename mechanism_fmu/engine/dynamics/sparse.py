@@ -57,9 +57,11 @@ def _plan(block: Array, count: int) -> None:
     ground = Sizes(block).bodies
     for b in range(ground + 1):
         system.last_of_body[b] = codes.NONE
+    start = 0
     for i in range(count):
         system.parent[i] = codes.NONE
         system.seen[i] = i
+        system.fill_start[i] = start
         system.fill_count[i] = 0
         for end in range(2):
             b = body[system.place[i], end]
@@ -71,7 +73,8 @@ def _plan(block: Array, count: int) -> None:
                 earlier = system.chain[earlier // 2, earlier % 2]
             system.chain[i, end] = system.last_of_body[b]
             system.last_of_body[b] = 2 * i + end
-        _sort(system.fill[i], system.fill_count[i])
+        _sort(system.fill[start:], system.fill_count[i])
+        start += system.fill_count[i]
 
 
 @jit
@@ -95,7 +98,7 @@ def _climb(block: Array, i: int, k: int) -> None:
     system = LinearSystem(block)
     while system.seen[k] != i:
         system.seen[k] = i
-        system.fill[i, system.fill_count[i]] = k
+        system.fill[system.fill_start[i] + system.fill_count[i]] = k
         system.fill_count[i] += 1
         if system.parent[k] == codes.NONE:
             system.parent[k] = i
@@ -120,7 +123,7 @@ def _sort(values: Array, count: int) -> None:
 
 @jit
 def factorise_sparse(block: Array, count: int) -> bool:
-    """S = L diag(d) L^T, with L in `triangle` and 1/d in `pivot`; False where a row is not independent enough.
+    """S = L diag(d) L^T, with L in `lower` and 1/d in `pivot`; False where a row is not independent enough.
 
     `independence` is the least part of a row's squared length that is left behind the rows before it.
     """
@@ -136,20 +139,19 @@ def factorise_sparse(block: Array, count: int) -> bool:
         r = system.place[i]
         square = _square(block, r)
         left = square
-        line = system.triangle[i]
-        mine = system.fill[i]
-        for q in range(system.fill_count[i]):
-            k = mine[q]
+        mine = system.fill_start[i]
+        for q in range(mine, mine + system.fill_count[i]):
+            k = system.fill[q]
             value = _product(block, r, system.place[k], ground)
-            theirs = system.fill[k]
-            for t in range(system.fill_count[k]):
-                value -= system.triangle[k, t] * w[theirs[t]]
+            theirs = system.fill_start[k]
+            for t in range(theirs, theirs + system.fill_count[k]):
+                value -= system.lower[t] * w[system.fill[t]]
             w[k] = value
             share = value * system.pivot[k]
-            line[q] = share
+            system.lower[q] = share
             left -= value * share
-        for q in range(system.fill_count[i]):
-            w[mine[q]] = 0.0
+        for q in range(mine, mine + system.fill_count[i]):
+            w[system.fill[q]] = 0.0
         if not left > _DEPENDS_BELOW * square:
             return False
         system.pivot[i] = 1.0 / left
@@ -163,10 +165,8 @@ def factorise_sparse(block: Array, count: int) -> bool:
 def _square(block: Array, r: int) -> float:
     """Squared length of a row of D."""
     entry = LinearSystem(block).scaled[r]
-    i = 3 * Rows(block).body[r, 0]
-    j = 3 * Rows(block).body[r, 1]
-    first: float = entry[i] * entry[i] + entry[i + 1] * entry[i + 1] + entry[i + 2] * entry[i + 2]
-    second: float = entry[j] * entry[j] + entry[j + 1] * entry[j + 1] + entry[j + 2] * entry[j + 2]
+    first: float = entry[0] * entry[0] + entry[1] * entry[1] + entry[2] * entry[2]
+    second: float = entry[3] * entry[3] + entry[4] * entry[4] + entry[5] * entry[5]
     return first + second
 
 
@@ -179,9 +179,10 @@ def _product(block: Array, r: int, s: int, ground: int) -> float:
     for end in range(2):
         b = body[r, end]
         if b != ground and (b == body[s, 0] or b == body[s, 1]):
-            c = 3 * b
-            total += scaled[r, c] * scaled[s, c] + scaled[r, c + 1] * scaled[s, c + 1]
-            total += scaled[r, c + 2] * scaled[s, c + 2]
+            k = 3 * end
+            m = 0 if b == body[s, 0] else 3
+            total += scaled[r, k] * scaled[s, m] + scaled[r, k + 1] * scaled[s, m + 1]
+            total += scaled[r, k + 2] * scaled[s, m + 2]
     return total
 
 
@@ -227,8 +228,9 @@ def _residual(block: Array, count: int) -> tuple[float, float]:
         terms = abs(left)
         for end in range(2):
             c = 3 * body[r, end]
-            left -= entry[c] * z[c] + entry[c + 1] * z[c + 1] + entry[c + 2] * z[c + 2]
-            terms += abs(entry[c] * z[c]) + abs(entry[c + 1] * z[c + 1]) + abs(entry[c + 2] * z[c + 2])
+            k = 3 * end
+            left -= entry[k] * z[c] + entry[k + 1] * z[c + 1] + entry[k + 2] * z[c + 2]
+            terms += abs(entry[k] * z[c]) + abs(entry[k + 1] * z[c + 1]) + abs(entry[k + 2] * z[c + 2])
         system.dual[i] = left
         most = max(most, abs(left))
         size = max(size, terms)
@@ -240,9 +242,9 @@ def _substitute(system: LinearSystem, x: Array, count: int) -> None:
     """Solve L diag(d) L^T x = x in its place."""
     for i in range(count):
         value = x[i]
-        line, mine = system.triangle[i], system.fill[i]
-        for q in range(system.fill_count[i]):
-            value -= line[q] * x[mine[q]]
+        mine = system.fill_start[i]
+        for q in range(mine, mine + system.fill_count[i]):
+            value -= system.lower[q] * x[system.fill[q]]
         x[i] = value
     for back in range(count):
         i = count - 1 - back
@@ -250,9 +252,9 @@ def _substitute(system: LinearSystem, x: Array, count: int) -> None:
     for back in range(count):
         i = count - 1 - back
         value = x[i]
-        line, mine = system.triangle[i], system.fill[i]
-        for q in range(system.fill_count[i]):
-            x[mine[q]] -= line[q] * value
+        mine = system.fill_start[i]
+        for q in range(mine, mine + system.fill_count[i]):
+            x[system.fill[q]] -= system.lower[q] * value
 
 
 @jit
@@ -266,6 +268,7 @@ def _combine(block: Array, x: Array, count: int) -> None:
         entry = system.scaled[r]
         for end in range(2):
             c = 3 * body[r, end]
-            z[c] += entry[c] * x[i]
-            z[c + 1] += entry[c + 1] * x[i]
-            z[c + 2] += entry[c + 2] * x[i]
+            k = 3 * end
+            z[c] += entry[k] * x[i]
+            z[c + 1] += entry[k + 1] * x[i]
+            z[c + 2] += entry[k + 2] * x[i]

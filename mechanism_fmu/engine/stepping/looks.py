@@ -8,10 +8,12 @@ from typing import Any
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose, Stages
+from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..constraints.kinematics import place_bodies
+from ..constraints.kinematics import place_bodies, place_pair
 from ..contacts.guards import guard_value
-from ..interpolation import interpolate
+from ..interpolation import dense_value, interpolate
 
 #: Bisections of a bracket: 2^-60 of a step is below rounding.
 BISECTIONS = 60
@@ -28,10 +30,34 @@ def place_at(block: Array, fraction: float) -> Pose:
 
 @jit
 def value_at(block: Array, number: int, fraction: float) -> tuple[float, float]:
-    """Value and rate of a guard at `fraction` of the step."""
+    """Value and rate of a guard at `fraction` of the step.
+
+    Of a contact that depends on its two bodies alone, only these are placed: many may come down between two looks.
+    """
     keep_small()
+    contacts = Sizes(block).contacts
+    if number < 2 * contacts:
+        contact = number % contacts
+        if Contacts(block).alpha[contact] == codes.NONE:
+            at = _place_pair_at(block, Contacts(block).body_i[contact], Contacts(block).body_j[contact], fraction)
+            return guard_value(block, at, number)
     at = place_at(block, fraction)
     return guard_value(block, at, number)
+
+
+@jit
+def _place_pair_at(block: Array, i: int, j: int, fraction: float) -> Pose:
+    """As `place_at`, of two bodies alone: what a contact without contact coordinates depends on."""
+    keep_small()
+    s = Stages(block)
+    n = Sizes(block).coordinates
+    for end in range(2):
+        first = 3 * (i if end == 0 else j)
+        if first < n:
+            for k in range(first, first + 3):
+                s.y_at[k] = dense_value(s.new_dense, fraction, k)
+                s.y_at[n + k] = dense_value(s.new_dense, fraction, n + k)
+    return place_pair(block, s.y_at, i, j)
 
 
 @jit

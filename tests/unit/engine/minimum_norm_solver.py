@@ -27,9 +27,9 @@ def _solve_in(block: Array, count: int, width: int) -> int:
 def solve(D: Array, b: Array) -> tuple[Array, Array, int]:
     """z, multipliers and rank by the engine, with rubbish left over in everything it need not read."""
     count, width = D.shape
-    for name in ("scaled", "basis", "triangle", "column_basis", "column_triangle", "multiplier", "solution", "dual"):
+    for name in ("basis", "triangle", "column_basis", "column_triangle", "multiplier", "solution", "dual"):
         field_of(BLOCK, name)[...] = np.nan
-    field_of(BLOCK, "scaled")[:count, :width] = D
+    field_of(BLOCK, "basis")[:count, :width] = D
     field_of(BLOCK, "right_side")[:count] = b
     rank = _solve_in(BLOCK, count, width)
     return field_of(BLOCK, "solution")[:width].copy(), field_of(BLOCK, "multiplier")[:count].copy(), rank

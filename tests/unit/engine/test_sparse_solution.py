@@ -9,7 +9,7 @@ from hypothesis import given, settings, strategies as st
 
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.linear_solve import solve, write_matrix
-from mechanism_fmu.engine.dynamics.minimum_norm import orthogonalise, solve_orthogonalised
+from mechanism_fmu.engine.dynamics.minimum_norm import expand, orthogonalise, solve_orthogonalised
 from mechanism_fmu.engine.dynamics.sparse import factorise_sparse, solve_sparse
 from mechanism_fmu.model.elimination import elimination_order
 from mechanism_fmu.tables.layout import allocate, field_of
@@ -22,6 +22,7 @@ def _solve_in(block, count, width, factor):
     write_matrix(block, count, factor)
     if factorise_sparse(block, count) and solve_sparse(block, count, width):
         return 0
+    expand(block, count, width)
     orthogonalise(block, count, width)
     solve_orthogonalised(block, count, width)
     return 1
