@@ -190,7 +190,7 @@ def test_a_method_that_there_is_not():
 
 def test_a_full_matrix_is_for_so_many_bodies():
     bodies = tuple(Body(f"disc {k}", 1.0, 1.0) for k in range(116))
-    with pytest.raises(MechanismError, match="is for 115 bodies at most, .* has 116: take 0 or 1"):
+    with pytest.raises(MechanismError, match=r"is for 115 bodies at most, .* has 116: take 0 or 1"):
         Simulation(Mechanism(bodies=bodies, settings=Settings(integration_method=IMPLICIT)))
     advanced(Mechanism(bodies=bodies), 0.01)
 

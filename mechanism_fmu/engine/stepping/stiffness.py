@@ -58,7 +58,7 @@ def look_stiff(block: Array) -> None:
 
 @jit
 def is_beyond_explicit(block: Array) -> bool:
-    """Whether the explicit step just tried, the shortest there is, has failed by stiffness alone; then goes implicit."""
+    """Whether the explicit step just tried, the shortest there is, fails by stiffness alone; then goes implicit."""
     keep_small()
     look_stiff(block)
     counters = Course(block).counters
