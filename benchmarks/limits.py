@@ -132,7 +132,7 @@ def _reasons(simulation: Simulation, steps: int) -> float:
     except SimulationError:
         pass
     turns = float(turned[2::3].max()) / (2 * math.pi)
-    return turns + float(changes.max()) / 2 + simulation.counters.item(codes.COUNT_EVENTS)
+    return turns + float(changes.max()) / 2 + int(simulation.counters[codes.COUNT_EVENTS])
 
 
 def run(
@@ -150,10 +150,10 @@ def run(
     table = Table("model", "changed", "time [s]", "steps", "implicit", "turns + swings + events", "steps each", "")
     slow = sorted((one for one in found if one.seconds > ALLOWED), key=lambda one: -one.seconds)
     for one in slow:
-        changed = ", ".join(f"{name} {value:.3g}" for name, value in one.changed.items())
+        named = ", ".join(f"{name} {value:.3g}" for name, value in one.changed.items())
         each = f"{one.steps / one.reasons:.1f}" if one.reasons else "-"
         numbers = (f"{one.seconds:.2f}", str(one.steps), str(one.implicit), f"{one.reasons:.0f}", each)
-        table.add_row(one.model, changed, *numbers, one.ending)
+        table.add_row(one.model, named, *numbers, one.ending)
     console.print(table)
     times = np.array([one.seconds for one in found])
     stiff = sum(one.implicit > 0 for one in found)

@@ -32,8 +32,8 @@ class Settings:
         baumgarte_beta: gain on the rows [1/s], in the same.
         max_internal_steps: greatest number of internal steps of one communication step, 10..1e9; a step that needs more
             ends early, with a message.
-        integration_method: integer [1]: 0 goes over from Dormand-Prince 5(4) to Rodas5P and back as stiffness asks, 1 is always
-            Dormand-Prince, explicit, 2 always Rodas5P, linearly implicit.
+        integration_method: integer [1]; 0 goes over from Dormand-Prince 5(4) to Rodas5P and back as stiffness asks, 1
+            is always Dormand-Prince, explicit, 2 always Rodas5P, linearly implicit.
     """
 
     relative_tolerance: Number = 1e-9
