@@ -136,7 +136,8 @@ MOST_STEPS = 3  # internal ones of one communication step
 IMPACT_LAW = 4
 ENERGY_GUARD = 5  # 1: an impact that would add energy is repeated by Poisson's law
 TANGENTIAL_SHOCK = 6  # 1: where no finite forces agree with friction, an impact without approach
-SETTINGS = 7
+THROUGH_SINGULARITIES = 7  # 1: singular configurations are passed along the smooth branch
+SETTINGS = 8
 
 # impact_law
 NEWTON = 0
@@ -244,7 +245,8 @@ LAST_EVENT = 5  # when the run of events began that PILE counts
 RAMP_START = 6  # when the slopes of inputs began to act
 RAMP_END = 7  # up to where they are known: no step goes beyond
 STEP_BEGUN = 8  # where the communication step began
-CLOCK_LENGTH = 9
+PASSED_AT = 9  # where the last singular configuration that was passed lies; before the first one, where the motion began
+CLOCK_LENGTH = 10
 
 # columns of the state's counters
 COUNT_IMPACTS = 0
@@ -267,7 +269,8 @@ COUNT_TRIES = 16  # steps since the start that were tried: accepted, rejected, o
 COUNT_BY_POISSON = 17  # rounds of impacts for which another law was to hold, but Poisson's did
 RUBBING = 18  # contacts, joints and brakes with friction (`friction_rows.rubbing_count`)
 SENSE = 19  # 1 where forces of what slips agree as those of little friction do, 0 beyond (see `sliding.slide`)
-COUNTERS_LENGTH = 20
+COUNT_PASSED = 20  # singular configurations that were passed, as far as the engine has computed
+COUNTERS_LENGTH = 21
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

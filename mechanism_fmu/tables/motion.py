@@ -11,6 +11,9 @@ from .method import METHOD
 #: Subject of a guard: a contact, pattern or logical function, or the status of a failure; the guard says which.
 _SUBJECT = whole(codes.NONE, int(MOST))
 
+#: So many points of the motion lead through a singular configuration.
+BEHIND = 4
+
 #: Columns of the clock and of the counters, in the order of `codes`.
 _CLOCK = {
     "TIME": FINITE,
@@ -22,6 +25,7 @@ _CLOCK = {
     "RAMP_START": FINITE,
     "RAMP_END": FINITE,
     "STEP_BEGUN": FINITE,
+    "PASSED_AT": FINITE,
 }
 _COUNTERS = {
     "COUNT_IMPACTS": COUNT,
@@ -44,6 +48,7 @@ _COUNTERS = {
     "COUNT_BY_POISSON": COUNT,
     "RUBBING": whole(0, 1, "rubs"),
     "SENSE": FLAG,
+    "COUNT_PASSED": COUNT,
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {
@@ -186,7 +191,7 @@ class Stages(Table, prefix="stage_"):
 
     `tried`: start and size of the one last tried [s]; `drift`: the most that an active row is off at its end, and a
     rate; `independence` of the rows at each of its stages, of which
-    `stage` is the one computed last; `stiffest` is the unknown that limited the steps, once that was asked.
+    `stage` is the one computed last; points of the motion behind y_start, and their derivatives (see `passing`); `stiffest` is the unknown that limited the steps, once that was asked.
     """
 
     derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
@@ -200,6 +205,8 @@ class Stages(Table, prefix="stage_"):
     new_dense = real(METHOD.dense_rows, "unknowns", name="new_dense", work=True)
     stage = integer(1, name="stage", work=True)
     independence = real(METHOD.stages, work=True)
+    behind = real(BEHIND, "unknowns", name="behind", work=True)
+    behind_rates = real(BEHIND, "unknowns", name="behind_rates", work=True)
     stiffest = integer(1, work=True)
 
 
