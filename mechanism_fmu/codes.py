@@ -137,7 +137,8 @@ METHOD = 4  # of integration: AUTOMATIC ...
 IMPACT_LAW = 5
 ENERGY_GUARD = 6  # 1: an impact that would add energy is repeated by Poisson's law
 TANGENTIAL_SHOCK = 7  # 1: where no finite forces agree with friction, an impact without approach
-SETTINGS = 8
+THROUGH_SINGULARITIES = 8  # 1: singular configurations are passed along the smooth branch
+SETTINGS = 9
 
 # method of integration
 AUTOMATIC = 0  # explicit, and implicit where the motion is stiff
@@ -250,7 +251,8 @@ LAST_EVENT = 5  # when the run of events began that PILE counts
 RAMP_START = 6  # when the slopes of inputs began to act
 RAMP_END = 7  # up to where they are known: no step goes beyond
 STEP_BEGUN = 8  # where the communication step began
-CLOCK_LENGTH = 9
+PASSED_AT = 9  # where the last singular configuration that was passed lies; before the first one, where the motion began
+CLOCK_LENGTH = 10
 
 # columns of the state's counters
 COUNT_IMPACTS = 0
@@ -277,7 +279,8 @@ IMPLICIT = 20  # 1 while steps are linearly implicit
 STIFF = 21  # steps in turn that look stiff to the explicit method, or not stiff to the implicit one
 COUNT_IMPLICIT = 22  # accepted steps since the start that were linearly implicit
 COUNT_BACK = 23  # times that the explicit method has been taken again
-COUNTERS_LENGTH = 24
+COUNT_PASSED = 24  # singular configurations that were passed, as far as the engine has computed
+COUNTERS_LENGTH = 25
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

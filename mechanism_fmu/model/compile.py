@@ -246,6 +246,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                         _IMPACT_LAWS[mechanism.impact_law],
                         mechanism.energy_guard,
                         mechanism.tangential_shock,
+                        mechanism.through_singularities,
                     ],
                     held=[coordinate_index(h, mechanism) for h in mechanism.held],
                 ),

@@ -85,6 +85,8 @@ class Mechanism:
         energy_guard: whether an impact that would add energy, as it may by Newton's law with friction, is repeated
             by Poisson's.
         tangential_shock: whether an impact without approach ends a slip with which no finite force agrees (Painlevé).
+        through_singularities: whether the motion goes on where the rank of the rows drops at one instant, as where a
+            parallelogram lies flat: along the branch on which it is smooth. Otherwise it stops there.
         rubs: names of parts that have friction for some values of parameters, besides those that have some now; a
             `Model` gives them, so that for all values its FMU has the same tables, events and default outputs.
 
@@ -111,6 +113,7 @@ class Mechanism:
     impact_law: Literal["newton", "poisson", "stronge"] = "newton"
     energy_guard: bool = True
     tangential_shock: bool = False
+    through_singularities: bool = False
     rubs: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

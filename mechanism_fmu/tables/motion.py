@@ -12,6 +12,9 @@ from .method import METHOD
 #: Subject of a guard: a contact, pattern or logical function, or the status of a failure; the guard says which.
 _SUBJECT = whole(codes.NONE, int(MOST))
 
+#: So many points of the motion lead through a singular configuration.
+BEHIND = 4
+
 #: Columns of the clock and of the counters, in the order of `codes`.
 _CLOCK = {
     "TIME": FINITE,
@@ -23,6 +26,7 @@ _CLOCK = {
     "RAMP_START": FINITE,
     "RAMP_END": FINITE,
     "STEP_BEGUN": FINITE,
+    "PASSED_AT": FINITE,
 }
 _COUNTERS = {
     "COUNT_IMPACTS": COUNT,
@@ -49,6 +53,7 @@ _COUNTERS = {
     "STIFF": COUNT,
     "COUNT_IMPLICIT": COUNT,
     "COUNT_BACK": COUNT,
+    "COUNT_PASSED": COUNT,
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {
@@ -211,7 +216,7 @@ class Stages(Table, prefix="stage_"):
     `tried`: start and size of the one last tried [s]; `drift`: the most that an active row is off at its end, and a
     rate; `independence` of the rows at each of its stages, of which `stage` is the one computed last; `looks_stiff`
     says how stiff an explicit one found the motion; `stiffest` is the unknown that limited the steps, once that was
-    asked.
+    asked; `behind` are points of the motion before y_start, with their derivatives (see `passing`).
     """
 
     derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
@@ -226,6 +231,8 @@ class Stages(Table, prefix="stage_"):
     stage = integer(1, name="stage", work=True)
     independence = real(METHOD.stages, work=True)
     looks_stiff = real(1, work=True)
+    behind = real(BEHIND, "unknowns", name="behind", work=True)
+    behind_rates = real(BEHIND, "unknowns", name="behind_rates", work=True)
     stiffest = integer(1, work=True)
 
 

@@ -88,13 +88,18 @@ LEAST_DRIFT = 1e-14
 
 @jit
 def mend(block: Array, most: float, most_rate: float) -> bool:
-    """Close the active rows at y_end when one is off by more than `most`, or its rate; whether anything was moved.
+    """Close the active rows at y_end when one is off by more than `most`, or its rate; whether anything was moved."""
+    return close_rows(block, Course(block).y_end, most, most_rate)
+
+
+@jit
+def close_rows(block: Array, y: Array, most: float, most_rate: float) -> bool:
+    """Close the active rows at `y`, shape (unknowns,), as `mend` does.
 
     Both corrections are the least in the metric of the masses, as that of an impact.
     """
     keep_small()
     n = Sizes(block).coordinates
-    y = Course(block).y_end
     moved = False
     at = place_bodies(block, y)
     settle_contact_points(block, at, y)

@@ -43,8 +43,9 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
         system.island_spot[i] = i
         system.singleton[i] = _only_entry(system.basis[i], width)
     system.independence[0] = _orthogonalise_island(system, 0, width)
-    system.rank[0] = system.island_rank[0]
-    return system.rank[0]
+    rank: int = system.island_rank[0]
+    system.rank[0] = rank
+    return rank
 
 
 @jit

@@ -69,6 +69,7 @@ def _begin_at_zero(block: Array, time: float) -> None:
     now.clock[codes.LAST_EVENT] = time
     now.clock[codes.STEP_START] = time
     now.clock[codes.STEP_SIZE] = 0.0
+    now.clock[codes.PASSED_AT] = time
     clear(Ports(block).input_slopes)  # a slope belongs to a step
     take_inputs(block)
     for k in range(codes.COUNTERS_LENGTH):

@@ -28,7 +28,7 @@ _INTERIOR = METHOD.interior
 #: The stage next to the end of the step.
 _BEFORE_LAST = _INTERIOR[-1]
 #: Rows with less independence than this (a squared sine) are singular: the configuration is passed, not just neared.
-_SINGULAR_BELOW = 1e-10
+SINGULAR_BELOW = 1e-10
 #: Dips above this are no sign of a singular configuration.
 _LOOK_BELOW = 0.1
 _SEARCH_STEPS = 60
@@ -81,7 +81,7 @@ def is_singular(block: Array) -> bool:
     dips = before or (inside < at[0] and inside < at[_LAST])
     if not dips or min(inside, at[0]) > _LOOK_BELOW:
         return False
-    return _least(block, -_BACK if before else 0.0) < _SINGULAR_BELOW
+    return least_independence(block, -_BACK if before else 0.0)[0] < SINGULAR_BELOW
 
 
 @jit
@@ -96,8 +96,8 @@ def keep_independence(block: Array) -> None:
 
 
 @jit
-def _least(block: Array, low: float) -> float:
-    """The least independence from `low` on within the step last tried, by golden section on its dense output.
+def least_independence(block: Array, low: float) -> tuple[float, float]:
+    """The least independence from `low` on within the step last tried, by golden section on its dense output; and where.
 
     Or one that is not the least, where the least is none of a singular configuration: there, the sine, the root of the
     independence, falls to zero and rises again, each nearly straight.
@@ -126,7 +126,7 @@ def _least(block: Array, low: float) -> float:
             steepest = max(steepest, abs(at_left - at_right) / (right - left))
         if min(at_left, at_right) > _STEEPER * steepest * (high - low) + _SINE_ABOVE:
             break
-    return min(at_left, at_right) ** 2
+    return min(at_left, at_right) ** 2, 0.5 * (low + high)
 
 
 @jit

@@ -26,14 +26,14 @@ def evaluate_stage(block: Array, time: float, y: Array, dy: Array) -> None:
     derivative(block, y, dy)
     if rubs(block) and Rubs(block).sense[0] != Course(block).counters[codes.SENSE]:
         dy[Sizes(block).y_loss] = math.nan  # on the way here they have been infinite
-    _note_pushes(block)
+    note_pushes(block)
     s = Stages(block)
     s.stage[0] += 1
     s.independence[s.stage[0]] = independence(block)
 
 
 @jit
-def _note_pushes(block: Array) -> None:
+def note_pushes(block: Array) -> None:
     """After an acceleration: keep the least force of every closed contact."""
     table = Contacts(block)
     tolerance = push_tolerance(block, row_count(block))

@@ -25,6 +25,7 @@ from ..vectors import clear, copy
 from .events import first_event, refine
 from .letting_go import refine_hold, refine_push, refine_slip
 from .meeting import refine_end
+from .passing import NEARER, PASSED, ahead, pass_over, passes
 from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
 from .step_size import accurate_step, smallest_step, why_no_step
@@ -103,6 +104,10 @@ def take_step(block: Array) -> int:
     if step == 0.0:
         return _shock_or_fail(block)
     singular = is_singular(block)
+    if passes(block):
+        singular, step = _lead_through(block, start, step, singular, wanted)
+        if step == 0.0:
+            return _shock_or_fail(block)
     guard, subject, fraction = first_event(block)
     if guard != codes.GUARD_NONE or singular:
         clear(Contacts(block).apart)  # what it says is of the end of a step that does not come to that
@@ -132,6 +137,35 @@ def take_step(block: Array) -> int:
     watch_step(block)
     release(block, subject if guard == codes.GUARD_GAP else codes.NONE)
     return _mend_and_check(block)
+
+
+@jit
+def _lead_through(block: Array, start: float, step: float, singular: bool, wanted: float) -> tuple[bool, float]:
+    """Make of the step last tried one that passes a singular configuration, or that comes near enough to it, if one is.
+
+    Whether the step leads over one that cannot be passed, and the size of the step [s].
+    """
+    keep_small()
+    clock = Course(block).clock
+    apart = ahead(block, singular, wanted)
+    if apart == math.inf:
+        return singular, step
+    next_step = clock[codes.NEXT_STEP]
+    outcome, size = pass_over(block, start, apart, singular)
+    if outcome == PASSED:
+        clock[codes.NEXT_STEP] = next_step
+        return False, size
+    if outcome == NEARER:
+        clock[codes.NEXT_STEP] = apart - size
+    elif singular:
+        return True, step
+    else:
+        clock[codes.NEXT_STEP] = step
+    copy(Course(block).y_end, Stages(block).y_start)
+    copy(Course(block).dy_end, Stages(block).derivatives[0])
+    step = accurate_step(block, start)
+    clock[codes.NEXT_STEP] = max(clock[codes.NEXT_STEP], next_step)
+    return step > 0.0 and is_singular(block), step
 
 
 @jit

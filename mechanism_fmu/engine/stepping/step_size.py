@@ -112,7 +112,7 @@ def accurate_step(block: Array, start: float) -> float:
     grow_most = _GROW_MOST
     while not error <= 1.0:
         now.counters[codes.COUNT_REJECTED] += 1
-        step = representable(start, step * _scale(error, 1.0))
+        step = representable(start, step * scale_of_step(error, 1.0))
         grow_most = 1.0
         if not step > smallest_step(start):
             if not is_beyond_explicit(block):
@@ -120,7 +120,7 @@ def accurate_step(block: Array, start: float) -> float:
             step = representable(start, _FIRST_IMPLICIT * smallest_step(start))
         error = _try(block, start, step)
     look_stiff(block)
-    now.clock[codes.NEXT_STEP] = step * _scale(error, grow_most)
+    now.clock[codes.NEXT_STEP] = step * scale_of_step(error, grow_most)
     if now.counters[codes.RAMPING] != 0 and grow_most > 1.0 and step < wanted:  # cut short by the slopes' end alone
         now.clock[codes.NEXT_STEP] = max(now.clock[codes.NEXT_STEP], wanted)
     return step
@@ -185,7 +185,7 @@ def representable(start: float, step: float) -> float:
 
 
 @jit
-def _scale(error: float, most: float) -> float:
+def scale_of_step(error: float, most: float) -> float:
     """Factor for the next step size."""
     if error == 0.0:
         return most

@@ -65,7 +65,8 @@ def entries(traced: Trace, block: Array) -> list[Entry]:
 def _labels(table: str, mechanism: Mechanism) -> list[str]:
     """One label a part: each has an equal share of the table."""
     if table == "settings":
-        return [*(setting.name for setting in fields(Settings)), "impact_law", "energy_guard", "tangential_shock"]
+        own = ("impact_law", "energy_guard", "tangential_shock", "through_singularities")
+        return [*(setting.name for setting in fields(Settings)), *own]
     bodies = [body.name for body in mechanism.bodies]
     owners = curve_owners(mechanism)
     elastic = structure(mechanism) if reads_members(mechanism) else Structure()

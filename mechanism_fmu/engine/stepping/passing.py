@@ -1,0 +1,296 @@
+"""Through a singular configuration along the smooth branch, where `Mechanism.through_singularities` says so.
+
+Rows that depend on each other determine no acceleration, but where branches cross with different tangents, the motion
+along one of them is smooth. So it is not integrated there: a polynomial through points of the motion before, with their
+derivatives (Hermite), leads as far beyond the instant of dependence as the step has begun before it, where the rows are
+as independent again, and is put right there. The points are those of the motion itself, found by true steps backward in
+time; nothing is assumed of energy. A polynomial of fewer points estimates the error, by the tolerance of all steps; where
+it is too large, the step ends nearer to that instant, and the next one tries again. A motion that is not smooth there (a
+toggle position, where forces grow without limit) comes ever nearer without success, and is refused as without the option.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.method import CUBIC_ROWS, METHOD
+from ...tables.motion import BEHIND, Course, LinearSystem, Rows, Rubs, Stages
+from ...tables.parts import Bodies, Contacts, Options
+from ...tables.sizes import Sizes
+from ..compiler.subset import jit, keep_small
+from ..constraints.friction_rows import rubs
+from ..constraints.rows import row_count
+from ..dynamics.acceleration import LEAST_DRIFT, close_rows, derivative
+from ..dynamics.forces import set_time
+from ..interpolation import interpolate
+from ..vectors import clear, copy, largest
+from .events import first_event
+from .runge_kutta import ABSOLUTE_FRACTION, try_step
+from .singular import SINGULAR_BELOW, independence, least_independence
+from .stage import note_pushes
+from .step_size import scale_of_step, smallest_step, within_motions, within_ramp
+
+_LAST = METHOD.last
+_BEFORE_LAST = METHOD.interior[-1]
+_ROWS = METHOD.dense_rows
+
+#: Whether it is passed, may be passed from nearer, or not at all.
+PASSED = 1
+NEARER = 2
+REFUSED = 3
+#: An instant of dependence so far ahead, in parts of the step that was wanted, is met: the next step would begin in it,
+#: or with errors that forbid all but ever smaller steps.
+_MET_WITHIN = 1.5
+#: Within a step it is sought from so much of a step before it on: it may be where it begins.
+_BACK = 0.5
+#: Nearer than this sine, rounding is most of what rows say about velocities along the other branch.
+_LEAST_SINE = 1e-4
+#: Points behind are no closer to each other than where the sine is this: from nearer ones, rounding would be carried on.
+_SPACED_BY = 3e-3
+#: Steps from one point to the next: beside the dependence, off the rows, accelerations change in proportion to 1 over
+#: the distance from it, so that steps must be short beside that.
+_PARTS = 6
+#: So much nearer it is tried where nothing says how much.
+_HALF = 0.5
+
+
+@jit
+def passes(block: Array) -> bool:
+    """Whether singular configurations are to be passed."""
+    wanted: bool = Options(block).settings[codes.THROUGH_SINGULARITIES] > 0.5
+    return wanted
+
+
+@jit
+def passed_in_step(block: Array) -> bool:
+    """Whether the engine's own step has passed a singular configuration: only its dense output leads through."""
+    clock = Course(block).clock
+    passed: bool = clock[codes.STEP_START] < clock[codes.PASSED_AT] < clock[codes.STEP_END]
+    return passed
+
+
+@jit
+def ahead(block: Array, singular: bool, wanted: float) -> float:
+    """How long after the start of the step last tried the rows depend on each other [s]; infinite where they do not.
+
+    Where the step is `singular`, that is within it. Otherwise it may be soon after its end: the sine falls to zero
+    nearly straight. `wanted` is the size [s] that was tried first.
+    """
+    keep_small()
+    s = Stages(block)
+    h: float = s.tried[1]
+    if singular:
+        return least_independence(block, -_BACK)[1] * h
+    last = math.sqrt(s.independence[_LAST])
+    first = math.sqrt(s.independence[0])
+    if not first > last:
+        return math.inf
+    apart = first / (first - last) * h
+    return apart if apart <= _MET_WITHIN * max(h, wanted) else math.inf
+
+
+@jit
+def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple[int, float]:
+    """Try to pass the dependence that is `apart` [s] after y_start at `start` [s].
+
+    Returns:
+        `PASSED` and the size of the step [s], which is as one tried and accurate; `NEARER` and how far before the
+        dependence it may be tried again [s]; or `REFUSED` and 0. In the last two cases the stages are lost.
+
+    """
+    keep_small()
+    s = Stages(block)
+    sine = math.sqrt(Course(block).independence_end[0])
+    if Course(block).counters[codes.IMPLICIT] == 1:  # what decays fast grows as fast on the way back
+        return REFUSED, 0.0
+    if not (sine > _LEAST_SINE and apart > smallest_step(start)):
+        return REFUSED, 0.0
+    size = within_motions(block, start, within_ramp(block, start, 2.0 * apart))
+    size = (start + size) - start
+    spacing = apart * max(1.0, _SPACED_BY / sine)
+    if not (size > apart and _look_back(block, start, spacing)):
+        return REFUSED, 0.0
+    nearest = apart * _LEAST_SINE / sine
+    error = _read_on(block, size, spacing)
+    if not error <= 1.0:
+        return _nearer(apart * min(scale_of_step(error, 1.0), _HALF), nearest)
+    if not _put_right(block, start, size) <= 1.0:
+        return _nearer(apart * _HALF, nearest)
+    _write_dense(block, start, size, spacing)
+    if not _is_as_before(block):
+        return _nearer(apart * _HALF, nearest)
+    least, fraction = least_independence(block, 0.0)
+    if least >= SINGULAR_BELOW:
+        if singular:
+            return _nearer(apart * _HALF, nearest)
+        return REFUSED, 0.0  # it is only neared
+    _prepare_looks(block, start + size)
+    if first_event(block)[0] != codes.GUARD_NONE:  # what happens before is found in the step that comes nearer
+        return _nearer(apart * _HALF, nearest)
+    Course(block).clock[codes.PASSED_AT] = start + fraction * size
+    Course(block).counters[codes.COUNT_PASSED] += 1
+    return PASSED, size
+
+
+@jit
+def _nearer(apart: float, nearest: float) -> tuple[int, float]:
+    if apart > nearest:
+        return NEARER, apart
+    return REFUSED, 0.0
+
+
+@jit
+def _look_back(block: Array, start: float, spacing: float) -> bool:
+    """Write the points behind y_start, `spacing` [s] apart, with their derivatives; whether the rows are as now there."""
+    keep_small()
+    s = Stages(block)
+    copy(s.y_start, s.y_new)
+    is_same = True
+    short = spacing / _PARTS
+    for part in range((BEHIND - 1) * _PARTS + 1):
+        time = start - part * short
+        if part > 0:
+            try_step(block, time + short, -short)
+        set_time(block, time)
+        close_rows(block, s.y_new, LEAST_DRIFT, LEAST_DRIFT)
+        derivative(block, s.y_new, s.derivatives[_LAST])
+        is_same = is_same and LinearSystem(block).rank[0] == Course(block).counters[codes.RANK]
+        if part % _PARTS == 0:
+            copy(s.y_new, s.behind[part // _PARTS])
+            copy(s.derivatives[_LAST], s.behind_rates[part // _PARTS])
+        copy(s.y_new, s.y_start)
+        copy(s.derivatives[_LAST], s.derivatives[0])
+    return is_same
+
+
+@jit
+def _read_on(block: Array, size: float, spacing: float) -> float:
+    """Read the polynomial `size` [s] after y_start into y_new; return the error norm, by one of a point less."""
+    keep_small()
+    s = Stages(block)
+    _hermite(block, size / spacing, spacing, BEHIND - 1, s.y_at)
+    _hermite(block, size / spacing, spacing, BEHIND, s.y_new)
+    return _distance(block, s.y_new, s.y_at)
+
+
+@jit
+def _hermite(block: Array, place: float, spacing: float, count: int, y: Array) -> None:
+    """Y at `place` (in spacings after the last point) by the polynomial through the last `count` points.
+
+    Its values and derivatives there are theirs: Hermite's, by Lagrange's polynomials l of the points,
+    y = sum (1 - 2 l'(x_k) (x - x_k)) l(x)^2 y_k + (x - x_k) l(x)^2 y'_k.
+    """
+    keep_small()
+    s = Stages(block)
+    clear(y)
+    for k in range(count):
+        away = place + k  # the points are at 0, -1, -2 ...
+        lagrange = 1.0
+        slope = 0.0
+        for j in range(count):
+            if j != k:
+                lagrange *= (place + j) / (j - k)
+                slope += 1.0 / (j - k)
+        square = lagrange * lagrange
+        for i in range(y.shape[0]):
+            y[i] += square * ((1.0 - 2.0 * slope * away) * s.behind[k, i] + away * spacing * s.behind_rates[k, i])
+
+
+@jit
+def _distance(block: Array, y: Array, other: Array) -> float:
+    """A difference over its tolerance: the most of that of positions, of rates, and of each other unknown.
+
+    Positions and rates are measured together, in the metric of the masses: of the branches that cross, one may be that
+    of a body that does not turn, whose angle, 0, would be held to the absolute tolerance, finer than rounding there.
+    """
+    keep_small()
+    n = Sizes(block).coordinates
+    relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
+    most = max(_by_mass(block, y[:n], other[:n]), _by_mass(block, y[n:], other[n:])) / relative
+    for i in range(2 * n, Sizes(block).y_wear):
+        most = max(most, abs(y[i] - other[i]) / (relative * (ABSOLUTE_FRACTION + abs(y[i]))))
+    return most
+
+
+@jit
+def _by_mass(block: Array, values: Array, others: Array) -> float:
+    """A difference of positions or rates over their size, in the metric of the masses."""
+    keep_small()
+    inverse = Bodies(block).inverse_mass
+    size = difference = 0.0
+    for k in range(Sizes(block).coordinates):
+        size += values[k] * values[k] / inverse[k]
+        difference += (values[k] - others[k]) * (values[k] - others[k]) / inverse[k]
+    if difference == 0.0:
+        return 0.0
+    return math.sqrt(difference / size)
+
+
+@jit
+def _put_right(block: Array, start: float, size: float) -> float:
+    """Close the rows at y_new, with the derivative there; return by how much it moves, over the tolerance."""
+    keep_small()
+    s = Stages(block)
+    copy(s.y_new, s.y_at)
+    set_time(block, start + size)
+    close_rows(block, s.y_new, LEAST_DRIFT, LEAST_DRIFT)
+    derivative(block, s.y_new, s.derivatives[_LAST])
+    count = row_count(block)
+    s.drift[0] = largest(Rows(block).residual, count)
+    s.drift[1] = largest(Rows(block).residual_rate, count)
+    return _distance(block, s.y_new, s.y_at)
+
+
+@jit
+def _is_as_before(block: Array) -> bool:
+    """After the acceleration at y_new: whether rows are as independent, and friction agrees as it has."""
+    keep_small()
+    now = Course(block)
+    if rubs(block) and Rubs(block).sense[0] != now.counters[codes.SENSE]:
+        return False
+    s = Stages(block)
+    s.independence[_BEFORE_LAST] = 0.0
+    s.independence[_LAST] = independence(block)
+    same_rank: bool = LinearSystem(block).rank[0] == now.counters[codes.RANK]
+    return same_rank and math.sqrt(s.independence[_LAST]) > _LEAST_SINE
+
+
+@jit
+def _write_dense(block: Array, start: float, size: float, spacing: float) -> None:
+    """The cubic through both ends, and the row beyond it so that it goes through the polynomial's middle."""
+    keep_small()
+    s = Stages(block)
+    s.tried[0] = start
+    s.tried[1] = size
+    copy(Course(block).y_end, s.y_start)
+    copy(Course(block).dy_end, s.derivatives[0])
+    _hermite(block, 0.5 * size / spacing, spacing, BEHIND, s.y_stage)
+    dense = s.new_dense
+    for i in range(s.y_new.shape[0]):
+        change = s.y_new[i] - s.y_start[i]
+        bend = size * s.derivatives[0, i] - change
+        dense[0, i] = s.y_start[i]
+        dense[1, i] = change
+        dense[2, i] = bend
+        dense[3, i] = change - size * s.derivatives[_LAST, i] - bend
+        for row in range(CUBIC_ROWS, _ROWS):
+            dense[row, i] = 0.0
+    if _ROWS > CUBIC_ROWS:
+        interpolate(dense, 0.5, s.y_at)
+        for i in range(s.y_new.shape[0]):
+            dense[CUBIC_ROWS, i] = 16.0 * (s.y_stage[i] - s.y_at[i])  # it counts by t^2 (1 - t)^2
+
+
+@jit
+def _prepare_looks(block: Array, end: float) -> None:
+    """Forces of contacts and friction as the search for events looks at them: those at y_new, at the time `end` [s]."""
+    keep_small()
+    s = Stages(block)
+    clear(Contacts(block).least_push)
+    if rubs(block):
+        clear(Rubs(block).least_hold)
+    set_time(block, end)
+    derivative(block, s.y_new, s.derivatives[_LAST])
+    note_pushes(block)

@@ -1,0 +1,45 @@
+"""N-four-bar mechanism (IFToMM benchmark A02): N equal parallelograms in a row, 2N + 1 uniform rods of 1 m and 1 kg.
+
+Rockers on ground pivots (i, 0), upright at first, couplers from (i, 1) to (i + 1, 1); weight, and the first rocker's end
+at 1 m/s along x. Wherever the rockers lie flat, the rank of the rows drops by N: each parallelogram might go on crossed.
+As parallelograms they have one coordinate, the angle of the rockers:
+
+    ((N + 1) / 3 + N) angle'' = -g ((N + 1) / 2 + N) cos(angle).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from mechanism_fmu.model import GROUND, Body, Mechanism, Revolute, Torque
+from mechanism_fmu.model.mechanism import Settings
+
+GRAVITY = 9.81
+
+
+def n_four_bar(
+    count: int, tolerance: float = 1e-9, through: bool = True, angle: float = math.pi / 2, speed: float = -1.0
+) -> Mechanism:
+    """The mechanism with rockers at an angle [rad] that turn at `speed` [rad/s]; `torque` [N m] acts on the first one."""
+    c, s = math.cos(angle), math.sin(angle)
+    dx, dy = -speed * s, speed * c
+    bodies, joints = [], []
+    for k in range(count + 1):
+        place = (k + c / 2, s / 2, angle)
+        bodies.append(Body(f"rocker{k}", 1.0, 1 / 12, place, start_rate=(dx / 2, dy / 2, speed)))
+        joints.append(Revolute(f"pivot{k}", f"rocker{k}", (-0.5, 0.0), GROUND, (float(k), 0.0)))
+    for k in range(count):
+        bodies.append(Body(f"coupler{k}", 1.0, 1 / 12, (k + c + 0.5, s, 0.0), start_rate=(dx, dy, 0.0)))
+        joints.append(Revolute(f"left{k}", f"coupler{k}", (-0.5, 0.0), f"rocker{k}", (0.5, 0.0)))
+        joints.append(Revolute(f"right{k}", f"coupler{k}", (0.5, 0.0), f"rocker{k + 1}", (0.5, 0.0)))
+    return Mechanism(
+        bodies=tuple(bodies),
+        joints=tuple(joints),
+        forces=(Torque("drive", "rocker0"),),
+        gravity=(0.0, -GRAVITY),
+        settings=Settings(relative_tolerance=tolerance),
+        through_singularities=through,
+    )
