@@ -293,6 +293,16 @@ class MovingMechanism:
         """
         return field_of(self._block, name)
 
+    def passed_configurations(self) -> tuple[int, float]:
+        """How many singular configurations have been passed so far, and when the last one was [s]; NaN if not known.
+
+        It is not while the engine, which is ahead by a step, has already passed another one.
+        """
+        count, last = int(self.counters[codes.COUNT_PASSED]), float(self.field("clock")[codes.PASSED_AT])
+        if count == 0 or last > self.time:
+            return max(0, count - 1), math.nan
+        return count, last
+
     def pulling_contacts(self) -> dict[str, float]:
         """Closed contacts that have pulled so far, with the first time [s] at which each did."""
         times = field_of(self._block, "pull_time").tolist()

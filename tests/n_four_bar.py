@@ -1,10 +1,10 @@
 """N-four-bar mechanism (IFToMM benchmark A02): N equal parallelograms in a row, 2N + 1 uniform rods of 1 m and 1 kg.
 
-Rockers on ground pivots (i, 0), upright at first, couplers from (i, 1) to (i + 1, 1); weight, and the first rocker's end
-at 1 m/s along x. Wherever the rockers lie flat, the rank of the rows drops by N: each parallelogram might go on crossed.
-As parallelograms they have one coordinate, the angle of the rockers:
+Rockers on ground pivots (i, 0), upright at first, couplers from (i, 1) to (i + 1, 1); weight, and the first rocker's
+end at 1 m/s along x. Wherever the rockers lie flat, the rank of the rows drops by N: each parallelogram might go on
+crossed. As parallelograms they have one coordinate, the angle of the rockers; with a torque T on the first one,
 
-    ((N + 1) / 3 + N) angle'' = -g ((N + 1) / 2 + N) cos(angle).
+    ((N + 1) / 3 + N) angle'' = T - g ((N + 1) / 2 + N) cos(angle).
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ import math
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from mechanism_fmu.model import GROUND, Body, Mechanism, Revolute, Torque
-from mechanism_fmu.model.mechanism import Settings
+from mechanism_fmu.model import GROUND, Body, Input, Mechanism, Output, Revolute, Settings, Torque
 
 GRAVITY = 9.81
+ANGLE, SPEED = math.pi / 2, -1.0
 
 
 def n_four_bar(
-    count: int, tolerance: float = 1e-9, through: bool = True, angle: float = math.pi / 2, speed: float = -1.0
+    count: int, tolerance: float = 1e-9, through: bool = True, angle: float = ANGLE, speed: float = SPEED
 ) -> Mechanism:
-    """The mechanism with rockers at an angle [rad] that turn at `speed` [rad/s]; `torque` [N m] acts on the first one."""
+    """The mechanism, its rockers at an angle [rad] with a speed [rad/s]; input `torque` [N.m] acts on the first one."""
     c, s = math.cos(angle), math.sin(angle)
     dx, dy = -speed * s, speed * c
     bodies, joints = [], []
@@ -39,7 +39,28 @@ def n_four_bar(
         bodies=tuple(bodies),
         joints=tuple(joints),
         forces=(Torque("drive", "rocker0"),),
+        inputs=(Input("torque", "drive", 0.0, unit="N.m"),),
+        outputs=(
+            Output("angle", "rocker0.angle", "rad"),
+            Output("speed", "rocker0.speed", "rad/s"),
+            Output("last_angle", f"rocker{count}.angle", "rad"),
+            Output("energy", "energy.total", "J"),
+        ),
         gravity=(0.0, -GRAVITY),
         settings=Settings(relative_tolerance=tolerance),
         through_singularities=through,
     )
+
+
+def known(count: int, time: float, torque: float = 0.0, angle: float = ANGLE, speed: float = SPEED) -> list[float]:
+    """Angle [rad] and speed [rad/s] of the rockers at a time [s], by the equation of the one coordinate."""
+    inertia, moment = (count + 1) / 3 + count, GRAVITY * ((count + 1) / 2 + count)
+    found = solve_ivp(
+        lambda _t, y: [y[1], (torque - moment * np.cos(y[0])) / inertia],
+        (0.0, time),
+        [angle, speed],
+        "DOP853",
+        rtol=1e-13,
+        atol=1e-14,
+    )
+    return [float(value) for value in found.y[:, -1]]

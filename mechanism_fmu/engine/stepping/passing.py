@@ -4,9 +4,10 @@ Rows that depend on each other determine no acceleration, but where branches cro
 along one of them is smooth. So it is not integrated there: a polynomial through points of the motion before, with their
 derivatives (Hermite), leads as far beyond the instant of dependence as the step has begun before it, where the rows are
 as independent again, and is put right there. The points are those of the motion itself, found by true steps backward in
-time; nothing is assumed of energy. A polynomial of fewer points estimates the error, by the tolerance of all steps; where
-it is too large, the step ends nearer to that instant, and the next one tries again. A motion that is not smooth there (a
-toggle position, where forces grow without limit) comes ever nearer without success, and is refused as without the option.
+time; nothing is assumed of energy. A polynomial of fewer points estimates the error, by the tolerance of all steps;
+where it is too large, the step ends nearer to that instant, and the next one tries again. A motion that is not smooth
+there (a toggle position, where forces grow without limit) comes ever nearer without success, and is refused as without
+the option.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ _MET_WITHIN = 1.5
 _BACK = 0.5
 #: Nearer than this sine, rounding is most of what rows say about velocities along the other branch.
 _LEAST_SINE = 1e-4
-#: Points behind are no closer to each other than where the sine is this: from nearer ones, rounding would be carried on.
+#: Points behind are no closer to each other than where the sine is this: nearer ones would carry rounding on.
 _SPACED_BY = 3e-3
 #: Steps from one point to the next: beside the dependence, off the rows, accelerations change in proportion to 1 over
 #: the distance from it, so that steps must be short beside that.
@@ -98,10 +99,8 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
     Returns:
         `PASSED` and the size of the step [s], which is as one tried and accurate; `NEARER` and how far before the
         dependence it may be tried again [s]; or `REFUSED` and 0. In the last two cases the stages are lost.
-
     """
     keep_small()
-    s = Stages(block)
     sine = math.sqrt(Course(block).independence_end[0])
     if Course(block).counters[codes.IMPLICIT] == 1:  # what decays fast grows as fast on the way back
         return REFUSED, 0.0
@@ -143,7 +142,7 @@ def _nearer(apart: float, nearest: float) -> tuple[int, float]:
 
 @jit
 def _look_back(block: Array, start: float, spacing: float) -> bool:
-    """Write the points behind y_start, `spacing` [s] apart, with their derivatives; whether the rows are as now there."""
+    """Write the points behind y_start, `spacing` [s] apart, with derivatives; whether the rows are as now there."""
     keep_small()
     s = Stages(block)
     copy(s.y_start, s.y_new)

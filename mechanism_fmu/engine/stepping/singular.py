@@ -97,7 +97,7 @@ def keep_independence(block: Array) -> None:
 
 @jit
 def least_independence(block: Array, low: float) -> tuple[float, float]:
-    """The least independence from `low` on within the step last tried, by golden section on its dense output; and where.
+    """The least independence from `low` on in the step last tried, by golden section on the dense output; and where.
 
     Or one that is not the least, where the least is none of a singular configuration: there, the sine, the root of the
     independence, falls to zero and rises again, each nearly straight.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -31,10 +32,11 @@ class News:
         self._impacts = 0 if simulation is None else simulation.counters.item(codes.COUNT_IMPACTS)
         self._events = 0 if simulation is None else simulation.counters.item(codes.COUNT_EVENTS)
         self._lost = 0 if simulation is None else simulation.counters.item(codes.COUNT_LOST)
+        self._passed = 0 if simulation is None else simulation.passed_configurations()[0]
         self._pulls = set[str]() if simulation is None else set(simulation.pulling_contacts())
 
     def since_last(self, simulation: MovingMechanism) -> Iterator[Message]:
-        """Impacts and events of the step, those that the buffers lost, contacts that have begun to pull."""
+        """Impacts and events of the step, those that the buffers lost, what was passed, and what has begun to pull."""
         counters = simulation.counters
         if counters.item(codes.COUNT_IMPACTS) != self._impacts:
             self._impacts = counters.item(codes.COUNT_IMPACTS)
@@ -52,6 +54,16 @@ class News:
                 "use a shorter communication step.",
                 Fmi2Status.warning,
                 "logStatusWarning",
+            )
+        passed, last = simulation.passed_configurations()
+        if passed != self._passed:
+            new, self._passed = passed - self._passed, passed
+            known = "" if math.isnan(last) else f", the last one at t = {last:.12g} s"
+            yield Message(
+                f"Singular configurations passed along the smooth branch in the step to t = {simulation.time:.9g} s: "
+                f"{new}{known}.",
+                Fmi2Status.ok,
+                "logEvents",
             )
         if counters.item(codes.COUNT_PULLS) > len(self._pulls):
             for contact, time in simulation.pulling_contacts().items():

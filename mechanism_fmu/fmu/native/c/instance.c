@@ -177,7 +177,7 @@ Status prepare(Instance *x) {
     memcpy(FIELD(x, input_slopes), slopes, model.inputs * sizeof(double));
     if (outcome != STATUS_OK) return failed(x, outcome);
     forget_news(x); /* while it is not prepared, nothing counts as logged */
-    x->logged_impacts = x->logged_events = x->logged_lost = 0;
+    x->logged_impacts = x->logged_events = x->logged_lost = x->logged_passed = 0;
     x->head.prepared = 1;
     return OK;
 }

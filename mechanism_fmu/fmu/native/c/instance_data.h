@@ -44,7 +44,7 @@ struct Instance {
     double *findings;
     double *block;
     int outputs_read;
-    int64_t logged_impacts, logged_events, logged_lost;
+    int64_t logged_impacts, logged_events, logged_lost, logged_passed;
     unsigned char *logged_pull;
 };
 

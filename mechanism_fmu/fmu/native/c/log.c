@@ -62,11 +62,23 @@ Status give_up(const Instance *x, const char *format, ...) {
     return status;
 }
 
+/* Whether the singular configuration passed last is behind: the engine may be ahead of it by a step. */
+static int is_behind(const Instance *x) {
+    return FIELD(x, clock)[CODE_PASSED_AT] <= time_of(x);
+}
+
+/* Singular configurations passed so far. */
+static int64_t passed(const Instance *x) {
+    int64_t count = COUNTERS(x)[CODE_COUNT_PASSED];
+    return count > 0 && !is_behind(x) ? count - 1 : count;
+}
+
 void forget_news(Instance *x) {
     const int64_t *counters = COUNTERS(x);
     x->logged_impacts = counters[CODE_COUNT_IMPACTS];
     x->logged_events = counters[CODE_COUNT_EVENTS];
     x->logged_lost = counters[CODE_COUNT_LOST];
+    x->logged_passed = passed(x);
     for (size_t c = 0; c < SIZE(x, contacts); c++)
         x->logged_pull[c] = x->head.prepared && FIELD(x, pull_time)[c] <= time_of(x);
 }
@@ -153,6 +165,15 @@ static void log_events(Instance *x, int64_t new_events) {
     }
 }
 
+static void log_passed(Instance *x, int64_t count) {
+    char known[60] = "";
+    if (is_behind(x))
+        snprintf(known, sizeof known, ", the last one at t = %.12g s", FIELD(x, clock)[CODE_PASSED_AT]);
+    say(x, OK, "logEvents",
+        "Singular configurations passed along the smooth branch in the step to t = %.9g s: %lld%s.", time_of(x),
+        (long long)count, known);
+}
+
 void log_news(Instance *x) {
     const int64_t *counters = COUNTERS(x);
     if (counters[CODE_COUNT_IMPACTS] != x->logged_impacts) log_impacts(x);
@@ -162,6 +183,7 @@ void log_news(Instance *x) {
             "%lld impacts of the step to t = %.9g s did not fit into impacts[1..%zu] and are lost to the outside (the "
             "motion is right); use a shorter communication step.",
             (long long)(counters[CODE_COUNT_LOST] - x->logged_lost), time_of(x), SIZE(x, buffer));
+    if (passed(x) != x->logged_passed) log_passed(x, passed(x) - x->logged_passed);
     for (size_t c = 0; c < SIZE(x, contacts); c++)
         if (FIELD(x, pull_time)[c] <= time_of(x) && !x->logged_pull[c])
             say(x, WARNING, "logStatusWarning",
