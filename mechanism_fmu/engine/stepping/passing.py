@@ -47,12 +47,14 @@ _MET_WITHIN = 1.5
 #: Within a step it is sought from so much of a step before it on: it may be where it begins.
 _BACK = 0.5
 #: Nearer than this sine, rounding is most of what rows say about velocities along the other branch.
-_LEAST_SINE = 1e-4
+_LEAST_SINE = 1.5e-5
 #: Points behind are no closer to each other than where the sine is this: nearer ones would carry rounding on.
 _SPACED_BY = 3e-3
 #: Steps from one point to the next: beside the dependence, off the rows, accelerations change in proportion to 1 over
 #: the distance from it, so that steps must be short beside that.
 _PARTS = 6
+#: Where it cannot be tried from nearer, rounding may be more than the tolerance, but not more than this.
+_ROUNDING = 1e-8
 #: So much nearer it is tried where nothing says how much.
 _HALF = 0.5
 
@@ -112,10 +114,13 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
     if not (size > apart and _look_back(block, start, spacing)):
         return REFUSED, 0.0
     nearest = apart * _LEAST_SINE / sine
+    most = 1.0
+    if apart * _HALF <= nearest:
+        most = max(1.0, _ROUNDING / Options(block).settings[codes.RELATIVE_TOLERANCE])
     error = _read_on(block, size, spacing)
-    if not error <= 1.0:
+    if not error <= most:
         return _nearer(apart * min(scale_of_step(error, 1.0), _HALF), nearest)
-    if not _put_right(block, start, size) <= 1.0:
+    if not _put_right(block, start, size) <= most:
         return _nearer(apart * _HALF, nearest)
     _write_dense(block, start, size, spacing)
     if not _is_as_before(block):

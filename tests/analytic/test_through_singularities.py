@@ -1,0 +1,130 @@
+"""Through singular configurations along the smooth branch: parallelograms that lie flat, against their one coordinate."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mechanism_fmu import codes
+from mechanism_fmu.model import Settings
+from mechanism_fmu.simulation import Simulation, SimulationError
+from tests.n_four_bar import GRAVITY, known, n_four_bar
+
+# Turns once in some 1.92 s, and lies flat twice in each.
+FIRST, BOTH = 1.0, 2.0
+
+
+def passed(simulation: Simulation) -> int:
+    return simulation.passed_configurations()[0]
+
+
+@pytest.mark.parametrize("count", [1, 2, 10])
+@pytest.mark.parametrize("tolerance", [1e-7, 1e-9])
+def test_the_published_ten_seconds(count: int, tolerance: float) -> None:
+    """IFToMM A02: what the steps lose of energy is in proportion to the tolerance, ten passes included."""
+    simulation = Simulation(n_four_bar(count, tolerance))
+    start = simulation.read()["kinetic"]
+    simulation.advance(10.0)
+    found = simulation.read()
+    assert passed(simulation) == 10
+    assert found["kinetic"] == pytest.approx(start + found["work"], abs=100 * tolerance * (count + 1) * GRAVITY)
+    assert [found["angle"], found["speed"]] == pytest.approx(known(count, 10.0), abs=1e3 * tolerance)
+    assert found["last_angle"] == pytest.approx(found["angle"], abs=1e-9)  # on the branch of the parallelogram
+
+
+@pytest.mark.slow
+def test_eighty_one_bodies() -> None:
+    simulation = Simulation(n_four_bar(40, 1e-8))
+    simulation.advance(10.0)
+    found = simulation.read()
+    assert passed(simulation) == 10
+    assert [found["angle"], found["speed"]] == pytest.approx(known(40, 10.0), abs=1e-5)
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-7, 1e-8, 1e-9, 1e-10])
+def test_a_pass_is_as_accurate_as_a_step(tolerance: float) -> None:
+    simulation = Simulation(n_four_bar(1, tolerance))
+    simulation.advance(BOTH)
+    found = simulation.read()
+    assert passed(simulation) == 2
+    assert [found["angle"], found["speed"]] == pytest.approx(known(1, BOTH), abs=100 * tolerance)
+
+
+def test_the_instant_is_known() -> None:
+    simulation = Simulation(n_four_bar(1))
+    simulation.advance(FIRST)
+    count, at = simulation.passed_configurations()
+    assert count == 1
+    angle, _ = known(1, at)
+    assert math.cos(angle) == pytest.approx(-1.0, abs=1e-5) or math.cos(angle) == pytest.approx(1.0, abs=1e-5)
+    assert simulation.counters.item(codes.COUNT_EVENTS) == 0
+
+
+def test_the_default_stops_and_names_the_way_on() -> None:
+    with pytest.raises(SimulationError, match=r"A singular configuration lies ahead.*through_singularities=True"):
+        Simulation(n_four_bar(1, through=False)).advance(FIRST)
+
+
+def test_driven_all_the_way() -> None:
+    """A torque, held over each millisecond, that changes where it lies flat, too."""
+    simulation = Simulation(n_four_bar(2))
+    angle, speed = math.pi / 2, -1.0
+    for k in range(1000):
+        torque = 5.0 * math.sin(0.02 * k)
+        simulation.set_input("torque", torque)
+        simulation.advance((k + 1) * 1e-3)
+        angle, speed = known(2, 1e-3, torque, angle, speed)
+    found = simulation.read()
+    assert passed(simulation) == 1
+    assert [found["angle"], found["speed"]] == pytest.approx([angle, speed], abs=1e-6)
+
+
+def test_any_communication_step_gives_the_same_bits() -> None:
+    at_once = Simulation(n_four_bar(2))
+    at_once.advance(BOTH)
+    in_parts = Simulation(n_four_bar(2))
+    for time in np.linspace(0.0, BOTH, 778)[1:]:
+        in_parts.advance(float(time))
+    np.testing.assert_array_equal(in_parts.read_array(), at_once.read_array())
+    assert passed(in_parts) == passed(at_once) == 2
+
+
+def inside() -> Simulation:
+    """At an instant within the step that leads through the first one, just before it."""
+    simulation = Simulation(n_four_bar(1))
+    simulation.advance(FIRST)
+    time = simulation.passed_configurations()[1] - 1e-5
+    simulation = Simulation(n_four_bar(1))
+    simulation.advance(time)
+    assert passed(simulation) == 0
+    assert simulation.counters.item(codes.COUNT_PASSED) == 1
+    return simulation
+
+
+def test_a_state_saved_inside_goes_on_to_the_same_bits() -> None:
+    simulation = inside()
+    saved = simulation.state.copy()
+    simulation.advance(BOTH)
+    expected = simulation.read_array()
+    other = Simulation(n_four_bar(1))
+    other.state[:] = saved
+    other.advance(BOTH)
+    np.testing.assert_array_equal(other.read_array(), expected)
+
+
+def test_an_input_changes_inside() -> None:
+    """Just before the instant, where the engine has passed it already."""
+    simulation = inside()
+    time = simulation.time
+    simulation.set_input("torque", 3.0)
+    simulation.advance(FIRST)
+    found = simulation.read()
+    assert passed(simulation) == 1
+    assert [found["angle"], found["speed"]] == pytest.approx(known(1, FIRST - time, 3.0, *known(1, time)), abs=1e-6)
+
+
+def test_stiff_motions_are_refused_by_name() -> None:
+    mechanism = replace(n_four_bar(1), settings=Settings(integration_method=codes.IMPLICIT_METHOD))
+    with pytest.raises(SimulationError, match="A singular configuration lies ahead"):
+        Simulation(mechanism).advance(FIRST)
