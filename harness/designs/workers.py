@@ -13,6 +13,8 @@ from multiprocessing.process import BaseProcess
 from time import perf_counter
 from typing import Any
 
+from mechanism_fmu.processors import processors
+
 from ..fmu import Fmu
 from ..fmu.processes import BrokenFrameError, LateFrameError, Wire, serve_only, starting_from
 from ..run.master import never
@@ -30,11 +32,13 @@ class Backend:
         name: what the results call it.
         run: runs some designs and gives a result for each; called in worker processes, so it must be importable there.
         together: how many designs are given to one call.
+        side_by_side: how many of them one call runs at the same time.
     """
 
     name: str
     run: Callable[[Fmu, Task, Sequence[Design]], list[Result]]
     together: int = 1
+    side_by_side: int = 1
 
 
 BY_FMU = Backend(by_fmu.NAME, by_fmu.run_designs)
@@ -44,7 +48,8 @@ def by_batch_in(threads: int | None) -> Backend:
     """The way of many designs in one call, in so many threads; None: as many as there are processors."""
     from . import by_batch  # the engine's way in, which takes a moment to load
 
-    return Backend(by_batch.NAME, partial(by_batch.run_designs, threads=threads), by_batch.TOGETHER)
+    count = threads or processors()
+    return Backend(by_batch.NAME, partial(by_batch.run_designs, threads=count), max(by_batch.TOGETHER, count), count)
 
 
 # Who runs the designs: this process (`here`), or some of this machine's.
@@ -86,8 +91,12 @@ def portions(designs: Iterable[Design], size: int) -> Iterator[list[Design]]:
 
 
 def here(work: Work, designs: Iterable[Design], stop_requested: Callable[[], bool] = never) -> Iterator[Pairs]:
-    """Run designs in this process, in portions that take half a second or so: that much work is lost by a kill."""
-    rest, size = iter(designs), 1
+    """Run designs in this process, in portions that take half a second or so: that much work is lost by a kill.
+
+    Each portion is as much as keeps all threads busy: a generation of a search has few designs.
+    """
+    least = work.way.side_by_side
+    rest, size = iter(designs), least
     while portion := list(islice(rest, size)):
         if stop_requested():
             return
@@ -96,7 +105,7 @@ def here(work: Work, designs: Iterable[Design], stop_requested: Callable[[], boo
         good = sum(result.failure is None for _, result in done)
         if good:  # what fails at once says nothing about how long the others take
             fitting = int(_PORTION * good / (perf_counter() - began))
-            size = max(1, min(fitting, 2 * size, work.way.together))
+            size = max(least, min(fitting, 2 * size, work.way.together) // least * least)
         yield done
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from ctypes import CDLL, c_void_p
 from dataclasses import dataclass, replace
@@ -17,6 +16,7 @@ from ..engine.run import load
 from ..fmu.instance.news import pulls
 from ..fmu.native.objects import Report, library_here, silently
 from ..model import MechanismError, Model
+from ..processors import processors
 from .job import Job
 from .numbers import Array, BatchResult, Numbers
 from .origin import NoBatchError, model_of_fmu
@@ -120,7 +120,7 @@ class Batch:
             extremes: whether to keep the least and greatest values that the outputs have at the start, at communication
                 points and at the end.
             until_impact: whether to stop each design right after its first impact.
-            threads: how many; None: as many as this process has processors.
+            threads: how many; None: as many as this process may use (`mechanism_fmu.processors`).
             progress: called a few times a second with how many designs are done, and of how many.
 
         Raises:
@@ -142,7 +142,7 @@ class Batch:
             extremes=extremes,
             until_impact=until_impact,
         )
-        threads = max(1, min(threads or _processors(), count))
+        threads = max(1, min(threads or processors(), count))
         failures: Refusals = {}
         warnings: Refusals = {}
         for first in range(0, count, _CHUNK):
@@ -220,8 +220,3 @@ def _warned(text: str, contacts: Sequence[str], times: Array) -> str:
     """What is said at the start, and of each contact that has pulled, in the order of time; a line each."""
     pulled = sorted((time, name) for name, time in zip(contacts, times.tolist(), strict=True) if time < math.inf)
     return "\n".join(filter(None, (text, *(pulls(name, time).text for time, name in pulled))))
-
-
-def _processors() -> int:
-    """Those that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

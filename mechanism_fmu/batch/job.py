@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..tables.layout import scratch_begins
 from ..tables.sizes import sizes_of
 from .numbers import Array
 
@@ -17,7 +18,8 @@ class Job:
     """Designs that differ in some words of their blocks, and take the same communication steps.
 
     Attributes:
-        given: a block before its first call, shape (words,).
+        words: length of a block.
+        given: what a block holds before its first call: tables and state, shape (words before the scratch,).
         varied_word: the words that differ, shape (varied,).
         varied_value: what stands there, shape (designs, varied).
         times: start, then the end of each communication step [s], shape (points + 1,).
@@ -36,6 +38,7 @@ class Job:
         next: number of the design that is taken next, shape (1,).
     """
 
+    words: int
     given: Array
     varied_word: Array
     varied_value: Array
@@ -72,7 +75,7 @@ class Job:
         """A job without answers, whose designs do not differ yet.
 
         Args:
-            given: a block before its first call.
+            given: a block before its first call, shape (words,).
             times: start, and ends of the steps [s].
             until_impact: as of the class.
             drivers: values of inputs for each communication step, by the input's word.
@@ -84,7 +87,8 @@ class Job:
         """
         looked = designs if extremes else 0
         return cls(
-            given=given,
+            words=len(given),
+            given=given[: scratch_begins(given)].copy(),
             varied_word=np.empty(0, np.int64),
             varied_value=np.empty((designs, 0)),
             times=times,
@@ -135,7 +139,7 @@ _ARRAYS = (
     *_FOUND,
     "next",
 )
-_SIZES = ("words", "designs", "varied", "points", "driven", "read", "fields", "kept", "until_impact")
+_SIZES = ("words", "given_words", "designs", "varied", "points", "driven", "read", "fields", "kept", "until_impact")
 
 
 class CJob(ctypes.Structure):
@@ -150,6 +154,7 @@ class CJob(ctypes.Structure):
 def as_c(job: Job) -> CJob:
     """A job for C, which holds the addresses of the job's arrays: keep the job as long."""
     sizes = (
+        job.words,
         len(job.given),
         len(job.status),
         len(job.varied_word),

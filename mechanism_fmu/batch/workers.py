@@ -31,7 +31,8 @@ class OneByOne:
 
     def __init__(self, job: Job, mechanism: Mechanism, library: CDLL | None) -> None:
         self._job = job
-        self._block = job.given.copy()
+        self._block = np.zeros(job.words)
+        self._block[: len(job.given)] = job.given
         self._simulation = MovingMechanism.over(mechanism, self._block, library)
         self._records = self._simulation.field("impacts")
         self._pull_time = self._simulation.field("pull_time")
@@ -44,7 +45,7 @@ class OneByOne:
         """
         job, simulation = self._job, self._simulation
         job.impact_count[design] = 0
-        self._block[:] = job.given
+        self._block[: len(self._job.given)] = self._job.given
         self._block[job.varied_word] = job.varied_value[design]
         self._drive(0)
         simulation.begin(float(job.times[0]))
@@ -124,7 +125,7 @@ def run_job(job: Job, mechanism: Mechanism, library: CDLL | None, threads: int, 
     whole = as_c(job)
 
     def in_one_call() -> None:
-        block = np.empty_like(job.given)
+        block = np.zeros(job.words)  # of its scratch, the largest part, only what is used takes memory
         library.engine_many(byref(whole), block.ctypes.data)
 
     _share(job, threads, in_one_call, progress)

@@ -80,8 +80,13 @@ def state_of(block: Array) -> Array:
     """A view of the whole state, shape (words,): copy it to save, write it to restore."""
     header = block[:_HEADER].view(np.int64)
     first = next(f.name for f in FIELDS if f.section == "state")
+    return block[int(header[_SLOTS[first]]) : scratch_begins(block)]
+
+
+def scratch_begins(block: Array) -> int:
+    """The first word of a block's scratch, on which no result depends: it is the last part, and the largest."""
     after = next(f.name for f in FIELDS if f.section == "work")
-    return block[int(header[_SLOTS[first]]) : int(header[_SLOTS[after]])]
+    return int(block[:_HEADER].view(np.int64)[_SLOTS[after]])
 
 
 def shape_of(field: Field, sizes: dict[str, int]) -> tuple[int, ...]:

@@ -127,12 +127,16 @@ class LinearSystem(Table):
 
     `rank` is that of D, and `independence` says how far its least independent row is from depending on the others: the
     share of its squared length that is left after projection. A row of `scaled` has three entries of each of the
-    bodies in `scaled_body`. The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies
-    `plan_body`; `fill` are the earlier places with which a row has entries, `fill_count` many from `fill_start` on, and
-    `lower` these entries: what is behind the last one is never touched, and costs no memory. The dense one, `by_pivots`, has a basis of orthonormal rows, of which `singleton` says in which column their only entry
-    is, if there is one only. It goes island by island: the rows of one are `island_row` in `island_range` (`island_spot` says
-    where there a row is), its basis rows the first `island_rank` of `order` there, of which those before
-    `island_singletons` have one entry only; its bodies have the columns `island_column`, `island_width` in all.
+    bodies in `scaled_body`.
+
+    The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies `plan_body`;
+    `fill` are the earlier places with which a row has entries, `fill_count` many from `fill_start` on, and `lower`
+    these entries: what is behind the last one is never touched, and costs no memory.
+
+    The dense one, `by_pivots`, has a basis of orthonormal rows, of which `singleton` says in which column their only
+    entry is, if there is one only. It goes island by island: the rows of one are `island_row` in `island_range`, and
+    `island_spot` says where there a row is; its basis rows are the first `island_rank` of `order` there, of which those
+    before `island_singletons` have one entry only; its bodies have the columns `island_column`, `island_width` in all.
     """
 
     scaled = real("rows", 6, work=True)

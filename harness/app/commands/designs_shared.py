@@ -15,6 +15,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from mechanism_fmu.fmu.disk.user_cache import was_built_here
+from mechanism_fmu.processors import processors
 from mechanism_fmu.stress import beam_theory_note
 
 from ...designs import sweep as sweeps
@@ -44,7 +45,7 @@ class Runners:
     """Who runs the designs, as the options of the commands say.
 
     Attributes:
-        workers: how many; None: as many as there are processors.
+        workers: how many; None: as many as this process may use (`mechanism_fmu.processors`).
         scheduler: address of a cluster's; None: this machine.
         fast: whether the designs run in this process, by the Python sources in the FMU.
         trust: whether these may be run, though no build of this user has made the FMU.
@@ -193,7 +194,7 @@ def executor_of(fmu: Fmu, task: Task, runners: Runners) -> Iterator[Executor]:
         yield partial(here, Work(fmu, task, by_batch_in(runners.workers)))
         return
     if runners.scheduler is None:
-        with Processes(Work(fmu, task, BY_FMU), runners.workers or os.cpu_count() or 1) as processes:
+        with Processes(Work(fmu, task, BY_FMU), runners.workers or processors()) as processes:
             yield processes.run
         return
     try:

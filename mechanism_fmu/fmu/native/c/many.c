@@ -11,7 +11,7 @@
 
 /* As in mechanism_fmu/batch/job.py, which explains it. */
 typedef struct {
-    int64_t words, designs, varied, points, driven, read, fields, kept, until_impact;
+    int64_t words, given_words, designs, varied, points, driven, read, fields, kept, until_impact;
     const double *given;
     const int64_t *varied_word;
     const double *varied_value;
@@ -65,7 +65,7 @@ static void look(const Job *job, double *block, int64_t design) {
 }
 
 static int64_t run(const Job *job, double *block, int64_t design) {
-    memcpy(block, job->given, (size_t)job->words * sizeof(double));
+    memcpy(block, job->given, (size_t)job->given_words * sizeof(double));
     for (int64_t k = 0; k < job->varied; k++)
         block[job->varied_word[k]] = job->varied_value[design * job->varied + k];
     drive(job, block, 0);
