@@ -311,7 +311,7 @@ def _choose_pivot(system: LinearSystem, r: int, end: int) -> float:
 
 @jit
 def _solve_full_rank(block: Array, first: int, end: int, singletons: int) -> None:
-    """L coefficient = b forwards, then L^T multiplier = coefficient backwards; singletons have no share in each other."""
+    """L coefficient = b forwards, then L^T multiplier = coefficient backwards; singletons share nothing."""
     system = LinearSystem(block)
     for r in range(first, singletons):
         p = system.order[r]
