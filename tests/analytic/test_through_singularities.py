@@ -1,4 +1,4 @@
-"""Through singular configurations along the smooth branch: parallelograms that lie flat, against their one coordinate."""
+"""Through singular configurations along the smooth branch: parallelograms that lie flat, by their one coordinate."""
 
 import math
 from dataclasses import replace
