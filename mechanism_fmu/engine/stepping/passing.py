@@ -53,8 +53,8 @@ _SPACED_BY = 3e-3
 #: Steps from one point to the next: beside the dependence, off the rows, accelerations change in proportion to 1 over
 #: the distance from it, so that steps must be short beside that.
 _PARTS = 6
-#: Where it cannot be tried from nearer, rounding may be more than the tolerance, but not more than this.
-_ROUNDING = 1e-8
+#: Nearer than this sine, rounding is most of the error, which may be more than the tolerance, but not than this.
+_ROUNDING_BELOW, _ROUNDING = 1e-3, 1e-8
 #: So much nearer it is tried where nothing says how much.
 _HALF = 0.5
 
@@ -115,7 +115,7 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
         return REFUSED, 0.0
     nearest = apart * _LEAST_SINE / sine
     most = 1.0
-    if apart * _HALF <= nearest:
+    if sine < _ROUNDING_BELOW:
         most = max(1.0, _ROUNDING / Options(block).settings[codes.RELATIVE_TOLERANCE])
     error = _read_on(block, size, spacing)
     if not error <= most:
