@@ -190,7 +190,7 @@ def test_the_address_holds_what_differs_from_the_start(page_of: Callable[[str], 
 @needs_node
 def test_sliders_stay_in_their_range_and_hold_the_start(page_of: Callable[[str], Path]) -> None:
     (sliders,) = in_node(["sliders"], of=page_of("ratchet"))
-    assert len(sliders) == 40
+    assert len(sliders) == 41
     for one in sliders:
         values, (low, high) = np.array(one["values"]), one["range"]
         assert one["ofStart"] == one["start"], one["name"]
