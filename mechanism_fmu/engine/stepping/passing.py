@@ -54,7 +54,9 @@ _SPACED_BY = 3e-3
 #: the distance from it, so that steps must be short beside that.
 _PARTS = 6
 #: Nearer than this sine, rounding is most of the error, which may be more than the tolerance, but not than this.
-_ROUNDING_BELOW, _ROUNDING = 1e-3, 1e-8
+_ROUNDING_BELOW, _ROUNDING = 3e-3, 1e-8
+#: And nearer than this one, rows are not closed: what they are off, over the sine, is motion along the other branch.
+_CLOSED_ABOVE = 1e-3
 #: So much nearer it is tried where nothing says how much.
 _HALF = 0.5
 
@@ -108,10 +110,10 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
         return REFUSED, 0.0
     if not (sine > _LEAST_SINE and apart > smallest_step(start)):
         return REFUSED, 0.0
-    size = within_motions(block, start, within_ramp(block, start, 2.0 * apart))
-    size = (start + size) - start
     spacing = apart * max(1.0, _SPACED_BY / sine)
-    if not (size > apart and _look_back(block, start, spacing)):
+    size = within_motions(block, start, within_ramp(block, start, apart + spacing))
+    size = (start + size) - start
+    if not (size > apart and _look_back(block, start, spacing, sine < _CLOSED_ABOVE)):
         return REFUSED, 0.0
     nearest = apart * _LEAST_SINE / sine
     most = 1.0
@@ -146,8 +148,12 @@ def _nearer(apart: float, nearest: float) -> tuple[int, float]:
 
 
 @jit
-def _look_back(block: Array, start: float, spacing: float) -> bool:
-    """Write the points behind y_start, `spacing` [s] apart, with derivatives; whether the rows are as now there."""
+def _look_back(block: Array, start: float, spacing: float, near: bool) -> bool:
+    """Write the points behind y_start, `spacing` [s] apart, with derivatives; whether the rows are as now there.
+
+    Where y_start is `near` the dependence, rows are closed from the next point on only: what they are off there, 1e-12
+    on a dense output, the small sine would turn into a thousand or more of it along the other branch.
+    """
     keep_small()
     s = Stages(block)
     copy(s.y_start, s.y_new)
@@ -158,7 +164,8 @@ def _look_back(block: Array, start: float, spacing: float) -> bool:
         if part > 0:
             try_step(block, time + short, -short)
         set_time(block, time)
-        close_rows(block, s.y_new, LEAST_DRIFT, LEAST_DRIFT)
+        if not near or part >= _PARTS:
+            close_rows(block, s.y_new, LEAST_DRIFT, LEAST_DRIFT)
         derivative(block, s.y_new, s.derivatives[_LAST])
         is_same = is_same and LinearSystem(block).rank[0] == Course(block).counters[codes.RANK]
         if part % _PARTS == 0:
