@@ -219,7 +219,7 @@ def _distance(block: Array, y: Array, other: Array) -> float:
     keep_small()
     n = Sizes(block).coordinates
     relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
-    most = max(_by_mass(block, y[:n], other[:n]), _by_mass(block, y[n:], other[n:])) / relative
+    most: float = max(_by_mass(block, y[:n], other[:n]), _by_mass(block, y[n:], other[n:])) / relative
     for i in range(2 * n, Sizes(block).y_wear):
         most = max(most, abs(y[i] - other[i]) / (relative * (ABSOLUTE_FRACTION + abs(y[i]))))
     return most
