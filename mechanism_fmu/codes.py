@@ -251,9 +251,7 @@ LAST_EVENT = 5  # when the run of events began that PILE counts
 RAMP_START = 6  # when the slopes of inputs began to act
 RAMP_END = 7  # up to where they are known: no step goes beyond
 STEP_BEGUN = 8  # where the communication step began
-PASSED_AT = (
-    9  # where the last singular configuration that was passed lies; before the first one, where the motion began
-)
+PASSED_AT = 9  # of the last singular configuration that was passed; before the first one, where the motion began
 CLOCK_LENGTH = 10
 
 # columns of the state's counters

@@ -65,7 +65,7 @@ ADVICE = {
     "on along more than one branch, as where a parallelogram lies flat. Keep the mechanism away from it, or add a part "
     "that leads it through, such as a third crank out of line; or, where it goes on as it came, give the mechanism "
     "through_singularities=True. Where it has that, "
-    "no smooth branch was found that is as accurate as asked.",
+    "no smooth branch was found as accurate as asked, or an event or rest is too near to it.",
     OUT_OF_REACH: "The joints cannot be kept from here on: a driver has come to the end of its range, where links lie "
     "in one line, and asks for more. Let its motion turn back before, drive another body, or change lengths.",
     NO_PLACE: "No copy of a pattern was found on which the point can start. Give start positions nearer to the "

@@ -42,8 +42,8 @@ PASSED = 1
 NEARER = 2
 REFUSED = 3
 #: An instant of dependence so far ahead, in parts of the step that was wanted, is met: the next step would begin in it,
-#: or with errors that forbid all but ever smaller steps.
-_MET_WITHIN = 1.5
+#: or with errors that forbid all but ever smaller steps. Below such a sine, where these begin, it is met in any case.
+_MET_WITHIN, _MET_BELOW = 1.5, 0.015
 #: Within a step it is sought from so much of a step before it on: it may be where it begins.
 _BACK = 0.5
 #: Nearer than this sine, rounding is most of what rows say about velocities along the other branch.
@@ -93,7 +93,7 @@ def ahead(block: Array, singular: bool, wanted: float) -> float:
     if not first > last:
         return math.inf
     apart = first / (first - last) * h
-    return apart if apart <= _MET_WITHIN * max(h, wanted) else math.inf
+    return apart if apart <= _MET_WITHIN * max(h, wanted) or first < _MET_BELOW else math.inf
 
 
 @jit
@@ -138,6 +138,26 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
     Course(block).clock[codes.PASSED_AT] = start + fraction * size
     Course(block).counters[codes.COUNT_PASSED] += 1
     return PASSED, size
+
+
+@jit
+def read_passed(block: Array) -> None:
+    """Bring y_end to TIME, within the engine's own step that has passed one, by its polynomial made anew.
+
+    The step's dense output is of lower degree: it is off the rows by 1e-11, which over a small sine is motion along the
+    other branch. It asks for the inputs that were held.
+    """
+    keep_small()
+    s = Stages(block)
+    now = Course(block)
+    start = now.clock[codes.STEP_START]
+    copy(now.dense[0], s.y_start)
+    set_time(block, start)
+    derivative(block, s.y_start, s.derivatives[0])
+    sine = math.sqrt(independence(block))
+    spacing = (now.clock[codes.PASSED_AT] - start) * max(1.0, _SPACED_BY / sine)
+    _look_back(block, start, spacing, sine < _CLOSED_ABOVE)
+    _hermite(block, (now.clock[codes.TIME] - start) / spacing, spacing, BEHIND, now.y_end)
 
 
 @jit

@@ -24,7 +24,7 @@ from ..dynamics.forces import feed, inputs_changed, set_time, show_reached, take
 from ..dynamics.oscillation import observe
 from ..interpolation import interpolate
 from ..vectors import clear, copy
-from .passing import passed_in_step
+from .passing import passed_in_step, read_passed
 from .runge_kutta import initial_step_size, try_step
 from .singular import keep_independence, note_rank
 from .step import take_step, watch_at
@@ -210,20 +210,19 @@ def resume(block: Array) -> int:
 def _step_back(block: Array) -> None:
     """Bring y_end back to TIME by a true step of its own from STEP_START, with the inputs that were held.
 
-    The dense output is less accurate, which adds up when inputs change at every communication point. Through a singular
-    configuration there is no other.
+    The dense output is less accurate, which adds up when inputs change at every communication point.
     """
     keep_small()
     now = Course(block)
     s = Stages(block)
     start = now.clock[codes.STEP_START]
+    feed(block, Ports(block).held_inputs)
     if passed_in_step(block):
-        state_at_time(block, now.y_end)
+        read_passed(block)
         now.counters[codes.FALLING] = 0
         if now.clock[codes.TIME] < now.clock[codes.PASSED_AT]:
             now.counters[codes.FALLING] = 1
         return
-    feed(block, Ports(block).held_inputs)
     set_time(block, start)
     copy(now.dense[0], s.y_start)
     derivative(block, s.y_start, s.derivatives[0])
