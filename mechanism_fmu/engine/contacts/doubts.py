@@ -14,7 +14,7 @@ from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, slips
-from ..dynamics.minimum_norm import take_out_range
+from ..dynamics.dependent_rows import take_out_range
 from ..vectors import copy
 from .complementarity import agrees
 from .trial import COUNT

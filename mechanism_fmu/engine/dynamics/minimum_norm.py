@@ -16,6 +16,8 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import LinearSystem
 from ..compiler.subset import jit, keep_small
+from ..vectors import add_multiple, dot
+from .dependent_rows import solve_dependent
 from .islands import find_islands
 
 #: A row depends on the rows before it when less than this fraction of its length is left after projection.
@@ -24,8 +26,6 @@ RANK_TOLERANCE = 1e-10
 _REORTHOGONALISE_BELOW = 0.25
 #: Below this fraction, the squared length left of a row is computed afresh, because subtraction has cancelled it.
 _RECOMPUTE_BELOW = 1e-4
-#: Columns of two bodies.
-_TWO_BODIES = 6
 
 
 @jit
@@ -84,7 +84,7 @@ def _orthogonalise_island(system: LinearSystem, island: int, width: int) -> floa
     for q in range(first, end):
         i = system.island_row[q]
         system.order[q] = i
-        square = _dot(basis[i], basis[i], width)
+        square = dot(basis[i], basis[i], width)
         system.row_norm[i, 0] = square
         system.row_norm[i, 1] = square
         system.row_norm[i, 2] = 1.0 if square > 0.0 else 0.0
@@ -100,13 +100,13 @@ def _orthogonalise_island(system: LinearSystem, island: int, width: int) -> floa
                 system.island_singletons[island] = r + 1
             _eliminate_singleton(system, r, end, width)
             continue
-        square = _dot(basis[p], basis[p], width)
+        square = dot(basis[p], basis[p], width)
         if square < _REORTHOGONALISE_BELOW * system.row_norm[p, 0]:
             for j in range(first, r):
-                share = _dot(basis[system.order[j]], basis[p], width)
+                share = dot(basis[system.order[j]], basis[p], width)
                 system.triangle[p, j] += share
-                _add_multiple(basis[p], -share, basis[system.order[j]], width)
-            square = _dot(basis[p], basis[p], width)
+                add_multiple(basis[p], -share, basis[system.order[j]], width)
+            square = dot(basis[p], basis[p], width)
         if not square > RANK_TOLERANCE * RANK_TOLERANCE * system.row_norm[p, 0]:  # what rounding hid from the pivoting
             return independence
         independence = fraction
@@ -116,11 +116,11 @@ def _orthogonalise_island(system: LinearSystem, island: int, width: int) -> floa
             basis[p, k] /= length
         for s in range(r + 1, end):
             i = system.order[s]
-            share = _dot(basis[p], basis[i], width)
+            share = dot(basis[p], basis[i], width)
             system.triangle[i, r] = share
             if share == 0.0:  # most rows have no body in common
                 continue
-            _add_multiple(basis[i], -share, basis[p], width)
+            add_multiple(basis[i], -share, basis[p], width)
             system.singleton[i] = codes.NONE
             _note_what_is_left(system, i, share, width)
     system.island_rank[island] = end - first
@@ -197,7 +197,7 @@ def _note_what_is_left(system: LinearSystem, row: int, share: float, width: int)
     """A row has lost its share in a basis row: note its squared length now."""
     left = system.row_norm[row, 1] - share * share
     if left < _RECOMPUTE_BELOW * system.row_norm[row, 0]:
-        left = _dot(system.basis[row], system.basis[row], width)
+        left = dot(system.basis[row], system.basis[row], width)
     system.row_norm[row, 1] = left
     system.row_norm[row, 2] = left / system.row_norm[row, 0]
 
@@ -234,7 +234,7 @@ def _solve_island(block: Array, island: int) -> None:
     if system.island_rank[island] == end - first:
         _solve_full_rank(block, first, end, system.island_singletons[island])
     else:
-        _solve_deficient(block, first, end, first + system.island_rank[island])
+        solve_dependent(block, first, end, first + system.island_rank[island])
 
 
 @jit
@@ -247,7 +247,7 @@ def _combine(system: LinearSystem, island: int, solution: Array, width: int) -> 
         column = system.singleton[p]
         solution[column] += system.coefficient[r] * system.basis[p, column]
     for r in range(singletons, first + system.island_rank[island]):
-        _add_multiple(solution, system.coefficient[r], system.basis[system.order[r]], width)
+        add_multiple(solution, system.coefficient[r], system.basis[system.order[r]], width)
 
 
 @jit
@@ -262,34 +262,6 @@ def _scatter(system: LinearSystem, island: int, ground: int) -> None:
                 column = system.island_column[system.scaled_body[row, end]]
                 for k in range(3):
                     system.solution[first + k] = system.island_solution[column + k]
-
-
-@jit
-def take_out_range(block: Array, row: int, count: int, left: Array) -> None:
-    """The part of a row's unit vector that is outside the range of all rows, into `left`, shape (count,).
-
-    That is by which multipliers may change without any change of the rates. Only behind a solution by pivots of rows
-    that depend on each other.
-    """
-    keep_small()
-    system = LinearSystem(block)
-    for r in range(count):
-        left[r] = 0.0
-    left[row] = 1.0
-    island = 0
-    while system.island_range[island, 1] <= system.island_spot[row]:
-        island += 1
-    first = system.island_range[island, 0]
-    rank = system.island_rank[island]
-    end = system.island_range[island, 1]
-    if rank == end - first:
-        left[row] = 0.0
-        return
-    spot = system.island_spot[row] - first
-    for j in range(first, first + rank):
-        share = system.column_basis[j, spot]
-        for q in range(first, end):
-            left[system.island_row[q]] -= share * system.column_basis[j, q - first]
 
 
 @jit
@@ -331,85 +303,3 @@ def _solve_full_rank(block: Array, first: int, end: int, singletons: int) -> Non
             q = system.order[s]
             value -= system.triangle[q, r] * system.multiplier[q]
         system.multiplier[p] = value / system.triangle[p, r]
-
-
-@jit
-def _solve_deficient(block: Array, first: int, end: int, after: int) -> None:
-    """L = U R by columns; coefficient = R^-1 U^T b, multiplier = U R^-T coefficient.
-
-    The basis rows are in the places from `first` to `after`. A row of `column_basis` has the entries of the island's
-    rows, in the order of `island_row`.
-    """
-    keep_small()
-    system = LinearSystem(block)
-    u = system.column_basis
-    triangle = system.column_triangle
-    count = end - first
-    b = system.gathered
-    for i in range(count):
-        b[i] = system.right_side[system.island_row[first + i]]
-    for r in range(first, after):
-        for i in range(count):
-            u[r, i] = system.triangle[system.island_row[first + i], r]
-        for i in range(first, r):
-            u[r, system.island_spot[system.order[i]] - first] = 0.0
-            triangle[i, r] = 0.0
-        for _ in range(2):
-            for j in range(first, r):
-                share = _dot(u[j], u[r], count)
-                triangle[j, r] += share
-                _add_multiple(u[r], -share, u[j], count)
-        length = math.sqrt(_dot(u[r], u[r], count))
-        triangle[r, r] = length
-        for i in range(count):
-            u[r, i] /= length
-    for r in range(first, after):
-        system.coefficient[r] = _dot(u[r], b, count)
-    for back in range(after - first):
-        r = after - 1 - back
-        for s in range(r + 1, after):
-            system.coefficient[r] -= triangle[r, s] * system.coefficient[s]
-        system.coefficient[r] /= triangle[r, r]
-    for i in range(count):
-        b[i] = 0.0
-    for r in range(first, after):
-        value = system.coefficient[r]
-        for j in range(first, r):
-            value -= triangle[j, r] * system.dual[j]
-        system.dual[r] = value / triangle[r, r]
-        _add_multiple(b, system.dual[r], u[r], count)
-    for i in range(count):
-        system.multiplier[system.island_row[first + i]] = b[i]
-
-
-@jit
-def _dot(a: Array, b: Array, length: int) -> float:
-    """Scalar product of the first `length` entries, in four sums: one would wait for each addition."""
-    if length == _TWO_BODIES:  # the same without a loop, whose overhead would be most of the work
-        total: float = (a[0] * b[0] + a[4] * b[4] + a[5] * b[5] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
-        return total
-    first = second = third = fourth = 0.0
-    whole = length - length % 4
-    for k in range(0, whole, 4):
-        first += a[k] * b[k]
-        second += a[k + 1] * b[k + 1]
-        third += a[k + 2] * b[k + 2]
-        fourth += a[k + 3] * b[k + 3]
-    for k in range(whole, length):
-        first += a[k] * b[k]
-    return (first + second) + (third + fourth)
-
-
-@jit
-def _add_multiple(target: Array, factor: float, source: Array, length: int) -> None:
-    """Target += factor * source, in the first `length` entries."""
-    if length == _TWO_BODIES:
-        target[0] += factor * source[0]
-        target[1] += factor * source[1]
-        target[2] += factor * source[2]
-        target[3] += factor * source[3]
-        target[4] += factor * source[4]
-        target[5] += factor * source[5]
-        return
-    for k in range(length):
-        target[k] += factor * source[k]
