@@ -42,7 +42,7 @@ from .growth import chain
 from .timing import DisagreementError, batch, in_turns
 
 #: Of a batch, of a sweep by FMI calls, and of an optimisation.
-_BATCH, _SWEEP, _SEARCH = 512, 96, 96
+_BATCH, _SWEEP, _SEARCH = 512, 384, 384
 _FILE = """
 [fmu]
 file = "{fmu}"

@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from statistics import median
 
 import numpy as np
@@ -164,6 +165,19 @@ def planetary(count: int) -> Mechanism:
     return Mechanism((sun, carrier, *planets), tuple(joints))
 
 
+def landing(count: int) -> Mechanism:
+    """The blocks a hand's breadth above the floor, so that all contacts strike in one instant, after 0.1 s.
+
+    Args:
+        count: of blocks.
+    """
+    standing = blocks(count)
+    higher = (replace(body, start=(body.start[0], body.start[1] + 0.05, 0.0)) for body in standing.bodies)
+    return replace(standing, bodies=tuple(higher))
+
+
+#: So many bodies have the motions of many.
+_LARGE = (50, 100, 200, 400)
 #: What is timed besides, by name.
 _OTHERS: dict[str, Callable[[], Mechanism]] = {
     "planetary train, 3 planets": lambda: planetary(3),
@@ -172,6 +186,11 @@ _OTHERS: dict[str, Callable[[], Mechanism]] = {
     "N-four-bar, N = 40": lambda: four_bars(40),
     "25 blocks on 50 contacts": lambda: blocks(25),
 }
+#: Motions of many, by name, and how long they last [s].
+_MOTIONS: tuple[tuple[str, Callable[[int], Mechanism], float], ...] = (
+    ("bars of a chain, 20 ms", chain, 0.02),
+    ("blocks that land at once, 0.2 s", landing, 0.2),
+)
 
 
 @entry
@@ -227,6 +246,25 @@ def alone(mechanism: Mechanism, rounds: int) -> float:
     return median(batch(lambda: _repeat(block, y, dy, calls), 1) / calls for _ in range(rounds))
 
 
+def of_motion(mechanism: Mechanism, until: float, rounds: int) -> tuple[float, float]:
+    """Processor time of a motion [s], and how much of its block was written [MB].
+
+    Args:
+        mechanism: which.
+        until: end of the motion [s].
+        rounds: whose median the time is.
+    """
+    simulation = Simulation(mechanism)
+    simulation.advance(until)
+    written = np.count_nonzero(simulation._block) * simulation._block.itemsize / 1e6
+
+    def once() -> None:
+        simulation.begin(0.0)
+        simulation.advance(until)
+
+    return median(batch(once, 1) for _ in range(rounds)), written
+
+
 def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -240,6 +278,14 @@ def main() -> None:
     print(f"The engine's time grows as the number of bars to the power of {exponent:.2f}, from 20 to 100.")
     for name, made in _OTHERS.items():
         print(f"{name:27s} {1e6 * alone(made(), rounds):7.2f}")
+    print("motions, with all events, checks and projections         [ms], and what is written of a block [MB]")
+    for name, of_many, until in _MOTIONS:
+        times = {}
+        for count in _LARGE:
+            times[count], written = of_motion(of_many(count), until, rounds)
+            print(f"{count:4d} {name:30s} {1e3 * times[count]:8.2f} {written:7.2f}")
+        exponent = math.log(times[_LARGE[-1]] / times[_LARGE[0]]) / math.log(_LARGE[-1] / _LARGE[0])
+        print(f"     as their number to the power of {exponent:.2f}")
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import LinearSystem
+from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..vectors import add_multiple, dot
 from .dependent_rows import solve_dependent
@@ -30,7 +31,7 @@ _RECOMPUTE_BELOW = 1e-4
 
 @jit
 def orthogonalise(block: Array, count: int, width: int) -> int:
-    """D = L Q, with D in `basis`[:count, :width] (see `expand`); return its rank, which is left in `rank`, too.
+    """D = L Q, with D in `basis`[:count, :width], and `singleton` (see `expand`); return its rank, kept in `rank`, too.
 
     All rows make one island. D is lost.
     """
@@ -41,7 +42,6 @@ def orthogonalise(block: Array, count: int, width: int) -> int:
     for i in range(count):
         system.island_row[i] = i
         system.island_spot[i] = i
-        system.singleton[i] = _only_entry(system.basis[i], width)
     system.independence[0] = _orthogonalise_island(system, 0, width)
     rank: int = system.island_rank[0]
     system.rank[0] = rank
@@ -61,9 +61,7 @@ def orthogonalise_islands(block: Array, count: int, width: int) -> None:
     least = 1.0
     for island in range(system.islands[0]):
         for q in range(system.island_range[island, 0], system.island_range[island, 1]):
-            row = system.island_row[q]
-            _expand_in_island(system, row, system.island_width[island], width)
-            system.singleton[row] = _only_entry(system.basis[row], system.island_width[island])
+            _expand_row(system, system.island_row[q], system.island_width[island], width)
         least = min(least, _orthogonalise_island(system, island, system.island_width[island]))
         system.rank[0] += system.island_rank[island]
     system.independence[0] = least
@@ -129,45 +127,36 @@ def _orthogonalise_island(system: LinearSystem, island: int, width: int) -> floa
 
 @jit
 def expand(block: Array, count: int, width: int) -> None:
-    """Write D, of which `scaled` has the entries of two bodies a row, to the first `width` columns of `basis`."""
+    """Write D, of which `scaled` has the entries of two bodies a row, to the first `width` columns of `basis`.
+
+    And to `singleton` in which column the only entry of a row is; `codes.NONE` where there are more, or none.
+    """
     system = LinearSystem(block)
+    for body in range(Sizes(block).bodies):
+        system.island_column[body] = 3 * body
     for i in range(count):
-        basis = system.basis[i]
-        for k in range(width):
-            basis[k] = 0.0
-        for end in range(2):
-            first = 3 * system.scaled_body[i, end]
-            if first < width:
-                basis[first] = system.scaled[i, 3 * end]
-                basis[first + 1] = system.scaled[i, 3 * end + 1]
-                basis[first + 2] = system.scaled[i, 3 * end + 2]
+        _expand_row(system, i, width, width)
 
 
 @jit
-def _expand_in_island(system: LinearSystem, row: int, width: int, ground: int) -> None:
-    """As `expand`, of one row, with the columns of its island."""
-    keep_small()
+def _expand_row(system: LinearSystem, row: int, width: int, ground: int) -> None:
+    """As `expand`, of one row, with the columns of its island; those of the ground, from `ground` on, are left out."""
     basis = system.basis[row]
     for k in range(width):
         basis[k] = 0.0
+    only = codes.NONE
+    entries = 0
     for end in range(2):
         body = system.scaled_body[row, end]
         if 3 * body < ground:
             column = system.island_column[body]
             for k in range(3):
-                basis[column + k] = system.scaled[row, 3 * end + k]
-
-
-@jit
-def _only_entry(row: Array, width: int) -> int:
-    """In which column of a row its only entry is; `codes.NONE` where there are more, or none."""
-    found = codes.NONE
-    for k in range(width):
-        if row[k] != 0.0:
-            if found != codes.NONE:
-                return codes.NONE
-            found = k
-    return found
+                entry = system.scaled[row, 3 * end + k]
+                basis[column + k] = entry
+                if entry != 0.0:
+                    only = column + k
+                    entries += 1
+    system.singleton[row] = only if entries == 1 else codes.NONE
 
 
 @jit

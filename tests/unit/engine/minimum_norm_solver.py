@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from mechanism_fmu import codes
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.minimum_norm import orthogonalise, solve_orthogonalised
 from mechanism_fmu.tables.layout import allocate, field_of
@@ -30,6 +31,8 @@ def solve(D: Array, b: Array) -> tuple[Array, Array, int]:
     for name in ("basis", "triangle", "column_basis", "column_triangle", "multiplier", "solution", "dual"):
         field_of(BLOCK, name)[...] = np.nan
     field_of(BLOCK, "basis")[:count, :width] = D
+    only = np.count_nonzero(D, axis=1) == 1
+    field_of(BLOCK, "singleton")[:count] = np.where(only, np.argmax(D != 0.0, axis=1), codes.NONE)
     field_of(BLOCK, "right_side")[:count] = b
     rank = _solve_in(BLOCK, count, width)
     return field_of(BLOCK, "solution")[:width].copy(), field_of(BLOCK, "multiplier")[:count].copy(), rank
