@@ -9,6 +9,9 @@ from ...tables.motion import LinearSystem
 from ..compiler.subset import jit, keep_small
 from ..vectors import add_multiple, dot
 
+#: A column of which less than this fraction of its squared length is left is orthogonalised against the others once more.
+_AGAIN_BELOW = 0.25
+
 
 @jit
 def solve_dependent(block: Array, first: int, end: int, after: int) -> None:
@@ -31,12 +34,16 @@ def solve_dependent(block: Array, first: int, end: int, after: int) -> None:
         for i in range(first, r):
             u[r, system.island_spot[system.order[i]] - first] = 0.0
             triangle[i, r] = 0.0
-        for _ in range(2):
+        left = dot(u[r], u[r], count)
+        before = math.inf
+        while left < _AGAIN_BELOW * before:
+            before = left
             for j in range(first, r):
                 share = dot(u[j], u[r], count)
                 triangle[j, r] += share
                 add_multiple(u[r], -share, u[j], count)
-        length = math.sqrt(dot(u[r], u[r], count))
+            left = dot(u[r], u[r], count)
+        length = math.sqrt(left)
         triangle[r, r] = length
         for i in range(count):
             u[r, i] /= length
