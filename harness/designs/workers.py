@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import selectors
 import socket
 from collections import deque
@@ -10,7 +11,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from multiprocessing.process import BaseProcess
-from time import perf_counter
+from time import monotonic, perf_counter
 from typing import Any
 
 from mechanism_fmu.processors import processors
@@ -144,16 +145,26 @@ class Processes:
         self._end()
 
     def run(self, designs: Iterable[Design], stop_requested: Callable[[], bool] = never) -> Iterator[Pairs]:
-        """Run designs; an `Executor`. Each process has one portion more than it works on."""
+        """Run designs; an `Executor`. Each process has one portion more than it works on.
+
+        What comes is kept back for a moment: to write down each design by itself would take longer than to run it.
+        """
         waiting = portions(designs, self._work.way.together)
         suspects: list[Design] = []
+        pairs: Pairs = []
+        until = math.inf
         whole = False
         try:
             while True:
                 if not stop_requested():
                     self._give(waiting, suspects)
-                if any(worker.given for worker in self._workers):
-                    yield self._came(suspects)
+                if any(worker.given for worker in self._workers) and (left := until - monotonic()) > 0.0:
+                    if came := self._came(suspects, left):
+                        pairs += came
+                        until = min(until, monotonic() + _PORTION)
+                elif pairs:
+                    yield pairs
+                    pairs, until = [], math.inf
                 elif suspects and not stop_requested():
                     yield _alone(self._work, suspects.pop(0))
                 else:
@@ -177,10 +188,13 @@ class Processes:
                 if not self._workers[place].give(portion):
                     suspects += self._replace(self._workers[place])
 
-    def _came(self, suspects: list[Design]) -> Pairs:
-        """What has come from processes, at least one of which has something to do; designs of dead ones: `suspects`."""
+    def _came(self, suspects: list[Design], within: float) -> Pairs:
+        """What has come from processes within [s], if there is any; designs of dead ones: `suspects`.
+
+        At least one process has something to do.
+        """
         pairs: Pairs = []
-        for worker in _ready([worker for worker in self._workers if worker.given]):
+        for worker in _ready([worker for worker in self._workers if worker.given], within):
             done = worker.take()
             if done is None:
                 suspects += self._replace(worker)
@@ -257,14 +271,14 @@ class _Worker:
         self.wire.close()
 
 
-def _ready(workers: Sequence[_Worker]) -> list[_Worker]:
-    """Those that have sent something, or are gone; waits for one."""
+def _ready(workers: Sequence[_Worker], within: float) -> list[_Worker]:
+    """Those that have sent something, or are gone; waits for one, but no longer than so [s]."""
     if pending := [worker for worker in workers if worker.wire.pending]:
         return pending
     with selectors.DefaultSelector() as selector:
         for worker in workers:
             selector.register(worker.wire, selectors.EVENT_READ, worker)
-        return [key.data for key, _ in selector.select()]
+        return [key.data for key, _ in selector.select(None if math.isinf(within) else within)]
 
 
 def _alone(work: Work, design: Design) -> Pairs:

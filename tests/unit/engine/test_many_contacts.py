@@ -1,14 +1,16 @@
 """As many contacts as memory holds: their modes in the records of events, and what touches and rests at once."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rotor import Stop, rotor
 
 from mechanism_fmu import codes
 from mechanism_fmu.advice import MOST_NAMED, named
-from mechanism_fmu.model import GROUND, Mechanism, MechanismError, Outline, OutlineContact, Output, rigid_body
+from mechanism_fmu.model import GROUND, Mechanism, MechanismError, Outline, OutlineContact, Output, Revolute, rigid_body
 from mechanism_fmu.simulation import Simulation
-from tests.falling_blocks import GRAVITY, LANDS, MASS, blocks
+from tests.falling_blocks import GRAVITY, LANDS, LOW, MASS, blocks
 
 OF_BLOCK = 2
 
@@ -94,3 +96,42 @@ def test_a_failure_among_many_names_the_first():
     names = [f"c{k}" for k in range(60)]
     assert named(names, "+") == "+".join(names[:MOST_NAMED]) + f"+{60 - MOST_NAMED} more"
     assert named(names[:MOST_NAMED], ", ") == ", ".join(names[:MOST_NAMED])
+
+
+def test_a_thousand_contacts_that_strike_in_one_instant():
+    """Five hundred blocks land flat at 0.1 s: one event of a thousand impacts, each of which takes m v / 2."""
+    count, lands = 500, 0.1
+    height = 0.5 * GRAVITY * lands**2
+    standing = blocks(count)
+    bodies = tuple(replace(body, start=(body.start[0], LOW + height, 0.0)) for body in standing.bodies)
+    simulation = Simulation(replace(standing, bodies=bodies))
+    simulation.advance(1.5 * lands)
+    (event,) = simulation.events_in_step()
+    assert event.time == pytest.approx(lands, abs=1e-12)
+    assert (event.old_mode, event.new_mode) == ((), simulation.mode())
+    assert len(event.new_mode) == OF_BLOCK * count
+    assert event.impulse == pytest.approx(count * MASS * GRAVITY * lands)
+    outputs = simulation.read()
+    assert outputs["impacts"] == OF_BLOCK * count
+    assert outputs["force"] == outputs["last_force"] == pytest.approx(MASS * GRAVITY / 2)
+    np.testing.assert_allclose(simulation.field("y_end")[1 : 3 * count : 3], LOW, atol=1e-12)
+
+
+def test_a_chain_of_three_hundred_bodies():
+    """Links of 1 m hang level from one end and are let go: the energy of all is kept, and each pin."""
+    count, links, joints, last = 300, [], [], GROUND.at(0.0, 0.0)
+    for k in range(count):
+        link = rigid_body(f"link{k}", (k + 0.5, 0.0), mass=MASS, inertia=MASS / 12.0)
+        joints.append(Revolute(f"pin{k}", last, link.at(-0.5, 0.0)))
+        last = link.at(0.5, 0.0)
+        links.append(link)
+    simulation = Simulation(Mechanism(tuple(links), joints=tuple(joints), gravity=(0.0, -GRAVITY)))
+    simulation.advance(0.05)
+    y = simulation.field("y_end")
+    position, rate = y[: 3 * count].reshape(-1, 3), y[3 * count : 6 * count].reshape(-1, 3)
+    kinetic = 0.5 * MASS * (np.sum(rate[:, :2] ** 2) + np.sum(rate[:, 2] ** 2) / 12.0)
+    assert kinetic == pytest.approx(-MASS * GRAVITY * np.sum(position[:, 1]), rel=1e-8)
+    assert kinetic > 1.0
+    end = position[:, :2] + 0.5 * np.column_stack([np.cos(position[:, 2]), np.sin(position[:, 2])])
+    start = position[:, :2] - 0.5 * np.column_stack([np.cos(position[:, 2]), np.sin(position[:, 2])])
+    np.testing.assert_allclose(start, np.vstack([[0.0, 0.0], end[:-1]]), atol=1e-10)
