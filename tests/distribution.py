@@ -52,7 +52,7 @@ _ENGINE = tuple(
 )
 #: Tests that are to begin early, and files whose tests are a piece each.
 _LONG = (
-    "tests/harness/test_harness_sweep_command.py::test_two_thousand_designs_killed_ten_times",
+    "tests/harness/test_harness_sweep_command.py::test_twenty_thousand_designs_killed_ten_times",
     "tests/fmu/test_just_in_time.py",
     "tests/test_house.py::test_tool_has_no_complaint[mypy]",
     "tests/fmu/test_life_cycle.py::test_two_thousand_instances_do_not_grow",

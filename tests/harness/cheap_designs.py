@@ -25,6 +25,8 @@ SQUARE = Quantity(When.END, "square", "Real", "m2")
 FAILING, DEADLY = 7, 11
 #: In the place of the result of this one, its process may send something else.
 FORGED = 5
+#: This one may take two seconds.
+LONG = 40
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,11 @@ def _troubled(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]
     ]
 
 
+def _one_takes_long(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
+    time.sleep(2.0 * sum(design.number == LONG for design in designs))
+    return _square(fmu, task, designs)
+
+
 def _far(fmu: Place, task: Task, designs: Sequence[Design]) -> list[Result]:
     """A valley whose floor is at restitution 0.3, drive_torque -0.2 and 17 teeth; every 40th design fails."""
     results = []
@@ -102,6 +109,7 @@ def forging(forged: bytes) -> Backend:
 
 CHEAP = Backend("cheap", _square)  # type: ignore[arg-type]
 TROUBLED = Backend("cheap", _troubled)  # type: ignore[arg-type]
+ONE_TAKES_LONG = Backend("cheap", _one_takes_long)  # type: ignore[arg-type]
 VALLEY = Backend("cheap", _far)  # type: ignore[arg-type]
 
 

@@ -18,6 +18,8 @@ import pytest
 from cheap_designs import (
     DEADLY,
     FAILING,
+    LONG,
+    ONE_TAKES_LONG,
     SQUARE,
     TROUBLED,
     axis,
@@ -208,13 +210,26 @@ def test_what_fails_and_what_kills_its_process_is_recorded_and_the_rest_goes_on(
     assert [number for number, value in enumerate(values, start=1) if value is None] == [FAILING, DEADLY]
 
 
+def test_results_are_kept_together_but_wait_for_no_design_that_takes_long(tmp_path: Path) -> None:
+    """The last but one of 41 designs takes two seconds: meanwhile the others come, in portions of half a second."""
+    sweep = cheap_sweep(41)
+    came = []
+    with Processes(work_of(sweep, tmp_path, ONE_TAKES_LONG), 2) as processes:
+        for pairs in processes.run(sweep.designs):
+            came.append({design.number for design, _ in pairs})
+    assert sorted(number for numbers in came for number in numbers) == list(range(1, 42))
+    assert len(came) <= 6
+    assert LONG in came[-1]
+    assert len(came[-1]) <= 2  # itself, and what waited behind it
+
+
 def parts(folder: Path) -> int:
     """How many designs are kept: in this process, each in a part of its own."""
     return len(list((folder / "parts").glob("*.parquet")))
 
 
 def test_a_sweep_killed_at_any_moment_gives_what_an_undisturbed_one_gives(tmp_path: Path) -> None:
-    """The slow test of the command does the same with 2,000 designs of a real FMU."""
+    """The slow test of the command does the same with 20,000 designs of a real FMU."""
     killed, trace = tmp_path / "killed", tmp_path / "killed" / "trace"
     count, kills = 150, 4
     for kill in range(1, kills + 1):
