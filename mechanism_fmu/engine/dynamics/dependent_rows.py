@@ -9,7 +9,7 @@ from ...tables.motion import LinearSystem
 from ..compiler.subset import jit, keep_small
 from ..vectors import add_multiple, dot
 
-#: A column of which less than this fraction of its squared length is left is orthogonalised against the others once more.
+#: A column of which less than this fraction of its squared length is left is orthogonalised once more.
 _AGAIN_BELOW = 0.25
 
 
