@@ -13,6 +13,7 @@ from .model import GROUND, Contact, Mechanism
 from .model.compile import unknown_names
 from .model.overlap_picture import Pose, overlap_picture
 from .tables.layout import field_of
+from .tables.sizes import MOST_IMPLICIT
 from .tolerances import RATES_WITHIN
 
 Array = np.ndarray[Any, np.dtype[Any]]
@@ -97,7 +98,10 @@ def _stiffest(mechanism: Mechanism, block: Array) -> str:
     steps, events = (counters.item(which) for which in (codes.STEPS_IN_STEP, codes.EVENTS_IN_STEP))
     more = " or more" if events == len(field_of(block, "events")) else ""
     size = field_of(block, "tried").item(1)
-    return f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
+    text = f" Internal steps: {steps}, the last of {size:.3g} s, limited by {name}. Events: {events}{more}."
+    if len(mechanism.bodies) > MOST_IMPLICIT:
+        text += f" What is stiff takes short steps here: implicit ones are for {MOST_IMPLICIT} bodies at most."
+    return text
 
 
 def _driven_too_far(mechanism: Mechanism, block: Array) -> str:

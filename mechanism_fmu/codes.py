@@ -280,7 +280,8 @@ STIFF = 21  # steps in turn that look stiff to the explicit method, or not stiff
 COUNT_IMPLICIT = 22  # accepted steps since the start that were linearly implicit
 COUNT_BACK = 23  # times that the explicit method has been taken again
 COUNT_PASSED = 24  # singular configurations that were passed, as far as the engine has computed
-COUNTERS_LENGTH = 25
+IMPLICIT_STEP = 25  # 1 where the engine's own step was linearly implicit that ends at STEP_END
+COUNTERS_LENGTH = 26
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

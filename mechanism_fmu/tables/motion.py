@@ -49,11 +49,12 @@ _COUNTERS = {
     "COUNT_BY_POISSON": COUNT,
     "RUBBING": whole(0, 1, "rubs"),
     "SENSE": FLAG,
-    "IMPLICIT": FLAG,
+    "IMPLICIT": whole(0, 0, "may_be_implicit"),
     "STIFF": COUNT,
     "COUNT_IMPLICIT": COUNT,
     "COUNT_BACK": COUNT,
     "COUNT_PASSED": COUNT,
+    "IMPLICIT_STEP": whole(0, 0, "may_be_implicit"),
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {
@@ -215,8 +216,9 @@ class Stages(Table, prefix="stage_"):
 
     `tried`: start and size of the one last tried [s]; `drift`: the most that an active row is off at its end, and a
     rate; `independence` of the rows at each of its stages, of which `stage` is the one computed last; `looks_stiff`
-    says how stiff an explicit one found the motion; `stiffest` is the unknown that limited the steps, once that was
-    asked; `behind` are points of the motion before y_start, with their derivatives (see `passing`).
+    says how stiff an explicit one found the motion; `jams` is 1 where forces and friction did not agree at a stage;
+    `stiffest` is the unknown that limited the steps, once that was asked; `behind` are points of the motion before
+    y_start, with their derivatives (see `passing`).
     """
 
     derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
@@ -231,6 +233,7 @@ class Stages(Table, prefix="stage_"):
     stage = integer(1, name="stage", work=True)
     independence = real(METHOD.stages, work=True)
     looks_stiff = real(1, work=True)
+    jams = integer(1, work=True)
     behind = real(BEHIND, "unknowns", name="behind", work=True)
     behind_rates = real(BEHIND, "unknowns", name="behind_rates", work=True)
     stiffest = integer(1, work=True)

@@ -75,6 +75,7 @@ class Sizes:
     unknowns = _follows(lambda n: n["y_wear"] + n["wears"])
     # for linearly implicit steps: unknowns, and those of the linear system, the rates, contact coordinates, own states
     implicit = _follows(lambda n: n["unknowns"] if n["bodies"] <= MOST_IMPLICIT else 0)
+    may_be_implicit = _follows(lambda n: min(n["implicit"], 1))
     implicit_rates = _follows(lambda n: n["coordinates"] + n["y_wear"] - n["y_alpha"] if n["implicit"] > 0 else 0)
     # two a contact, two a pattern, one a logical function, one for each friction
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])

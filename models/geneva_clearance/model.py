@@ -43,6 +43,10 @@ from .ports import INPUTS, OUTPUTS, PARAMETERS, SHAPES, calculated
 #: Half the angle between two slots, its sine.
 _HALF_PITCH_SINE = math.sin(math.pi / SLOT_COUNT)
 
+#: Of the centre distance. Faces are looked at as finely as the pin needs, which for a thinner one takes seconds; in
+#: steel, such a pin carries nothing.
+_THINNEST_PIN = 0.005
+
 #: Lengths that are nearer to nothing than this part of the centre distance are nothing.
 _FLAT = 1e-6
 
@@ -52,7 +56,14 @@ def objections(values: SimpleNamespace) -> tuple[Finding, ...]:
     flat = _FLAT * values.centre_distance
     half = slot_half(values)
     bottoms = lengths(values).mouth_radius - slot_depth(values) + half  # where two bottoms are nearest to each other
+    thinnest = _THINNEST_PIN * values.centre_distance
     return first(
+        Finding(
+            at_most(values.pin_diameter, thinnest),
+            "pin_diameter = {:.6g} m must be more than 0.005 centre_distance = {:.6g} m: give a thicker pin, "
+            "or a smaller centre_distance.",
+            (values.pin_diameter, thinnest),
+        ),
         Finding(
             at_most(bottoms * _HALF_PITCH_SINE, half + flat),
             "pin_diameter = {:.6g} m and slot_clearance = {:.6g} m make the slots run into each other where they end: "

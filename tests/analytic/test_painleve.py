@@ -8,7 +8,17 @@ from pathlib import Path
 import pytest
 
 from mechanism_fmu import codes
-from mechanism_fmu.model import GROUND, Brake, Mechanism, Output, PointLineContact, Revolute, Torque, rigid_body
+from mechanism_fmu.model import (
+    GROUND,
+    Brake,
+    Mechanism,
+    Output,
+    PointLineContact,
+    Revolute,
+    Settings,
+    Torque,
+    rigid_body,
+)
 from mechanism_fmu.simulation import Simulation, SimulationError, friction_solutions
 from models.slider_crank import model as slider_crank
 
@@ -22,7 +32,7 @@ FLOOR = GROUND.line((0, 0), (1, 0))
 (RUN,) = (one for one in CASE["results"]["runs"] if "jam" in one)
 
 
-def rod(angle: float, rate: float, slip: float, friction: float, **law: bool) -> Mechanism:
+def rod(angle: float, rate: float, slip: float, friction: float, *, method: int = 0, **law: bool) -> Mechanism:
     """A uniform rod that slides on its lower end, which is at the origin."""
     mass, half, gravity = (CASE["data"][name] for name in ("m", "l", "g"))
     c, s = math.cos(angle), math.sin(angle)
@@ -45,20 +55,25 @@ def rod(angle: float, rate: float, slip: float, friction: float, **law: bool) ->
             Output("speed", "rod.speed", "", "rad/s"),
             *(Output(name, f"energy.{name}", "", "J") for name in ("kinetic", "work", "lost")),
         ),
+        settings=Settings(integration_method=method),
         **law,
     )
 
 
-def started(**law: bool) -> Simulation:
-    return Simulation(rod(RUN["theta0"], RUN["thetadot0"], RUN["vT0"], RUN["mu"], **law))
+def started(method: int, **law: bool) -> Simulation:
+    return Simulation(rod(RUN["theta0"], RUN["thetadot0"], RUN["vT0"], RUN["mu"], method=method, **law))
+
+
+METHODS = pytest.mark.parametrize("method", [codes.EXPLICIT, codes.IMPLICIT_METHOD])
 
 
 def guards(simulation: Simulation) -> list[str]:
     return [event.guard for event in simulation.events_in_step()]
 
 
-def test_the_end_of_all_forces_is_named_with_contact_coefficient_angle_and_criterion() -> None:
-    simulation = started()
+@METHODS
+def test_the_end_of_all_forces_is_named_with_contact_coefficient_angle_and_criterion(method: int) -> None:
+    simulation = started(method)
     expected = (
         rf"Painleve.*Contacts: floor\. Friction: floor \({RUN['mu']:g}, at 0\.820761 rad, slips, A/G = -?\d\.\d+e-1\d\)"
     )
@@ -67,8 +82,9 @@ def test_the_end_of_all_forces_is_named_with_contact_coefficient_angle_and_crite
     assert simulation.time == pytest.approx(RUN["jam"]["t"], abs=1e-10)
 
 
-def test_a_shock_leads_on_and_takes_energy() -> None:
-    simulation = started(tangential_shock=True)
+@METHODS
+def test_a_shock_leads_on_and_takes_energy(method: int) -> None:
+    simulation = started(method, tangential_shock=True)
     before = simulation.read()
     shocks = 0
     for k in range(1, 60):

@@ -16,6 +16,7 @@ from mechanism_fmu.model import (
     AngleStop,
     Body,
     Damper,
+    Input,
     Mechanism,
     MechanismError,
     NonlinearTorsionSpring,
@@ -159,13 +160,13 @@ def test_any_communication_step_gives_the_same_bits():
     np.testing.assert_array_equal(at_once, in_parts)
 
 
-def test_what_is_stiff_no_longer_is_stepped_explicitly_again():
+def ending_oil(angle, rate):
     """Oil that ends at an angle of 0.01: before it, the rotor creeps; behind it, it swings on a soft spring."""
+    return maximum(1e5 * (0.01 - angle), 0.0) * rate * 100.0 + 2.0 * angle
 
-    def law(angle, rate):
-        return maximum(1e5 * (0.01 - angle), 0.0) * rate * 100.0 + 2.0 * angle
 
-    mechanism = rotor(NonlinearTorsionSpring("oil", "rotor", law=law), MOTOR)
+def test_what_is_stiff_no_longer_is_stepped_explicitly_again():
+    mechanism = rotor(NonlinearTorsionSpring("oil", "rotor", law=ending_oil), MOTOR)
     simulation = Simulation(mechanism)
     while simulation.read()["angle"] < 0.02:
         simulation.advance(simulation.time + 0.05)
@@ -175,6 +176,33 @@ def test_what_is_stiff_no_longer_is_stepped_explicitly_again():
     after = count(simulation)
     assert simulation.counters.item(codes.IMPLICIT) == 0
     assert after.implicit - before.implicit < 100 < after.steps - before.steps
+
+
+def test_an_input_changes_inside_the_step_after_which_the_method_is_another():
+    """The way back to that instant is a step of the method that was taken: an explicit one is off by 1e-3 there."""
+    rotor_in_oil = rotor(Damper("oil", "rotor", "swing", damping=30.0), Torque("motor", "rotor"), tolerance=1e-6)
+    swing = Body("swing", 1.0, 1.0, (0.0, -1.0, 0.0), start_rate=(2.0, 0.0, 2.0))
+    idle = [Body(f"disc {k}", 1.0, 1.0) for k in range(14)]  # the more bodies, the longer are implicit steps that pay
+    simulation = Simulation(
+        replace(
+            rotor_in_oil,
+            bodies=(*rotor_in_oil.bodies, swing, *idle),
+            joints=(*rotor_in_oil.joints, Revolute("hinge", "swing", (0.0, 1.0), GROUND, (0.0, 0.0))),
+            gravity=(0.0, -400.0),
+            inputs=(Input("torque", "motor.torque", TORQUE, "", "N.m"),),
+        )
+    )
+    counters, clock = simulation.counters, simulation.field("clock")
+    counters[codes.IMPLICIT] = 1  # it finds out by itself that explicit steps are enough
+    while counters.item(codes.IMPLICIT) == 1:
+        simulation.advance(simulation.time + 1e-4)
+    simulation.advance(simulation.time + 0.95 * (clock.item(codes.STEP_END) - simulation.time))
+    assert clock.item(codes.STEP_START) < simulation.time < clock.item(codes.STEP_END)
+    assert counters.item(codes.IMPLICIT_STEP) == 1
+    before = simulation.read()
+    simulation.inputs[0] = TORQUE + 1e-9
+    simulation.advance(simulation.time + 1e-9)
+    assert simulation.read() == pytest.approx(before, rel=1e-6)
 
 
 def test_explicit_alone_runs_out_of_steps_where_it_is_asked_for():

@@ -195,7 +195,7 @@ def solve_sparse(block: Array, count: int, width: int) -> bool:
     system = LinearSystem(block)
     x = system.coefficient
     change = system.dual
-    for k in range(width):
+    for k in range(width + 3):  # the ground's, too: its entries of D are 0, by which a NaN would remain one
         system.solution[k] = 0.0
     for i in range(count):
         x[i] = 0.0
@@ -205,8 +205,7 @@ def solve_sparse(block: Array, count: int, width: int) -> bool:
         _combine(block, change, count)
         for i in range(count):
             x[i] += change[i]
-        left, size = _residual(block, count)
-        if left <= (_CORRECT_ABOVE if correction == 0 else _ENOUGH) * size:
+        if _leaves_rounding(block, count, _CORRECT_ABOVE if correction == 0 else _ENOUGH):
             for i in range(count):
                 system.multiplier[system.place[i]] = x[i]
             return True
@@ -214,13 +213,15 @@ def solve_sparse(block: Array, count: int, width: int) -> bool:
 
 
 @jit
-def _residual(block: Array, count: int) -> tuple[float, float]:
-    """Write b - D z to `dual`; its largest entry, and the largest size of what it is the difference of."""
+def _leaves_rounding(block: Array, count: int, part: float) -> bool:
+    """Write b - D z to `dual`; whether each row of it is at most this `part` of what it is the difference of.
+
+    Each by its own terms: a heavily loaded part of a mechanism says nothing of the accuracy of a lightly loaded one.
+    """
     system = LinearSystem(block)
     body = Rows(block).body
     z = system.solution
-    most = 0.0
-    size = 0.0
+    all_are = True
     for i in range(count):
         r = system.place[i]
         entry = system.scaled[r]
@@ -232,9 +233,8 @@ def _residual(block: Array, count: int) -> tuple[float, float]:
             left -= entry[k] * z[c] + entry[k + 1] * z[c + 1] + entry[k + 2] * z[c + 2]
             terms += abs(entry[k] * z[c]) + abs(entry[k + 1] * z[c + 1]) + abs(entry[k + 2] * z[c + 2])
         system.dual[i] = left
-        most = max(most, abs(left))
-        size = max(size, terms)
-    return most, size
+        all_are = all_are and abs(left) <= part * terms  # not so where it is NaN
+    return all_are
 
 
 @jit

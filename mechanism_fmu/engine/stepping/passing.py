@@ -65,7 +65,8 @@ _HALF = 0.5
 def passes(block: Array) -> bool:
     """Whether singular configurations are to be passed."""
     wanted: bool = Options(block).settings[codes.THROUGH_SINGULARITIES] > 0.5
-    return wanted
+    # by explicit steps: what decays fast grows as fast on the way back
+    return wanted and bool(Course(block).counters[codes.IMPLICIT] == 0)
 
 
 @jit
@@ -106,8 +107,6 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
     """
     keep_small()
     sine = math.sqrt(Course(block).independence_end[0])
-    if Course(block).counters[codes.IMPLICIT] == 1:  # what decays fast grows as fast on the way back
-        return REFUSED, 0.0
     if not (sine > _LEAST_SINE and apart > smallest_step(start)):
         return REFUSED, 0.0
     spacing = apart * max(1.0, _SPACED_BY / sine)

@@ -210,6 +210,8 @@ def _solve(block: Array, h: float, u: Array) -> None:
         u[j] = step * (right[j] + x[j])
     work, alpha, wear = Sizes(block).y_work, Sizes(block).y_alpha, Sizes(block).y_wear
     for i in range(work, alpha):
+        u[i] = 0.0  # they act on nothing, but what is left of a step that failed is not a number
+    for i in range(work, alpha):
         u[i] = _added(block, i, step, u)
     for i in range(wear, Sizes(block).unknowns):
         u[i] = _added(block, i, step, u)

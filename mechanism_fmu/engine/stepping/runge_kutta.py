@@ -50,6 +50,7 @@ def try_step(block: Array, start: float, size_: float) -> float:
     s.tried[1] = h
     Course(block).counters[codes.COUNT_TRIES] += 1
     s.stage[0] = 0
+    s.jams[0] = 0
     least = Contacts(block).least_push
     for c in range(least.shape[0]):
         least[c] = 0.0

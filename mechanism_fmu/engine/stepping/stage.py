@@ -23,11 +23,14 @@ def evaluate_stage(block: Array, time: float, y: Array, dy: Array) -> None:
     """The derivative at one stage, with the inputs' values at its `time` [s]; y and dy of shape (unknowns,)."""
     keep_small()
     set_time(block, time)
-    derivative(block, y, dy)
-    if rubs(block) and Rubs(block).sense[0] != Course(block).counters[codes.SENSE]:
-        dy[Sizes(block).y_loss] = math.nan  # on the way here they have been infinite
-    note_pushes(block)
     s = Stages(block)
+    derivative(block, y, dy)
+    lost = Sizes(block).y_loss
+    if rubs(block) and Rubs(block).sense[0] != Course(block).counters[codes.SENSE]:
+        dy[lost] = math.nan  # on the way here they have been infinite
+    if math.isnan(dy[lost]) and not math.isnan(dy[0]):
+        s.jams[0] = 1
+    note_pushes(block)
     s.stage[0] += 1
     s.independence[s.stage[0]] = independence(block)
 

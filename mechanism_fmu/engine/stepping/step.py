@@ -100,19 +100,21 @@ def take_step(block: Array) -> int:
     copy(now.dy_end, s.derivatives[0])
     Implicit(block).fresh[0] = 0
     wanted = now.clock[codes.NEXT_STEP]
+    method = now.counters[codes.IMPLICIT]
     step = accurate_step(block, start)
+    singular = False
+    if step > 0.0:
+        singular = is_singular(block)
+        if passes(block):
+            singular, step = _lead_through(block, start, step, singular, wanted)
     if step == 0.0:
+        _refuse(block, wanted, method)
         return _shock_or_fail(block)
-    singular = is_singular(block)
-    if passes(block):
-        singular, step = _lead_through(block, start, step, singular, wanted)
-        if step == 0.0:
-            return _shock_or_fail(block)
     guard, subject, fraction = first_event(block)
     if guard != codes.GUARD_NONE or singular:
         clear(Contacts(block).apart)  # what it says is of the end of a step that does not come to that
     if fraction < 0.0:
-        now.clock[codes.NEXT_STEP] = wanted  # a step that is refused changes nothing
+        _refuse(block, wanted, method)
         is_one_inside(block)
         return status.PENETRATED
     if guard != codes.GUARD_NONE:
@@ -120,13 +122,14 @@ def take_step(block: Array) -> int:
         if step > smallest_step(start):
             step = _end_at_event(block, guard, subject, start, step)
             if math.isnan(s.y_new[Sizes(block).y_loss]):
+                _refuse(block, wanted, method)
                 return _shock_or_fail(block)
             singular = singular and is_singular(block)  # what the event ends may be what depends on something there
         else:
             step = 0.0  # it happens here and now
             singular = False
     if singular:
-        now.clock[codes.NEXT_STEP] = wanted  # a step that is refused changes nothing
+        _refuse(block, wanted, method)
         return status.SINGULAR
     keep_independence(block)
     now.counters[codes.PENDING_GUARD] = guard
@@ -137,6 +140,13 @@ def take_step(block: Array) -> int:
     watch_step(block)
     release(block, subject if guard == codes.GUARD_GAP else codes.NONE)
     return _mend_and_check(block)
+
+
+@jit
+def _refuse(block: Array, wanted: float, method: int) -> None:
+    """A step that is refused changes nothing: neither the size that is tried first nor the method."""
+    Course(block).clock[codes.NEXT_STEP] = wanted
+    Course(block).counters[codes.IMPLICIT] = method
 
 
 @jit
@@ -214,6 +224,7 @@ def _keep(block: Array, start: float, step: float) -> None:
     copy(s.derivatives[_LAST], now.dy_end)
     for r in range(now.dense.shape[0]):
         copy(s.new_dense[r], now.dense[r])
+    now.counters[codes.IMPLICIT_STEP] = now.counters[codes.IMPLICIT]
     choose_method(block)
 
 

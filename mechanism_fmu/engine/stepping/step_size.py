@@ -134,13 +134,11 @@ def smallest_step(start: float) -> float:
 
 @jit
 def why_no_step(block: Array) -> int:
-    """What has made the step shrink to nothing: the power lost is not a number where friction found no agreement."""
+    """What has made the step shrink to nothing."""
     keep_apart()
     s = Stages(block)
-    lost = Sizes(block).y_loss
-    for k in range(1, s.derivatives.shape[0]):
-        if math.isnan(s.derivatives[k, lost]) and not math.isnan(s.derivatives[k, 0]):
-            return status.JAMMED
+    if s.jams[0] == 1:
+        return status.JAMMED
     for k in range(Rubs(block).slip.shape[0]):
         if slips(block, k) and abs(Rubs(block).criterion[k]) < _PARADOX:
             return status.JAMMED

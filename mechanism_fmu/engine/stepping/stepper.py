@@ -227,7 +227,10 @@ def _step_back(block: Array) -> None:
     copy(now.dense[0], s.y_start)
     derivative(block, s.y_start, s.derivatives[0])
     Implicit(block).fresh[0] = 0
+    chosen = now.counters[codes.IMPLICIT]
+    now.counters[codes.IMPLICIT] = now.counters[codes.IMPLICIT_STEP]  # a step of another method has another size
     try_step(block, start, now.clock[codes.TIME] - start)
+    now.counters[codes.IMPLICIT] = chosen
     keep_independence(block)
     copy(s.y_new, now.y_end)
 

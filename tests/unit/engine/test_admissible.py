@@ -11,7 +11,7 @@ import models
 from mechanism_fmu import codes
 from mechanism_fmu.engine import status
 from mechanism_fmu.fmu.instance.saved_state import SUBJECTS, Admissible, rules
-from mechanism_fmu.model import compile_mechanism
+from mechanism_fmu.model import Body, Mechanism, compile_mechanism
 from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tables.declare import Field
 from mechanism_fmu.tables.layout import FIELDS, pack, state_of
@@ -163,6 +163,16 @@ def test_counts_and_flags_are_what_their_limits_say(value):
         place = 8 * admissible.names.index(name)
         fault = admissible.fault(state[:place] + struct.pack("<q", value) + state[place + 8 :])
         assert (fault is None) == expected or abs(value - 2**53) <= 1
+
+
+@pytest.mark.parametrize(("bodies", "most"), [(115, 1), (116, 0)])
+def test_steps_are_implicit_only_where_there_is_room_for_their_matrix(bodies, most):
+    mechanism = Mechanism(bodies=tuple(Body(f"disc {k}", 1.0, 1.0) for k in range(bodies)))
+    admissible = Admissible.of(sizes_of(pack(compile_mechanism(mechanism))))
+    for name in ("IMPLICIT", "IMPLICIT_STEP"):
+        for value in (-1, 0, 1, 2):
+            fault = admissible.fault(with_counters(Simulation(mechanism), **{name: value}))
+            assert (fault is None) == (0 <= value <= most)
 
 
 def test_bytes_of_another_length_are_refused():

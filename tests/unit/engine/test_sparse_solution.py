@@ -29,7 +29,8 @@ def _solve_in(block, count, width, factor):
 
 
 @entry
-def _solve_in_either_way(block, count, width):
+def _solve_in_either_way(block, count, width, factor):
+    write_matrix(block, count, factor)
     solve(block, count, width)
     return LinearSystem(block).by_pivots[0]
 
@@ -50,17 +51,18 @@ class System:
             row[3 * other : 3 * other + 3] = values[3:]
         return D[:, :-3]
 
-    def solve(self, entries, b):
+    def solve(self, entries, b, by=_solve_in):
         """z, multipliers, and whether pivots were needed."""
         count = len(entries)
-        field_of(self.block, "jacobian")[:count] = np.nan
+        for name in ("jacobian", "solution", "multiplier", "dual", "coefficient", "spread", "lower", "pivot"):
+            field_of(self.block, name)[...] = np.nan  # what a motion that failed has left behind
         for r, ((one, other), values) in enumerate(zip(self.pairs[:count], entries, strict=True)):
             field_of(self.block, "row_body")[r] = one, other
             field_of(self.block, "jacobian")[r, 3 * one : 3 * one + 3] = values[:3]
             field_of(self.block, "jacobian")[r, 3 * other : 3 * other + 3] = values[3:]
         field_of(self.block, "right_side")[:count] = b
         factor = np.r_[np.ones(3 * self.bodies), np.zeros(3)]
-        by_pivots = _solve_in(self.block, count, 3 * self.bodies, factor)
+        by_pivots = by(self.block, count, 3 * self.bodies, factor)
         solution, multiplier = (field_of(self.block, name) for name in ("solution", "multiplier"))
         return solution[: 3 * self.bodies].copy(), multiplier[:count].copy(), by_pivots
 
@@ -82,8 +84,8 @@ def blocks(n):
     return n, [pair for k in range(n) for pair in (*2 * [(k, n)], *[(k, k - 1)] * (k > 0))]
 
 
-def planets(n):
-    """A carrier with planets, which mesh with a sun."""
+def planets(n, *, ring=False):
+    """A carrier with planets, which mesh with a sun; and with a ring on the ground, more often than needed."""
     return n + 2, [
         (n, n + 2),
         (n, n + 2),
@@ -91,6 +93,7 @@ def planets(n):
         (n + 1, n + 2),
         *((k, n) for k in range(n) for _ in "xy"),
         *((k, n + 1) for k in range(n)),
+        *((k, n + 2) for k in range(n) if ring),
     ]
 
 
@@ -161,6 +164,58 @@ def test_any_rows_give_the_minimum_norm(structure, seed, repeats):
         assert np.abs(D.T @ multiplier - z).max() <= 1e-12 * (1 + size) * np.abs(z).max()
 
 
+def beside(one, other):
+    """Both structures in one, which have nothing but the ground in common."""
+    first, second = one[0], other[0]
+    ground = first + second
+    pairs = [tuple(ground if b == first else b for b in pair) for pair in one[1]]
+    return ground, pairs + [tuple(ground if b == second else b + first for b in pair) for pair in other[1]]
+
+
+def test_what_carries_much_does_not_spoil_what_carries_little():
+    bodies, pairs = beside(chain(20), chain(20))
+    system, count = System(bodies, pairs), len(pairs) // 2
+    random = np.random.default_rng(3)
+    entries, b = rows_of(pairs, random), random.standard_normal(2 * count)
+    b[:count] *= 1e9
+    z, _, by_pivots = system.solve(entries, b)
+    assert not by_pivots
+    D = system.dense(entries)[count:, 3 * bodies // 2 :]
+    exact = np.linalg.lstsq(D, b[count:])[0]
+    assert np.abs(z[3 * bodies // 2 :] - exact).max() <= 1e-15 * np.linalg.cond(D) * count * np.abs(exact).max()
+
+
+REDUNDANT = {
+    "mesh": planets(20, ring=True),
+    "two meshes": beside(planets(6, ring=True), planets(8, ring=True)),
+    "a mesh beside a chain": beside(planets(8, ring=True), chain(10)),
+    "stacked blocks": (5, [pair for k in range(5) for pair in 5 * [(k, k - 1 if k else 5)]]),
+    "blocks apart": (9, [pair for k in range(9) for pair in 5 * [(k, 9)]]),
+}
+
+
+@pytest.mark.parametrize("name", REDUNDANT)
+def test_redundant_rows_are_solved_island_by_island(name):
+    """Rows on a floor or of a mesh that repeat what others say: minimum norm, island by island."""
+    bodies, pairs = REDUNDANT[name]
+    system = System(bodies, pairs)
+    random = np.random.default_rng(2)
+    for _ in range(5):
+        entries = random.standard_normal((len(pairs), 6))
+        D = system.dense(entries)
+        b = D @ random.standard_normal(3 * bodies)
+        z, multiplier, by_pivots = system.solve(entries, b, _solve_in_either_way)
+        assert by_pivots
+        values = np.linalg.svd(D, compute_uv=False)
+        rank = int((values > 1e-10 * values[0]).sum())
+        assert field_of(system.block, "rank")[0] == rank < len(pairs)
+        condition = values[0] / values[rank - 1]
+        inverse = np.linalg.pinv(D, rcond=1e-10)
+        exact, forces = inverse @ b, inverse.T @ (inverse @ b)
+        assert np.abs(z - exact).max() <= 1e-15 * condition * len(b) * np.abs(exact).max()
+        assert np.abs(multiplier - forces).max() <= 1e-15 * condition**2 * len(b) * np.abs(forces).max()
+
+
 def test_entries_are_few_where_a_good_order_exists():
     for name, most in (("chain", 2.5), ("loops", 4.0), ("100 blocks", 6.0)):
         system = System(*STRUCTURES[name])
@@ -173,6 +228,7 @@ def test_few_rows_are_solved_by_pivots_and_many_are_not_unless_they_depend():
     bodies, pairs = STRUCTURES["chain"]
     system = System(bodies, [*pairs, pairs[-1]])
     entries = rows_of(pairs, np.random.default_rng(1))
-    system.solve(np.vstack([entries, entries[-1]]), np.ones(len(pairs) + 1))
+    entries = np.vstack([entries, entries[-1]])
     expected = {10: 1, len(pairs): 0, len(pairs) + 1: 1}
-    assert {count: _solve_in_either_way(system.block, count, 3 * bodies) for count in expected} == expected
+    found = {n: system.solve(entries[:n], np.ones(n), _solve_in_either_way)[2] for n in expected}
+    assert found == expected

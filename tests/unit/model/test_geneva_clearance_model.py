@@ -38,6 +38,7 @@ def test_derivatives_agree_with_differences(point: str) -> None:
     ("values", "message"),
     [
         ({"pin_diameter": 0.04}, "make the slots run into each other"),
+        ({"centre_distance": 10.0}, "pin_diameter = 0.008 m must be more than 0.005 centre_distance = 0.05 m"),
         ({"mouth_radius": 0.004}, "are left of the wheel's rim: pin_diameter = 0.008 m must be more than"),
     ],
 )
