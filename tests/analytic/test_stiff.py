@@ -160,13 +160,13 @@ def test_any_communication_step_gives_the_same_bits():
     np.testing.assert_array_equal(at_once, in_parts)
 
 
-def ending_oil(angle, rate):
-    """Oil that ends at an angle of 0.01: before it, the rotor creeps; behind it, it swings on a soft spring."""
-    return maximum(1e5 * (0.01 - angle), 0.0) * rate * 100.0 + 2.0 * angle
-
-
 def test_what_is_stiff_no_longer_is_stepped_explicitly_again():
-    mechanism = rotor(NonlinearTorsionSpring("oil", "rotor", law=ending_oil), MOTOR)
+    """Oil that ends at an angle of 0.01: before it, the rotor creeps; behind it, it swings on a soft spring."""
+
+    def law(angle, rate):
+        return maximum(1e5 * (0.01 - angle), 0.0) * rate * 100.0 + 2.0 * angle
+
+    mechanism = rotor(NonlinearTorsionSpring("oil", "rotor", law=law), MOTOR)
     simulation = Simulation(mechanism)
     while simulation.read()["angle"] < 0.02:
         simulation.advance(simulation.time + 0.05)

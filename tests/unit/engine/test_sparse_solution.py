@@ -173,16 +173,17 @@ def beside(one, other):
 
 
 def test_what_carries_much_does_not_spoil_what_carries_little():
+    """Where rows are so nearly parallel that corrections are needed, each row is right by its own terms."""
     bodies, pairs = beside(chain(20), chain(20))
     system, count = System(bodies, pairs), len(pairs) // 2
     random = np.random.default_rng(3)
     entries, b = rows_of(pairs, random), random.standard_normal(2 * count)
+    entries[1::2] = entries[::2] + 1e-3 * entries[1::2]
     b[:count] *= 1e9
     z, _, by_pivots = system.solve(entries, b)
     assert not by_pivots
-    D = system.dense(entries)[count:, 3 * bodies // 2 :]
-    exact = np.linalg.lstsq(D, b[count:])[0]
-    assert np.abs(z[3 * bodies // 2 :] - exact).max() <= 1e-15 * np.linalg.cond(D) * count * np.abs(exact).max()
+    D = system.dense(entries)
+    assert (np.abs(D @ z - b) <= 2e-13 * (np.abs(D) @ np.abs(z) + np.abs(b))).all()
 
 
 REDUNDANT = {
