@@ -13,7 +13,8 @@ _QUOTA = Path("/sys/fs/cgroup/cpu.max")
 def processors(quota: Path = _QUOTA) -> int:
     """Those that this process may use: of the machine, those it is not kept from, and no more than its container gets.
 
-    Threads or processes beyond that would only take turns.
+    Threads or processes beyond that would only take turns. A container's share is known where Linux tells it by
+    control groups of version 2; older ones and other systems count the processors alone.
 
     Args:
         quota: file with the quota of processor time and its period [us], as Linux writes it.

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
-import pandas as pd
 
 from mechanism_fmu.batch import Batch, BatchResult, MechanismError, NoBatchError
 
@@ -18,11 +16,13 @@ from ..fmu import Fmu
 from ..fmu.description import Description, Value, Variable
 from ..run.master import seconds
 from . import by_fmu
-from .task import Design, Quantity, Result, Task, When, of_impacts, struck_in
+from .task import Design, Impacts, Quantity, Result, Task, When, of_impacts, struck_in
 
 NAME = "batch"
 #: So many designs go together at most, and are kept together when they come.
 TOGETHER = 256
+#: As which numbers an impact's fields are kept; others as they come.
+_TYPES = {"Boolean": np.bool_, "Integer": np.int64}
 #: Impacts of a design that are kept; one with more goes through the FMU.
 _MOST_IMPACTS = 512
 
@@ -49,7 +49,8 @@ def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | 
         found = _found(fmu, task, designs, threads)
     except MechanismError as error:  # what all of them share: a value of the input table out of its limits
         return [Result.failed(design, NAME, task, str(error)) for design in designs]
-    return [_result(fmu, task, design, found, place) for place, design in enumerate(designs)]
+    fields = ImpactCollector(fmu.description).fields
+    return [_result(fmu, task, design, found, place, fields) for place, design in enumerate(designs)]
 
 
 def _found(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | None) -> BatchResult:
@@ -85,7 +86,10 @@ def _outputs(task: Task, description: Description) -> list[str]:
     return [name for name in dict.fromkeys(names) if not description.variable(name).settable]
 
 
-def _result(fmu: Fmu, task: Task, design: Design, found: BatchResult, place: int) -> Result:
+def _result(
+    fmu: Fmu, task: Task, design: Design, found: BatchResult, place: int, fields: Mapping[str, Variable]
+) -> Result:
+    """What a design has given; `fields` of an impact are the FMU's."""
     if found.failures[place]:
         return Result.failed(design, NAME, task, found.failures[place])
     struck = int(found.impact_count[place])
@@ -94,7 +98,7 @@ def _result(fmu: Fmu, task: Task, design: Design, found: BatchResult, place: int
     try:
         asked = of_impacts(
             task,
-            _impacts(fmu.description, found, place, struck),
+            _impacts(fields, found, place, struck),
             struck_in(task, fmu.description),
             {
                 name: _value(fmu.description, task, design, _parameter(name), found, place)
@@ -139,12 +143,12 @@ def _started(variable: Variable) -> float:
     return float(text in ("true", "1")) if variable.type == "Boolean" else float(text)
 
 
-def _impacts(description: Description, found: BatchResult, place: int, struck: int) -> pd.DataFrame:
+def _impacts(fields: Mapping[str, Variable], found: BatchResult, place: int, struck: int) -> Impacts:
     """The impacts of a design, as `ImpactCollector` gives them."""
-    fields = ImpactCollector(description).fields
-    return pd.DataFrame(
-        {name: _column(found.impacts[name][place, :struck], variable) for name, variable in fields.items()}
-    )
+    return {
+        name: found.impacts[name][place, :struck].astype(_TYPES.get(variable.type, np.float64))
+        for name, variable in fields.items()
+    }
 
 
 def _sizes(task: Task, description: Description) -> tuple[str, ...]:
@@ -160,10 +164,6 @@ def _calculated_sizes(task: Task, description: Description) -> list[str]:
 
 def _parameter(name: str) -> Quantity:
     return Quantity(When.PARAMETER, name, "Real", "")
-
-
-def _column(numbers: npt.NDArray[np.float64], variable: Variable) -> list[Value]:
-    return [_typed(float(number), variable) for number in numbers]
 
 
 def _typed(number: float, variable: Variable) -> Value:

@@ -18,7 +18,7 @@ from ..fmu.values import shown
 from ..run.drawing import read_drawing
 from ..run.experiment import Experiment, Run, perform
 from ..run.master import Ending, Observer, never, run_fixed_step, seconds
-from .task import Design, Quantity, Result, Task, When, of_impacts, struck_in
+from .task import Design, Quantity, Result, Task, When, columns_of, of_impacts, struck_in
 
 # The way of a design through the FMU, by its FMI calls.
 
@@ -109,7 +109,7 @@ def _of_impacts(task: Task, impacts: ImpactCollector, reader: _Reader) -> dict[s
             f"{impacts.lost} impacts did not fit into the FMU's buffer of one communication step; choose a smaller "
             "run.step."
         )
-    return of_impacts(task, impacts.table(), reader.struck, reader.sizes)
+    return of_impacts(task, columns_of(impacts.table()), reader.struck, reader.sizes)
 
 
 # One of many designs, run once more to be seen: the results of a design hold no motion.

@@ -6,8 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pandas as pd
 
 from mechanism_fmu.stress import STEEL_CARD, MaterialCard
@@ -259,6 +261,9 @@ def _way_out(name: str, variables: Mapping[str, Variable]) -> str:
 #: What makes an impact the largest, the first of them that there is.
 _SIZES = ("stress_max", "velocity", "closing_speed", "impulse")
 
+#: The impacts of one design: a column for each field, by name, of one length.
+Impacts = Mapping[str, npt.NDArray[Any]]
+
 
 def wants_stress(task: Task) -> bool:
     """Whether the task asks for what impacts do to a beam."""
@@ -271,13 +276,13 @@ def struck_in(task: Task, description: Description) -> Struck | None:
 
 
 def of_impacts(
-    task: Task, table: pd.DataFrame, struck: Struck | None, values: Mapping[str, Value]
+    task: Task, impacts: Impacts, struck: Struck | None, values: Mapping[str, Value]
 ) -> dict[str, Value | None]:
     """What is asked of the impacts, by column; None where there was no impact, or no stress as the body was held.
 
     Args:
         task: of the design.
-        table: a row for each impact, as of `ImpactCollector`.
+        impacts: a column for each field, as of `ImpactCollector.table`, with a value for each impact.
         struck: what impacts strike, if the FMU declares it and the task `wants_stress`.
         values: of its variables.
 
@@ -285,21 +290,27 @@ def of_impacts(
         FmuError: the FMU reports a beam that cannot be.
     """
     wanted = [quantity for quantity in task.quantities if quantity.when.of_impacts]
-    if table.empty:
+    if all(len(column) == 0 for column in impacts.values()):
         return {quantity.column: None for quantity in wanted}
     damage = None
     if struck is not None:
         beam = beam_of(struck, values)
+        table = pd.DataFrame(impacts)
         if any(quantity.when is When.ALL_IMPACTS for quantity in wanted):
             damage = damage_of_impacts(table, struck, beam, task.material)
-        table = with_stress(table, struck, beam, task.material.material)
-    rows = {When.FIRST_IMPACT: 0, When.LARGEST_IMPACT: _largest(table)}
+        impacts = columns_of(with_stress(table, struck, beam, task.material.material))
+    rows = {When.FIRST_IMPACT: 0, When.LARGEST_IMPACT: _largest(impacts)}
     return {
         quantity.column: float(getattr(damage, quantity.name))
         if quantity.when is When.ALL_IMPACTS
-        else _number(table[quantity.name].iloc[rows[quantity.when]].item())
+        else _number(impacts[quantity.name][rows[quantity.when]].item())
         for quantity in wanted
     }
+
+
+def columns_of(table: pd.DataFrame) -> Impacts:
+    """The columns of a table of impacts, by name."""
+    return {str(name): column.to_numpy() for name, column in table.items()}
 
 
 def _number(value: Value) -> Value | None:
@@ -307,7 +318,11 @@ def _number(value: Value) -> Value | None:
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
-def _largest(table: pd.DataFrame) -> int:
+def _largest(impacts: Impacts) -> int:
     """Where the largest impact stands; of equal ones the first."""
-    size = next((name for name in _SIZES if name in table and table[name].notna().any()), None)
-    return 0 if size is None else int(np.nanargmax(table[size].abs().to_numpy(dtype=np.float64)))
+    for name in _SIZES:
+        if name in impacts:
+            sizes = np.abs(impacts[name].astype(np.float64))
+            if not np.isnan(sizes).all():
+                return int(np.nanargmax(sizes))
+    return 0

@@ -46,7 +46,7 @@ BY_FMU = Backend(by_fmu.NAME, by_fmu.run_designs)
 
 
 def by_batch_in(threads: int | None) -> Backend:
-    """The way of many designs in one call, in so many threads; None: as many as there are processors."""
+    """The way of many designs in one call, in so many threads; None: as many as this process may use."""
     from . import by_batch  # the engine's way in, which takes a moment to load
 
     count = threads or processors()
@@ -147,7 +147,8 @@ class Processes:
     def run(self, designs: Iterable[Design], stop_requested: Callable[[], bool] = never) -> Iterator[Pairs]:
         """Run designs; an `Executor`. Each process has one portion more than it works on.
 
-        What comes is kept back for a moment: to write down each design by itself would take longer than to run it.
+        What comes is kept back for half a second, so much of it is lost by a kill: to write down each design by itself
+        would take longer than to run it.
         """
         waiting = portions(designs, self._work.way.together)
         suspects: list[Design] = []

@@ -223,6 +223,15 @@ def test_a_full_matrix_is_for_so_many_bodies():
     advanced(Mechanism(bodies=bodies), 0.01)
 
 
+def test_above_it_the_message_says_what_is_missing():
+    """A rotor in thick oil, and 115 idle discs."""
+    mechanism = rotor(MOTOR, Damper("oil", "rotor", damping=1e6))
+    idle = tuple(Body(f"disc {k}", 1.0, 1.0) for k in range(115))
+    simulation = Simulation(replace(mechanism, bodies=(*mechanism.bodies, *idle)))
+    with pytest.raises(SimulationError, match="What is stiff takes short steps here: implicit ones are for 115 bodies"):
+        simulation.advance(0.2)
+
+
 #: Designs at the limits of what the models' parameters allow, that took seconds or did not come to an end.
 STIFF = {
     "gear_train": {"pinion_damping": 1e6},

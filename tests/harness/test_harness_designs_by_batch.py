@@ -136,7 +136,7 @@ def test_an_error_in_what_comes_after_the_batch_fails_its_design_alone(
     task = Task(TimeGrid.of(1.0, 0.1), {}, None, ())
     found = SimpleNamespace(failures=["", "jammed."], impact_count=[0, 0], warnings=["", ""])
     fmu = SimpleNamespace(description=None)
-    results = [by_batch._result(fmu, task, DESIGNS[place], found, place) for place in range(2)]  # type: ignore[arg-type]
+    results = [by_batch._result(fmu, task, DESIGNS[place], found, place, {}) for place in range(2)]  # type: ignore[arg-type]
     assert [result.failure for result in results] == [says, "jammed."]
     assert [result.number for result in results] == [1, 2]
 

@@ -205,7 +205,7 @@ def solve_sparse(block: Array, count: int, width: int) -> bool:
         _combine(block, change, count)
         for i in range(count):
             x[i] += change[i]
-        if _leaves_rounding(block, count, _CORRECT_ABOVE if correction == 0 else _ENOUGH):
+        if _residual_is_rounding(block, count, _CORRECT_ABOVE if correction == 0 else _ENOUGH):
             for i in range(count):
                 system.multiplier[system.place[i]] = x[i]
             return True
@@ -213,7 +213,7 @@ def solve_sparse(block: Array, count: int, width: int) -> bool:
 
 
 @jit
-def _leaves_rounding(block: Array, count: int, part: float) -> bool:
+def _residual_is_rounding(block: Array, count: int, part: float) -> bool:
     """Write b - D z to `dual`; whether each row of it is at most this `part` of what it is the difference of.
 
     Each by its own terms: a heavily loaded part of a mechanism says nothing of the accuracy of a lightly loaded one.

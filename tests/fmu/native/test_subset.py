@@ -7,6 +7,7 @@ import pytest
 from numba import carray, types
 
 from mechanism_fmu.engine.library import EXPORTS, program
+from mechanism_fmu.fmu.native import emit
 from mechanism_fmu.fmu.native.emit import linked, object_file
 from mechanism_fmu.fmu.native.link import TARGETS
 from mechanism_fmu.fmu.native.objects import compiled_engine
@@ -68,3 +69,18 @@ def test_a_function_that_leaves_the_subset_is_found_out(function, prefix):
 def test_the_object_is_the_same_every_time():
     made = code(allocating)
     assert object_file(made, TARGETS[0]) == object_file(made, TARGETS[0])
+
+
+def indexed(block, place):
+    carray(block, (8,))[place] = 1.0
+
+
+@pytest.mark.usefixtures("compiler")
+def test_an_index_is_taken_as_it_is(monkeypatch):
+    """numba's own function, which counts negative ones from the end, is replaced: it must be the one that is called."""
+    counting = str(llvm.parse_bitcode(code(indexed)))
+    monkeypatch.setattr(numba.np.arrayobj, "fix_integer_index", numba.np.arrayobj.fix_integer_index)
+    emit._count_from_start_only()
+    plain = str(llvm.parse_bitcode(code(indexed)))
+    assert "icmp slt i64" in counting
+    assert "icmp slt i64" not in plain
