@@ -27,6 +27,7 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.functions import maximum
 from mechanism_fmu.simulation import Simulation, SimulationError
+from tests.n_four_bar import n_four_bar
 
 INERTIA, TORQUE = 0.02, 3.0
 MOTOR = Torque("motor", "rotor", torque=TORQUE)
@@ -203,6 +204,26 @@ def test_an_input_changes_inside_the_step_after_which_the_method_is_another():
     simulation.inputs[0] = TORQUE + 1e-9
     simulation.advance(simulation.time + 1e-9)
     assert simulation.read() == pytest.approx(before, rel=1e-6)
+
+
+def test_a_step_that_is_refused_leaves_the_method_as_it_was():
+    """On the way to a parallelogram that lies flat each step would change to explicit ones; the last one is refused."""
+    simulation = Simulation(n_four_bar(1, through=False))
+    counters, clock = simulation.counters, simulation.field("clock")
+    simulation.begin_step()
+    refused = None
+    while refused is None:
+        counters[codes.IMPLICIT], counters[codes.STIFF] = 1, 1000
+        next_step = clock.item(codes.NEXT_STEP)
+        try:
+            simulation.go_on(1.0, codes.STOP_AT_STEP)
+            assert counters.item(codes.IMPLICIT) == 0
+        except SimulationError as error:
+            refused = str(error)
+    assert "A singular configuration lies ahead" in refused
+    assert counters.item(codes.COUNT_IMPLICIT) > 3
+    assert counters.item(codes.IMPLICIT) == 1
+    assert clock.item(codes.NEXT_STEP) == next_step
 
 
 def test_explicit_alone_runs_out_of_steps_where_it_is_asked_for():

@@ -4,7 +4,6 @@ import math
 from pathlib import Path
 
 import numpy as np
-import numpy as np
 import pytest
 from fake_slave import FakeFmu, FakeSlave
 

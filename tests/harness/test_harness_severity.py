@@ -8,7 +8,7 @@ import pytest
 
 from harness.analysis.impacts import body_held, one_of_each_instant
 from harness.analysis.stress import STRESS_COLUMNS, with_stress, worst_impact
-from harness.designs.task import Quantity, Task, When, of_impacts, struck_in
+from harness.designs.task import Quantity, Task, When, columns_of, of_impacts, struck_in
 from harness.fmu.description import Description
 from harness.fmu.values import engineering
 from harness.report.impact_sections import severity_section, stress_section
@@ -68,7 +68,10 @@ def test_the_largest_impact_of_a_design_is_one_impact(rows, stress):
     task = Task(TimeGrid.of(1.0, 0.1), {}, None, quantities, STEEL_CARD)
     part = TABLE[rows].reset_index(drop=True)
     found = of_impacts(
-        task, part, struck_in(task, STRUCK_FMU), {"tooth_length": TOOTH.length, "tooth_apex_angle": TOOTH.apex_angle}
+        task,
+        columns_of(part),
+        struck_in(task, STRUCK_FMU),
+        {"tooth_length": TOOTH.length, "tooth_apex_angle": TOOTH.apex_angle},
     )
     if stress is None:
         assert found["largest_impact.stress_max"] is None
