@@ -3,6 +3,8 @@
 And accelerations of closed loops and of contacts, which MuJoCo has softly or not at all: of the engine alone.
 
     python -m benchmarks.growth [--rounds 7]        needs the extra "bench" (MuJoCo 4)
+    git worktree add ../older COMMIT
+    python -m benchmarks.growth --beside ../older   the engine of another commit in turns with this one
 
 The same chain hangs from a pin, at the same angles and speeds; MuJoCo has joint angles as coordinates, and no contacts.
 Both give the same angular accelerations, which is checked.
@@ -12,8 +14,12 @@ from __future__ import annotations
 
 import argparse
 import math
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from statistics import median
 
 import numpy as np
@@ -231,19 +237,69 @@ def compare(count: int, rounds: int) -> tuple[float, float]:
     return median(engine_times), median(mujoco_times)
 
 
-def alone(mechanism: Mechanism, rounds: int) -> float:
-    """Time of one acceleration where a motion begins, with the contacts that are closed there [s].
+def accelerations(mechanism: Mechanism) -> Callable[[], float]:
+    """What times one acceleration where a motion begins, with the contacts that are closed there [s].
 
     Args:
         mechanism: which.
-        rounds: whose median it is.
     """
     block = Simulation(mechanism)._block
     y = field_of(block, "y_end").copy()
     dy = np.zeros_like(y)
     calls = max(20, _CALLS // len(mechanism.bodies))
     _repeat(block, y, dy, 1)
-    return median(batch(lambda: _repeat(block, y, dy, calls), 1) / calls for _ in range(rounds))
+    return lambda: batch(lambda: _repeat(block, y, dy, calls), 1) / calls
+
+
+#: A process with the engine of one checkout (first argument) and the mechanisms of this file (second argument, the root
+#: above it): `mechanism_fmu` is found first, and stays what it is.
+_SERVER = """
+import sys
+sys.path.insert(0, sys.argv[1])
+import mechanism_fmu
+sys.path.insert(0, sys.argv[2])
+from benchmarks.growth import serve
+serve()
+"""
+
+
+def serve() -> None:
+    """For each line of standard input, a name of `_OTHERS`, time one acceleration and print it [s]."""
+    made: dict[str, Callable[[], float]] = {}
+    for line in sys.stdin:
+        name = line.strip()
+        if name not in made:
+            made[name] = accelerations(_OTHERS[name]())
+        print(repr(made[name]()), flush=True)
+
+
+def beside(older: Path, rounds: int) -> None:
+    """Time the mechanisms of `_OTHERS` by this engine and by that of another checkout, in turns, and print both.
+
+    Args:
+        older: root of the other checkout.
+        rounds: in which the two take turns.
+    """
+    here = Path(__file__).resolve().parents[1]
+    command = [sys.executable, "-c", _SERVER]
+    with (
+        subprocess.Popen([*command, str(older), str(here)], stdin=-1, stdout=-1, text=True, cwd=older) as old,
+        subprocess.Popen([*command, str(here), str(here)], stdin=-1, stdout=-1, text=True, cwd=here) as new,
+    ):
+        print(f"{'[us an acceleration]':27s} {'here':>8s} {older.name:>8s}  ratio")
+        for name in _OTHERS:
+            then, now = in_turns(partial(_ask, old, name), partial(_ask, new, name), rounds)
+            print(f"{name:27s} {1e6 * median(now):8.2f} {1e6 * median(then):8.2f} {median(now) / median(then):6.3f}")
+
+
+def _ask(server: subprocess.Popen[str], name: str) -> float:
+    assert server.stdin is not None
+    assert server.stdout is not None
+    print(name, file=server.stdin, flush=True)
+    answer = server.stdout.readline()
+    if not answer:
+        raise SystemExit(f"The engine of another checkout cannot run '{name}'; see its message above.")
+    return float(answer)
 
 
 def of_motion(mechanism: Mechanism, until: float, rounds: int) -> tuple[float, float]:
@@ -269,7 +325,12 @@ def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=7, help="in which the two take turns")
-    rounds = parser.parse_args().rounds
+    parser.add_argument("--beside", type=Path, metavar="CHECKOUT", help="time the engine of this checkout as well")
+    arguments = parser.parse_args()
+    rounds = arguments.rounds
+    if arguments.beside is not None:
+        beside(arguments.beside.resolve(), rounds)
+        return
     found = {count: compare(count, rounds) for count in _SIZES}
     print("bars  engine  MuJoCo  ratio   [us an acceleration]")
     for count, (ours, theirs) in found.items():
@@ -277,7 +338,8 @@ def main() -> None:
     exponent = math.log(found[100][0] / found[20][0]) / math.log(5.0)
     print(f"The engine's time grows as the number of bars to the power of {exponent:.2f}, from 20 to 100.")
     for name, made in _OTHERS.items():
-        print(f"{name:27s} {1e6 * alone(made(), rounds):7.2f}")
+        timed = accelerations(made())
+        print(f"{name:27s} {1e6 * median(timed() for _ in range(rounds)):7.2f}")
     print("motions, with all events, checks and projections         [ms], and what is written of a block [MB]")
     for name, of_many, until in _MOTIONS:
         times = {}
