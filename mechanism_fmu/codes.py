@@ -227,6 +227,13 @@ STOP_AT_STEP = 2  # ... or at the end of each of the engine's own steps
 STOP_AT_EVENT = 8  # ... or right after any event
 STOP_BEFORE_EVENT = 4  # ... or at an event that has not happened yet: outputs are left limits
 
+# what `exchange` does for an importer with its own integrator (Model Exchange)
+EXCHANGE_RATES = 0  # the derivative of y_end
+EXCHANGE_INDICATORS = 1
+EXCHANGE_ENTER = 2  # event mode begins: records of earlier events are emptied
+EXCHANGE_EVENTS = 3  # all that is due happens
+EXCHANGE_COMPLETED = 4  # the importer has accepted a step
+
 # columns of an event record
 EVENT_TIME = 0
 EVENT_GUARD = 1
@@ -252,7 +259,8 @@ RAMP_START = 6  # when the slopes of inputs began to act
 RAMP_END = 7  # up to where they are known: no step goes beyond
 STEP_BEGUN = 8  # where the communication step began
 PASSED_AT = 9  # of the last singular configuration that was passed; before the first one, where the motion began
-CLOCK_LENGTH = 10
+COMPLETED = 10  # the last step of an importer that integrates itself
+CLOCK_LENGTH = 11
 
 # columns of the state's counters
 COUNT_IMPACTS = 0

@@ -16,6 +16,7 @@ from numba import carray, cfunc, types
 from .compiler.just_in_time import compiled_inner
 from .compiler.machine_code import InnerCompiler
 from .elementary import atan2, cos, sin, tan
+from .exchange.happenings import exchange
 from .outputs import read_output_rates, read_outputs
 from .starting.begin import begin
 from .stepping.stepper import begin_step, go_on
@@ -28,6 +29,7 @@ def _part(entry: Any) -> Any:
 
 _BEGIN, _BEGIN_STEP, _GO_ON = _part(begin), _part(begin_step), _part(go_on)
 _READ_OUTPUTS, _READ_OUTPUT_RATES = _part(read_outputs), _part(read_output_rates)
+_EXCHANGE = _part(exchange)
 
 _BLOCK = types.CPointer(types.float64)
 _OPTIONS: dict[str, Any] = {"nopython": True, "error_model": "numpy", "boundscheck": False, "fastmath": False}
@@ -56,6 +58,11 @@ def _read_output_rates(block: Any, words: int) -> None:
     _READ_OUTPUT_RATES(carray(block, (words,)))
 
 
+def _exchange(block: Any, words: int, what: int, time: float) -> int:
+    status: int = _EXCHANGE(carray(block, (words,)), what, time)
+    return status
+
+
 def _sin(x: float) -> float:
     return sin(x)
 
@@ -79,6 +86,7 @@ EXPORTS: dict[str, tuple[Callable[..., Any], Any]] = {
     "mechanism_go_on": (_go_on, types.int64(_BLOCK, types.int64, types.float64, types.int64)),
     "mechanism_read_outputs": (_read_outputs, types.void(_BLOCK, types.int64)),
     "mechanism_read_output_rates": (_read_output_rates, types.void(_BLOCK, types.int64)),
+    "mechanism_exchange": (_exchange, types.int64(_BLOCK, types.int64, types.int64, types.float64)),
     # what the formulas of a model call
     "mechanism_sin": (_sin, types.float64(types.float64)),
     "mechanism_cos": (_cos, types.float64(types.float64)),

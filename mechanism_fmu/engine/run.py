@@ -29,6 +29,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "go_on": (_STATUS, (_TIME, ctypes.c_int64)),
     "read_outputs": (None, ()),
     "read_output_rates": (None, ()),
+    "exchange": (_STATUS, (ctypes.c_int64, _TIME)),
 }
 
 
@@ -37,7 +38,7 @@ class NotCompiledError(RuntimeError):
 
 
 class Engine(NamedTuple):
-    """The entry points for one block: see `assembly`, `stepper`, and `outputs`."""
+    """The entry points for one block: see `begin`, `stepper`, `outputs`, and `happenings`."""
 
     begin: Callable[[float], int]
     advance: Callable[[float], int]
@@ -45,6 +46,7 @@ class Engine(NamedTuple):
     go_on: Callable[[float, int], int]
     read_outputs: Callable[[], None]
     read_output_rates: Callable[[], None]
+    exchange: Callable[[int, float], int]
 
 
 def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
@@ -67,11 +69,12 @@ def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
             "There is no compiled engine for this platform, and the package numba, which compiles one, is not "
             "installed. Install it: python -m pip install numba; in a clone: python -m pip install -e '.[dev]'"
         )
+    from .exchange.happenings import exchange
     from .outputs import read_output_rates, read_outputs
     from .starting.begin import begin
     from .stepping.stepper import advance, begin_step, go_on
 
-    entries: list[Any] = [begin, advance, begin_step, go_on, read_outputs, read_output_rates]
+    entries: list[Any] = [begin, advance, begin_step, go_on, read_outputs, read_output_rates, exchange]
     return Engine(*(partial(function, block) for function in entries))
 
 

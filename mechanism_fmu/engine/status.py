@@ -20,6 +20,7 @@ NO_PROGRESS = 16
 OUT_OF_REACH = 17
 MANY_TOUCH = 18
 PENETRATED = 19
+PASSED_OVER = 20
 
 #: How an event can fail, after which nothing goes on (see `codes.GUARD_FAILED`).
 EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY, MANY_TOUCH, PENETRATED)
@@ -46,6 +47,8 @@ ADVICE = {
     "outline came in past the open end of another, a pattern went on to a copy whose line the point was behind, or two "
     "that no contact keeps apart carried a third along. Give a smaller relative_tolerance, close the outline, let the "
     "pattern's boundary run through the apex of its lines, or add the contact that is missing.",
+    PASSED_OVER: "The integrator of the importing tool has stepped over the event of a contact. Let the tool locate "
+    "state events, or give it a smaller tolerance or a smaller largest step.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
     JAMMED: "No finite forces agree with friction from here on (Painleve's paradox; A/G, what a normal force does to "

@@ -27,6 +27,7 @@ _CLOCK = {
     "RAMP_END": FINITE,
     "STEP_BEGUN": FINITE,
     "PASSED_AT": FINITE,
+    "COMPLETED": FINITE,
 }
 _COUNTERS = {
     "COUNT_IMPACTS": COUNT,
@@ -296,6 +297,25 @@ class Watch(Table, rows="guards", prefix="guard_"):
     next = real(2, work=True)
     reached = real(work=True)
     most = real(work=True)
+
+
+class Exchange(Table, rows="guards", prefix="exchange_"):
+    """Model Exchange: what the events of an importer's own integrator need (see `engine.exchange`).
+
+    State: whether an open contact is still leaving, so that its rate is looked at and not its gap; by how much each
+    indicator is lifted; gap and gap rate of each contact, unknowns and their derivatives at COMPLETED.
+
+    Scratch: the indicators, the last of which is of the turns of bodies; how far the next piece of a driver's motion
+    is [s].
+    """
+
+    leaves = integer("contacts", alone=True, name="exchange_leaves", holds=FLAG)
+    lift = real(holds=NOT_NEGATIVE)
+    seen = real("contacts", 2, alone=True, name="exchange_seen", holds=FINITE)
+    seen_y = real("unknowns", alone=True, name="exchange_seen_y", holds=FINITE)
+    seen_rates = real("unknowns", alone=True, name="exchange_seen_rates", holds=ANY)
+    indicator = real("indicators", alone=True, name="exchange_indicator", work=True)
+    next_piece = real(1, alone=True, name="exchange_next_piece", work=True)
 
 
 class Rubs(Table, rows="rubs", prefix="rub_"):

@@ -79,6 +79,8 @@ class Sizes:
     implicit_rates = _follows(lambda n: n["coordinates"] + n["y_wear"] - n["y_alpha"] if n["implicit"] > 0 else 0)
     # two a contact, two a pattern, one a logical function, one for each friction
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])
+    # of Model Exchange: one for each guard, and one for how far the bodies have turned
+    indicators = _follows(lambda n: n["guards"] + 1)
     rub_columns = _follows(lambda n: n["rubs"] + 1)
     # unknowns of the complementarity problem of contacts with friction, and columns of its tableau
     problem = _follows(lambda n: 4 * n["contacts"] if n["rubs"] > 0 else 0)

@@ -100,20 +100,29 @@ def close_rows(block: Array, y: Array, most: float, most_rate: float) -> bool:
     """
     keep_small()
     n = Sizes(block).coordinates
-    moved = False
-    at = place_bodies(block, y)
-    settle_contact_points(block, at, y)
-    count = active_rows(block, at)
-    if largest(Rows(block).residual, count) > most:
-        come_nearer(block, _correct(block, count, Rows(block).residual, y))
-        at = place_bodies(block, y)
-        settle_contact_points(block, at, y)
-        active_rows(block, at)
-        moved = True
+    count, moved = close_positions(block, y, most)
     if moved or largest(Rows(block).residual_rate, count) > most_rate:
         _correct(block, count, Rows(block).residual_rate, y[n:])
         moved = True
     return moved
+
+
+@jit
+def close_positions(block: Array, y: Array, most: float) -> tuple[int, bool]:
+    """Close the active rows at `y`, shape (unknowns,), where one is off by more than `most`, and leave their rates.
+
+    The rows are then those at the new positions. Return their number, and whether anything was moved.
+    """
+    keep_small()
+    at = place_bodies(block, y)
+    settle_contact_points(block, at, y)
+    count = active_rows(block, at)
+    if not largest(Rows(block).residual, count) > most:
+        return count, False
+    come_nearer(block, _correct(block, count, Rows(block).residual, y))
+    at = place_bodies(block, y)
+    settle_contact_points(block, at, y)
+    return active_rows(block, at), True
 
 
 @jit

@@ -55,22 +55,44 @@ def within_motions(block: Array, start: float, step: float) -> float:
 def _within_motion(block: Array, number: int, start: float, step: float) -> float:
     """The step, or what is left of it to the next piece of one curve, or to a quarter of its wave [s]."""
     keep_small()
+    left = left_to_piece(block, number, start)
+    if _NEARLY * left < step:
+        step = left
     table = Curves(block)
-    first = table.piece[number]
-    after = first + table.pieces[number]
-    turns = 0.0
-    if table.periodic[number] == 1:
-        turns = math.floor((start - table.range[number, 0]) / table.range[number, 1]) * table.range[number, 1]
-    for p in range(first, after):
-        left = table.piece_start[p] + turns - start
-        if left <= 0.0 and table.periodic[number] == 1:
-            left += table.range[number, 1]
-        if left > 0.0 and _NEARLY * left < step:
-            step = left
-    here = first
+    here = table.piece[number]
+    after = here + table.pieces[number]
+    turns = _periods_before(block, number, start)
     while here + 1 < after and table.piece_start[here + 1] + turns <= start:
         here += 1
     return min(step, quarter_wave(block, here))
+
+
+@jit
+def left_to_piece(block: Array, number: int, start: float) -> float:
+    """How far the next piece of a curve over time is from `start` [s]; infinite behind the last one."""
+    keep_small()
+    table = Curves(block)
+    first = table.piece[number]
+    turns = _periods_before(block, number, start)
+    nearest = math.inf
+    for p in range(first, first + table.pieces[number]):
+        left = table.piece_start[p] + turns - start
+        if left <= 0.0 and table.periodic[number] == 1:
+            left += table.range[number, 1]
+        if left > 0.0:
+            nearest = min(nearest, left)
+    return nearest
+
+
+@jit
+def _periods_before(block: Array, number: int, start: float) -> float:
+    """Whole periods of a curve before `start` [s]; none where it has no period."""
+    keep_small()
+    table = Curves(block)
+    turns = 0.0
+    if table.periodic[number] == 1:
+        turns = math.floor((start - table.range[number, 0]) / table.range[number, 1]) * table.range[number, 1]
+    return turns
 
 
 # The size of a step: as long as its error allows, and no longer than what may happen within it.

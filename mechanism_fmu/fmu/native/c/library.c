@@ -23,3 +23,7 @@ EXPORT int64_t engine_advance(double *block, int64_t words, double target) {
 EXPORT void engine_read_outputs(double *block, int64_t words) { mechanism_read_outputs(block, words); }
 
 EXPORT void engine_read_output_rates(double *block, int64_t words) { mechanism_read_output_rates(block, words); }
+
+EXPORT int64_t engine_exchange(double *block, int64_t words, int64_t what, double time) {
+    return mechanism_exchange(block, words, what, time);
+}

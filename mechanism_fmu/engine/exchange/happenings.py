@@ -1,0 +1,315 @@
+"""What happens in event mode: all that is due, one after the other, until no indicator is at zero any more.
+
+An importer stops near the zero of an indicator, on either side of it and as near as its integrator is accurate. What is
+due is judged by value and rate; before an impact, its gap is brought to zero, with all drift of the rows, by the least
+change of the positions in the metric of the masses. Then `transit` makes of it what it makes of the engine's
+own events.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, Exchange, Pose
+from ...tables.parts import Contacts, Joints
+from ...tables.sizes import Sizes
+from ...tolerances import GAP_NOISE, RESTS_BELOW, TOUCHES_WITHIN
+from .. import status
+from ..compiler.subset import entry, jit, keep_apart, keep_small
+from ..constraints.kinematics import place_bodies
+from ..contacts.binding import bind, is_free, is_outline
+from ..contacts.guards import gap, guard_of
+from ..contacts.impact import clear_records
+from ..contacts.inside import blame
+from ..contacts.transition import release, transit
+from ..dynamics.acceleration import LEAST_DRIFT, MOST_RATE_DRIFT, close_positions, mend
+from ..dynamics.forces import inputs_changed, take_inputs
+from ..dynamics.oscillation import observe
+from ..stepping.step import watch_at
+from ..stepping.step_size import left_to_piece, smallest_step
+from ..stepping.stepper import restart
+from ..vectors import clear, copy
+from .indicators import (
+    DUE,
+    can_happen,
+    due_below,
+    evaluate,
+    happens,
+    indicator,
+    is_leaving,
+    lift,
+    measure,
+    what_forbids,
+    write_indicators,
+)
+
+#: So many things in turn at one instant are no motion any more.
+_MOST_HAPPENINGS = 100
+#: A dip of the cubic through gaps and rates at two steps counts that is deeper than this part of the gaps there: it is
+#: no more accurate.
+_DIP_SHARE = 0.01
+
+
+@entry
+def exchange(block: Array, what: int, time: float) -> int:
+    """What an importer asks for at y_end and `time` [s], by `codes.EXCHANGE_RATES` ...; return a status.
+
+    Rates: dy_end. Indicators: `exchange.indicator`. Entering: the records of earlier events are emptied. Events: y_end
+    and all modes are those after what is due, and `next_piece` says when the next event by time is. Completed: the step
+    from the last one on is looked through for what the importer has not seen.
+    """
+    keep_small()
+    _set_clock(block, time)
+    if what == codes.EXCHANGE_RATES:
+        evaluate(block)
+        return what_forbids(block)
+    if what == codes.EXCHANGE_INDICATORS:
+        write_indicators(block)
+        return status.OK
+    if what == codes.EXCHANGE_ENTER:
+        clear_records(block)
+        return status.OK
+    if what == codes.EXCHANGE_COMPLETED:
+        return _complete(block)
+    outcome = _happen(block)
+    if outcome == status.OK:
+        _settle(block)
+    return outcome
+
+
+@jit
+def _set_clock(block: Array, time: float) -> None:
+    """There is no step of the engine's own."""
+    clock = Course(block).clock
+    clock[codes.TIME] = time
+    clock[codes.STEP_START] = time
+    clock[codes.STEP_END] = time
+    clock[codes.STEP_SIZE] = 0.0
+
+
+@jit
+def _happen(block: Array) -> int:
+    """Changed inputs, and then all that is due; return a status."""
+    keep_small()
+    clear(Contacts(block).apart)
+    copy(Course(block).y_end, Exchange(block).seen_y)  # outlines are looked at from here on
+    if inputs_changed(block):
+        take_inputs(block)
+        outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
+        if outcome != status.OK:
+            return outcome
+    for _ in range(_MOST_HAPPENINGS):
+        at = evaluate(block)
+        number = _first_due(block, at)
+        if number == codes.NONE:
+            return status.OK
+        guard, subject = happens(block, number)
+        gap_closes = guard == codes.GUARD_GAP
+        outcome = _touch(block, at, number, subject) if gap_closes else transit(block, guard, subject)
+        if outcome != status.OK:
+            return outcome
+        if guard == codes.GUARD_HANDOVER:
+            lift(block, evaluate(block), number, 2.0 * DUE)
+    return status.CHATTERING
+
+
+@jit
+def _first_due(block: Array, at: Pose) -> int:
+    """The first indicator that is due, or `codes.NONE`."""
+    keep_small()
+    for g in range(Sizes(block).guards):
+        if can_happen(block, g) and _is_due(block, at, g):
+            return g
+    return codes.NONE
+
+
+@jit
+def _is_due(block: Array, at: Pose, number: int) -> bool:
+    """Whether an indicator has come to zero, or a gap is so near to it that it will at once."""
+    keep_small()
+    if indicator(block, at, number) + Exchange(block).lift[number] < due_below(block, number):
+        return True
+    guard, subject = guard_of(block, number)
+    if guard != codes.GUARD_GAP or Contacts(block).mode[subject] == codes.CLOSED or is_free(block, subject):
+        return False
+    distance, rate = gap(block, at, subject)
+    return distance <= TOUCHES_WITHIN and rate < -RESTS_BELOW and not is_leaving(block, number)
+
+
+@jit
+def _touch(block: Array, at: Pose, number: int, contact: int) -> int:
+    """A gap is zero, or the rate of a contact that was leaving; return a status."""
+    keep_apart()
+    if is_leaving(block, number) and gap(block, at, contact)[0] > TOUCHES_WITHIN:
+        Exchange(block).leaves[contact] = 0  # from the top of its hop on, its gap is looked at
+        Exchange(block).lift[number] = 0.0
+        return status.OK
+    release(block, contact)
+    if is_free(block, contact):
+        bind(block, place_bodies(block, Course(block).y_end), contact)
+    _bring_together(block, contact)
+    at = place_bodies(block, Course(block).y_end)
+    rate = gap(block, at, contact)[1]
+    Exchange(block).leaves[contact] = 1
+    if rate > RESTS_BELOW:  # it has been passed over, and comes off again
+        Exchange(block).lift[number] = 0.0
+        return status.OK
+    outcome = transit(block, codes.GUARD_GAP, contact)
+    Exchange(block).lift[number] = 0.0
+    return outcome
+
+
+@jit
+def _bring_together(block: Array, contact: int) -> None:
+    """Bring a gap that is not zero to zero, and all rows that have drifted; rates stay, but for those of the rows."""
+    keep_small()
+    now = Course(block)
+    if not abs(gap(block, place_bodies(block, now.y_end), contact)[0]) > GAP_NOISE:
+        return
+    mode = Contacts(block).mode
+    mode[contact] = codes.CLOSED
+    close_positions(block, now.y_end, LEAST_DRIFT)
+    mode[contact] = codes.OPEN
+    mend(block, math.inf, MOST_RATE_DRIFT)
+
+
+@jit
+def _settle(block: Array) -> None:
+    """After events: what is leaving, indicators above zero, and from where the next step is looked through."""
+    keep_small()
+    now = Course(block)
+    table = Exchange(block)
+    restart(block)
+    release(block, codes.NONE)
+    at = place_bodies(block, now.y_end)
+    for c in range(table.leaves.shape[0]):
+        table.leaves[c] = 0
+        if Contacts(block).mode[c] == codes.OPEN and not is_free(block, c):
+            table.leaves[c] = 1 if gap(block, at, c)[0] <= TOUCHES_WITHIN else 0
+    at = evaluate(block)
+    _note(block, at)
+    for g in range(Sizes(block).guards):
+        lift(block, at, g, 2.0 * DUE)
+    _find_next_piece(block)
+
+
+@jit
+def _note(block: Array, at: Pose) -> None:
+    """What the next completed step is compared with: gaps, gap rates, unknowns and their derivatives."""
+    keep_small()
+    now = Course(block)
+    table = Exchange(block)
+    now.clock[codes.COMPLETED] = now.clock[codes.TIME]
+    copy(now.y_end, table.seen_y)
+    copy(now.dy_end, table.seen_rates)
+    for c in range(table.leaves.shape[0]):
+        if _is_looked_at(block, c):
+            table.seen[c, 0], table.seen[c, 1] = gap(block, at, c)
+    measure(block, at)
+
+
+@jit
+def _is_looked_at(block: Array, contact: int) -> bool:
+    """Whether it is the gap of a contact that its indicator is of; distances of outlines have no rate."""
+    keep_small()
+    opened: bool = Contacts(block).mode[contact] == codes.OPEN and can_happen(block, contact)
+    return opened and not is_outline(block, contact) and Exchange(block).leaves[contact] == 0
+
+
+@jit
+def _complete(block: Array) -> int:
+    """Look for a gap that was zero within the step, and time what swings; return a status."""
+    keep_small()
+    now = Course(block)
+    table = Exchange(block)
+    at = evaluate(block)
+    size = now.clock[codes.TIME] - now.clock[codes.COMPLETED]
+    for c in range(table.leaves.shape[0]):
+        if size > 0.0 and _is_looked_at(block, c):
+            distance, rate = gap(block, at, c)
+            depth = _deepest(table.seen[c, 0], table.seen[c, 1], distance, rate, size)
+            if depth > 0.0:
+                blame(block, c, -depth)
+                return status.PASSED_OVER
+    if size > 0.0:
+        _write_cubic(block, size)
+        observe(block)
+        _set_clock(block, now.clock[codes.TIME])
+    watch_at(block, now.clock[codes.TIME])
+    _note(block, at)
+    return status.OK
+
+
+@jit
+def _deepest(before: float, rate_before: float, after: float, rate_after: float, size: float) -> float:
+    """How far below zero a gap has been that nothing has said, or 0: within the step, or since the step before.
+
+    A gap that is below zero at the end of this step is what an importer without a root finder goes into event mode for.
+    """
+    keep_small()
+    shallow = TOUCHES_WITHIN + _DIP_SHARE * (abs(before) + abs(after))
+    if before < -shallow and after < -shallow:
+        return -before
+    if not (before > 0.0 and after > 0.0 and rate_before < 0.0 < rate_after):
+        return 0.0
+    left = 0.0
+    right = 1.0
+    for _ in range(50):  # where the rate of the cubic is zero
+        middle = 0.5 * (left + right)
+        slope = _slope(before, rate_before * size, after, rate_after * size, middle)
+        if slope < 0.0:
+            left = middle
+        else:
+            right = middle
+    lowest = _cubic(before, rate_before * size, after, rate_after * size, left)
+    return -lowest if lowest < -shallow else 0.0
+
+
+@jit
+def _cubic(before: float, slope_before: float, after: float, slope_after: float, x: float) -> float:
+    change = after - before
+    bend = slope_before - change
+    return before + x * (change + (1.0 - x) * (bend + x * (change - slope_after - bend)))
+
+
+@jit
+def _slope(before: float, slope_before: float, after: float, slope_after: float, x: float) -> float:
+    change = after - before
+    bend = slope_before - change
+    last = change - slope_after - bend
+    return change + (1.0 - 2.0 * x) * bend + x * (2.0 - 3.0 * x) * last
+
+
+@jit
+def _write_cubic(block: Array, size: float) -> None:
+    """The dense output of the importer's step: the cubic through unknowns and derivatives at both ends (Hermite)."""
+    keep_small()
+    now = Course(block)
+    table = Exchange(block)
+    now.clock[codes.STEP_START] = now.clock[codes.COMPLETED]
+    now.clock[codes.STEP_SIZE] = size
+    for i in range(now.y_end.shape[0]):
+        change = now.y_end[i] - table.seen_y[i]
+        bend = size * table.seen_rates[i] - change
+        for row in range(now.dense.shape[0]):
+            now.dense[row, i] = 0.0
+        now.dense[0, i] = table.seen_y[i]
+        now.dense[1, i] = change
+        now.dense[2, i] = bend
+        now.dense[3, i] = change - size * now.dy_end[i] - bend
+
+
+@jit
+def _find_next_piece(block: Array) -> None:
+    """How far the next piece of a driver's motion is, where accelerations may jump [s]; infinite without any."""
+    keep_small()
+    time = Course(block).clock[codes.TIME]
+    nearest = math.inf
+    for number in Joints(block).curve:
+        if number != codes.NONE:
+            left = left_to_piece(block, number, time)
+            if left > smallest_step(time):
+                nearest = min(nearest, left)
+    Exchange(block).next_piece[0] = nearest

@@ -1,0 +1,299 @@
+"""Event indicators: numbers that are positive until something happens, one for each guard, whatever the mode.
+
+- A contact: its gap while it is open, its force while it is closed.
+- A contact that has just come off, by an impact or because it would pull, is *leaving*: its gap is zero within
+  rounding, and would fire again at once. Until its gap is clearly positive, its indicator is
+
+      gap rate + STICK_SPEED + gap / RETURN_TIME,
+
+  which is positive as long as it leaves, and comes to zero on the way back, just beyond the top of the hop, before the
+  gap does. That event changes nothing but what is looked at: from then on it is the gap. A hop that is no higher
+  than what touches has ended there: the contact closes.
+- Two outlines: an importer's step must not lead through a corner, and there is no rate that would tell of a dip. What
+  is known is their distance s at the last completed step, and by how much it can have changed since: the circle around
+  one outline has been displaced by `travel` in the frame of the other one's body. So the indicator is s - travel, which
+  takes no search at all; at its zero, which is no more than a look, s is measured anew. Where s is less than what a
+  corner may be grazed by unseen, `_GRAZE` of the radius, it is the distance itself, or 2 _GRAZE R - travel if that is
+  less.
+- All bodies, where anything depends on their places: 1 - turn / MOST_TURN since the last completed step, so that no
+  step turns over what happens twice within it.
+- A stop with memory, the end of a feature, a pattern's boundaries, a logical function: how far each is from its change.
+- Friction: the slip speed of what slips; what friction of what sticks could hold more.
+
+Each is scaled to order 1, and lifted above zero where an event has left it below (`happenings`). What cannot happen in
+the present mode is 1.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, Exchange, LinearSystem, Pose
+from ...tables.parts import Bodies, Contacts, Outlines, Ports
+from ...tables.sizes import Sizes
+from ...tolerances import MARGIN, SLIPS_ABOVE, STICK_SPEED
+from .. import status
+from ..compiler.subset import jit, keep_apart, keep_small
+from ..constraints.friction_rows import rubs, slips, sticks
+from ..constraints.rows import row_count
+from ..contacts.binding import is_free
+from ..contacts.complementarity import push_tolerance
+from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
+from ..dynamics.acceleration import derivative
+from ..dynamics.forces import feed, set_time
+from ..dynamics.sliding import hold
+from ..elementary import sine_cosine
+from ..outlines.nearest import look_no_deeper
+from ..stepping.singular import SINGULAR_BELOW, independence
+from ..stepping.step_size import MOST_TURN
+
+#: By how much a leaving contact's indicator rises with its gap: so fast must it come back from a gap for that to be
+#: seen before the gap is zero [s].
+RETURN_TIME = 0.1
+#: Outlines may graze each other unseen by half of this part of the smaller one's radius.
+_GRAZE = 1e-3
+#: An indicator below this is due, and behind events none is below twice as much.
+DUE = 1e-12
+#: A closed contact opens, and what sticks slips, when its force lacks so many times its tolerance.
+LETS_GO = 2.0
+
+
+@jit
+def evaluate(block: Array) -> Pose:
+    """Forces and accelerations at y_end and TIME with the present inputs, which may move between events."""
+    keep_apart()
+    now = Course(block)
+    feed(block, Ports(block).inputs)
+    set_time(block, now.clock[codes.TIME])
+    return derivative(block, now.y_end, now.dy_end)
+
+
+@jit
+def what_forbids(block: Array) -> int:
+    """Why the accelerations last computed are none, or `status.OK`."""
+    keep_small()
+    dy = Course(block).dy_end
+    for k in range(dy.shape[0]):
+        if not abs(dy[k]) < 1e300:
+            return status.JAMMED if rubs(block) else status.STEP_TOO_SMALL
+    if LinearSystem(block).rank[0] != Course(block).counters[codes.RANK] or independence(block) < SINGULAR_BELOW:
+        return status.SINGULAR
+    return status.OK
+
+
+@jit
+def happens(block: Array, number: int) -> tuple[int, int]:
+    """What it is that happens when this indicator comes to zero in the present mode, as `guards.guard_of`."""
+    keep_small()
+    guard, subject = guard_of(block, number)
+    if guard == codes.GUARD_GAP and Contacts(block).mode[subject] == codes.CLOSED:
+        guard = codes.GUARD_PUSH
+    elif guard == codes.GUARD_STICK and sticks(block, subject):
+        guard = codes.GUARD_SLIP
+    return guard, subject
+
+
+@jit
+def can_happen(block: Array, number: int) -> bool:
+    """Whether this indicator can come to zero in the present mode."""
+    keep_small()
+    guard, subject = happens(block, number)
+    if guard == codes.GUARD_PUSH:
+        pushes: bool = Contacts(block).value[subject, codes.ENABLED] > 0.5 and can_open(block, subject)
+        return pushes
+    if guard == codes.GUARD_SLIP:
+        return True
+    if guard == codes.GUARD_STICK:
+        return rubs(block) and slips(block, subject)
+    return is_watched(block, number)
+
+
+@jit
+def is_leaving(block: Array, number: int) -> bool:
+    """Whether this is the indicator of an open contact whose rate is looked at."""
+    keep_small()
+    guard, subject = guard_of(block, number)
+    if guard != codes.GUARD_GAP or Contacts(block).mode[subject] == codes.CLOSED or is_free(block, subject):
+        return False
+    leaves: bool = Exchange(block).leaves[subject] == 1
+    return leaves
+
+
+@jit
+def indicator(block: Array, at: Pose, number: int) -> float:
+    """One indicator at the pose, forces and accelerations of `evaluate`, without its lift."""
+    keep_apart()
+    if not can_happen(block, number):
+        return 1.0
+    guard, subject = happens(block, number)
+    system = LinearSystem(block)
+    if guard == codes.GUARD_PUSH:
+        tolerance = push_tolerance(block, row_count(block))
+        force: float = system.multiplier[Contacts(block).row[subject]] + LETS_GO * tolerance
+        return force / _force_scale(block)
+    if guard == codes.GUARD_SLIP:
+        tolerance = push_tolerance(block, row_count(block))
+        return (hold(block, subject) + LETS_GO * tolerance) / _force_scale(block)
+    if is_leaving(block, number):
+        distance, rate = gap(block, at, subject)
+        return (rate + STICK_SPEED + distance / RETURN_TIME) / _length_scale(block, number)
+    if guard == codes.GUARD_GAP and is_free(block, subject):
+        return _before_meeting(block, at, number, subject) / _length_scale(block, number)
+    value = guard_value(block, at, number)[0]
+    if guard == codes.GUARD_STICK:
+        value += SLIPS_ABOVE
+    return value / _length_scale(block, number)
+
+
+@jit
+def _before_meeting(block: Array, at: Pose, number: int, contact: int) -> float:
+    """How far two outlines are from touching, or from the next look at that [m]."""
+    keep_small()
+    table = Contacts(block)
+    known = table.apart[table.group[contact]]
+    data = Outlines(block).data
+    one, other = table.outline_i[contact], table.outline_j[contact]
+    graze = _GRAZE * min(data[one, codes.OUTLINE_RADIUS], data[other, codes.OUTLINE_RADIUS])
+    i, j = table.body_i[contact], table.body_j[contact]
+    travel = _travel(block, at, i, j, one)
+    if Outlines(block).copies[other] == 0:
+        travel = min(travel, _travel(block, at, j, i, other))
+    if known >= graze:
+        return float(known - travel)
+    look_no_deeper(block, 2.0 * graze)  # what has come in since is to be seen, that far at least
+    distance = guard_value(block, at, number)[0]
+    look_no_deeper(block, 0.0)
+    return float(min(distance, 2.0 * graze - travel))
+
+
+@jit
+def _travel(block: Array, at: Pose, i: int, j: int, outline: int) -> float:
+    """How far points of the circle around an outline of body i have gone in the frame of body j at most [m].
+
+    Since the last completed step.
+    """
+    keep_small()
+    data = Outlines(block).data[outline]
+    x, y = data[codes.OUTLINE_X], data[codes.OUTLINE_Y]
+    now_x, now_y = _from(at.x[j], at.y[j], at.phi[j], at.x[i], at.y[i], at.phi[i], x, y)
+    xi, yi, phi_i = _seen(block, i)
+    xj, yj, phi_j = _seen(block, j)
+    seen_x, seen_y = _from(xj, yj, phi_j, xi, yi, phi_i, x, y)
+    turned = abs(at.phi[i] - phi_i - at.phi[j] + phi_j)
+    displaced = math.sqrt((now_x - seen_x) ** 2 + (now_y - seen_y) ** 2)
+    return float(displaced + data[codes.OUTLINE_RADIUS] * turned)
+
+
+@jit
+def _from(
+    xj: float, yj: float, phi_j: float, xi: float, yi: float, phi_i: float, x: float, y: float
+) -> tuple[float, float]:
+    """The point (x, y) of body i in the frame of body j [m]."""
+    keep_small()
+    s, c = sine_cosine(phi_i)
+    dx = xi + c * x - s * y - xj
+    dy = yi + s * x + c * y - yj
+    s, c = sine_cosine(phi_j)
+    return c * dx + s * dy, c * dy - s * dx
+
+
+@jit
+def _seen(block: Array, body: int) -> tuple[float, float, float]:
+    """Place and angle of a body at the last completed step."""
+    keep_small()
+    if body == Sizes(block).bodies:
+        return 0.0, 0.0, 0.0
+    y = Exchange(block).seen_y
+    return float(y[3 * body]), float(y[3 * body + 1]), float(y[3 * body + 2])
+
+
+@jit
+def _before_turned(block: Array, at: Pose) -> float:
+    """How much further the body that has turned most may turn, in parts of what it may."""
+    keep_small()
+    if Sizes(block).guards == Sizes(block).rubs:
+        return 1.0
+    most = 0.0
+    for i in range(Sizes(block).bodies):
+        most = max(most, abs(at.phi[i] - _seen(block, i)[2]))
+    return float(1.0 - most / MOST_TURN)
+
+
+@jit
+def write_indicators(block: Array) -> None:
+    """All indicators at y_end and TIME."""
+    keep_small()
+    at = evaluate(block)
+    table = Exchange(block)
+    for g in range(Sizes(block).guards):
+        table.indicator[g] = indicator(block, at, g) + table.lift[g]
+    table.indicator[Sizes(block).guards] = _before_turned(block, at)
+
+
+@jit
+def measure(block: Array, at: Pose) -> None:
+    """Measure how far all outlines are apart from which nothing is bound, for the indicators of what follows."""
+    keep_small()
+    table = Contacts(block)
+    for g in range(table.mode.shape[0]):
+        if is_free(block, g) and can_happen(block, g):
+            table.apart[table.group[g]] = 0.0
+            table.apart[table.group[g]] = max(guard_value(block, at, g)[0], 0.0)
+
+
+@jit
+def due_below(block: Array, number: int) -> float:
+    """Below which value an indicator is due: of forces, where they lack more than half of what they may."""
+    keep_small()
+    guard = happens(block, number)[0]
+    if guard == codes.GUARD_PUSH or guard == codes.GUARD_SLIP:
+        half = 0.25 * LETS_GO * push_tolerance(block, row_count(block)) / _force_scale(block)
+        return max(DUE, half)
+    return DUE
+
+
+@jit
+def lift(block: Array, at: Pose, number: int, least: float) -> None:
+    """Lift an indicator that is less than `least` to that, or take back its lift.
+
+    What has come to the end of a feature in a hollow corner has nowhere to go on; it counts again a `MARGIN` farther.
+    """
+    keep_small()
+    value = indicator(block, at, number)
+    table = Exchange(block)
+    table.lift[number] = 0.0
+    if value < least:
+        table.lift[number] = least - value
+        if guard_of(block, number)[0] == codes.GUARD_HANDOVER:
+            table.lift[number] += MARGIN / _length_scale(block, number)
+
+
+@jit
+def _length_scale(block: Array, number: int) -> float:
+    """The size of the mechanism [m], of its speeds [m/s]; 1 for angles, and where all bodies begin at the origin."""
+    keep_small()
+    guard, subject = guard_of(block, number)
+    of_contact = guard == codes.GUARD_GAP or guard == codes.GUARD_HANDOVER
+    kind = Contacts(block).kind[subject] if of_contact else codes.POINT_LINE
+    if guard == codes.GUARD_FUNCTION or guard == codes.GUARD_CLICK or guard == codes.GUARD_STICK:
+        return 1.0
+    if kind == codes.ANGLE_STOP or kind == codes.ANGLE_LOCK:
+        return 1.0
+    size = 0.0
+    start = Bodies(block).start
+    for i in range(start.shape[0]):
+        size = max(size, abs(start[i, 0]), abs(start[i, 1]))
+    return size if size > 0.0 else 1.0
+
+
+@jit
+def _force_scale(block: Array) -> float:
+    """The force that accelerates the heaviest body by 1 m/s^2 [N]."""
+    keep_small()
+    inverse = Bodies(block).inverse_mass
+    least = inverse[0]
+    for k in range(0, Sizes(block).coordinates, 3):
+        least = min(least, inverse[k])
+    return 1.0 / float(least)
