@@ -1,8 +1,9 @@
-"""modelDescription.xml of FMI 3.0 for co-simulation.
+"""modelDescription.xml of FMI 3.0: Model Exchange and co-simulation.
 
 The variables are those of FMI 2.0 under the same names and value references, and time. With a clock of impacts there
 are more: the clock, what it clocks, and as one array each what is numbered elsewhere (`impacts.time` is all of
-`impacts[1].time` to `impacts[8].time`). Section numbers refer to the FMI specification 3.0.2.
+`impacts[1].time` to `impacts[8].time`). Behind all stand the states of Model Exchange, their derivatives and the event
+indicators. Section numbers refer to the FMI specification 3.0.2.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ...model import MechanismError, Model
 from ..parts.model_description import CommonType, definitions, description_root, value_attributes
+from ..parts.states import indicator_count, state_variables
 from ..parts.variables import FIRST_REFERENCE, Variable, array_name, common_description, numbered, stride, variables_of
 
 _IMPACT_FLAG = "impact.any"
@@ -114,6 +116,7 @@ def variables3(model: Model, clocks: bool = False) -> tuple[Variable3, ...]:
             "--clocks."
         )
     found = tuple(_variables3(variables, clocks))
+    found += tuple(_of_exchange(model, found[-1].value_reference + 1))
     names = sorted(variable.name for variable in found)
     for name, same in groupby(names):
         if len(list(same)) > 1:
@@ -139,7 +142,7 @@ def model_description3(model: Model, token: str, clocks: bool = False) -> Elemen
     variables = variables3(model, clocks)
     scalars = [variable.scalar for variable in variables]
     root = description_root(model, "3.0", {"instantiationToken": token})
-    _co_simulation(root, model)
+    _interfaces(root, model)
     types, elements = definitions(root, model, scalars, _float_type)
     for variable in variables:
         _variable(elements, variable, types)
@@ -170,8 +173,35 @@ def _variables3(variables: Sequence[Variable], clocks: bool) -> Iterator[Variabl
         )
 
 
-def _co_simulation(root: Element, model: Model) -> None:
-    """Capability flags (section 4.4)."""
+def _of_exchange(model: Model, first: int) -> Iterator[Variable3]:
+    """States, derivatives and event indicators of Model Exchange (section 3)."""
+    mechanism = model.mechanism(model.values())
+    states = state_variables(mechanism, first)
+    behind = first + len(states)
+    indicators = [
+        Variable(
+            f"event_indicator[{k + 1}]", behind + k, "Real", "local", "continuous", "calculated", "Event indicator"
+        )
+        for k in range(indicator_count(mechanism))
+    ]
+    for variable in (*states, *indicators):
+        yield Variable3(variable.name, variable.description, variable.value_reference, "Float64", variable)
+
+
+def _is_indicator(variable: Variable3) -> bool:
+    return variable.scalar.causality == "local" and variable.scalar.unit is None
+
+
+def _interfaces(root: Element, model: Model) -> None:
+    """Capability flags (sections 3.3 and 4.4)."""
+    SubElement(
+        root,
+        "ModelExchange",
+        modelIdentifier=model.name,
+        canGetAndSetFMUState="true",
+        canSerializeFMUState="true",
+        needsCompletedIntegratorStep="true",
+    )
     SubElement(
         root,
         "CoSimulation",
@@ -208,6 +238,8 @@ def _variable(elements: Element, variable: Variable3, types: dict[str, CommonTyp
     if scalar.initial is not None:
         element.set("initial", scalar.initial)
     element.attrib.update(value_attributes(scalar, types))
+    if scalar.derivative is not None:
+        element.set("derivative", str(scalar.derivative))
     if variable.clock is not None:
         element.set("clocks", str(variable.clock))
     if scalar.causality == "output" and scalar.variability == "continuous":
@@ -228,15 +260,23 @@ def _model_structure(root: Element, variables: Sequence[Variable3]) -> None:
         if variable.scalar.causality == "output":
             _unknown(structure, "Output", variable, variable.scalar.dependencies)
     for variable in variables:
-        if variable.type == "Clock" or (variable.scalar.initial == "calculated" and variable.clock is None):
-            _unknown(structure, "InitialUnknown", variable, variable.scalar.initial_dependencies)
+        if variable.scalar.derivative is not None:
+            _unknown(structure, "ContinuousStateDerivative", variable, None)
+    for variable in variables:
+        calculated = variable.scalar.initial == "calculated" and not _is_indicator(variable)
+        if variable.type == "Clock" or (calculated and variable.clock is None):
+            of_exchange = variable.scalar.causality == "local"
+            _unknown(
+                structure, "InitialUnknown", variable, None if of_exchange else variable.scalar.initial_dependencies
+            )
+    for variable in variables:
+        if _is_indicator(variable):
+            _unknown(structure, "EventIndicator", variable, None)
 
 
-def _unknown(parent: Element, element: str, variable: Variable3, dependencies: Sequence[int]) -> None:
-    SubElement(
-        parent,
-        element,
-        valueReference=str(variable.value_reference),
-        dependencies=" ".join(map(str, dependencies)),
-        dependenciesKind=" ".join("dependent" for _ in dependencies),
-    )
+def _unknown(parent: Element, element: str, variable: Variable3, dependencies: Sequence[int] | None) -> None:
+    """An unknown; where its dependencies are not said, it may depend on all."""
+    unknown = SubElement(parent, element, valueReference=str(variable.value_reference))
+    if dependencies is not None:
+        unknown.set("dependencies", " ".join(map(str, dependencies)))
+        unknown.set("dependenciesKind", " ".join("dependent" for _ in dependencies))

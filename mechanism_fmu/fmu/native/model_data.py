@@ -11,6 +11,7 @@ from ...model.compile import unknown_names
 from ...tables.layout import FIELDS, pack, slot
 from ...tables.sizes import sizes_of
 from ..instance.saved_state import Rule, rules
+from ..parts.states import states_of
 from ..parts.variables import FIRST_REFERENCE, Variable, variables_of
 from .description3 import Again, outputs_again
 from .formulas import Formulas
@@ -92,6 +93,7 @@ def model_data(model: Model, formulas: Formulas, guid: str, mark: bytes, clocks:
         **_names(mechanism),
         "rules": Table("Rule", "RULES", tuple(map(_rule, held))),
         "rule_count": len(held),
+        "nominals": Table("double", "NOMINALS", tuple((float(state.nominal),) for state in states_of(mechanism))),
     }
 
 

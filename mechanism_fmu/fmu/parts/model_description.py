@@ -1,4 +1,4 @@
-"""modelDescription.xml of FMI 2.0 for co-simulation.
+"""modelDescription.xml of FMI 2.0: co-simulation, and Model Exchange where the FMU is native.
 
 Section numbers refer to the FMI specification 2.0.4.
 """
@@ -15,6 +15,7 @@ from ... import __version__
 from ...model import Model
 from ...units import BASE_UNITS
 from .fmi_units import OFFERED_DISPLAY_UNITS, UnitError, display_factor, parse_unit
+from .states import indicator_count, state_variables
 from .variables import FIRST_REFERENCE, Variable, variables_of
 
 #: FMI log categories (section 2.2.4) and when a message falls into one.
@@ -67,7 +68,13 @@ def model_description(model: Model, guid: str, native: bool = False) -> Element:
     variables = variables_of(model)
     wrapper = "" if native else f" (pythonfmu {pythonfmu_version})"
     root = description_root(model, "2.0", {"guid": guid}, wrapper)
-    _co_simulation(root, model, _NATIVE if native else _BY_PYTHONFMU)
+    if native:  # pythonfmu's wrapper has no Model Exchange
+        mechanism = model.mechanism(model.values())
+        variables += state_variables(mechanism, FIRST_REFERENCE + len(variables))
+        root.set("numberOfEventIndicators", str(indicator_count(mechanism)))
+        _interface(root, "ModelExchange", model, {"needsExecutionTool": "false"})
+    co_simulation = {"canHandleVariableCommunicationStepSize": "true", **(_NATIVE if native else _BY_PYTHONFMU)}
+    _interface(root, "CoSimulation", model, co_simulation)
     types, elements = definitions(root, model, variables, _simple_type)
     for variable in variables:
         _scalar_variable(elements, variable, types)
@@ -135,17 +142,10 @@ def to_bytes(root: Element) -> bytes:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{tostring(root, encoding="unicode")}\n'.encode()
 
 
-def _co_simulation(root: Element, model: Model, flags: dict[str, str]) -> None:
-    """Capability flags (section 4.3.1)."""
-    element = SubElement(
-        root,
-        "CoSimulation",
-        modelIdentifier=model.name,
-        canHandleVariableCommunicationStepSize="true",
-        canGetAndSetFMUstate="true",
-        canSerializeFMUstate="true",
-    )
-    element.attrib.update(flags)
+def _interface(root: Element, name: str, model: Model, flags: dict[str, str]) -> None:
+    """Capability flags of an interface (sections 3.3.1 and 4.3.1)."""
+    common = {"canGetAndSetFMUstate": "true", "canSerializeFMUstate": "true"}
+    element = SubElement(root, name, {"modelIdentifier": model.name, **common, **flags})
     SubElement(SubElement(element, "SourceFiles"), "File", name=NO_SOURCES)
 
 
@@ -228,7 +228,10 @@ def _scalar_variable(elements: Element, variable: Variable, types: dict[str, Com
     )
     if variable.initial is not None:
         element.set("initial", variable.initial)
-    SubElement(element, variable.type, value_attributes(variable, types))
+    attributes = value_attributes(variable, types)
+    if variable.derivative is not None:
+        attributes["derivative"] = str(_index(variable.derivative))
+    SubElement(element, variable.type, attributes)
 
 
 def value_attributes(variable: Variable, types: dict[str, CommonType]) -> dict[str, str]:
@@ -256,21 +259,24 @@ def _model_structure(root: Element, variables: Sequence[Variable]) -> None:
         element = SubElement(structure, "Outputs")
         for variable in outputs:
             _unknown(element, variable, variable.dependencies)
+    rates = [v for v in variables if v.derivative is not None]
+    if rates:
+        element = SubElement(structure, "Derivatives")
+        for variable in rates:
+            _unknown(element, variable, None)
     unknowns = [v for v in variables if v.initial == "calculated"]
     if unknowns:
         element = SubElement(structure, "InitialUnknowns")
         for variable in unknowns:
-            _unknown(element, variable, variable.initial_dependencies)
+            _unknown(element, variable, None if variable.causality == "local" else variable.initial_dependencies)
 
 
-def _unknown(parent: Element, variable: Variable, dependencies: Sequence[int]) -> None:
-    SubElement(
-        parent,
-        "Unknown",
-        index=str(_index(variable.value_reference)),
-        dependencies=" ".join(str(_index(reference)) for reference in dependencies),
-        dependenciesKind=" ".join("dependent" for _ in dependencies),
-    )
+def _unknown(parent: Element, variable: Variable, dependencies: Sequence[int] | None) -> None:
+    """An unknown; where its dependencies are not said, it may depend on all."""
+    element = SubElement(parent, "Unknown", index=str(_index(variable.value_reference)))
+    if dependencies is not None:
+        element.set("dependencies", " ".join(str(_index(reference)) for reference in dependencies))
+        element.set("dependenciesKind", " ".join("dependent" for _ in dependencies))
 
 
 def _index(reference: int) -> int:

@@ -10,7 +10,7 @@ from typing import Literal
 from ...model import Calculated, Input, Model, Output, Parameter
 from ...model.ports import VariableType
 
-Causality = Literal["input", "output", "parameter", "calculatedParameter", "independent"]
+Causality = Literal["input", "output", "parameter", "calculatedParameter", "independent", "local"]
 Variability = Literal["fixed", "discrete", "continuous"]
 Initial = Literal["exact", "calculated"]
 
@@ -40,6 +40,7 @@ class Variable:
         initial_dependencies: value references of the inputs and parameters on which a calculated variable depends
             in initialization mode.
         source: what an output reads (see `mechanism_fmu.model.Output`); "" of all others.
+        derivative: value reference of the state whose derivative it is, or None.
     """
 
     name: str
@@ -58,6 +59,7 @@ class Variable:
     dependencies: tuple[int, ...] = ()
     initial_dependencies: tuple[int, ...] = ()
     source: str = ""
+    derivative: int | None = None
 
 
 def variables_of(model: Model) -> tuple[Variable, ...]:

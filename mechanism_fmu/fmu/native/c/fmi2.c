@@ -1,9 +1,9 @@
-/* FMI 2.0 for co-simulation (specification 2.0.4, chapters 2 and 4): the surface of an instance. */
+/* FMI 2.0 (specification 2.0.4, chapters 2 to 4): the surface of an instance. */
 #include <math.h>
 #include <string.h>
 
 #include "fmi2Functions.h"
-#include "instance.h"
+#include "exchange.h"
 
 #define SELF(c)             \
     Instance *x = c;        \
@@ -37,9 +37,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     }
     x->categories = ~0u; /* a refusal to exist is logged in any case */
     Status status = OK;
-    if (type != fmi2CoSimulation)
-        status = refuse(x, "fmi2Instantiate: built for co-simulation only; it has no Model Exchange interface.");
-    else if (!guid || strcmp(guid, model.guid) != 0)
+    if (!guid || strcmp(guid, model.guid) != 0)
         status = refuse(x,
                         "fmi2Instantiate: the GUID %s is not this FMU's, %s: modelDescription.xml and binary are not of "
                         "the same build.",
@@ -49,6 +47,8 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         return NULL;
     }
     x->categories = logging ? ~0u : 0;
+    x->exchange = type == fmi2ModelExchange;
+    x->head.exchange = x->exchange;
     return x;
 }
 
@@ -85,7 +85,8 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
 
 fmi2Status fmi2Terminate(fmi2Component c) {
     SELF(c);
-    if (require(x, "fmi2Terminate", IN(STEPPING)) != OK) return fmi2Error;
+    unsigned running = x->exchange ? IN(EVENT) | IN(CONTINUOUS) : IN(STEPPING);
+    if (require(x, "fmi2Terminate", running) != OK) return fmi2Error;
     x->head.phase = TERMINATED;
     return fmi2OK;
 }
@@ -192,6 +193,60 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size
     if (!state) return (fmi2Status)refuse(x, "fmi2DeSerializeFMUstate: the pointer is null.");
     return (fmi2Status)deserialize(x, (const unsigned char *)bytes, size, (Saved **)state);
 }
+
+/* --- Model Exchange --- */
+
+fmi2Status fmi2EnterEventMode(fmi2Component c) {
+    SELF(c);
+    return (fmi2Status)enter_events(x, "fmi2EnterEventMode");
+}
+
+fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info) {
+    SELF(c);
+    EventNews news;
+    if (!info) return (fmi2Status)refuse(x, "fmi2NewDiscreteStates: the pointer is null.");
+    if (update_events(x, "fmi2NewDiscreteStates", &news) != OK) return fmi2Error;
+    *info = (fmi2EventInfo){.valuesOfContinuousStatesChanged = news.states_changed,
+                            .nextEventTimeDefined = news.next_time < INFINITY,
+                            .nextEventTime = news.next_time};
+    return fmi2OK;
+}
+
+fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) {
+    SELF(c);
+    return (fmi2Status)enter_continuous(x, "fmi2EnterContinuousTimeMode");
+}
+
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_way_back, fmi2Boolean *enter_event_mode,
+                                       fmi2Boolean *terminate) {
+    SELF(c);
+    (void)no_way_back;
+    if (enter_event_mode) *enter_event_mode = fmi2False;
+    if (terminate) *terminate = fmi2False;
+    return (fmi2Status)complete_step(x, "fmi2CompletedIntegratorStep");
+}
+
+fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
+    SELF(c);
+    return (fmi2Status)set_instant(x, "fmi2SetTime", time);
+}
+
+fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real states[], size_t count) {
+    SELF(c);
+    return (fmi2Status)set_states(x, "fmi2SetContinuousStates", states, count);
+}
+
+/* Calls that give one number for each state or indicator. */
+#define NUMBERS(Get, function)                                                  \
+    fmi2Status fmi2##Get(fmi2Component c, fmi2Real numbers[], size_t count) {   \
+        SELF(c);                                                                \
+        return (fmi2Status)function(x, "fmi2" #Get, numbers, count);            \
+    }
+
+NUMBERS(GetDerivatives, get_derivatives)
+NUMBERS(GetEventIndicators, get_indicators)
+NUMBERS(GetContinuousStates, get_states)
+NUMBERS(GetNominalsOfContinuousStates, get_nominals)
 
 /* --- co-simulation --- */
 

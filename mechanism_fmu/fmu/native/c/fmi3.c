@@ -1,9 +1,9 @@
-/* FMI 3.0 for co-simulation (specification 3.0.1, chapters 2 and 4): the surface of an instance. */
+/* FMI 3.0 (specification 3.0.1, chapters 2 to 4): the surface of an instance. */
 #include <math.h>
 #include <string.h>
 
 #include "fmi3Functions.h"
-#include "instance.h"
+#include "exchange.h"
 
 /* The standard gives the signatures; what is refused, or needs nothing, leaves arguments unused. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -93,7 +93,7 @@ static fmi3Instance no_instance(const char *call, const char *missing, const cha
                                 fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
     Instance *x = instance(name, environment, log);
     if (!x) return NULL;
-    refuse(x, "%s: built for co-simulation only; it has no %s interface. Call fmi3InstantiateCoSimulation.", call, missing);
+    refuse(x, "%s: built for co-simulation and Model Exchange; it has no %s interface.", call, missing);
     free_instance(x);
     return NULL;
 }
@@ -101,7 +101,16 @@ static fmi3Instance no_instance(const char *call, const char *missing, const cha
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
                                           fmi3Boolean logging, fmi3InstanceEnvironment environment,
                                           fmi3LogMessageCallback log) {
-    return no_instance("fmi3InstantiateModelExchange", "Model Exchange", name, environment, log);
+    Instance *x = instance(name, environment, log);
+    if (!x) return NULL;
+    if (check_token(x, "fmi3InstantiateModelExchange", token) != OK) {
+        free_instance(x);
+        return NULL;
+    }
+    x->categories = logging ? ~0u : 0;
+    x->exchange = 1;
+    x->head.exchange = 1;
+    return x;
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token, fmi3String resources,
@@ -133,7 +142,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_def
 
 /* Remember whether there was an impact: then the clock ticks in the event mode that follows. */
 static void note_impacts(Instance *x, int64_t count_before) {
-    x->head.clock = x->event_mode && COUNTERS(x)[CODE_COUNT_IMPACTS] != count_before;
+    x->head.clock = (x->event_mode || x->exchange) && COUNTERS(x)[CODE_COUNT_IMPACTS] != count_before;
 }
 
 /* --- left limits: at an impact, outputs are those before it until fmi3UpdateDiscreteStates --- */
@@ -168,7 +177,7 @@ static void forget_left(Instance *x);
 
 fmi3Status fmi3Terminate(fmi3Instance c) {
     SELF(c);
-    if (require(x, "fmi3Terminate", IN(STEPPING) | IN(EVENT)) != OK) return fmi3Error;
+    if (require(x, "fmi3Terminate", IN(STEPPING) | IN(EVENT) | IN(CONTINUOUS)) != OK) return fmi3Error;
     forget_left(x);
     x->head.phase = TERMINATED;
     return fmi3OK;
@@ -185,6 +194,10 @@ fmi3Status fmi3Reset(fmi3Instance c) {
 
 fmi3Status fmi3EnterEventMode(fmi3Instance c) {
     SELF(c);
+    if (x->exchange) {
+        x->head.clock = 0;
+        return (fmi3Status)enter_events(x, "fmi3EnterEventMode");
+    }
     if (!x->event_mode)
         return (fmi3Status)refuse(x, "fmi3EnterEventMode: the instance was made with eventModeUsed = false.");
     if (require(x, "fmi3EnterEventMode", IN(STEPPING)) != OK) return fmi3Error;
@@ -209,11 +222,20 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *need_update, fm
     if (next_event_time) *next_event_time = INFINITY;
     x->head.clock = 0;
     forget_left(x);
+    if (!x->exchange) return fmi3OK;
+    EventNews news;
+    int64_t impacts = COUNTERS(x)[CODE_COUNT_IMPACTS];
+    if (update_events(x, "fmi3UpdateDiscreteStates", &news) != OK) return fmi3Error;
+    note_impacts(x, impacts);
+    if (states_changed) *states_changed = news.states_changed != 0;
+    if (next_event_defined) *next_event_defined = news.next_time < INFINITY;
+    if (next_event_time) *next_event_time = news.next_time;
     return fmi3OK;
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance c) {
     SELF(c);
+    if (x->exchange) return (fmi3Status)refuse(x, "fmi3EnterStepMode: the instance was made for Model Exchange.");
     if (require(x, "fmi3EnterStepMode", IN(EVENT)) != OK) return fmi3Error;
     x->head.phase = STEPPING;
     x->head.clock = 0;
@@ -403,6 +425,60 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
     return (fmi3Status)status;
 }
 
+/* --- Model Exchange --- */
+
+fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance c) {
+    SELF(c);
+    x->head.clock = 0;
+    return (fmi3Status)enter_continuous(x, "fmi3EnterContinuousTimeMode");
+}
+
+fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_way_back, fmi3Boolean *enter_event_mode,
+                                       fmi3Boolean *terminate) {
+    SELF(c);
+    if (enter_event_mode) *enter_event_mode = fmi3False;
+    if (terminate) *terminate = fmi3False;
+    return (fmi3Status)complete_step(x, "fmi3CompletedIntegratorStep");
+}
+
+fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time) {
+    SELF(c);
+    return (fmi3Status)set_instant(x, "fmi3SetTime", time);
+}
+
+fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 states[], size_t count) {
+    SELF(c);
+    return (fmi3Status)set_states(x, "fmi3SetContinuousStates", states, count);
+}
+
+/* Calls that give one number for each state or indicator. */
+#define NUMBERS(Get, function)                                                     \
+    fmi3Status fmi3##Get(fmi3Instance c, fmi3Float64 numbers[], size_t count) {    \
+        SELF(c);                                                                   \
+        return (fmi3Status)function(x, "fmi3" #Get, numbers, count);               \
+    }
+
+NUMBERS(GetContinuousStateDerivatives, get_derivatives)
+NUMBERS(GetEventIndicators, get_indicators)
+NUMBERS(GetContinuousStates, get_states)
+NUMBERS(GetNominalsOfContinuousStates, get_nominals)
+
+static fmi3Status give_count(const Instance *x, const char *call, size_t *count, size_t value) {
+    if (!count) return (fmi3Status)refuse(x, "%s: the pointer is null.", call);
+    *count = value;
+    return fmi3OK;
+}
+
+fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *count) {
+    SELF(c);
+    return give_count(x, "fmi3GetNumberOfEventIndicators", count, SIZE(x, indicators));
+}
+
+fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *count) {
+    SELF(c);
+    return give_count(x, "fmi3GetNumberOfContinuousStates", count, SIZE(x, unknowns));
+}
+
 /* --- what this FMU does not have --- */
 
 #define REFUSES(function, why, ...)                            \
@@ -420,7 +496,6 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 current_time, fmi3Float64 size
 #define NO_PARTIALS "partial derivatives are not provided."
 #define NO_STRUCTURE "there are no structural parameters."
 #define NO_INTERVALS "the clock is triggered by impacts and has no interval or shift."
-#define NO_MODEL_EXCHANGE "built for co-simulation only; it has no Model Exchange interface."
 
 REFUSES(fmi3GetNumberOfVariableDependencies, NO_ELEMENTS, fmi3ValueReference vr, size_t *count)
 REFUSES(fmi3GetVariableDependencies, NO_ELEMENTS, fmi3ValueReference dependent, size_t dependent_elements[],
@@ -448,16 +523,5 @@ REFUSES(fmi3SetShiftDecimal, NO_INTERVALS, const fmi3ValueReference vr[], size_t
 REFUSES(fmi3SetShiftFraction, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, const fmi3UInt64 counters[],
         const fmi3UInt64 resolutions[])
 
-REFUSES_ALONE(fmi3EnterContinuousTimeMode, NO_MODEL_EXCHANGE)
-REFUSES(fmi3CompletedIntegratorStep, NO_MODEL_EXCHANGE, fmi3Boolean no_way_back, fmi3Boolean *enter_event_mode,
-        fmi3Boolean *terminate)
-REFUSES(fmi3SetTime, NO_MODEL_EXCHANGE, fmi3Float64 time)
-REFUSES(fmi3SetContinuousStates, NO_MODEL_EXCHANGE, const fmi3Float64 states[], size_t count)
-REFUSES(fmi3GetContinuousStateDerivatives, NO_MODEL_EXCHANGE, fmi3Float64 derivatives[], size_t count)
-REFUSES(fmi3GetEventIndicators, NO_MODEL_EXCHANGE, fmi3Float64 indicators[], size_t count)
-REFUSES(fmi3GetContinuousStates, NO_MODEL_EXCHANGE, fmi3Float64 states[], size_t count)
-REFUSES(fmi3GetNominalsOfContinuousStates, NO_MODEL_EXCHANGE, fmi3Float64 nominals[], size_t count)
-REFUSES(fmi3GetNumberOfEventIndicators, NO_MODEL_EXCHANGE, size_t *count)
-REFUSES(fmi3GetNumberOfContinuousStates, NO_MODEL_EXCHANGE, size_t *count)
-REFUSES(fmi3ActivateModelPartition, "built for co-simulation only; it has no Scheduled Execution interface.",
+REFUSES(fmi3ActivateModelPartition, "there is no Scheduled Execution interface.",
         fmi3ValueReference clock, fmi3Float64 activation_time)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const char *const PHASES[] = {"instantiated", "initialization", "stepping", "terminated", "event",
-                                     "intermediate update"};
+                                     "intermediate update", "continuous time"};
 
 static void *room_for(size_t count, size_t size) { return calloc(count, size); }
 
@@ -16,8 +16,9 @@ Instance *make_instance(const char *name, int fmi, void *(*allocate)(size_t, siz
         allocate = room_for;
         release = free;
     }
-    size_t contacts = (size_t)((const int64_t *)model.block)[SIZE_contacts];
-    size_t doubles = 2 * model.parameters + model.numbers + 2 * model.inputs + model.words;
+    const int64_t *sizes = (const int64_t *)model.block;
+    size_t contacts = (size_t)sizes[SIZE_contacts], unknowns = (size_t)sizes[SIZE_unknowns];
+    size_t doubles = 2 * model.parameters + model.numbers + 2 * model.inputs + unknowns + model.words;
     size_t length = name ? strlen(name) : 0;
     Instance *x = allocate(1, sizeof *x + doubles * sizeof(double) + contacts + length + 1);
     if (!x) return NULL;
@@ -27,7 +28,8 @@ Instance *make_instance(const char *name, int fmi, void *(*allocate)(size_t, siz
     x->parameters = (double *)(x + 1);
     x->written = x->parameters + model.parameters;
     x->findings = x->written + model.parameters;
-    x->block = x->findings + model.numbers + 2 * model.inputs;
+    x->states_before = x->findings + model.numbers + 2 * model.inputs;
+    x->block = x->states_before + unknowns;
     x->logged_pull = (unsigned char *)(x->block + model.words);
     x->name = (char *)(x->logged_pull + contacts);
     if (length) memcpy(x->name, name, length);
@@ -39,7 +41,7 @@ Instance *make_instance(const char *name, int fmi, void *(*allocate)(size_t, siz
 void free_instance(Instance *x) { x->release(x); }
 
 void reset(Instance *x) {
-    x->head = (Head){.phase = INSTANTIATED, .stop_time = INFINITY, .tolerance = INFINITY};
+    x->head = (Head){.phase = INSTANTIATED, .stop_time = INFINITY, .tolerance = INFINITY, .exchange = x->exchange};
     memcpy(x->block, model.block, model.given * sizeof(double));
     const Variable *parameter = model.variables + model.inputs + model.outputs;
     for (size_t k = 0; k < model.parameters; k++)
@@ -189,7 +191,7 @@ Status initialized(Instance *x) {
         if (!(n[0] > 0)) continue;
         say(x, WARNING, "logStatusWarning", model.warnings[k].text, n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]);
     }
-    x->head.phase = STEPPING;
+    x->head.phase = x->exchange ? EVENT : STEPPING;
     log_news(x);
     return OK;
 }

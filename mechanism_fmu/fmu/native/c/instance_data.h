@@ -11,7 +11,7 @@
 typedef enum { OK, WARNING, DISCARD, ERROR, FATAL } Status;
 
 /* States of the life cycle. */
-typedef enum { INSTANTIATED, INITIALIZATION, STEPPING, TERMINATED, EVENT, INTERMEDIATE } Phase;
+typedef enum { INSTANTIATED, INITIALIZATION, STEPPING, TERMINATED, EVENT, INTERMEDIATE, CONTINUOUS } Phase;
 
 typedef struct Instance Instance;
 
@@ -24,6 +24,7 @@ typedef struct {
     double start_time, stop_time, tolerance;
     int64_t clock; /* FMI 3.0: there was an impact: the clock ticks in the event mode that is on, or may come next */
     int64_t left;  /* FMI 3.0: outputs are those before the impact, `left_outputs`, until the discrete states are updated */
+    int64_t exchange; /* Model Exchange, not co-simulation */
 } Head;
 
 struct Instance {
@@ -35,13 +36,14 @@ struct Instance {
     void (*release)(void *);
     unsigned categories; /* a bit for each that is logged */
     int fmi;             /* major version */
-    int event_mode, early_return;
+    int event_mode, early_return, exchange;
     void *intermediate_update;
     /* the model */
     Head head;
     double *parameters;                  /* as set */
     double *written, written_tolerance; /* what the tables were written for; the tolerance is NaN before */
     double *findings;
+    double *states_before; /* an event of Model Exchange */
     double *block;
     int outputs_read;
     int64_t logged_impacts, logged_events, logged_lost, logged_passed;

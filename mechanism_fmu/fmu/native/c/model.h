@@ -81,6 +81,7 @@ typedef struct {
     const char *const *unknowns; /* of the engine, as messages name them */
     const Rule *rules;           /* what the words of the state may hold */
     size_t rule_count;
+    const double *nominals; /* of the continuous states of Model Exchange */
 } Model;
 
 #ifdef MODEL_IS_LOADED

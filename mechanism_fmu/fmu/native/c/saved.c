@@ -32,7 +32,10 @@ Status save(Instance *x, Saved **state) {
 
 Status restore(Instance *x, const Saved *state) {
     if (!state) return refuse(x, "There is no state to restore: the pointer is null.");
-    if (state->head.phase == EVENT && !x->event_mode)
+    if (state->head.exchange != x->exchange)
+        return refuse(x, "The state was saved by an instance for %s, and this one is not.",
+                      x->exchange ? "co-simulation" : "Model Exchange");
+    if (state->head.phase == EVENT && !x->event_mode && !x->exchange)
         return refuse(x, "The state was saved in event mode, and this instance was made without it.");
     x->head = state->head;
     memcpy(x->parameters, state->words, model.parameters * sizeof(double));

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "instance.h"
+#include "exchange.h"
 
 static const char *const TYPES[2][3] = {{"Real", "Integer", "Boolean"}, {"Float64", "Int32", "Boolean"}};
 static const char *const CAUSALITIES[] = {"input", "output", "parameter", "calculatedParameter"};
@@ -34,12 +34,11 @@ static Meant meant(const Instance *x, unsigned vr) {
 }
 
 static Status check_reference(const Instance *x, int type, unsigned vr) {
-    if (is_time(x, vr) && type == REAL) return OK;
+    if ((is_time(x, vr) || is_exchanged(x, vr)) && type == REAL) return OK;
     Meant m = meant(x, vr);
-    size_t last = x->fmi == 2 ? model.variable_count : TIME_REFERENCE + (model.has_clock ? 1 + model.again_count : 0);
     if (!m.first)
-        return refuse(x, "There is no variable of type %s with value reference %u; references run from 1 to %zu.",
-                      type_name(x, type), vr, last);
+        return refuse(x, "There is no variable of type %s with value reference %u; references run from 1 to %u.",
+                      type_name(x, type), vr, last_exchanged(x));
     if (m.first->type != type)
         return refuse(x, "%s (value reference %u) is of type %s, not %s.", m.name, vr, type_name(x, m.first->type),
                       type_name(x, type));
@@ -50,7 +49,9 @@ static Status check_reference(const Instance *x, int type, unsigned vr) {
 }
 
 /* Elements of a variable: arrays exist in FMI 3.0 only. */
-static size_t elements(const Instance *x, unsigned vr) { return is_time(x, vr) ? 1 : (size_t)meant(x, vr).count; }
+static size_t elements(const Instance *x, unsigned vr) {
+    return is_time(x, vr) || is_exchanged(x, vr) ? 1 : (size_t)meant(x, vr).count;
+}
 
 /* Check references, and that the values given are as many as their elements. */
 static Status check_references(const Instance *x, int type, const unsigned vr[], size_t count, const void *values,
@@ -122,6 +123,10 @@ Status get_values(Instance *x, int type, const unsigned vr[], size_t count, Form
             put(values, next++, form, time_of(x));
             continue;
         }
+        if (is_exchanged(x, vr[k])) {
+            put(values, next++, form, exchanged(x, vr[k]));
+            continue;
+        }
         Meant m = meant(x, vr[k]);
         for (size_t e = 0; e < (size_t)m.count; e++) {
             double value = element(x, &m, e);
@@ -146,16 +151,20 @@ static Status check_value(const Instance *x, const Variable *v, double value) {
 
 static Status check_set(Instance *x, unsigned vr, double value) {
     if (is_time(x, vr)) return refuse(x, "time is the independent variable and cannot be set.");
+    if (is_exchanged(x, vr))
+        return refuse(x, "The variable with value reference %u is a state of Model Exchange, or follows from them; states "
+                         "are set all at once, by fmi%dSetContinuousStates.", vr, x->fmi);
     Meant m = meant(x, vr);
     const Variable *v = m.first;
     if (!is_set_from_outside(&m))
         return refuse(x, "%s is of causality %s and cannot be set.", m.name, CAUSALITIES[v->causality]);
     unsigned allowed = IN(INSTANTIATED) | IN(INITIALIZATION);
-    if (v->causality == INPUT) allowed |= IN(STEPPING) | IN(EVENT);
+    if (v->causality == INPUT) allowed |= IN(STEPPING) | IN(EVENT) | IN(CONTINUOUS);
     if (!(allowed & IN(x->head.phase))) {
         char call[300];
         snprintf(call, sizeof call, "Setting %s %s", CAUSALITIES[v->causality], v->name);
-        return require(x, call, x->fmi == 3 ? allowed : allowed & ~IN(EVENT));
+        allowed &= ~(x->exchange ? IN(STEPPING) : x->fmi == 3 ? IN(CONTINUOUS) : IN(CONTINUOUS) | IN(EVENT));
+        return require(x, call, allowed);
     }
     return check_value(x, v, value);
 }
@@ -202,7 +211,9 @@ Status get_rates(Instance *x, const unsigned vr[], size_t count, const int order
     mechanism_read_output_rates(x->block, (int64_t)model.words);
     for (size_t k = 0; k < count; k++) {
         if (check_order(x, order[k]) != OK) return ERROR;
-        if (is_time(x, vr[k])) return refuse(x, "time is no output; there are derivatives of outputs only.");
+        if (is_time(x, vr[k]) || is_exchanged(x, vr[k]))
+            return refuse(x, "%s is no output; there are derivatives of outputs only.",
+                          is_time(x, vr[k]) ? "time" : "A state");
         Meant m = meant(x, vr[k]);
         if (m.first->causality != OUTPUT)
             return refuse(x, "%s is no output; there are derivatives of outputs only.", m.name);

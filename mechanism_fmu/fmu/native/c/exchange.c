@@ -1,0 +1,148 @@
+/* Model Exchange (FMI 2.0, chapter 3; FMI 3.0, chapter 3): the states are the engine's y, the events are its own. */
+#include "exchange.h"
+
+#include <math.h>
+#include <string.h>
+
+#define RUNNING (IN(EVENT) | IN(CONTINUOUS))
+
+static size_t state_count(const Instance *x) { return SIZE(x, unknowns); }
+
+static size_t indicator_count(const Instance *x) { return SIZE(x, indicators); }
+
+static int64_t ask(Instance *x, int64_t what) {
+    x->outputs_read = 0;
+    return mechanism_exchange(x->block, (int64_t)model.words, what, time_of(x));
+}
+
+static Status fail(Instance *x, const char *call, int64_t outcome, Status status) {
+    char details[2000];
+    advice_details(x, outcome, details, sizeof details);
+    if (status == DISCARD) {
+        say(x, DISCARD, "logStatusDiscard", "%s: t = %.9g s: %s%s", call, time_of(x), ADVICE[outcome], details);
+        return DISCARD;
+    }
+    return refuse(x, "t = %.9g s: %s%s", time_of(x), ADVICE[outcome], details);
+}
+
+/* In the phases given, and as many values as there are; `least` says which calls are allowed in initialization, too. */
+static Status check(Instance *x, const char *call, unsigned phases, const void *values, size_t count, size_t expected) {
+    if (!x->exchange) return refuse(x, "%s: the instance was made for co-simulation.", call);
+    if (require(x, call, phases) != OK) return ERROR;
+    if (count != expected) return refuse(x, "%s: %zu values were asked for, and there are %zu.", call, count, expected);
+    if (count > 0 && !values) return refuse(x, "%s: the pointer to the values is null.", call);
+    return prepare(x);
+}
+
+Status enter_events(Instance *x, const char *call) {
+    if (check(x, call, IN(CONTINUOUS), NULL, 0, 0) != OK) return ERROR;
+    ask(x, CODE_EXCHANGE_ENTER);
+    x->head.phase = EVENT;
+    return OK;
+}
+
+Status update_events(Instance *x, const char *call, EventNews *news) {
+    if (check(x, call, IN(EVENT), NULL, 0, 0) != OK) return ERROR;
+    size_t size = state_count(x) * sizeof(double);
+    memcpy(x->states_before, FIELD(x, y_end), size);
+    int64_t outcome = ask(x, CODE_EXCHANGE_EVENTS);
+    log_news(x);
+    if (outcome != STATUS_OK) return fail(x, call, outcome, ERROR);
+    news->states_changed = memcmp(x->states_before, FIELD(x, y_end), size) != 0;
+    news->next_time = time_of(x) + FIELD(x, exchange_next_piece)[0];
+    return OK;
+}
+
+Status enter_continuous(Instance *x, const char *call) {
+    if (check(x, call, IN(EVENT), NULL, 0, 0) != OK) return ERROR;
+    x->head.phase = CONTINUOUS;
+    return OK;
+}
+
+Status complete_step(Instance *x, const char *call) {
+    if (check(x, call, IN(CONTINUOUS), NULL, 0, 0) != OK) return ERROR;
+    int64_t outcome = ask(x, CODE_EXCHANGE_COMPLETED);
+    log_news(x);
+    return outcome == STATUS_OK ? OK : fail(x, call, outcome, ERROR);
+}
+
+Status set_instant(Instance *x, const char *call, double time) {
+    if (check(x, call, RUNNING, NULL, 0, 0) != OK) return ERROR;
+    if (!isfinite(time)) return refuse(x, "%s: the time is not a finite number.", call);
+    double *clock = FIELD(x, clock);
+    clock[CODE_TIME] = clock[CODE_STEP_START] = clock[CODE_STEP_END] = time;
+    clock[CODE_STEP_SIZE] = 0;
+    x->outputs_read = 0;
+    return OK;
+}
+
+Status set_states(Instance *x, const char *call, const double states[], size_t count) {
+    if (check(x, call, IN(CONTINUOUS), states, count, state_count(x)) != OK) return ERROR;
+    for (size_t k = 0; k < count; k++)
+        if (!isfinite(states[k])) {
+            say(x, DISCARD, "logStatusDiscard", "%s: state %zu is not a finite number.", call, k + 1);
+            return DISCARD;
+        }
+    memcpy(FIELD(x, y_end), states, count * sizeof(double));
+    x->outputs_read = 0;
+    return OK;
+}
+
+Status get_states(Instance *x, const char *call, double states[], size_t count) {
+    if (check(x, call, IN(INITIALIZATION) | RUNNING | IN(TERMINATED), states, count, state_count(x)) != OK) return ERROR;
+    memcpy(states, FIELD(x, y_end), count * sizeof(double));
+    return OK;
+}
+
+Status get_derivatives(Instance *x, const char *call, double derivatives[], size_t count) {
+    if (check(x, call, IN(INITIALIZATION) | RUNNING | IN(TERMINATED), derivatives, count, state_count(x)) != OK)
+        return ERROR;
+    int64_t outcome = ask(x, CODE_EXCHANGE_RATES);
+    if (outcome != STATUS_OK) return fail(x, call, outcome, DISCARD);
+    memcpy(derivatives, FIELD(x, dy_end), count * sizeof(double));
+    return OK;
+}
+
+Status get_nominals(Instance *x, const char *call, double nominals[], size_t count) {
+    if (check(x, call, RUNNING | IN(TERMINATED), nominals, count, state_count(x)) != OK) return ERROR;
+    memcpy(nominals, model.nominals, count * sizeof(double));
+    return OK;
+}
+
+Status get_indicators(Instance *x, const char *call, double indicators[], size_t count) {
+    if (check(x, call, IN(INITIALIZATION) | RUNNING | IN(TERMINATED), indicators, count, indicator_count(x)) != OK)
+        return ERROR;
+    ask(x, CODE_EXCHANGE_INDICATORS);
+    memcpy(indicators, FIELD(x, exchange_indicator), count * sizeof(double));
+    for (size_t k = 0; k < count; k++)
+        if (!isfinite(indicators[k])) {
+            say(x, DISCARD, "logStatusDiscard", "%s: at t = %.9g s nothing finite comes of the states.", call, time_of(x));
+            return DISCARD;
+        }
+    return OK;
+}
+
+/* --- as variables --- */
+
+static size_t first_exchanged(const Instance *x) {
+    return x->fmi == 2 ? model.variable_count + 1 : TIME_REFERENCE + 1 + (model.has_clock ? 1 + model.again_count : 0);
+}
+
+unsigned last_exchanged(const Instance *x) {
+    size_t indicators = x->fmi == 3 ? indicator_count(x) : 0;
+    return (unsigned)(first_exchanged(x) + 2 * state_count(x) + indicators - 1);
+}
+
+int is_exchanged(const Instance *x, unsigned vr) { return vr >= first_exchanged(x) && vr <= last_exchanged(x); }
+
+/* In co-simulation, where the engine may be ahead of the time reached, states are those at this time. */
+double exchanged(Instance *x, unsigned vr) {
+    size_t k = vr - first_exchanged(x), n = state_count(x);
+    if (k < 2 * n) {
+        mechanism_read_output_rates(x->block, (int64_t)model.words);
+        return k < n ? FIELD(x, y_at)[k] : FIELD(x, dy_at)[k - n];
+    }
+    if (!x->exchange) return 1; /* the engine finds its events by itself */
+    ask(x, CODE_EXCHANGE_INDICATORS);
+    return FIELD(x, exchange_indicator)[k - 2 * n];
+}
