@@ -96,6 +96,9 @@ class Description:
         has_event_mode, returns_early: of FMI 3, whether it can let the importer handle events, and end a step at one.
         varies_step: whether its steps may have different sizes (canHandleVariableCommunicationStepSize).
         once_per_process: whether a process can have one instance only (canBeInstantiatedOnlyOncePerProcess).
+        exchange: whether it is used by its interface for Model Exchange, not for co-simulation.
+        states, indicators: how many continuous states and event indicators it has (FMI 2).
+        needs_completed: whether it is to be told of each step that is accepted (completedIntegratorStep).
         terminals: by name.
         analysis: what it declares to be analysed of a run.
     """
@@ -119,6 +122,10 @@ class Description:
     returns_early: bool = False
     varies_step: bool = True
     once_per_process: bool = False
+    exchange: bool = False
+    states: int = 0
+    indicators: int = 0
+    needs_completed: bool = True
     terminals: Mapping[str, Terminal] = field(default_factory=dict)
     analysis: Declared = NOTHING
 

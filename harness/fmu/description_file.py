@@ -29,11 +29,15 @@ _FILE_NAME = re.compile(r"[^/\\:\x00-\x1f]{1,200}")
 _LONGEST_REASON = 300
 
 
-def read_description(path: Path) -> Description:
+def read_description(path: Path, exchange: bool = False) -> Description:
     """Read the description of the FMU file `path`.
 
+    Args:
+        path: of the file.
+        exchange: whether its interface for Model Exchange is wanted; one that has no other is described by that anyway.
+
     Raises:
-        UsageError: no such file, not an FMU, or not one for co-simulation of FMI 2.0 or 3.0.
+        UsageError: no such file, not an FMU, or not one of FMI 2.0 or 3.0 with the interface that is wanted.
     """
     import fmpy
 
@@ -47,16 +51,21 @@ def read_description(path: Path) -> Description:
     except Exception as error:  # fmpy raises whatever zipfile, lxml and its own conversions raise
         raise damaged(path, error) from error
     version = raw.fmiVersion.partition(".")[0]
-    if version not in ("2", "3") or raw.coSimulation is None:
-        kinds = {"Model Exchange": raw.modelExchange, "Scheduled Execution": raw.scheduledExecution}
-        has = " and ".join(kind for kind, there in kinds.items() if there is not None)
-        has = has or ("Co-Simulation" if raw.coSimulation is not None else "no interface that is known")
+    exchange = exchange or (raw.coSimulation is None and raw.modelExchange is not None)
+    if version not in ("2", "3") or (raw.modelExchange if exchange else raw.coSimulation) is None:
+        kinds = {
+            "Co-Simulation": raw.coSimulation,
+            "Model Exchange": raw.modelExchange,
+            "Scheduled Execution": raw.scheduledExecution,
+        }
+        has = " and ".join(kind for kind, there in kinds.items() if there is not None) or "no interface that is known"
+        wanted = "Model Exchange" if exchange else "Co-Simulation or Model Exchange"
         raise UsageError(
-            f"'{path}' is not an FMU for co-simulation of FMI 2.0 or 3.0: it has {has} only, of FMI {raw.fmiVersion}. "
-            "The harness runs no other kind; export it again, for Co-Simulation."
+            f"'{path}' is not an FMU for {wanted} of FMI 2.0 or 3.0: it has {has} only, of FMI {raw.fmiVersion}. "
+            "The harness runs no other kind; export it again."
         )
     try:
-        described = replace(_described(raw, int(version)), terminals=terminals)
+        described = replace(_described(raw, int(version), exchange), terminals=terminals)
         return replace(described, analysis=read_declared(path, described.variables))
     except (ValueError, TypeError, AttributeError, OverflowError) as error:  # a text where a number should be, ...
         raise damaged(path, error) from error
@@ -79,12 +88,13 @@ def _require_safe_names(path: Path) -> None:
         raise ValueError(objection)
 
 
-def _described(raw: Any, fmi: int) -> Description:
-    _require_sound(raw)
+def _described(raw: Any, fmi: int, exchange: bool) -> Description:
+    ability = raw.modelExchange if exchange else raw.coSimulation
+    _require_sound(raw, ability.modelIdentifier)
     known = [variable for variable in raw.modelVariables if variable.type in _TYPES]
     depends_on = {unknown.variable.name: _dependencies(unknown) for unknown in raw.outputs}
     variables = [one for variable in known for one in _variables(variable, depends_on.get(variable.name))]
-    experiment, ability = raw.defaultExperiment, raw.coSimulation
+    experiment = raw.defaultExperiment
     return Description(
         model=raw.modelName,
         identifier=ability.modelIdentifier,
@@ -97,14 +107,18 @@ def _described(raw: Any, fmi: int) -> Description:
         step=_duration(experiment and experiment.stepSize, "stepSize of its DefaultExperiment"),
         saves_state=ability.canGetAndSetFMUstate,
         serializes_state=ability.canSerializeFMUstate,
-        takes_slopes=ability.canInterpolateInputs and fmi == 2,  # FMI 3.0 has no function for it
-        gives_slopes=ability.maxOutputDerivativeOrder > 0,
+        takes_slopes=not exchange and ability.canInterpolateInputs and fmi == 2,  # FMI 3.0 has no function for it
+        gives_slopes=not exchange and ability.maxOutputDerivativeOrder > 0,
         log_categories={category.name: category.description or "" for category in raw.logCategories},
         fmi=fmi,
-        has_event_mode=ability.hasEventMode,
-        returns_early=ability.mightReturnEarlyFromDoStep,
-        varies_step=ability.canHandleVariableCommunicationStepSize,
+        has_event_mode=not exchange and ability.hasEventMode,
+        returns_early=not exchange and ability.mightReturnEarlyFromDoStep,
+        varies_step=exchange or ability.canHandleVariableCommunicationStepSize,
         once_per_process=ability.canBeInstantiatedOnlyOncePerProcess,
+        exchange=exchange,
+        states=len(raw.derivatives),
+        indicators=int(raw.numberOfEventIndicators or 0) if fmi == 2 else 0,
+        needs_completed=not exchange or ability.needsCompletedIntegratorStep,
     )
 
 
@@ -117,14 +131,14 @@ _TYPES = {
 }
 
 
-def _require_sound(raw: Any) -> None:
+def _require_sound(raw: Any, identifier: str) -> None:
     """Refuse numbers that no FMU can mean, before anything is made of them.
 
     Raises:
         ValueError: naming the variable, its number and the limit.
     """
-    if not _FILE_NAME.fullmatch(raw.coSimulation.modelIdentifier):
-        raise ValueError(f"its modelIdentifier is '{raw.coSimulation.modelIdentifier}', which is no name of a library")
+    if not _FILE_NAME.fullmatch(identifier):
+        raise ValueError(f"its modelIdentifier is '{identifier}', which is no name of a library")
     for unit in raw.unitDefinitions:
         for scale in (unit.baseUnit, *unit.displayUnits):
             if scale is not None and not (math.isfinite(scale.factor) and scale.factor and math.isfinite(scale.offset)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import fmpy
@@ -16,7 +16,9 @@ from ..description_file import damaged, read_description
 from .common import FmuSlave
 from .fmi2 import Fmi2Slave
 from .fmi3 import Fmi3Slave
+from .integration import Integrator
 from .message_log import MessageHandler, discard_message
+from .model_exchange import Fmi2Model, Fmi3Model
 from .workspace import require_library, temporary_folder
 
 
@@ -28,11 +30,13 @@ class Fmu:
         path: the file it came from.
         description: what it says about itself.
         folder: where it is extracted.
+        integrator: of instances for Model Exchange.
     """
 
     path: Path
     description: Description
     folder: Path
+    integrator: Integrator = field(default_factory=Integrator)
 
     @contextmanager
     def instantiate(
@@ -58,7 +62,10 @@ class Fmu:
                     "FMU that keeps its own time, or run it in a tool for scheduled execution."
                 )
         slave: FmuSlave
-        if self.description.fmi == 3:
+        if self.description.exchange:
+            kind = Fmi3Model if self.description.fmi == 3 else Fmi2Model
+            slave = kind(self.description, self.folder, name, on_message, self.integrator)
+        elif self.description.fmi == 3:
             slave = Fmi3Slave(self.description, self.folder, name, on_message, early_return)
         else:
             slave = Fmi2Slave(self.description, self.folder, name, on_message)
@@ -69,19 +76,20 @@ class Fmu:
 
 
 @contextmanager
-def open_fmu(path: Path) -> Iterator[Fmu]:
+def open_fmu(path: Path, integrator: Integrator | None = None) -> Iterator[Fmu]:
     """Extract the FMU file `path` into a temporary folder; it is removed afterwards.
 
     For a `with`: `with open_fmu(Path("build/Ratchet.fmu")) as fmu, fmu.instantiate("ratchet") as ratchet:`.
 
     Args:
         path: of the FMU's file.
+        integrator: for its interface for Model Exchange; None: it is used for co-simulation, if it can be.
 
     Raises:
         UsageError: not a file, not an FMU that can be run, made for other platforms only, or with names in it that lead
             out of the folder.
     """
-    description = read_description(path)
+    description = read_description(path, exchange=integrator is not None)
     try:
         with zipfile.ZipFile(path) as archive:
             names = archive.namelist()
@@ -98,4 +106,4 @@ def open_fmu(path: Path) -> Iterator[Fmu]:
                     "the environment variable TMPDIR to another folder."
                 ) from error
             raise damaged(path, error) from error
-        yield Fmu(path, description, folder)
+        yield Fmu(path, description, folder, integrator or Integrator())

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from fmpy.fmi2 import FMU2Slave
-from fmpy.fmi3 import FMU3Slave
+from fmpy.fmi2 import FMU2Model, FMU2Slave
+from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 
 class _KnownSignatures:
@@ -40,5 +40,17 @@ class FMU2SlaveLoaded(_KnownSignatures, FMU2Slave):  # type: ignore[misc]
 
 class FMU3SlaveLoaded(_KnownSignatures, FMU3Slave):  # type: ignore[misc]
     """A co-simulation FMU of FMI 3.0."""
+
+    _signatures = None
+
+
+class FMU2ModelLoaded(_KnownSignatures, FMU2Model):  # type: ignore[misc]
+    """A Model Exchange FMU of FMI 2.0."""
+
+    _signatures = None
+
+
+class FMU3ModelLoaded(_KnownSignatures, FMU3Model):  # type: ignore[misc]
+    """A Model Exchange FMU of FMI 3.0."""
 
     _signatures = None
