@@ -230,9 +230,8 @@ STOP_BEFORE_EVENT = 4  # ... or at an event that has not happened yet: outputs a
 # what `exchange` does for an importer with its own integrator (Model Exchange)
 EXCHANGE_RATES = 0  # the derivative of y_end
 EXCHANGE_INDICATORS = 1
-EXCHANGE_ENTER = 2  # event mode begins: records of earlier events are emptied
-EXCHANGE_EVENTS = 3  # all that is due happens
-EXCHANGE_COMPLETED = 4  # the importer has accepted a step
+EXCHANGE_EVENTS = 2  # all that is due happens
+EXCHANGE_COMPLETED = 3  # the importer has accepted a step
 
 # columns of an event record
 EVENT_TIME = 0

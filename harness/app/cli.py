@@ -170,6 +170,17 @@ def run(
     units_row: Annotated[
         bool, typer.Option("--units-row", help="Write the units as a second row of each table, below the names.")
     ] = False,
+    integrator: Annotated[
+        str | None,
+        typer.Option(
+            metavar="METHOD",
+            help="Integrate it here, by its interface for Model Exchange: DOP853 or RK45 (needs scipy).",
+            show_default="co-simulation, if it has that",
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float | None, typer.Option(metavar="NUMBER", help="Relative tolerance of --integrator.", show_default="1e-9")
+    ] = None,
 ) -> None:
     """Run an FMU and write results.csv, impacts.csv, events.csv, summary.json and report.html.
 
@@ -199,7 +210,9 @@ def run(
 
     with user_errors():
         code = run_fmu(
-            *(fmu, settings or [], stop_time, step, input_file, material, output, in_process, units_row, parameters)
+            *(fmu, settings or [], stop_time, step, input_file, material, output, in_process, units_row, parameters),
+            integrator=integrator,
+            tolerance=tolerance,
         )
         raise typer.Exit(code)
 

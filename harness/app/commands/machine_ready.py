@@ -97,7 +97,7 @@ def _known(file: TomlFile, parts: Sequence[ComponentPlan]) -> dict[str, Descript
     for part in parts:
         if part.source.path is not None and isfile(part.source.path):
             try:
-                found[part.name] = read_description(part.source.path)
+                found[part.name] = read_description(part.source.path, part.source.integrator is not None)
             except UsageError as error:
                 file.wrong(("component", part.name, "file"), str(error))
     return found
@@ -106,7 +106,7 @@ def _known(file: TomlFile, parts: Sequence[ComponentPlan]) -> dict[str, Descript
 @contextmanager
 def _fmu(source: Source) -> Iterator[Fmu]:
     if source.path is not None:
-        with open_fmu(source.path) as fmu:
+        with open_fmu(source.path, source.integrator) as fmu:
             yield fmu
         return
     with temporary_folder() as place:
@@ -114,7 +114,7 @@ def _fmu(source: Source) -> Iterator[Fmu]:
         flavour = build_fmu.Flavour(source.flavour)
         path = build_fmu.built(source.model, place, flavour, source.fmi)
         build_fmu.advise(flavour)
-        with open_fmu(path) as fmu:
+        with open_fmu(path, source.integrator) as fmu:
             yield fmu
 
 

@@ -13,6 +13,7 @@ from rich.markup import escape
 from ...analysis.stress import card_of
 from ...errors import FmuError, UsageError
 from ...fmu import open_fmu
+from ...fmu.instances.integration import Integrator
 from ...fmu.interface import Instances
 from ...fmu.values import parse_time
 from ...papers.study.wheels import base_case_checks
@@ -108,6 +109,8 @@ def run_fmu(
     in_process: bool = False,
     units_row: bool = False,
     parameters: Path | None = None,
+    integrator: str | None = None,
+    tolerance: float | None = None,
 ) -> int:
     """Run an FMU and write what comes of it; times are in seconds, or have a unit.
 
@@ -117,7 +120,7 @@ def run_fmu(
     working folder.
     """
     card, folder = card_of("steel" if material is None else material), folder.absolute()
-    with open_fmu(path) as fmu:
+    with open_fmu(path, _integrator(integrator, tolerance)) as fmu:
         values = start_values([*_settings_of(parameters, settings), *settings], fmu.description)
         until = parse_time(stop_time, "--stop-time", fmu.description)
         times = default_times(fmu.description, until, parse_time(step, "--step", fmu.description))
@@ -134,6 +137,17 @@ def run_fmu(
 
         with alone_in(folder, waits=False):
             return with_instances(fmu, in_process, work)
+
+
+def _integrator(method: str | None, tolerance: float | None) -> Integrator | None:
+    """What integrates an FMU by its interface for Model Exchange, if that is wanted."""
+    if method is None:
+        if tolerance is not None:
+            raise UsageError(
+                "--tolerance is that of --integrator; give both, e.g. --integrator DOP853 --tolerance 1e-9."
+            )
+        return None
+    return Integrator(method) if tolerance is None else Integrator(method, tolerance)
 
 
 def _settings_of(path: Path | None, others: Sequence[str]) -> list[str]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +18,7 @@ import numpy.typing as npt
 from ...errors import UsageError
 
 Numbers = npt.NDArray[np.float64]
-Method = Literal["DOP853", "RK45"]
+METHODS = ("DOP853", "RK45")
 
 #: Where an indicator changes its sign is found to this [s], and to as many roundings of the time.
 _CLOSE, _ROUNDINGS = 1e-15, 4
@@ -31,17 +31,17 @@ class Integrator:
     """How a component for Model Exchange is integrated.
 
     Attributes:
-        method: of scipy, of order 8 or 5.
+        method: of scipy: DOP853, of order 8, or RK45, of order 5.
         relative_tolerance: of each step; absolute ones are this times the nominal of each state.
     """
 
-    method: Method = "DOP853"
+    method: str = "DOP853"
     relative_tolerance: float = 1e-9
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""
-        if self.method not in ("DOP853", "RK45"):
-            raise UsageError(f"There is no integrator '{self.method}'; take DOP853 or RK45.")
+        if self.method not in METHODS:
+            raise UsageError(f"There is no integrator '{self.method}'; take {' or '.join(METHODS)}.")
         if not 1e-13 <= self.relative_tolerance < 1.0:
             raise UsageError(f"The integrator's tolerance is {self.relative_tolerance:g}; give one from 1e-13 to 1.")
 

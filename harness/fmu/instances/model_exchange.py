@@ -52,6 +52,7 @@ class _ModelExchange(FmuSlave):
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name; once it runs, in event mode."""
         if self._initialized and values:
+            self._empty()
             self._enter_events()
         super().set(values)
 
@@ -125,10 +126,10 @@ class _ModelExchange(FmuSlave):
         self._time = begin
         said = len(self.messages)
         try:
-            if self._in_events or not self._emptied:
+            self._empty()
+            if self._in_events:
                 self._integration.begin(begin, *self.happen())
-                self._emptied = True
-                self._stale = False
+                self._emptied, self._stale = True, False
             elif self._stale:
                 self._integration.begin(begin, self._numbers("getContinuousStates", self._state_buffer), self._next)
                 self._stale = False
@@ -140,6 +141,13 @@ class _ModelExchange(FmuSlave):
         except UsageError as error:
             raise FmuError(f"{self.name} failed: {error}", instance=self.name, time=self._integration.time) from error
         return None
+
+    def _empty(self) -> None:
+        """After events: an event mode in which nothing is due empties the buffers of this project's FMUs."""
+        if not self._emptied:
+            self._enter_events()
+            self._settle()
+            self._emptied = True
 
     def _enter_events(self) -> None:
         if not self._in_events:

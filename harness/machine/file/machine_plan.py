@@ -13,6 +13,7 @@ from mechanism_fmu.fmu.disk.user_cache import was_built_here
 
 from ...errors import UsageError
 from ...fmu.description import Description, Value, Variable
+from ...fmu.instances.integration import Integrator
 from ...fmu.values import parse_value
 from ...run.experiment import start_values
 from ...run.master import TimeGrid
@@ -38,12 +39,14 @@ class Source:
         model: name of a ready-made model, or file of an own one.
         flavour: of a model, "native" or "pythonfmu".
         fmi: of a model, version of the standard.
+        integrator: for its interface for Model Exchange; None: co-simulation, if it has that.
     """
 
     path: Path | None = None
     model: str = ""
     flavour: str = "native"
     fmi: int = 2
+    integrator: Integrator | None = None
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from mechanism_fmu.stress import material_card
 
 from ...errors import UsageError
 from ...fmu.description import Description, Value, Variable, hint_at, not_in_step_mode
+from ...fmu.instances.integration import METHODS, Integrator
 from ...fmu.values import settable_variable
 from ...run.inputs import read_inputs
 from ...run.master import TimeGrid, nanoseconds, recorded_variables
@@ -53,6 +54,7 @@ def _component(section: Section, name: str, models: Collection[str]) -> Componen
     path, model = section.text("file"), section.text("model")
     flavour = section.choice("flavour", ("native", "pythonfmu"))
     fmi = section.whole("fmi", least=2, most=3)
+    integrator = _integrator(section)
     process = section.flag_if_said("process")
     limit = None
     if section.take("time_limit") is not None:
@@ -72,7 +74,7 @@ def _component(section: Section, name: str, models: Collection[str]) -> Componen
                 section.wrong(key, "goes with model = only; an FMU file is what it is")
         if not isfile(folder / path):
             section.wrong("file", f"there is no FMU file '{folder / path}'")
-        return ComponentPlan(name, Source(folder / path), process, limit)
+        return ComponentPlan(name, Source(folder / path, integrator=integrator), process, limit)
     model = model or ""
     if model.endswith(".py"):
         if not isfile(folder / model):
@@ -83,7 +85,25 @@ def _component(section: Section, name: str, models: Collection[str]) -> Componen
         section.wrong("model", f"there is no model '{model}'.{known}")
     if fmi == 3 and flavour == "pythonfmu":
         section.wrong("fmi", "3 comes in the native flavour only")
-    return ComponentPlan(name, Source(None, model, flavour or "native", fmi or 2), process, limit)
+    if integrator is not None and flavour == "pythonfmu":
+        section.wrong("integrator", "needs Model Exchange, which comes in the native flavour only")
+    return ComponentPlan(name, Source(None, model, flavour or "native", fmi or 2, integrator), process, limit)
+
+
+def _integrator(section: Section) -> Integrator | None:
+    """What integrates a component by its interface for Model Exchange; None: it is used for co-simulation."""
+    method = section.choice("integrator", METHODS)
+    said = "tolerance" in section.table
+    tolerance = section.number("tolerance", Integrator().relative_tolerance)
+    if method is None:
+        if said and "integrator" not in section.table:
+            section.wrong("tolerance", 'goes with integrator = only, e.g. integrator = "DOP853"')
+        return None
+    try:
+        return Integrator(method, Integrator().relative_tolerance if tolerance is None else tolerance)
+    except UsageError as error:
+        section.wrong("tolerance", str(error))
+        return None
 
 
 def with_values(

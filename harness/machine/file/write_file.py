@@ -58,6 +58,8 @@ def _component(component: ComponentPlan, description: Description, folder: Path)
         table["file"] = _relative(source.path, folder)
     else:
         table |= {"model": source.model, "flavour": source.flavour, "fmi": source.fmi}
+    if source.integrator is not None:
+        table |= {"integrator": source.integrator.method, "tolerance": source.integrator.relative_tolerance}
     if component.process is not None:
         table["process"] = component.process
     if component.time_limit is not None:

@@ -56,9 +56,9 @@ _DIP_SHARE = 0.01
 def exchange(block: Array, what: int, time: float) -> int:
     """What an importer asks for at y_end and `time` [s], by `codes.EXCHANGE_RATES` ...; return a status.
 
-    Rates: dy_end. Indicators: `exchange.indicator`. Entering: the records of earlier events are emptied. Events: y_end
-    and all modes are those after what is due, and `next_piece` says when the next event by time is. Completed: the step
-    from the last one on is looked through for what the importer has not seen.
+    Rates: dy_end. Indicators: `exchange.indicator`. Events: y_end and all modes are those after what is due, and
+    `next_piece` says when the next event by time is; where nothing was due, the records of earlier events are emptied.
+    Completed: the step from the last one on is looked through for what the importer has not seen.
     """
     keep_small()
     _set_clock(block, time)
@@ -67,9 +67,6 @@ def exchange(block: Array, what: int, time: float) -> int:
         return what_forbids(block)
     if what == codes.EXCHANGE_INDICATORS:
         write_indicators(block)
-        return status.OK
-    if what == codes.EXCHANGE_ENTER:
-        clear_records(block)
         return status.OK
     if what == codes.EXCHANGE_COMPLETED:
         return _complete(block)
@@ -95,7 +92,8 @@ def _happen(block: Array) -> int:
     keep_small()
     clear(Contacts(block).apart)
     copy(Course(block).y_end, Exchange(block).seen_y)  # outlines are looked at from here on
-    if inputs_changed(block):
+    some = inputs_changed(block)
+    if some:
         take_inputs(block)
         outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
         if outcome != status.OK:
@@ -104,7 +102,10 @@ def _happen(block: Array) -> int:
         at = evaluate(block)
         number = _first_due(block, at)
         if number == codes.NONE:
+            if not some:
+                clear_records(block)
             return status.OK
+        some = True
         guard, subject = happens(block, number)
         gap_closes = guard == codes.GUARD_GAP
         outcome = _touch(block, at, number, subject) if gap_closes else transit(block, guard, subject)

@@ -97,7 +97,9 @@ def _states(mechanism: Mechanism) -> Iterator[State]:
         for body in bodies:
             label = _identifier(body.name)
             for axis, name in zip("xy", names, strict=False):
-                yield State(f"{label}.{name}", f"{what} of the centre of mass of {body.name} along {axis}", m, nominal * size)
+                yield State(
+                    f"{label}.{name}", f"{what} of the centre of mass of {body.name} along {axis}", m, nominal * size
+                )
             turn = "Angular velocity" if rate else "Angle"
             yield State(f"{label}.{names[2]}", f"{turn} of {body.name}", rad, nominal)
     yield State("ledger.work", "Work done on the mechanism since the start", "J", energy)

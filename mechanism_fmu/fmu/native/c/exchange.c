@@ -36,7 +36,6 @@ static Status check(Instance *x, const char *call, unsigned phases, const void *
 
 Status enter_events(Instance *x, const char *call) {
     if (check(x, call, IN(CONTINUOUS), NULL, 0, 0) != OK) return ERROR;
-    ask(x, CODE_EXCHANGE_ENTER);
     x->head.phase = EVENT;
     return OK;
 }
