@@ -207,7 +207,7 @@ def test_an_input_changes_inside_the_step_after_which_the_method_is_another():
 
 
 def test_an_implicit_step_that_is_refused_leaves_the_size_of_the_next_one():
-    """On the way to a parallelogram that lies flat each step would be the last implicit one; the last one is refused."""
+    """On the way to a parallelogram that lies flat each step would be the last implicit one, and one is refused."""
     simulation = Simulation(n_four_bar(1, through=False))
     counters, clock = simulation.counters, simulation.field("clock")
     simulation.begin_step()
