@@ -1,6 +1,6 @@
 """A day of ticks: a pin-pallet escapement at two tolerances, and with a wheel of twice as many teeth.
 
-    python -m benchmarks.escapement [--ticks 86400]
+    python -m benchmarks.escapement [--ticks 86400]        200 at least
 
 Processor time of one thread; the rate is what the mean period of all ticks but the first hundred loses in a day.
 """
@@ -33,6 +33,8 @@ from mechanism_fmu.simulation import Simulation
 _DAY = 86400.0
 #: Ticks until the swing is steady, the time of one, and a communication step [s].
 _SETTLED, _TICK, _STEP = 100, 0.2, 60.0
+#: So many there must be, that a mean period is left when the swing is steady.
+_LEAST = 2 * _SETTLED
 
 
 def _polar(radius: float, angle: float) -> tuple[float, float]:
@@ -121,6 +123,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--ticks", type=int, default=int(_DAY), help="how many, about")
     ticks = parser.parse_args().ticks
+    if ticks < _LEAST:
+        parser.error(f"--ticks {ticks}: the swing is steady after {_SETTLED}; give {_LEAST} or more.")
     fine = run(15, 1e-9, ticks)
     for teeth, tolerance in ((15, 1e-9), (15, 1e-7), (30, 1e-7)):
         found = fine if tolerance < 1e-8 else run(teeth, tolerance, ticks)

@@ -2,21 +2,24 @@
 
 And accelerations of closed loops and of contacts, which MuJoCo has softly or not at all: of the engine alone.
 
-    python -m benchmarks.growth [--rounds 7]        needs the extra "bench" (MuJoCo 4)
+    python -m pip install -e '.[bench,dev]'         MuJoCo 4, and numba, without which nothing is timed
+    python -m benchmarks.growth [--rounds 7]
     git worktree add ../older COMMIT
     python -m benchmarks.growth --beside ../older   the engine of another commit in turns with this one
 
 The same chain hangs from a pin, at the same angles and speeds; MuJoCo has joint angles as coordinates, and no contacts.
-Both give the same angular accelerations, which is checked.
+Both give the same angular accelerations, which is checked; two engines give the same accelerations of all bodies.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import subprocess
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -24,7 +27,7 @@ from statistics import median
 
 import numpy as np
 
-from mechanism_fmu.engine.compiler.subset import entry
+from mechanism_fmu.engine.compiler.subset import COMPILES, entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.model import (
     GROUND,
@@ -237,8 +240,10 @@ def compare(count: int, rounds: int) -> tuple[float, float]:
     return median(engine_times), median(mujoco_times)
 
 
-def accelerations(mechanism: Mechanism) -> Callable[[], float]:
+def accelerations(mechanism: Mechanism) -> tuple[Callable[[], float], Array]:
     """What times one acceleration where a motion begins, with the contacts that are closed there [s].
+
+    And the accelerations [m/s2, rad/s2], of shape (3 bodies,).
 
     Args:
         mechanism: which.
@@ -246,31 +251,50 @@ def accelerations(mechanism: Mechanism) -> Callable[[], float]:
     block = Simulation(mechanism)._block
     y = field_of(block, "y_end").copy()
     dy = np.zeros_like(y)
-    calls = max(20, _CALLS // len(mechanism.bodies))
+    count = len(mechanism.bodies)
+    calls = max(20, _CALLS // count)
     _repeat(block, y, dy, 1)
-    return lambda: batch(lambda: _repeat(block, y, dy, calls), 1) / calls
+    return lambda: batch(lambda: _repeat(block, y, dy, calls), 1) / calls, dy[3 * count : 6 * count].copy()
 
 
 #: A process with the engine of one checkout (first argument) and the mechanisms of this file (second argument, the root
 #: above it): `mechanism_fmu` is found first, and stays what it is.
 _SERVER = """
 import sys
+from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 import mechanism_fmu
+if not Path(mechanism_fmu.__file__ or "").resolve().is_relative_to(sys.argv[1]):
+    raise SystemExit(f"{sys.argv[1]} has no engine: {mechanism_fmu.__file__} was found in its place.")
 sys.path.insert(0, sys.argv[2])
 from benchmarks.growth import serve
 serve()
 """
 
 
+def require_compiler() -> None:
+    """Refuse to time what runs as plain Python.
+
+    Raises:
+        SystemExit: how to get what compiles it.
+    """
+    if not COMPILES:
+        raise SystemExit(
+            "The loops that are timed here would run as plain Python: install numba by "
+            "python -m pip install -e '.[bench,dev]', and leave NUMBA_DISABLE_JIT unset."
+        )
+
+
 def serve() -> None:
-    """For each line of standard input, a name of `_OTHERS`, time one acceleration and print it [s]."""
-    made: dict[str, Callable[[], float]] = {}
+    """For each line of standard input, a name of `_OTHERS`, print the time of an acceleration [s] and accelerations."""
+    require_compiler()
+    made: dict[str, tuple[Callable[[], float], Array]] = {}
     for line in sys.stdin:
         name = line.strip()
         if name not in made:
             made[name] = accelerations(_OTHERS[name]())
-        print(repr(made[name]()), flush=True)
+        timed, found = made[name]
+        print(json.dumps([timed(), found.tolist()]), flush=True)
 
 
 def beside(older: Path, rounds: int) -> None:
@@ -279,27 +303,45 @@ def beside(older: Path, rounds: int) -> None:
     Args:
         older: root of the other checkout.
         rounds: in which the two take turns.
+
+    Raises:
+        DisagreementError: they do not find the same accelerations.
     """
     here = Path(__file__).resolve().parents[1]
-    command = [sys.executable, "-c", _SERVER]
-    with (
-        subprocess.Popen([*command, str(older), str(here)], stdin=-1, stdout=-1, text=True, cwd=older) as old,
-        subprocess.Popen([*command, str(here), str(here)], stdin=-1, stdout=-1, text=True, cwd=here) as new,
-    ):
+    with _server(older, here) as old, _server(here, here) as new:
         print(f"{'[us an acceleration]':27s} {'here':>8s} {older.name:>8s}  ratio")
         for name in _OTHERS:
-            then, now = in_turns(partial(_ask, old, name), partial(_ask, new, name), rounds)
-            print(f"{name:27s} {1e6 * median(now):8.2f} {1e6 * median(then):8.2f} {median(now) / median(then):6.3f}")
+            (_, theirs), (_, ours) = _ask(old, older, name), _ask(new, here, name)
+            weight = math.hypot(*(_OTHERS[name]().gravity or (0.0, 0.0)))  # where all rests
+            largest = max(float(np.abs(theirs).max()), weight)
+            require_agreement(name, theirs, ours, _WITHIN * largest)
+            then, now = in_turns(partial(_timed, old, older, name), partial(_timed, new, here, name), rounds)
+            print(f"{name:27s} {1e6 * median(now):8.2f} {1e6 * median(then):8.2f} {median(now) / median(then):6.3g}")
 
 
-def _ask(server: subprocess.Popen[str], name: str) -> float:
+def _server(checkout: Path, here: Path) -> subprocess.Popen[str]:
+    command = [sys.executable, "-c", _SERVER, str(checkout), str(here)]
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=checkout)
+
+
+def _ask(server: subprocess.Popen[str], checkout: Path, name: str) -> tuple[float, Array]:
     assert server.stdin is not None
     assert server.stdout is not None
-    print(name, file=server.stdin, flush=True)
-    answer = server.stdout.readline()
+    answer = ""
+    try:
+        print(name, file=server.stdin, flush=True)
+        answer = server.stdout.readline()
+    except BrokenPipeError:
+        with suppress(BrokenPipeError):  # closed here, it is not flushed again at the end
+            server.stdin.close()
     if not answer:
-        raise SystemExit(f"The engine of another checkout cannot run '{name}'; see its message above.")
-    return float(answer)
+        raise SystemExit(f"The engine of {checkout} cannot run '{name}'; see its message above.")
+    seconds, found = json.loads(answer)
+    return float(seconds), np.array(found)
+
+
+def _timed(server: subprocess.Popen[str], checkout: Path, name: str) -> float:
+    return _ask(server, checkout, name)[0]
 
 
 def of_motion(mechanism: Mechanism, until: float, rounds: int) -> tuple[float, float]:
@@ -328,17 +370,21 @@ def main() -> None:
     parser.add_argument("--beside", type=Path, metavar="CHECKOUT", help="time the engine of this checkout as well")
     arguments = parser.parse_args()
     rounds = arguments.rounds
+    require_compiler()
     if arguments.beside is not None:
-        beside(arguments.beside.resolve(), rounds)
+        older = arguments.beside.resolve()
+        if not (older / "mechanism_fmu").is_dir():
+            parser.error(f"--beside {older}: there is no folder mechanism_fmu in it; give the root of a checkout.")
+        beside(older, rounds)
         return
     found = {count: compare(count, rounds) for count in _SIZES}
     print("bars  engine  MuJoCo  ratio   [us an acceleration]")
     for count, (ours, theirs) in found.items():
-        print(f"{count:4d} {1e6 * ours:7.2f} {1e6 * theirs:7.2f} {ours / theirs:6.2f}")
+        print(f"{count:4d} {1e6 * ours:7.2f} {1e6 * theirs:7.2f} {ours / theirs:6.3g}")
     exponent = math.log(found[100][0] / found[20][0]) / math.log(5.0)
     print(f"The engine's time grows as the number of bars to the power of {exponent:.2f}, from 20 to 100.")
     for name, made in _OTHERS.items():
-        timed = accelerations(made())
+        timed, _ = accelerations(made())
         print(f"{name:27s} {1e6 * median(timed() for _ in range(rounds)):7.2f}")
     print("motions, with all events, checks and projections         [ms], and what is written of a block [MB]")
     for name, of_many, until in _MOTIONS:

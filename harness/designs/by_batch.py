@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from mechanism_fmu.batch import Batch, BatchResult, MechanismError, NoBatchError
 
@@ -21,8 +23,6 @@ from .task import Design, Impacts, Quantity, Result, Task, When, of_impacts, str
 NAME = "batch"
 #: So many designs go together at most, and are kept together when they come.
 TOGETHER = 256
-#: As which numbers an impact's fields are kept; others as they come.
-_TYPES = {"Boolean": np.bool_, "Integer": np.int64}
 #: Impacts of a design that are kept; one with more goes through the FMU.
 _MOST_IMPACTS = 512
 
@@ -40,7 +40,7 @@ def require_batch(path: Path) -> None:
 
 
 def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | None = None) -> list[Result]:
-    """Run designs together, by default in as many threads as there are processors.
+    """Run designs together, by default in as many threads as this process may use.
 
     The numbers are those of `by_fmu`, to the last bit. Impacts that would not fit into the FMU's buffer of one step are
     not lost here.
@@ -145,10 +145,7 @@ def _started(variable: Variable) -> float:
 
 def _impacts(fields: Mapping[str, Variable], found: BatchResult, place: int, struck: int) -> Impacts:
     """The impacts of a design, as `ImpactCollector` gives them."""
-    return {
-        name: found.impacts[name][place, :struck].astype(_TYPES.get(variable.type, np.float64))
-        for name, variable in fields.items()
-    }
+    return {name: _typed_all(found.impacts[name][place, :struck], variable) for name, variable in fields.items()}
 
 
 def _sizes(task: Task, description: Description) -> tuple[str, ...]:
@@ -170,3 +167,9 @@ def _typed(number: float, variable: Variable) -> Value:
     if variable.type == "Boolean":
         return bool(number)
     return round(number) if variable.type == "Integer" else number
+
+
+def _typed_all(numbers: npt.NDArray[np.float64], variable: Variable) -> npt.NDArray[Any]:
+    if variable.type == "Integer":
+        return np.rint(numbers).astype(np.int64)
+    return numbers.astype(np.bool_ if variable.type == "Boolean" else np.float64)

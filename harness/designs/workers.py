@@ -147,8 +147,8 @@ class Processes:
     def run(self, designs: Iterable[Design], stop_requested: Callable[[], bool] = never) -> Iterator[Pairs]:
         """Run designs; an `Executor`. Each process has one portion more than it works on.
 
-        What comes is kept back for half a second, so much of it is lost by a kill: to write down each design by itself
-        would take longer than to run it.
+        What comes is kept back for half a second, and that much may be lost by a kill: to write down each design by
+        itself would take longer than to run it.
         """
         waiting = portions(designs, self._work.way.together)
         suspects: list[Design] = []

@@ -67,8 +67,9 @@ ADVICE = {
     SINGULAR: "A singular configuration lies ahead: the rank of the constraint rows drops there, and the motion may go "
     "on along more than one branch, as where a parallelogram lies flat. Keep the mechanism away from it, or add a part "
     "that leads it through, such as a third crank out of line; or, where it goes on as it came, give the mechanism "
-    "through_singularities=True. Where it has that, "
-    "no smooth branch was found as accurate as asked, or an event or rest is too near to it.",
+    "through_singularities=True. Where it has that, no smooth branch was found as accurate as asked, an event or rest "
+    "is too near to it, or steps are implicit there, which never pass one: the motion is stiff, or integration_method "
+    "is 2.",
     OUT_OF_REACH: "The joints cannot be kept from here on: a driver has come to the end of its range, where links lie "
     "in one line, and asks for more. Let its motion turn back before, drive another body, or change lengths.",
     NO_PLACE: "No copy of a pattern was found on which the point can start. Give start positions nearer to the "

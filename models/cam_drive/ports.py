@@ -115,7 +115,7 @@ PARAMETERS = (
         "cam_speed_start", 2 * math.pi, "Cam speed at the start; the follower's follows", usual=(0.0, 10 * math.pi)
     ),
     ports.stiffness_parameter("spring_stiffness", 0.1, "Stiffness of the return spring"),
-    # With a million N.m on so light an arm, steps would be short for nothing but their accuracy (decision 061).
+    # Beyond it, implicit steps get as short as accuracy takes (decision 061).
     replace(
         ports.torque_parameter("spring_preload", 0.02, "Torque of the return spring on the base circle"),
         minimum=-1e3,
