@@ -22,6 +22,8 @@ METHODS = ("DOP853", "RK45")
 
 #: Where an indicator changes its sign is found to this [s], and to as many roundings of the time.
 _CLOSE, _ROUNDINGS = 1e-15, 4
+#: Behind all communication points [s].
+_FOR_EVER = 1e100
 #: So many events in a row at one instant are no motion any more.
 _MOST_AT_ONCE = 1000
 
@@ -104,8 +106,12 @@ class Integration:
                     raise UsageError(f"At t = {self.time:.9g} s, {_MOST_AT_ONCE} events follow each other without end.")
                 self.begin(self.time, *self._of.happen())
                 self.events += 1
+            elif len(self.states) == 0:  # nothing is integrated, and events come by time only
+                self.time = min(self._next, target)
+                if self._of.completed(self.time, self.states) or self.time >= self._next:
+                    self._due = (self.time, self.states)
             elif self._solver is None or self._solver.t <= self.time:
-                self._step(target)
+                self._step()
             else:
                 self._move(target)
 
@@ -125,10 +131,10 @@ class Integration:
         if self._due is None and self.time >= self._next:
             self._due = (self.time, self.states)
 
-    def _step(self, target: float) -> None:
+    def _step(self) -> None:
         """Take a step from here, and look for the first event in it."""
         if self._solver is None or self._solver.status != "running":
-            self._start(target)
+            self._start()
         said = self._solver.step()
         if self._solver.status == "failed":
             raise UsageError(
@@ -142,15 +148,14 @@ class Integration:
             self._due = (at, dense(at))
         self._signs = signs
 
-    def _start(self, target: float) -> None:
+    def _start(self) -> None:
         from scipy.integrate import DOP853, RK45
 
         tolerance = self._integrator.relative_tolerance
         kind = {"DOP853": DOP853, "RK45": RK45}[self._integrator.method]
-        until = min(self._next, max(2.0 * target - self.time, target + 1.0))
-        nominals = self._of.nominals()
+        absolute = tolerance * self._of.nominals()
         self._solver = kind(
-            self._of.derivatives, self.time, self.states, until, rtol=tolerance, atol=tolerance * nominals
+            self._of.derivatives, self.time, self.states, min(self._next, _FOR_EVER), rtol=tolerance, atol=absolute
         )
         self._signs = self._of.indicators(self.time, self.states) > 0.0
 

@@ -1,4 +1,4 @@
-"""FMUs of FMI 3.0 from C: `feedthrough.c`, which has every type, and `pulse.c`, which has clocks."""
+"""FMUs of FMI 3.0 from C: `feedthrough.c` has every type, `pulse.c` clocks, `exchange.c` no steps."""
 
 import re
 import subprocess
@@ -75,6 +75,39 @@ def pulse(folder: Path) -> Path:
     return _fmu(folder, "pulse", variables, flags)
 
 
+#: Type, name, value reference, and what else it has, by kind of `exchange.c`.
+_MOVING = (
+    ("Float64", "x0", 1, {"causality": "output"}),
+    ("Float64", "x1", 2, {"causality": "output"}),
+    ("Float64", "der(x0)", 3, {"causality": "local", "derivative": "1"}),
+    ("Float64", "der(x1)", 4, {"causality": "local", "derivative": "2"}),
+)
+EXCHANGE = {
+    "bouncing": (
+        *_MOVING,
+        ("Float64", "restitution", 5, {"causality": "parameter", "variability": "fixed", "start": "0.7"}),
+        ("Int32", "count", 6, {"causality": "output"}),
+        ("Float64", "indicator", 7, {"causality": "local"}),
+    ),
+    "van_der_pol": _MOVING,
+    "stair": (("Int32", "count", 6, {"causality": "output"}),),
+}
+
+
+def for_exchange(folder: Path, kind: str) -> Path:
+    """FMI 3.0 for Model Exchange only: one of `EXCHANGE`."""
+    variables = [_variable(type_, name, reference, dict(more)) for type_, name, reference, more in EXCHANGE[kind]]
+    root = Element("fmiModelDescription", fmiVersion="3.0", modelName=kind, instantiationToken=kind)
+    flags = {"needsCompletedIntegratorStep": "true", "canGetAndSetFMUState": "true"}
+    SubElement(root, "ModelExchange", {"modelIdentifier": "exchange"} | flags)
+    path = _described(root, folder, kind, variables)
+    library = compiled(HERE / "exchange.c", folder)
+    with zipfile.ZipFile(path, "w") as fmu:
+        fmu.writestr("modelDescription.xml", tostring(root))
+        fmu.write(library, f"binaries/{fmpy.platform_tuple}/{library.name}")
+    return path
+
+
 def renamed(fmu: Path, old: str, new: str) -> Path:
     """The same FMU whose files have other names: `old` in them becomes `new`."""
     path = fmu.with_name(f"{fmu.stem}_renamed.fmu")
@@ -102,6 +135,16 @@ def _fmu(
     varies = {"canHandleVariableCommunicationStepSize": "true"}
     SubElement(root, "CoSimulation", {"modelIdentifier": name} | varies | flags)
     root.extend(more)
+    path = _described(root, folder, model, variables)
+    library = compiled(HERE / f"{name}.c", folder)
+    with zipfile.ZipFile(path, "w") as fmu:
+        fmu.writestr("modelDescription.xml", tostring(root))
+        fmu.write(library, f"binaries/{fmpy.platform_tuple}/{library.name}")
+    return path
+
+
+def _described(root: Element, folder: Path, model: str, variables: Sequence[Element]) -> Path:
+    """Append variables and model structure; where the FMU is to be."""
     SubElement(root, "DefaultExperiment", stopTime="1")
     declared = SubElement(root, "ModelVariables")
     time = Element("Float64", name="time", valueReference="0", causality="independent", variability="continuous")
@@ -111,14 +154,15 @@ def _fmu(
         if one.get("causality") == "output":
             SubElement(structure, "Output", valueReference=one.attrib["valueReference"])
     for one in variables:
+        if "derivative" in one.attrib:
+            SubElement(structure, "ContinuousStateDerivative", valueReference=one.attrib["valueReference"])
+    for one in variables:
         if one.get("causality") == "output" and "clocks" not in one.attrib:
             SubElement(structure, "InitialUnknown", valueReference=one.attrib["valueReference"])
-    path = folder / f"{model}.fmu"
-    library = compiled(HERE / f"{name}.c", folder)
-    with zipfile.ZipFile(path, "w") as fmu:
-        fmu.writestr("modelDescription.xml", tostring(root))
-        fmu.write(library, f"binaries/{fmpy.platform_tuple}/{library.name}")
-    return path
+    for one in variables:
+        if one.get("name") == "indicator":
+            SubElement(structure, "EventIndicator", valueReference=one.attrib["valueReference"])
+    return folder / f"{model}.fmu"
 
 
 def compiled(source: Path, folder: Path) -> Path:
