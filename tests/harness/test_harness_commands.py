@@ -29,7 +29,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[Experiment]:
         return 7
 
     monkeypatch.setattr(one_run, "_built_ratchet", lambda folder, purpose: folder / "Ratchet.fmu")
-    monkeypatch.setattr(one_run, "open_fmu", lambda path: nullcontext(ReplayedFmu()))
+    monkeypatch.setattr(one_run, "open_fmu", lambda path, integrator=None: nullcontext(ReplayedFmu()))
     monkeypatch.setattr(one_run, "_performed", performed)
     return seen
 

@@ -70,11 +70,14 @@ def test_a_default_experiment_that_does_not_go_on_is_none(tmp_path: Path, value:
     assert len(conformance_grid(description)) == 100
 
 
-def test_an_fmu_for_model_exchange_is_refused(tmp_path: Path) -> None:
-    text = DESCRIPTION.replace("CoSimulation", "ModelExchange")
-    with pytest.raises(
-        UsageError, match=r"it has Model Exchange only, of FMI 2\.0\. The harness runs no other kind; exp"
-    ):
+def test_an_fmu_for_model_exchange_is_known_as_one(tmp_path: Path) -> None:
+    assert not read(tmp_path, DESCRIPTION).exchange
+    assert read(tmp_path, DESCRIPTION.replace("CoSimulation", "ModelExchange")).exchange
+
+
+def test_an_fmu_for_scheduled_execution_is_refused(tmp_path: Path) -> None:
+    text = DESCRIPTION.replace("CoSimulation", "ScheduledExecution")
+    with pytest.raises(UsageError, match=r"only, of FMI 2\.0\. The harness runs no other kind; export it again\."):
         read(tmp_path, text)
 
 

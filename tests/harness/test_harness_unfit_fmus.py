@@ -44,11 +44,12 @@ def with_xml(fmu: Path, path: Path, old: str, new: str) -> Path:
     return changed(fmu, path, change)
 
 
-@pytest.mark.parametrize("kind", ["Model Exchange", "Scheduled Execution"])
-def test_another_interface_is_named(pulse: Path, tmp_path: Path, kind: str) -> None:
-    path = with_xml(pulse, tmp_path / "other.fmu", "<CoSimulation ", f"<{kind.replace(' ', '')} ")
-    with pytest.raises(UsageError, match=rf"it has {kind} only, of FMI 3\.0\. .*; export it again, for Co-Simulation"):
+def test_another_interface_is_named(pulse: Path, tmp_path: Path) -> None:
+    path = with_xml(pulse, tmp_path / "other.fmu", "<CoSimulation ", "<ScheduledExecution ")
+    with pytest.raises(UsageError, match=r"it has Scheduled Execution only, of FMI 3\.0\. .*; export it again\."):
         read_description(path)
+    with pytest.raises(UsageError, match=r"is not an FMU for Model Exchange .*: it has Co-Simulation only"):
+        read_description(pulse, exchange=True)
 
 
 def test_a_library_of_another_name_is_named(pulse: Path, tmp_path: Path) -> None:

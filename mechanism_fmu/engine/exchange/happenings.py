@@ -19,7 +19,7 @@ from ...tolerances import GAP_NOISE, RESTS_BELOW, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import entry, jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
-from ..contacts.binding import bind, is_free, is_outline
+from ..contacts.binding import bind, deepest_overlap, is_free, is_outline
 from ..contacts.guards import gap, guard_of
 from ..contacts.impact import clear_records
 from ..contacts.inside import blame
@@ -27,6 +27,7 @@ from ..contacts.transition import release, transit
 from ..dynamics.acceleration import LEAST_DRIFT, MOST_RATE_DRIFT, close_positions, mend
 from ..dynamics.forces import inputs_changed, take_inputs
 from ..dynamics.oscillation import observe
+from ..outlines.nearest import look_no_deeper
 from ..stepping.step import watch_at
 from ..stepping.step_size import left_to_piece, smallest_step
 from ..stepping.stepper import restart
@@ -41,6 +42,7 @@ from .indicators import (
     is_leaving,
     lift,
     measure,
+    unseen,
     what_forbids,
     write_indicators,
 )
@@ -149,7 +151,12 @@ def _touch(block: Array, at: Pose, number: int, contact: int) -> int:
         return status.OK
     release(block, contact)
     if is_free(block, contact):
+        look_no_deeper(block, 2.0 * unseen(block, contact))  # as far as an importer without a root finder has come
         bind(block, place_bodies(block, Course(block).y_end), contact)
+        look_no_deeper(block, 0.0)
+        if is_free(block, contact):
+            blame(block, contact, 0.0)
+            return status.PASSED_OVER
     _bring_together(block, contact)
     at = place_bodies(block, Course(block).y_end)
     rate = gap(block, at, contact)[1]
@@ -234,6 +241,12 @@ def _complete(block: Array) -> int:
             if depth > 0.0:
                 blame(block, c, -depth)
                 return status.PASSED_OVER
+    if Sizes(block).outlines > 0:
+        clear(Contacts(block).apart)
+        contact, overlap = deepest_overlap(block, at)
+        if contact != codes.NONE and overlap > 2.0 * unseen(block, contact):
+            blame(block, contact, -overlap)
+            return status.PASSED_OVER
     if size > 0.0:
         _write_cubic(block, size)
         observe(block)

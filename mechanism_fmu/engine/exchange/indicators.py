@@ -153,9 +153,8 @@ def _before_meeting(block: Array, at: Pose, number: int, contact: int) -> float:
     keep_small()
     table = Contacts(block)
     known = table.apart[table.group[contact]]
-    data = Outlines(block).data
     one, other = table.outline_i[contact], table.outline_j[contact]
-    graze = _GRAZE * min(data[one, codes.OUTLINE_RADIUS], data[other, codes.OUTLINE_RADIUS])
+    graze = unseen(block, contact)
     i, j = table.body_i[contact], table.body_j[contact]
     travel = _travel(block, at, i, j, one)
     if Outlines(block).copies[other] == 0:
@@ -166,6 +165,16 @@ def _before_meeting(block: Array, at: Pose, number: int, contact: int) -> float:
     distance = guard_value(block, at, number)[0]
     look_no_deeper(block, 0.0)
     return float(min(distance, 2.0 * graze - travel))
+
+
+@jit
+def unseen(block: Array, contact: int) -> float:
+    """How far two outlines may reach into each other before that is passed over unseen [m]."""
+    keep_small()
+    data = Outlines(block).data
+    one: float = data[Contacts(block).outline_i[contact], codes.OUTLINE_RADIUS]
+    other: float = data[Contacts(block).outline_j[contact], codes.OUTLINE_RADIUS]
+    return _GRAZE * min(one, other)
 
 
 @jit

@@ -79,7 +79,7 @@ def universal(libraries: Sequence[bytes]) -> bytes:
 _SURFACE = Path(__file__).with_name("c")
 
 #: The files of the C surface, each using those before it; both versions of FMI stand in one library.
-SURFACE = ("log.c", "instance.c", "values.c", "saved_check.c", "saved.c", "exchange.c", "fmi2.c", "fmi3.c")
+SURFACE = ("log.c", "instance.c", "exchange.c", "values.c", "saved_check.c", "saved.c", "fmi2.c", "fmi3.c")
 HEADERS = ("model.h", "instance_data.h", "log.h", "instance.h", "saved.h", "exchange.h")
 #: Those of the browser's module.
 WEB_SURFACE = (*(name for name in SURFACE if name != "fmi2.c"), "loaded.c", "page.c")

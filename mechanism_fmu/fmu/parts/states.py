@@ -10,9 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...model import Mechanism, compile_mechanism
-from ...tables.layout import pack
-from ...tables.sizes import sizes_of
+from ...model import Mechanism
 from .variables import Variable
 
 #: Unit of the derivative of a state.
@@ -83,7 +81,8 @@ def state_variables(mechanism: Mechanism, first: int) -> tuple[Variable, ...]:
 
 def indicator_count(mechanism: Mechanism) -> int:
     """How many event indicators a mechanism has: one for each guard of the engine, and one for turns."""
-    return sizes_of(pack(compile_mechanism(mechanism)))["indicators"]
+    guards = 2 * (len(mechanism.contacts) + len(mechanism.patterns)) + len(mechanism.functions)
+    return guards + len(mechanism.rubbing) + 1
 
 
 def _states(mechanism: Mechanism) -> Iterator[State]:

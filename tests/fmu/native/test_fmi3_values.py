@@ -12,11 +12,12 @@ def test_values_of_the_wrong_number_or_type_are_refused(instance3):
     assert "1 values together, and 2 were given" in one.refusal(slave.getFloat64, [crank], 2)
     assert "There is no variable" in one.refusal(slave.getFloat64, [2**32 - 1])
     assert "There is no variable" in one.refusal(slave.getFloat64, [0])
-    last = one.reference("time")
+    last, time = one.description.modelVariables[-1].valueReference, one.reference("time")
     assert f"references run from 1 to {last}" in one.refusal(slave.getFloat64, [last + 1])
     assert "of type Boolean, not Float64" in one.refusal(slave.getFloat64, [one.reference("impact")])
     assert "of type Float64, not Int32" in one.refusal(slave.getInt32, [crank])
-    assert "time is the independent variable" in one.refusal(slave.setFloat64, [last], [1.0])
+    assert "time is the independent variable" in one.refusal(slave.setFloat64, [time], [1.0])
+    assert "set all at once, by fmi3SetContinuousStates" in one.refusal(slave.setFloat64, [last], [1.0])
     assert "causality output" in one.refusal(slave.setFloat64, [crank], [1.0])
 
 

@@ -81,9 +81,12 @@ def test_nothing_else_is_inside_that_does_not_belong_there(fmu, fmi):
     assert others == {"modelDescription.xml", "documentation/index.html", *resources, *places[fmi], *OF_EVERY_FLAVOUR}
 
 
-def test_it_is_smaller_than_800_kilobytes_for_all_platforms(fmu):
-    """A tenth above the 727 kB without the sparse solution, implicit steps and what passes singular configurations."""
-    assert fmu.stat().st_size < 800_000
+def test_it_is_smaller_than_850_kilobytes_for_all_platforms(fmu):
+    """A tenth above the 727 kB without the sparse solution, implicit steps and what passes singular configurations.
+
+    And a sixteenth more for Model Exchange.
+    """
+    assert fmu.stat().st_size < 850_000
 
 
 def test_fmpy_finds_no_problem(fmu):
@@ -107,7 +110,7 @@ def test_the_same_sources_give_the_same_bytes(fmu, fmi, tmp_path):
 
 def test_two_models_have_the_same_variables_in_both_flavours(native_geneva_fmu, geneva_fmu):
     native, python = (fmpy.read_model_description(str(path)) for path in (native_geneva_fmu, geneva_fmu))
-    names = [(v.name, v.valueReference, v.start, v.unit) for v in native.modelVariables]
+    names = [(v.name, v.valueReference, v.start, v.unit) for v in native.modelVariables if v.causality != "local"]
     assert names == [(v.name, v.valueReference, v.start, v.unit) for v in python.modelVariables]
     assert native.guid != python.guid
 

@@ -109,14 +109,17 @@ def test_every_importer_can_read_the_plain_form(name: str) -> None:
     assert not [v for v in variables if "clocks" in v.attrib]
     assert not [v for v in variables if " " in v.attrib["name"]]
     unknowns = root.findall("ModelStructure/*")
-    named = [int(r) for u in unknowns for r in (u.attrib["valueReference"], *u.attrib["dependencies"].split())]
+    named = [int(r) for u in unknowns for r in (u.attrib["valueReference"], *u.get("dependencies", "").split())]
     assert set(named) <= set(references)
     assert root.attrib["modelName"].isidentifier()
     assert root.find("CoSimulation").attrib["modelIdentifier"].isidentifier()  # type: ignore[union-attr]
 
 
-def test_time_stands_behind_all(ratchet: ModelDescription) -> None:
-    time = ratchet.modelVariables[-1]
+def test_time_stands_behind_all_but_what_is_of_model_exchange(ratchet: ModelDescription) -> None:
+    time, *behind = ratchet.modelVariables[len(variables_of(RATCHET)) :]
+    states, rates = len(ratchet.continuousStates), len(ratchet.derivatives)
+    assert [v.causality for v in behind] == ["local"] * (states + rates + len(ratchet.eventIndicators))
+    assert states == rates == 20
 
     assert (time.name, time.type, time.valueReference) == ("time", "Float64", len(variables_of(RATCHET)) + 1)
     assert (time.causality, time.variability, time.unit) == ("independent", "continuous", "s")
