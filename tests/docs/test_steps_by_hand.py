@@ -14,7 +14,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "plug-it-into-your-tool.m
 def test_steps_by_hand_find_the_impact(
     ratchet_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    (program,) = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    program, _exchange = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     (tmp_path / "build").mkdir()
     shutil.copy(ratchet_fmu, tmp_path / "build" / "Ratchet.fmu")
     monkeypatch.chdir(tmp_path)

@@ -5,14 +5,14 @@ from ctypes import c_bool
 import fmpy
 
 
-def test_values_of_the_wrong_number_or_type_are_refused(instance3):
+def test_values_of_the_wrong_number_or_type_are_refused(ratchet3, instance3):
     one = instance3().begin()
     crank, slave = one.reference("crank_angle"), one.slave
 
     assert "1 values together, and 2 were given" in one.refusal(slave.getFloat64, [crank], 2)
     assert "There is no variable" in one.refusal(slave.getFloat64, [2**32 - 1])
     assert "There is no variable" in one.refusal(slave.getFloat64, [0])
-    last, time = one.description.modelVariables[-1].valueReference, one.reference("time")
+    last, time = ratchet3.description.modelVariables[-1].valueReference, one.reference("time")
     assert f"references run from 1 to {last}" in one.refusal(slave.getFloat64, [last + 1])
     assert "of type Boolean, not Float64" in one.refusal(slave.getFloat64, [one.reference("impact")])
     assert "of type Float64, not Int32" in one.refusal(slave.getInt32, [crank])

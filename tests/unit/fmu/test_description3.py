@@ -117,9 +117,9 @@ def test_every_importer_can_read_the_plain_form(name: str) -> None:
 
 def test_time_stands_behind_all_but_what_is_of_model_exchange(ratchet: ModelDescription) -> None:
     time, *behind = ratchet.modelVariables[len(variables_of(RATCHET)) :]
-    states, rates = len(ratchet.continuousStates), len(ratchet.derivatives)
-    assert [v.causality for v in behind] == ["local"] * (states + rates + len(ratchet.eventIndicators))
-    assert states == rates == 20
+    states, indicators = len(ratchet.derivatives), len(ratchet.eventIndicators)
+    assert [v.causality for v in behind] == ["local"] * (2 * states + indicators)
+    assert (states, indicators) == (20, 21)
 
     assert (time.name, time.type, time.valueReference) == ("time", "Float64", len(variables_of(RATCHET)) + 1)
     assert (time.causality, time.variability, time.unit) == ("independent", "continuous", "s")
