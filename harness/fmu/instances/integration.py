@@ -74,6 +74,7 @@ class Integration:
         time: up to which it has been brought [s].
         states: at that time.
         events: how many have happened.
+        most_at_once: how many at one instant.
     """
 
     def __init__(self, equations: Equations, integrator: Integrator) -> None:
@@ -84,7 +85,8 @@ class Integration:
         self._due: tuple[float, Numbers] | None = None
         self._signs: npt.NDArray[np.bool_] | None = None
         self._next = math.inf
-        self.time, self.states, self.events = 0.0, np.zeros(0), 0
+        self.time, self.states = 0.0, np.zeros(0)
+        self.events = self.most_at_once = 0
 
     def begin(self, time: float, states: Numbers, next_time: float) -> None:
         """Go on from here: nothing that was calculated ahead counts any more."""
@@ -102,6 +104,7 @@ class Integration:
             if self._event_is_due():
                 at_once = at_once + 1 if self.time == instant else 1
                 instant = self.time
+                self.most_at_once = max(self.most_at_once, at_once)
                 if at_once > _MOST_AT_ONCE:
                     raise UsageError(f"At t = {self.time:.9g} s, {_MOST_AT_ONCE} events follow each other without end.")
                 self.begin(self.time, *self._of.happen())

@@ -26,6 +26,9 @@ class _ModelExchange(FmuSlave):
     """What both versions of FMI do alike; the equations of its `Integration`.
 
     Between steps an instance is in continuous-time mode. Inputs that are set in between are an event: they may jump.
+
+    Attributes:
+        integration: of its motion.
     """
 
     #: How the call is named that gives derivatives.
@@ -35,7 +38,7 @@ class _ModelExchange(FmuSlave):
         self, description: Description, folder: Path, name: str, on_message: MessageHandler, integrator: Integrator
     ) -> None:
         """As of `FmuSlave`, with the way in which it is integrated."""
-        self._integration = Integration(self, integrator)
+        self.integration = Integration(self, integrator)
         self._in_events = False
         self._stale = True
         self._emptied = True
@@ -120,7 +123,8 @@ class _ModelExchange(FmuSlave):
         self._state_buffer = np.zeros(states)
         self._indicator_buffer = np.zeros(indicators)
         self._in_events, self._stale, self._emptied = True, True, True
-        self._integration.time = self._time
+        self.integration.time = self._time
+        self.integration.events = self.integration.most_at_once = 0
 
     def _do_step(self, begin: float, size: float) -> float | None:
         self._time = begin
@@ -128,18 +132,18 @@ class _ModelExchange(FmuSlave):
         try:
             self._empty()
             if self._in_events:
-                self._integration.begin(begin, *self.happen())
+                self.integration.begin(begin, *self.happen())
                 self._emptied, self._stale = True, False
             elif self._stale:
-                self._integration.begin(begin, self._numbers("getContinuousStates", self._state_buffer), self._next)
+                self.integration.begin(begin, self._numbers("getContinuousStates", self._state_buffer), self._next)
                 self._stale = False
-            self._integration.advance(begin + size)
-            self._go_to(self._integration.time, self._integration.states)
+            self.integration.advance(begin + size)
+            self._go_to(self.integration.time, self.integration.states)
         except FMICallException as refusal:
-            self._time = self._integration.time
+            self._time = self.integration.time
             raise self.refusal(f"{self._FMI} Model Exchange", refusal.status, said) from refusal
         except UsageError as error:
-            raise FmuError(f"{self.name} failed: {error}", instance=self.name, time=self._integration.time) from error
+            raise FmuError(f"{self.name} failed: {error}", instance=self.name, time=self.integration.time) from error
         return None
 
     def _empty(self) -> None:
